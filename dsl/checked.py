@@ -1,0 +1,335 @@
+"""The checked model: every name bound to its object, every value in SI, every expression typed.
+
+The compiler reads these objects and no text. Objects are compared by identity.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from frot.dsl.catalogue import ForceKind, LawKind, LiaisonKind, Shape
+from frot.dsl.dimensions import Type
+from frot.dsl.source import Source, Span
+
+# ------------------------------------------------------------------ expressions
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Literal:
+    """A value known from the text, in SI: `12 mm` is 0.012. `unit` is as the author wrote it."""
+
+    value: float | int | bool | str
+    type: Type
+    span: Span
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reference:
+    """A parameter, constant, input or declared output, named."""
+
+    target: Parameter | Input | Output
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Time:
+    """The independent variable."""
+
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Quantity:
+    """A variable of a body, frame, place or liaison: `hoop.position`, `support.abscissa`.
+
+    `owner` of `rod.start.velocity` is the `BodyPoint` (rod, "start"); of `hoop.position`, the `Body`.
+    """
+
+    owner: Body | Frame | BodyPoint | Liaison
+    name: str
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Derivative:
+    """`der(operand)`: derivative with respect to time."""
+
+    operand: Expression
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Element:
+    """One component of a vector, `index` from 0: `.x` is 0."""
+
+    operand: Expression
+    index: int
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Vector:
+    """A tuple `(x, y)`; a unit after it is already applied to the items."""
+
+    items: tuple[Expression, ...]
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Unary:
+    """`-x` or `not x`; `op` is that text."""
+
+    op: str
+    operand: Expression
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Binary:
+    """Two operands; `op` is one of `+ - * / ^ < <= > >= == <> and or`."""
+
+    op: str
+    left: Expression
+    right: Expression
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Call:
+    """A usual function by its name (`sin sqrt atan2 dot norm min max abs sign exp log ...`)."""
+
+    function: str
+    arguments: tuple[Expression, ...]
+    type: Type
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class If:
+    """`if condition then yes else no`."""
+
+    condition: Expression
+    yes: Expression
+    no: Expression
+    type: Type
+    span: Span
+
+
+Expression = (
+    Literal | Reference | Time | Quantity | Derivative | Element | Vector | Unary | Binary | Call | If
+)
+
+# ------------------------------------------------------------------ declarations
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Parameter:
+    """A parameter (tunable) or a constant; `value` may depend on other parameters.
+
+    `unit` is the unit of the author's default (`mm`), for display; values are SI.
+    """
+
+    name: str
+    type: Type
+    value: Expression
+    span: Span
+    doc: str = ""
+    unit: str = ""
+    constant: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Input:
+    """A value given from outside, held between communication points."""
+
+    name: str
+    type: Type
+    start: Expression
+    span: Span
+    doc: str = ""
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Output:
+    """A declared output with its expression. `unit` as the author wrote it, if anywhere."""
+
+    name: str
+    type: Type
+    value: Expression
+    span: Span
+    doc: str = ""
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class World:
+    """Gravity: its magnitude and its direction, one of `+x -x +y -y +z -z`."""
+
+    gravity: Expression | None
+    down: str
+    span: Span | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """A body: `arguments` holds every argument of its shape, defaults filled where there is one.
+
+    `ground` is the one `Body` whose `shape` is None.
+    """
+
+    name: str
+    shape: Shape | None
+    arguments: Mapping[str, Expression]
+    span: Span | None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Frame:
+    """A frame fixed to a body: origin in the owner's axes and a rotation (planar: an angle)."""
+
+    name: str
+    owner: Body | Frame
+    origin: Expression | None
+    angle: Expression | None
+    span: Span
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Curve:
+    """A curve on a body or frame; `kind` is `line` (`through`, `direction`) and, later, others.
+
+    `ground.line` is a `Curve` too, with `span` None.
+    """
+
+    name: str
+    owner: Body | Frame
+    kind: str
+    arguments: Mapping[str, Expression]
+    span: Span | None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyPoint:
+    """A named frame of a body's shape: `rod.start`; a bare body name means its `G`."""
+
+    body: Body
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyGeometry:
+    """A named geometry of a body's shape: `hoop.rim`."""
+
+    body: Body
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CurvePlace:
+    """A curve, as an argument: `ground.line`, `tube`."""
+
+    curve: Curve
+    span: Span
+
+
+Place = BodyPoint | BodyGeometry | CurvePlace | Frame
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Law:
+    """A law of a liaison with its arguments, defaults filled (`mu_s` is `mu` unless given)."""
+
+    kind: LawKind
+    arguments: Mapping[str, Expression]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Liaison:
+    """A liaison between the places `a` and `b`; its reaction is that of `a` on `b`."""
+
+    name: str
+    kind: LiaisonKind
+    a: Place
+    b: Place
+    options: Mapping[str, Expression]
+    laws: tuple[Law, ...]
+    span: Span
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Force:
+    """An applied force; `arguments` are expressions or places by the names of its kind.
+
+    A point argument given as a tuple, `(0, 0) m`, is an expression in ground axes.
+    """
+
+    name: str
+    kind: ForceKind
+    arguments: Mapping[str, Expression | Place]
+    span: Span
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class InitialEquation:
+    """`left = right` of the `initial` section; `guess` marks those that only guide."""
+
+    left: Expression
+    right: Expression
+    span: Span
+    guess: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Experiment:
+    """Defaults of a run; expressions of parameters, None where the text is silent."""
+
+    stop: Expression | None
+    start: Expression | None
+    tolerance: Expression | None
+    interval: Expression | None
+    method: str
+    on_impasse: str
+    on_indeterminate: str
+    span: Span | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Model:
+    """A checked model. `files` are all sources it was read from."""
+
+    name: str
+    planar: bool
+    parameters: tuple[Parameter, ...]
+    inputs: tuple[Input, ...]
+    outputs: tuple[Output, ...]
+    world: World
+    ground: Body
+    bodies: tuple[Body, ...]
+    frames: tuple[Frame, ...]
+    curves: tuple[Curve, ...]
+    liaisons: tuple[Liaison, ...]
+    forces: tuple[Force, ...]
+    initial: tuple[InitialEquation, ...]
+    experiment: Experiment
+    files: tuple[Source, ...]
+    span: Span
+    doc: str = ""

@@ -1,0 +1,71 @@
+"""Diagnostics: what is told to the author of a text, and the log that collects it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from frot.dsl.source import Span
+
+LIMIT = 20
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A second place a diagnostic points to, with its own few words."""
+
+    span: Span
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One message: a registered code, its place, its cause and its remedy."""
+
+    code: str
+    message: str
+    span: Span | None
+    caret: str = ""
+    labels: tuple[Label, ...] = ()
+    notes: tuple[str, ...] = ()
+    help: str = ""
+
+    @property
+    def is_error(self) -> bool:
+        """Errors have codes that begin with E; warnings with W."""
+        return self.code.startswith("E")
+
+
+@dataclass(slots=True)
+class Log:
+    """Collects diagnostics; a pass reports to it and goes on."""
+
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def report(
+        self,
+        code: str,
+        message: str,
+        span: Span | None,
+        *,
+        caret: str = "",
+        labels: tuple[Label, ...] = (),
+        notes: tuple[str, ...] = (),
+        help: str = "",
+    ) -> None:
+        """Record one diagnostic; the same code at the same place is recorded once."""
+        from frot.dsl.codes import CODES
+
+        if code not in CODES:
+            raise KeyError(f"the diagnostic code {code} is not registered in frot.dsl.codes")
+        entry = Diagnostic(code, message, span, caret, labels, notes, help)
+        if not any(d.code == code and d.span == span for d in self.diagnostics):
+            self.diagnostics.append(entry)
+
+    @property
+    def failed(self) -> bool:
+        """Whether an error was reported."""
+        return any(d.is_error for d in self.diagnostics)
+
+    def __iter__(self) -> Iterator[Diagnostic]:
+        return iter(self.diagnostics)

@@ -1,0 +1,72 @@
+"""Physical dimensions and the types of expressions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+BASE = ("m", "kg", "s", "A", "K", "mol", "cd")
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """Exponents of m, kg, s, A, K, mol, cd. Angles are dimensionless."""
+
+    exponents: tuple[Fraction, ...] = (Fraction(0),) * 7
+
+    def __mul__(self, other: Dimension) -> Dimension:
+        return Dimension(tuple(a + b for a, b in zip(self.exponents, other.exponents, strict=True)))
+
+    def __truediv__(self, other: Dimension) -> Dimension:
+        return Dimension(tuple(a - b for a, b in zip(self.exponents, other.exponents, strict=True)))
+
+    def __pow__(self, power: Fraction | int) -> Dimension:
+        return Dimension(tuple(a * Fraction(power) for a in self.exponents))
+
+    @property
+    def is_one(self) -> bool:
+        """Whether it is dimensionless."""
+        return not any(self.exponents)
+
+    @property
+    def unit(self) -> str:
+        """The coherent SI unit, as `kg.m/s^2`; `1` for a number."""
+        above = [_power(n, e) for n, e in zip(BASE, self.exponents, strict=True) if e > 0]
+        below = [_power(n, -e) for n, e in zip(BASE, self.exponents, strict=True) if e < 0]
+        text = ".".join(above) or "1"
+        return "/".join([text, *below])
+
+
+def _power(name: str, exponent: Fraction) -> str:
+    return name if exponent == 1 else f"{name}^{exponent}"
+
+
+def dimension(m: int = 0, kg: int = 0, s: int = 0, A: int = 0, K: int = 0) -> Dimension:
+    """The dimension with these exponents of the base units."""
+    return Dimension(tuple(Fraction(e) for e in (m, kg, s, A, K, 0, 0)))
+
+
+ONE = dimension()
+
+
+@dataclass(frozen=True, slots=True)
+class Type:
+    """Type of an expression: base (`real integer boolean string`), dimension and shape.
+
+    `shape` is `()` for a scalar and `(2,)` or `(3,)` for a vector.
+    """
+
+    base: str = "real"
+    dimension: Dimension = ONE
+    shape: tuple[int, ...] = ()
+
+    @property
+    def is_scalar(self) -> bool:
+        """Whether it has no index."""
+        return not self.shape
+
+
+REAL = Type()
+BOOLEAN = Type("boolean")
+INTEGER = Type("integer")
+STRING = Type("string")
