@@ -1,0 +1,244 @@
+/* The kernel's contract: a compiled model, the state of an instance, and what can be done with it.
+ *
+ * A model is a constant table written by the compiler (frot_model). All that changes in a run is in one
+ * flat block without pointers (frot_state): copying the block saves an instance, copying it back
+ * restores it. Scratch memory (frot_work) carries nothing from one call to the next. The kernel
+ * allocates nothing, has no globals and is re-entrant: one state and one work block an instance.
+ *
+ * The motion is a chain of segments. A segment is one accepted step of the integrator with its
+ * dense output, in one mode of every liaison. A segment may end beyond the time asked for: values
+ * in between are those of the dense output, so that results do not depend on the times they are
+ * asked at. Only a change of a parameter or an input from outside cuts a segment.
+ */
+#ifndef FROT_H
+#define FROT_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FROT_STAGES 8 /* vectors of the dense output of a segment */
+
+/* Status of every call that can fail. Positive: told in state->fault. */
+enum frot_status {
+  FROT_OK = 0,
+  FROT_FULL = 1,      /* the recorder is full: drain it and call again */
+  FROT_STOPPED = 2,   /* the monitor asked to stop */
+  FROT_CHECK = 10,    /* a parameter has a value the model cannot have */
+  FROT_INITIAL = 11,  /* contradictory initial values */
+  FROT_ENTERING = 12, /* bodies start in each other, or run into each other at the start */
+  FROT_IMPACT = 13,   /* two bodies meet: impacts are not computed */
+  FROT_IMPASSE = 14,  /* no admissible motion */
+  FROT_SEVERAL = 15,  /* several admissible motions and on_indeterminate = stop */
+  FROT_CHATTER = 16,  /* events without end at one instant */
+  FROT_NAN = 17,      /* a force or an equation gives no number */
+  FROT_DIVERGE = 18,  /* the step went to zero: jamming or a singular point */
+  FROT_SINGULAR = 19, /* the mass matrix is singular */
+  FROT_TOO_LARGE = 20,/* too many coupled friction elements change at once */
+  FROT_MISUSE = 21    /* a call out of order or with bad arguments */
+};
+
+/* Modes of the relative motion a law of friction bounds. */
+enum frot_friction { FROT_NONE = 0, FROT_STICK = 1, FROT_SLIP_FORWARD = 2, FROT_SLIP_BACKWARD = 3 };
+
+/* Values of a liaison's variable `mode` (FMU integers). */
+enum frot_mode { FROT_MODE_OPEN = 0, FROT_MODE_STICK = 1, FROT_MODE_SLIP = 2 };
+
+enum frot_event_kind {
+  FROT_EVENT_STICK = 0,     /* slip ended: slip -> stick */
+  FROT_EVENT_SLIP = 1,      /* the bound was reached: stick -> slip */
+  FROT_EVENT_REVERSAL = 2,  /* slip -> slip the other way */
+  FROT_EVENT_SEPARATION = 3,/* closed -> open */
+  FROT_EVENT_CONTACT = 4,   /* open -> closed */
+  FROT_EVENT_ROLL_STOP = 5, /* rolling ended (rolling resistance holds) */
+  FROT_EVENT_ROLL_START = 6,
+  FROT_EVENT_ROLL_REVERSAL = 7,
+  FROT_EVENT_REACTION = 8,  /* the reaction of a bilateral liaison changes sides */
+  FROT_EVENT_CONDITION = 9, /* a condition of the text changes */
+  FROT_EVENT_SEVERAL = 10   /* several motions are admissible; count in `solutions` */
+};
+
+typedef int (*frot_function)(const double **arg, double **res, long long *iw, double *w, int mem);
+
+/* A generated function and the scratch it needs, in items of its arrays. */
+typedef struct {
+  frot_function call;
+  int n_arg, n_res, n_iw, n_w;
+} frot_callable;
+
+/* A contact: a point or rim on a line, with the rows of its relative velocity. */
+typedef struct {
+  const char *name;   /* the liaison */
+  const char *place;  /* file:line:column */
+  int row_n;          /* row of the normal */
+  int row_t;          /* row of the slip, -1 without dry friction */
+  int row_r;          /* row of the rolling rate, -1 without rolling resistance */
+  int reduced;        /* 1: the relation is built into the coordinates (no gap, no drift) */
+  int fixed_mu;       /* 1: mu and mu_s depend on parameters only */
+  int fixed_delta;
+} frot_contact;
+
+enum frot_rule { FROT_POSITIVE = 0, FROT_NOT_NEGATIVE = 1, FROT_FINITE = 2, FROT_NOT_BELOW_PREVIOUS = 3 };
+
+/* A value the model must have, with the sentence's subject: "mass of body 'hoop'". */
+typedef struct {
+  int rule;
+  const char *subject, *place;
+} frot_check;
+
+/* A statement of the section `initial`. */
+typedef struct {
+  const char *text, *place;
+} frot_statement;
+
+/* One scalar variable. */
+enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 3 };
+
+/* Inputs of the generated functions, in this order:
+ *   t, q (nq), v (nv), u (nu), p (np), d (nd: conditions 0/1, then the sides +1/-1 of the contacts)
+ * nw = nv + na: speeds, then auxiliary speeds (zero in the motion) that bring reactions to light.
+ * Rows: J (nw + constant) velocities and accelerations J a + c. Matrices are dense, by columns. */
+typedef struct {
+  const char *name;
+  const char *key; /* identity of the compiled model; kept in saved states */
+  int nq, nv, na, nu, np, n_rows, n_contacts, n_conditions;
+  int n_checks, n_position, n_velocity, n_statements, n_variables;
+  int n_modes; /* variables [0, n_contacts) of `variables` are modes */
+
+  /* parameters(p, set, u) -> p complete (np), checks (n_checks), unilateral (n_contacts),
+   *   experiment (start stop tolerance interval) */
+  frot_callable parameters;
+  /* start(t, u, p) -> q guess, v guess */
+  frot_callable start;
+  /* initial_position(t, q, v, u, p, d) -> residual (n_position), its transposed Jacobian in q */
+  frot_callable initial_position;
+  /* initial_velocity(t, q, v, u, p, d) -> residual (n_velocity), its transposed Jacobian in v */
+  frot_callable initial_velocity;
+  /* kinematics(t, q, v, u, p, d) -> gap (n_contacts), rows J' (nw x n_rows), rate (n_rows),
+   *   conditions (n_conditions), distance with sign by which the side is chosen (n_contacts) */
+  frot_callable kinematics;
+  /* dynamics(t, q, v, u, p, d) -> q' (nq), M (nw x nw), h (nw), J' (nw x n_rows), c (n_rows),
+   *   rate (n_rows), gap (n_contacts), conditions (n_conditions), coefficients mu mu_s delta
+   *   (3 x n_contacts), power of the forces that have no potential (1) */
+  frot_callable dynamics;
+  /* variables(t, q, v, u, p, d, a (nv), lam (n_rows), energy (dissipated, work)) ->
+   *   values (n_variables) without the modes, which the kernel fills */
+  frot_callable variables;
+  /* energy(t, q, v, u, p, d) -> kinetic, potential */
+  frot_callable energy;
+
+  const double *p_default; /* np */
+  const double *u_default; /* nu */
+  const frot_contact *contacts;
+  const frot_check *checks;
+  const frot_statement *statements;
+  const int *position_statement; /* n_position: statement of each scalar equation */
+  const int *velocity_statement; /* n_velocity */
+  const int *p_dependent;        /* np: 1 where the value follows from other parameters unless set */
+} frot_model;
+
+typedef struct {
+  int status; /* frot_status */
+  int contact, item, other; /* contact; check or statement; second statement: -1 where none */
+  double t, value;
+} frot_fault;
+
+typedef struct {
+  double t;
+  int kind, contact;
+  int before, after; /* frot_mode, or frot_friction for rolling */
+  int solutions;
+  int reserved;
+} frot_event;
+
+typedef struct {
+  long long steps, rejected, evaluations, events;
+} frot_statistics;
+
+/* Options of a run, fixed at frot_start. */
+enum frot_indeterminate { FROT_REST = 0, FROT_CONTINUE = 1, FROT_HALT = 2 };
+typedef struct {
+  double tolerance; /* <= 0: the model's own */
+  int on_indeterminate;
+  int reserved;
+} frot_options;
+
+/* Head of the flat block of an instance; its arrays follow it (see layout.h). */
+typedef struct frot_state frot_state;
+typedef struct frot_work frot_work;
+
+/* Where segments and events go, in memory of the caller. A segment takes frot_segment_size doubles. */
+typedef struct {
+  double *segments;
+  long long segment_capacity, segment_count;
+  frot_event *events;
+  long long event_capacity, event_count;
+} frot_recorder;
+
+/* Called now and then with the time reached; a nonzero answer stops the run. May be NULL. */
+typedef int (*frot_monitor)(void *context, double t);
+
+size_t frot_state_size(const frot_model *model); /* bytes */
+size_t frot_work_size(const frot_model *model);  /* bytes */
+long long frot_segment_size(const frot_model *model); /* doubles */
+
+/* Fill a new state with the defaults of the model. */
+void frot_state_clear(const frot_model *model, frot_state *state);
+
+/* Parameters and inputs, in SI. A value that differs from the one held is noted, and takes effect at
+ * frot_start or, in a run, at the time reached (frot_settle). */
+void frot_set_parameter(const frot_model *model, frot_state *state, int index, double value);
+void frot_set_input(const frot_model *model, frot_state *state, int index, double value);
+double frot_get_parameter(const frot_model *model, const frot_state *state, int index);
+double frot_get_input(const frot_model *model, const frot_state *state, int index);
+
+/* Evaluate the parameters: dependent values, checks, and experiment[4] = start stop tolerance
+ * interval (NaN where the text is silent). */
+int frot_settle_parameters(const frot_model *model, frot_state *state, frot_work *work,
+                           double experiment[4]);
+
+/* Solve the initial values at time t and the first modes. `options` NULL: defaults. */
+int frot_start(const frot_model *model, frot_state *state, frot_work *work, double t,
+               const frot_options *options);
+
+/* Let values set since the last call take effect at the time reached. Does nothing if none differs. */
+int frot_settle(const frot_model *model, frot_state *state, frot_work *work);
+
+/* Run until time t is inside the current segment. The recorder may be NULL. On FROT_FULL call again. */
+int frot_advance(const frot_model *model, frot_state *state, frot_work *work, double t,
+                 frot_recorder *recorder, frot_monitor monitor, void *context);
+
+/* Values of all variables at the time reached by frot_start or frot_advance. */
+int frot_values(const frot_model *model, frot_state *state, frot_work *work, double *values);
+
+/* Values at any time inside a recorded segment (parameters and inputs are those of `state`). */
+int frot_segment_values(const frot_model *model, const frot_state *state, frot_work *work,
+                        const double *segment, double t, double *values);
+/* The same at many times in order, over recorded segments in order; values: count rows. A time
+ * belongs to the last segment that begins at or before it. */
+int frot_sample(const frot_model *model, const frot_state *state, frot_work *work,
+                const double *segments, long long segment_count, const double *times,
+                long long count, double *values);
+
+/* Residual kinetic + potential + dissipated - work in since the start, and the energy scale:
+ * balance[0..4] = residual, scale, kinetic + potential, dissipated, work. */
+int frot_energy(const frot_model *model, frot_state *state, frot_work *work, double balance[5]);
+
+double frot_time(const frot_state *state);
+const frot_fault *frot_last_fault(const frot_state *state);
+const frot_statistics *frot_run_statistics(const frot_state *state);
+
+/* The sentence that tells a fault, with names, values in SI and the remedy, ended by NUL. */
+void frot_fault_text(const frot_model *model, const frot_state *state, char *text, size_t size);
+/* The sentence that tells an event: "floor: slip -> stick at t = 1.86884131838260". */
+void frot_event_text(const frot_model *model, const frot_event *event, char *text, size_t size);
+
+/* Whether a block of `size` bytes is a state of this model (key, size, version). */
+int frot_state_valid(const frot_model *model, const void *block, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
