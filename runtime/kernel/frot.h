@@ -105,7 +105,7 @@ typedef struct {
   const char *key; /* identity of the compiled model; kept in saved states */
   int nq, nv, na, nu, np, n_rows, n_contacts, n_conditions;
   int n_checks, n_position, n_velocity, n_statements, n_variables;
-  int n_modes; /* variables [0, n_contacts) of `variables` are modes */
+  /* variables [0, n_contacts) are the modes of the contacts (frot_mode), the others are real */
 
   /* parameters(p, set, u) -> p complete (np), checks (n_checks), unilateral (n_contacts),
    *   experiment (start stop tolerance interval) */
@@ -137,6 +137,7 @@ typedef struct {
   const int *position_statement; /* n_position: statement of each scalar equation */
   const int *velocity_statement; /* n_velocity */
   const int *p_dependent;        /* np: 1 where the value follows from other parameters unless set */
+  const int *p_type;             /* np: frot_type */
 } frot_model;
 
 typedef struct {

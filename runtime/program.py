@@ -1,0 +1,130 @@
+"""A compiled program: what the runtime knows of a model once the compiler is done with it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+MANIFEST = "manifest.json"
+LIBRARY = "program.so"
+MODEL_SOURCE = "model.c"
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit of values: name and exponents of m, kg, s, A, K, mol, cd, rad; all values are in SI.
+
+    `display` is the author's unit (`mm`), with `display_factor` SI units in one of it; empty if none.
+    """
+
+    name: str
+    exponents: tuple[int, ...] = (0,) * 8
+    display: str = ""
+    display_factor: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterInfo:
+    """A parameter or an input. `type` is `real`, `integer` or `boolean`; `default` is in SI.
+
+    `dependent`: the value follows from other parameters unless it is set.
+    """
+
+    name: str
+    type: str
+    unit: Unit
+    default: float
+    doc: str
+    dependent: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class VariableInfo:
+    """A variable a run gives. `type` is `real` or `mode`; `causality` is `output` or `local`."""
+
+    name: str
+    type: str
+    unit: Unit
+    causality: str
+    doc: str
+
+
+@dataclass(frozen=True, slots=True)
+class ExperimentInfo:
+    """Defaults of a run at the default parameters; None where the text is silent."""
+
+    start: float | None
+    stop: float | None
+    tolerance: float | None
+    interval: float | None
+    on_indeterminate: str
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """A compiled model in a folder: `model.c`, the shared library and this description.
+
+    Order of `parameters`, `inputs`, `variables` is that of the kernel's arrays; variables begin with
+    the modes of `contacts`. `key` identifies the model's text, the compiler and its flags.
+    """
+
+    name: str
+    doc: str
+    key: str
+    version: str
+    planar: bool
+    parameters: tuple[ParameterInfo, ...]
+    inputs: tuple[ParameterInfo, ...]
+    variables: tuple[VariableInfo, ...]
+    contacts: tuple[str, ...]
+    experiment: ExperimentInfo
+    compiler: tuple[str, ...]
+    flags: tuple[str, ...]
+    folder: Path
+
+    @property
+    def library(self) -> Path:
+        """The shared library with the kernel and the model."""
+        return self.folder / LIBRARY
+
+    @property
+    def source(self) -> Path:
+        """The generated C of the model; exports `const frot_model frot_the_model`."""
+        return self.folder / MODEL_SOURCE
+
+    def to_json(self) -> str:
+        """The manifest, without the folder it lies in."""
+        data = asdict(self)
+        del data["folder"]
+        return json.dumps(data, indent=1, ensure_ascii=False)
+
+
+def read_program(folder: Path) -> Program:
+    """Read the manifest in `folder`; OSError or ValueError if it is not there or not one."""
+    data: dict[str, Any] = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+    return Program(
+        **{
+            **data,
+            "parameters": tuple(_parameter(entry) for entry in data["parameters"]),
+            "inputs": tuple(_parameter(entry) for entry in data["inputs"]),
+            "variables": tuple(
+                VariableInfo(**{**entry, "unit": _unit(entry["unit"])})
+                for entry in data["variables"]
+            ),
+            "contacts": tuple(data["contacts"]),
+            "experiment": ExperimentInfo(**data["experiment"]),
+            "compiler": tuple(data["compiler"]),
+            "flags": tuple(data["flags"]),
+            "folder": folder,
+        }
+    )
+
+
+def _unit(entry: dict[str, Any]) -> Unit:
+    return Unit(**{**entry, "exponents": tuple(entry["exponents"])})
+
+
+def _parameter(entry: dict[str, Any]) -> ParameterInfo:
+    return ParameterInfo(**{**entry, "unit": _unit(entry["unit"])})
