@@ -1,0 +1,47 @@
+"""What the language knows by name: shapes, liaisons, laws, forces, types, functions, variables.
+
+Every entry of the language is here, so that its arguments and dimensions are checked, also where
+the mechanics does not exist yet.
+"""
+
+from frot.dsl.catalogue.forces import FORCES
+from frot.dsl.catalogue.functions import FUNCTIONS, LATER, Function
+from frot.dsl.catalogue.kinds import (
+    Argument,
+    ForceKind,
+    LawKind,
+    LiaisonKind,
+    Shape,
+    find,
+    plain,
+    spellings,
+)
+from frot.dsl.catalogue.laws import LAWS
+from frot.dsl.catalogue.liaisons import LIAISONS
+from frot.dsl.catalogue.members import body_members, liaison_members, point_members, vector
+from frot.dsl.catalogue.shapes import SHAPES
+from frot.dsl.catalogue.types import TYPES, WORDS
+
+__all__ = [
+    "FORCES",
+    "FUNCTIONS",
+    "LATER",
+    "LAWS",
+    "LIAISONS",
+    "SHAPES",
+    "TYPES",
+    "WORDS",
+    "Argument",
+    "ForceKind",
+    "Function",
+    "LawKind",
+    "LiaisonKind",
+    "Shape",
+    "body_members",
+    "find",
+    "liaison_members",
+    "plain",
+    "point_members",
+    "spellings",
+    "vector",
+]

@@ -1,0 +1,147 @@
+"""The records of which the catalogue is made, and how a name is looked up in a table."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol, TypeVar
+
+from frot.dsl.dimensions import REAL, Type
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """One argument of a shape, liaison, law or force; arguments stand in positional order.
+
+    `kind` says what may be written:
+
+    * `expression`: a scalar of `type` (or of one of `others`, where a liaison decides);
+    * `vector`: a vector of `type`, two components in planar models and three in space;
+    * `boolean`: a condition on parameters;
+    * `word`: one of `words`;
+    * `place`: a point, curve or surface, see `places`;
+    * `point`: a place that is a point, or its ground coordinates as a vector;
+    * `holder`: a liaison or a body;
+    * `vertices`: a tuple of points;
+    * `axis`: `x`, `y`, `z` or a vector (space only; absent from planar models).
+
+    `default` is an SI value or a word, `default_of` the argument whose expression is repeated.
+    `sign` is `positive`, `nonnegative` or empty; `at_most` an upper bound of the value.
+    """
+
+    name: str
+    type: Type = REAL
+    kind: str = "expression"
+    required: bool = True
+    default: float | bool | str | None = None
+    default_of: str = ""
+    sign: str = ""
+    at_most: float | None = None
+    others: tuple[Type, ...] = ()
+    words: tuple[str, ...] = ()
+    places: tuple[str, ...] = ()
+    space_only: bool = False
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """A shape of body: what it needs, and the frames and geometry it gives.
+
+    `geometry` maps a name to `curve`, `surface`, `points`, `curves` or `surfaces`. `freedoms_*` is
+    the number of velocities of a free body of this shape; `turns` is False for a particle.
+    `home` is the frame a bare body name stands for.
+    """
+
+    name: str
+    arguments: tuple[Argument, ...]
+    freedoms_space: int
+    freedoms_planar: int = 3
+    planar: bool = True
+    space: bool = True
+    frames: tuple[str, ...] = ("G",)
+    geometry: Mapping[str, str] = field(default_factory=dict)
+    turns: bool = True
+    home: str = "G"
+    aliases: tuple[str, ...] = ()
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LiaisonKind:
+    """A type of liaison between the places `a` and `b`.
+
+    `arguments` begins with `a` and `b`; the others are options, `unilateral` the last of them.
+    `relations_planar` is None where the liaison has no meaning in the plane. `coordinates` maps the
+    readable and drivable coordinates to their types in planar models.
+    """
+
+    name: str
+    arguments: tuple[Argument, ...]
+    relations_space: int
+    relations_planar: int | None
+    coordinates: Mapping[str, Type] = field(default_factory=dict)
+    unilateral: bool = False
+    aliases: tuple[str, ...] = ()
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LawKind:
+    """A law of a liaison with its arguments in positional order."""
+
+    name: str
+    arguments: tuple[Argument, ...]
+    aliases: tuple[str, ...] = ()
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ForceKind:
+    """An applied force with its arguments in positional order."""
+
+    name: str
+    arguments: tuple[Argument, ...]
+    aliases: tuple[str, ...] = ()
+    doc: str = ""
+
+
+class Named(Protocol):
+    """What a table of the catalogue holds."""
+
+    @property
+    def name(self) -> str:
+        """The canonical name."""
+
+    @property
+    def aliases(self) -> tuple[str, ...]:
+        """Other spellings."""
+
+
+Entry = TypeVar("Entry", bound=Named)
+
+
+def plain(name: str) -> str:
+    """The name without accents, as it is compared with built-in names."""
+    split = unicodedata.normalize("NFD", name)
+    return "".join(c for c in split if not unicodedata.combining(c))
+
+
+def table(*entries: Entry) -> Mapping[str, Entry]:
+    """The entries by canonical name, in the order given."""
+    return {entry.name: entry for entry in entries}
+
+
+def find(entries: Mapping[str, Entry], spelling: str) -> Entry | None:
+    """The entry with this name or alias, accents left out, or None."""
+    name = plain(spelling)
+    entry = entries.get(name)
+    if entry is not None:
+        return entry
+    return next((e for e in entries.values() if name in e.aliases), None)
+
+
+def spellings(entries: Mapping[str, Entry]) -> tuple[str, ...]:
+    """Every name under which an entry can be written."""
+    return tuple(s for e in entries.values() for s in (e.name, *e.aliases))

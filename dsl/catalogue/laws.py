@@ -1,0 +1,127 @@
+"""Laws of liaisons: friction, resistance, restitution, stops."""
+
+from __future__ import annotations
+
+from frot.dsl.catalogue.kinds import Argument, LawKind, table
+from frot.dsl.catalogue.types import (
+    ANGULAR_VELOCITY,
+    DAMPING,
+    LENGTH,
+    ROTATIONAL_DAMPING,
+    VELOCITY,
+)
+from frot.dsl.dimensions import REAL
+
+_MU = Argument("mu", REAL, sign="nonnegative", doc="coefficient of friction of motion")
+_MU_S = Argument(
+    "mu_s",
+    REAL,
+    required=False,
+    default_of="mu",
+    sign="nonnegative",
+    doc="coefficient of friction of rest",
+)
+_E = Argument("e", REAL, sign="nonnegative", at_most=1.0, doc="coefficient of restitution")
+
+LAWS = table(
+    LawKind(
+        "coulomb",
+        (
+            _MU,
+            _MU_S,
+            Argument("radius", LENGTH, required=False, sign="positive", doc="radius of the pin"),
+            Argument("half_length", LENGTH, required=False, sign="positive", doc="of the guide"),
+        ),
+        doc="Set-valued dry friction: rest is exact.",
+    ),
+    LawKind(
+        "rolling_resistance",
+        (Argument("delta", LENGTH, sign="nonnegative", doc="couple over normal force"),),
+        aliases=("resistance_au_roulement",),
+        doc="A couple opposed to rolling, bounded by delta N.",
+    ),
+    LawKind(
+        "pivoting_resistance",
+        (Argument("delta", LENGTH, sign="nonnegative", doc="couple over normal force"),),
+        aliases=("resistance_au_pivotement",),
+        doc="A couple opposed to the spin about the normal, bounded by delta N.",
+    ),
+    LawKind(
+        "viscous",
+        (
+            Argument(
+                "c",
+                DAMPING,
+                sign="nonnegative",
+                others=(ROTATIONAL_DAMPING,),
+                doc="reaction over speed",
+            ),
+        ),
+        aliases=("visqueux",),
+        doc="Linear damping.",
+    ),
+    LawKind(
+        "stribeck",
+        (
+            _MU,
+            Argument("mu_s", REAL, sign="nonnegative", doc="coefficient at rest"),
+            Argument(
+                "v_s", VELOCITY, sign="positive", others=(ANGULAR_VELOCITY,), doc="Stribeck speed"
+            ),
+            Argument(
+                "c",
+                DAMPING,
+                required=False,
+                default=0.0,
+                sign="nonnegative",
+                others=(ROTATIONAL_DAMPING,),
+                doc="viscous part",
+            ),
+        ),
+        doc="Friction that falls with speed, then rises.",
+    ),
+    LawKind(
+        "regularized",
+        (
+            _MU,
+            Argument(
+                "v", VELOCITY, sign="positive", others=(ANGULAR_VELOCITY,), doc="smoothing speed"
+            ),
+        ),
+        aliases=("regularised", "regularise"),
+        doc="Smooth friction, for comparison: it creeps.",
+    ),
+    LawKind(
+        "restitution",
+        (
+            _E,
+            Argument(
+                "rule",
+                kind="word",
+                required=False,
+                default="energetic",
+                words=("energetic", "poisson", "newton"),
+                doc="rule of impact",
+            ),
+        ),
+        doc="Impact of a unilateral liaison.",
+    ),
+    LawKind(
+        "stops",
+        (
+            Argument("min", LENGTH, others=(REAL,), doc="lower bound of the coordinate"),
+            Argument("max", LENGTH, others=(REAL,), doc="upper bound of the coordinate"),
+            Argument(
+                "e",
+                REAL,
+                required=False,
+                default=0.0,
+                sign="nonnegative",
+                at_most=1.0,
+                doc="coefficient of restitution",
+            ),
+        ),
+        aliases=("butees",),
+        doc="Bounds on the coordinate of a liaison.",
+    ),
+)

@@ -1,0 +1,220 @@
+"""Types of liaisons (Painlevé 1895; ISO 3952) with their relations and coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from frot.dsl.catalogue.kinds import Argument, LiaisonKind, table
+from frot.dsl.catalogue.types import ANGULAR_VELOCITY, LENGTH, VELOCITY
+from frot.dsl.dimensions import BOOLEAN, REAL, Type
+
+POINT = ("point",)
+CURVE = ("curve",)
+SURFACE = ("surface",)
+ANY = ("point", "curve", "surface")
+
+
+def _axis(name: str) -> Argument:
+    return Argument(
+        name, REAL, "axis", required=False, default="z", space_only=True, doc="direction, axes of a"
+    )
+
+
+def _liaison(
+    name: str,
+    aliases: tuple[str, ...],
+    a: tuple[str, ...],
+    b: tuple[str, ...],
+    relations: tuple[int, int | None],
+    coordinates: Mapping[str, Type] | None = None,
+    options: tuple[Argument, ...] = (),
+    *,
+    unilateral: bool = False,
+    doc: str,
+) -> LiaisonKind:
+    arguments = (
+        Argument("a", kind="place", places=a, doc="the place that acts"),
+        Argument("b", kind="place", places=b, doc="the place acted upon"),
+        *options,
+        Argument(
+            "unilateral",
+            BOOLEAN,
+            "boolean",
+            required=False,
+            default=unilateral,
+            doc="whether the places can part",
+        ),
+    )
+    return LiaisonKind(
+        name, arguments, relations[0], relations[1], coordinates or {}, unilateral, aliases, doc
+    )
+
+
+LIAISONS = table(
+    _liaison("encastrement", ("weld",), POINT, POINT, (6, 3), doc="No relative motion."),
+    _liaison(
+        "rotoide",
+        ("pivot", "revolute"),
+        POINT,
+        POINT,
+        (5, 2),
+        {"angle": REAL, "speed": ANGULAR_VELOCITY},
+        (_axis("axis"),),
+        doc="Rotation about a common axis.",
+    ),
+    _liaison(
+        "prismatique",
+        ("glissiere", "prismatic"),
+        POINT,
+        POINT,
+        (5, 2),
+        {"displacement": LENGTH, "speed": VELOCITY},
+        (Argument("axis", REAL, "axis", required=False, default="x", doc="direction, axes of a"),),
+        doc="Translation along a common axis.",
+    ),
+    _liaison(
+        "verrou",
+        ("pivot_glissant", "cylindrical"),
+        POINT,
+        POINT,
+        (4, None),
+        {
+            "angle": REAL,
+            "displacement": LENGTH,
+            "speed_angle": ANGULAR_VELOCITY,
+            "speed": VELOCITY,
+        },
+        (_axis("axis"),),
+        doc="Rotation about and translation along a common axis.",
+    ),
+    _liaison(
+        "helicoidale",
+        ("screw",),
+        POINT,
+        POINT,
+        (5, None),
+        {"angle": REAL},
+        (_axis("axis"), Argument("pitch", LENGTH, doc="advance per turn")),
+        doc="A screw.",
+    ),
+    _liaison(
+        "cardan",
+        ("universal",),
+        POINT,
+        POINT,
+        (4, None),
+        {"angle_a": REAL, "angle_b": REAL},
+        (_axis("axis_a"), _axis("axis_b")),
+        doc="Two crossed axes.",
+    ),
+    _liaison(
+        "spherique",
+        ("rotule", "spherical"),
+        POINT,
+        POINT,
+        (3, None),
+        {"angular_velocity": ANGULAR_VELOCITY},
+        doc="A common point.",
+    ),
+    _liaison(
+        "appui_plan",
+        ("planar",),
+        POINT,
+        POINT,
+        (3, None),
+        {"x": LENGTH, "y": LENGTH, "angle": REAL},
+        (_axis("normal"),),
+        doc="Two planes that stay on one another.",
+    ),
+    _liaison(
+        "lineaire_annulaire",
+        ("point_on_line",),
+        POINT,
+        ("point", "curve"),
+        (2, None),
+        doc="A point stays on a straight line.",
+    ),
+    _liaison(
+        "lineaire_rectiligne",
+        ("line_on_plane",),
+        CURVE,
+        SURFACE,
+        (2, None),
+        doc="A line stays on a plane.",
+    ),
+    _liaison(
+        "tige",
+        ("link",),
+        POINT,
+        POINT,
+        (1, 1),
+        {"length": LENGTH},
+        (Argument("length", LENGTH, sign="positive", doc="distance of the points"),),
+        doc="A massless rigid rod between two points.",
+    ),
+    _liaison(
+        "fil",
+        ("thread",),
+        POINT,
+        POINT,
+        (1, 1),
+        {"length": LENGTH},
+        (Argument("length", LENGTH, sign="positive", doc="largest distance of the points"),),
+        unilateral=True,
+        doc="A massless inextensible thread between two points.",
+    ),
+    _liaison(
+        "point_courbe",
+        ("point_on_curve",),
+        POINT,
+        CURVE,
+        (2, 1),
+        {"u": LENGTH, "abscissa": LENGTH},
+        doc="A point of a body stays on a curve.",
+    ),
+    _liaison(
+        "point_surface",
+        ("point_on_surface",),
+        POINT,
+        SURFACE,
+        (1, None),
+        doc="A point of a body stays on a surface.",
+    ),
+    _liaison(
+        "contact_ponctuel",
+        ("point_contact",),
+        ANY,
+        ANY,
+        (1, 1),
+        {"gap": LENGTH},
+        unilateral=True,
+        doc="Two of point, curve, surface touch at a point.",
+    ),
+    _liaison(
+        "courbe_courbe",
+        ("curves_tangent",),
+        CURVE,
+        CURVE,
+        (2, 1),
+        doc="Two curves stay tangent.",
+    ),
+    _liaison(
+        "roulement",
+        ("rolling",),
+        ("curve", "surface"),
+        ("curve", "surface"),
+        (3, 2),
+        doc="Contact is kept and does not slip: kinematic, non-holonomic in space.",
+    ),
+    _liaison(
+        "appui_faces",
+        ("face_contact",),
+        ("surface", "curve"),
+        ("surface", "curve"),
+        (0, 0),
+        {"gap": LENGTH},
+        unilateral=True,
+        doc="The corners of a face rest on a plane.",
+    ),
+    _liaison("libre", ("free",), POINT, POINT, (0, 0), doc="No relation."),
+)

@@ -1,0 +1,80 @@
+"""Variables of bodies, of frames and named points, and of liaisons, with their types."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from frot.dsl.catalogue.kinds import LiaisonKind
+from frot.dsl.catalogue.types import (
+    ACCELERATION,
+    ANGULAR_ACCELERATION,
+    ANGULAR_MOMENTUM,
+    ANGULAR_VELOCITY,
+    ENERGY,
+    FORCE,
+    LENGTH,
+    MOMENTUM,
+    POWER,
+    TORQUE,
+    VELOCITY,
+)
+from frot.dsl.dimensions import INTEGER, REAL, Type
+
+
+def vector(of: Type, planar: bool) -> Type:
+    """The type of a vector with items of this type in a planar or a space model."""
+    return Type(of.base, of.dimension, (2,) if planar else (3,))
+
+
+def _turning(of: Type, planar: bool) -> Type:
+    return of if planar else vector(of, planar)
+
+
+def point_members(planar: bool, turns: bool = True) -> Mapping[str, Type]:
+    """Variables of a frame or of a named point of a body."""
+    members = {
+        "position": vector(LENGTH, planar),
+        "velocity": vector(VELOCITY, planar),
+        "acceleration": vector(ACCELERATION, planar),
+    }
+    if turns:
+        members["angular_velocity"] = _turning(ANGULAR_VELOCITY, planar)
+        members["ex"] = members["ey"] = vector(REAL, planar)
+        if not planar:
+            members["ez"] = vector(REAL, planar)
+    return members
+
+
+def body_members(planar: bool, turns: bool = True) -> Mapping[str, Type]:
+    """Variables of a body; those of rotation are left out where `turns` is False."""
+    members = {
+        **point_members(planar, turns),
+        "kinetic_energy": ENERGY,
+        "momentum": vector(MOMENTUM, planar),
+        "angular_momentum": _turning(ANGULAR_MOMENTUM, planar),
+    }
+    if turns:
+        members["angular_acceleration"] = _turning(ANGULAR_ACCELERATION, planar)
+        if planar:
+            members["angle"] = REAL
+        else:
+            members["orientation"] = Type(shape=(4,))
+    return members
+
+
+def liaison_members(kind: LiaisonKind, planar: bool) -> Mapping[str, Type]:
+    """Variables of a liaison: its own coordinates and those common to all.
+
+    In the plane the tangent has one direction: `slip` and `tangential_force` are signed scalars.
+    """
+    return {
+        "force": vector(FORCE, planar),
+        "torque": _turning(TORQUE, planar),
+        "normal_force": FORCE,
+        "tangential_force": _turning(FORCE, planar),
+        "slip": _turning(VELOCITY, planar),
+        "gap": LENGTH,
+        "mode": INTEGER,
+        "power": POWER,
+        **kind.coordinates,
+    }
