@@ -138,6 +138,9 @@ typedef struct {
   const int *velocity_statement; /* n_velocity */
   const int *p_dependent;        /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;             /* np: frot_type */
+  /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t */
+  const unsigned char *row_depends;
+  const unsigned char *condition_strict; /* n_conditions: 1 for < and >, 0 for <= and >= */
 } frot_model;
 
 typedef struct {
@@ -215,11 +218,11 @@ int frot_advance(const frot_model *model, frot_state *state, frot_work *work, do
 int frot_values(const frot_model *model, frot_state *state, frot_work *work, double *values);
 
 /* Values at any time inside a recorded segment (parameters and inputs are those of `state`). */
-int frot_segment_values(const frot_model *model, const frot_state *state, frot_work *work,
+int frot_segment_values(const frot_model *model, frot_state *state, frot_work *work,
                         const double *segment, double t, double *values);
 /* The same at many times in order, over recorded segments in order; values: count rows. A time
  * belongs to the last segment that begins at or before it. */
-int frot_sample(const frot_model *model, const frot_state *state, frot_work *work,
+int frot_sample(const frot_model *model, frot_state *state, frot_work *work,
                 const double *segments, long long segment_count, const double *times,
                 long long count, double *values);
 

@@ -1,0 +1,175 @@
+#include "linear.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define AT(a, ld, i, j) ((a)[(size_t)(j) * (size_t)(ld) + (size_t)(i)])
+
+double frot_dot(const double *a, const double *b, int n) {
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+int frot_cholesky(double *a, int n) {
+  for (int j = 0; j < n; j++) {
+    double diagonal = AT(a, n, j, j), whole = diagonal;
+    for (int k = 0; k < j; k++) diagonal -= AT(a, n, j, k) * AT(a, n, j, k);
+    if (!(diagonal > n * DBL_EPSILON * whole)) return 1;
+    diagonal = sqrt(diagonal);
+    AT(a, n, j, j) = diagonal;
+    for (int i = j + 1; i < n; i++) {
+      double sum = AT(a, n, i, j);
+      for (int k = 0; k < j; k++) sum -= AT(a, n, i, k) * AT(a, n, j, k);
+      AT(a, n, i, j) = sum / diagonal;
+    }
+  }
+  return 0;
+}
+
+void frot_forward(const double *l, int n, int m, double *x) {
+  for (int i = 0; i < m; i++) {
+    double sum = x[i];
+    for (int k = 0; k < i; k++) sum -= AT(l, n, i, k) * x[k];
+    x[i] = sum / AT(l, n, i, i);
+  }
+}
+
+void frot_backward(const double *l, int n, int m, double *x) {
+  for (int i = m - 1; i >= 0; i--) {
+    double sum = x[i];
+    for (int k = i + 1; k < m; k++) sum -= AT(l, n, k, i) * x[k];
+    x[i] = sum / AT(l, n, i, i);
+  }
+}
+
+int frot_lu_solve(double *a, double *b, int n) {
+  double largest = 0;
+  for (int i = 0; i < n * n; i++) largest = fmax(largest, fabs(a[i]));
+  for (int k = 0; k < n; k++) {
+    int pivot = k;
+    for (int i = k + 1; i < n; i++)
+      if (fabs(AT(a, n, i, k)) > fabs(AT(a, n, pivot, k))) pivot = i;
+    if (!(fabs(AT(a, n, pivot, k)) > 1e-13 * largest)) return 1;
+    if (pivot != k) {
+      for (int j = k; j < n; j++) {
+        double t = AT(a, n, k, j);
+        AT(a, n, k, j) = AT(a, n, pivot, j);
+        AT(a, n, pivot, j) = t;
+      }
+      double t = b[k];
+      b[k] = b[pivot];
+      b[pivot] = t;
+    }
+    for (int i = k + 1; i < n; i++) {
+      double factor = AT(a, n, i, k) / AT(a, n, k, k);
+      if (factor == 0) continue;
+      for (int j = k + 1; j < n; j++) AT(a, n, i, j) -= factor * AT(a, n, k, j);
+      b[i] -= factor * b[k];
+    }
+  }
+  for (int i = n - 1; i >= 0; i--) {
+    for (int j = i + 1; j < n; j++) b[i] -= AT(a, n, i, j) * b[j];
+    b[i] /= AT(a, n, i, i);
+  }
+  return 0;
+}
+
+/* Householder vector of x (n), stored over x with its first entry beta apart: (I - 2 v v'/v'v) x
+ * = (beta, 0, ...). Returns beta; `scale` is 2/v'v, 0 when nothing is to be done. */
+static double reflect(double *x, int n, double *scale) {
+  double norm = sqrt(frot_dot(x, x, n));
+  if (norm == 0) {
+    *scale = 0;
+    return 0;
+  }
+  double beta = x[0] > 0 ? -norm : norm;
+  x[0] -= beta;
+  *scale = -1 / (beta * x[0]);
+  return beta;
+}
+
+int frot_least_norm(double *a, double *b, int m, int n, double *x, double *work, int *pivot) {
+  double *scale = work, *diagonal = work + n, *row_scale = work + 2 * n, *y = work + 3 * n;
+  double *kept = work + 4 * n; /* b rotated */
+  int steps = m < n ? m : n, rank = 0;
+  for (int j = 0; j < n; j++) pivot[j] = j;
+  double first = 0;
+  for (int k = 0; k < steps; k++) {
+    int best = k;
+    double best_norm = -1;
+    for (int j = k; j < n; j++) {
+      double norm = 0;
+      for (int i = k; i < m; i++) norm += AT(a, m, i, j) * AT(a, m, i, j);
+      if (norm > best_norm) best_norm = norm, best = j;
+    }
+    if (k == 0) first = sqrt(best_norm);
+    if (!(sqrt(best_norm) > 1e-11 * first) || first == 0) break;
+    if (best != k) {
+      for (int i = 0; i < m; i++) {
+        double t = AT(a, m, i, k);
+        AT(a, m, i, k) = AT(a, m, i, best);
+        AT(a, m, i, best) = t;
+      }
+      int t = pivot[k];
+      pivot[k] = pivot[best];
+      pivot[best] = t;
+    }
+    diagonal[k] = reflect(&AT(a, m, k, k), m - k, &scale[k]);
+    for (int j = k + 1; j < n; j++) {
+      double f = scale[k] * frot_dot(&AT(a, m, k, k), &AT(a, m, k, j), m - k);
+      for (int i = k; i < m; i++) AT(a, m, i, j) -= f * AT(a, m, i, k);
+    }
+    double f = scale[k] * frot_dot(&AT(a, m, k, k), b + k, m - k);
+    for (int i = k; i < m; i++) b[i] -= f * AT(a, m, i, k);
+    rank++;
+  }
+  /* R = (T S): reduce the trapezoid rank x n to a triangle from the right, last row first. The row
+   * k holds diagonal[k] at k and AT(a, k, j) right of it. */
+  for (int i = 0; i < m; i++) kept[i] = b[i];
+  if (rank < n) {
+    double *t = kept + m; /* rank x n trapezoid, by rows */
+    for (int k = 0; k < rank; k++)
+      for (int j = 0; j < n; j++)
+        t[k * n + j] = j < k ? 0 : (j == k ? diagonal[k] : AT(a, m, k, j));
+    for (int k = rank - 1; k >= 0; k--) {
+      /* reflector on entries k and rank..n-1 of row k */
+      double norm2 = t[k * n + k] * t[k * n + k];
+      for (int j = rank; j < n; j++) norm2 += t[k * n + j] * t[k * n + j];
+      double norm = sqrt(norm2), beta = t[k * n + k] > 0 ? -norm : norm;
+      double head = t[k * n + k] - beta;
+      row_scale[k] = head == 0 ? 0 : -1 / (beta * head);
+      for (int r = 0; r < k; r++) {
+        double f = head * t[r * n + k];
+        for (int j = rank; j < n; j++) f += t[k * n + j] * t[r * n + j];
+        f *= row_scale[k];
+        t[r * n + k] -= f * head;
+        for (int j = rank; j < n; j++) t[r * n + j] -= f * t[k * n + j];
+      }
+      t[k * n + k] = beta;
+      scale[k] = head;
+    }
+    for (int k = rank - 1; k >= 0; k--) {
+      double sum = kept[k];
+      for (int j = k + 1; j < rank; j++) sum -= t[k * n + j] * y[j];
+      y[k] = sum / t[k * n + k];
+    }
+    for (int j = rank; j < n; j++) y[j] = 0;
+    for (int k = 0; k < rank; k++) {
+      double f = scale[k] * y[k];
+      for (int j = rank; j < n; j++) f += t[k * n + j] * y[j];
+      f *= row_scale[k];
+      y[k] -= f * scale[k];
+      for (int j = rank; j < n; j++) y[j] -= f * t[k * n + j];
+    }
+  } else {
+    for (int k = rank - 1; k >= 0; k--) {
+      double sum = kept[k];
+      for (int j = k + 1; j < n; j++) sum -= AT(a, m, k, j) * y[j];
+      y[k] = sum / diagonal[k];
+    }
+  }
+  for (int j = 0; j < n; j++) x[pivot[j]] = y[j];
+  return rank;
+}

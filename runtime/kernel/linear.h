@@ -1,0 +1,23 @@
+/* Dense linear algebra on small systems. Matrices are by columns with leading dimension n. */
+#ifndef FROT_LINEAR_H
+#define FROT_LINEAR_H
+
+/* Cholesky factor of the symmetric positive definite a (n x n) in its lower triangle.
+ * Returns 0, or 1 when a is not positive definite to rounding. */
+int frot_cholesky(double *a, int n);
+/* x <- L^-1 x and x <- L'^-1 x, for the leading m x m block of the factor l (n x n). */
+void frot_forward(const double *l, int n, int m, double *x);
+void frot_backward(const double *l, int n, int m, double *x);
+
+/* Solve a x = b by LU with partial pivoting (a and b are overwritten, b becomes x).
+ * Returns 0, or 1 when a is singular to rounding. */
+int frot_lu_solve(double *a, double *b, int n);
+
+/* Least squares of least norm: x (n) for a x = b, a (m x n) by columns, overwritten with b.
+ * Rank by Householder QR with column pivoting, then a triangle from the right (G. Golub, C. Van Loan,
+ * Matrix Computations, 4th ed., sect. 5.5). `work` takes m + 4*n + n*n doubles and `pivot` n integers.
+ * Returns the rank; a and b are lost. */
+int frot_least_norm(double *a, double *b, int m, int n, double *x, double *work, int *pivot);
+
+double frot_dot(const double *a, const double *b, int n);
+#endif

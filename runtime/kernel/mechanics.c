@@ -1,0 +1,371 @@
+#include "mechanics.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "linear.h"
+
+static void inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t,
+                   const double *q, const double *v, const double *d) {
+  frot_layout l = frot_layout_of(m);
+  w->arg[0] = t, w->arg[1] = q, w->arg[2] = v;
+  w->arg[3] = s->data + l.u, w->arg[4] = s->data + l.p, w->arg[5] = d;
+}
+
+static int finite(const double *x, int n) {
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += x[i] - x[i];
+  return sum == 0;
+}
+
+int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                  const double *v, const double *d, const frot_contact_mode *modes) {
+  int nw = m->nv + m->na, nr = m->n_rows;
+  inputs(m, s, w, &t, q, v, d);
+  double *res[] = {w->qd,  w->mass, w->h,         w->rows,        w->c,
+                   w->rate, w->gap, w->condition, w->coefficient, w->power};
+  memcpy(w->res, res, sizeof res);
+  m->dynamics.call(w->arg, w->res, w->iw, w->w, 0);
+  s->statistics.evaluations++;
+  w->t = t;
+  if (!finite(w->mass, nw * nw) || !finite(w->h, nw) || !finite(w->rows, nw * nr) ||
+      !finite(w->c, nr) || !finite(w->qd, m->nq) || !finite(w->coefficient, 3 * m->n_contacts) ||
+      !finite(w->condition, m->n_conditions) || !finite(w->gap, m->n_contacts) ||
+      !finite(w->power, 1))
+    return FROT_NAN;
+  memcpy(w->factor, w->mass, sizeof(double) * (size_t)(nw * nw));
+  if (frot_cholesky(w->factor, nw)) return FROT_SINGULAR;
+  memcpy(w->force, w->h, sizeof(double) * (size_t)nw);
+  frot_forward(w->factor, nw, nw, w->force);
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!modes[i].closed) continue;
+    const frot_contact *contact = &m->contacts[i];
+    int rows[3] = {contact->row_n, contact->row_t, contact->row_r};
+    for (int k = 0; k < 3; k++) {
+      int r = rows[k];
+      if (r < 0) continue;
+      double *half = w->half_rows + nw * r;
+      memcpy(half, w->rows + nw * r, sizeof(double) * (size_t)nw);
+      frot_forward(w->factor, nw, nw, half);
+      w->free[r] = frot_dot(half, w->force, nw) + w->c[r];
+    }
+  }
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!modes[i].closed) continue;
+    for (int j = 0; j < m->n_contacts; j++) {
+      if (!modes[j].closed) continue;
+      int a[3] = {m->contacts[i].row_n, m->contacts[i].row_t, m->contacts[i].row_r};
+      int b[3] = {m->contacts[j].row_n, m->contacts[j].row_t, m->contacts[j].row_r};
+      for (int k = 0; k < 9; k++) {
+        int r = a[k / 3], c = b[k % 3];
+        if (r < 0 || c < 0 || r < c) continue;
+        double value = frot_dot(w->half_rows + nw * r, w->half_rows + nw * c, nw);
+        w->delassus[r * nr + c] = w->delassus[c * nr + r] = value;
+      }
+    }
+  }
+  return FROT_OK;
+}
+
+void frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                     const double *v, const double *d) {
+  inputs(m, s, w, &t, q, v, d);
+  double *res[] = {w->gap, w->rows, w->rate, w->condition, w->distance};
+  memcpy(w->res, res, sizeof res);
+  m->kinematics.call(w->arg, w->res, w->iw, w->w, 0);
+}
+
+/* Direction of friction on the body: against the slip, times the side of the reaction. */
+static double opposed(const frot_contact_mode *mode, int friction) {
+  if (friction == FROT_SLIP_FORWARD) return -mode->side;
+  if (friction == FROT_SLIP_BACKWARD) return mode->side;
+  return 0;
+}
+
+/* Rows that follow the normal reaction in sliding: ratio of the row's reaction to lam_n. */
+typedef struct {
+  double friction, rolling;
+} ratios;
+
+static ratios ratios_of(const frot_work *w, const frot_contact_mode *mode, int i, int at_rest) {
+  const double *k = w->coefficient + 3 * i; /* mu, mu_s, delta */
+  return (ratios){opposed(mode, mode->friction) * (at_rest ? k[1] : k[0]),
+                  opposed(mode, mode->rolling) * k[2]};
+}
+
+int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
+                   const unsigned char *at_rest) {
+  int nr = m->n_rows, n = 0;
+  memset(w->lam, 0, sizeof(double) * (size_t)nr);
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!modes[i].closed) continue;
+    const frot_contact *contact = &m->contacts[i];
+    w->row_of[n++] = contact->row_n;
+    if (modes[i].friction == FROT_STICK) w->row_of[n++] = contact->row_t;
+    if (modes[i].rolling == FROT_STICK) w->row_of[n++] = contact->row_r;
+  }
+  if (n == 0) return 0;
+  /* Column of an active row: its reaction and those that follow it. */
+  int column = 0;
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!modes[i].closed) continue;
+    const frot_contact *contact = &m->contacts[i];
+    ratios follow = ratios_of(w, &modes[i], i, at_rest && at_rest[i]);
+    for (int r = 0; r < n; r++) {
+      const double *wr = w->delassus + w->row_of[r] * nr;
+      double value = wr[contact->row_n];
+      if (follow.friction != 0) value += follow.friction * wr[contact->row_t];
+      if (follow.rolling != 0) value += follow.rolling * wr[contact->row_r];
+      w->active[column * n + r] = value;
+    }
+    column++;
+    int stuck[2] = {modes[i].friction == FROT_STICK ? contact->row_t : -1,
+                    modes[i].rolling == FROT_STICK ? contact->row_r : -1};
+    for (int k = 0; k < 2; k++) {
+      if (stuck[k] < 0) continue;
+      for (int r = 0; r < n; r++)
+        w->active[column * n + r] = w->delassus[w->row_of[r] * nr + stuck[k]];
+      column++;
+    }
+  }
+  for (int r = 0; r < n; r++) w->right[r] = -w->free[w->row_of[r]];
+  double *copy = w->lstsq, *work = w->lstsq + n * n;
+  memcpy(copy, w->active, sizeof(double) * (size_t)(n * n));
+  memcpy(work, w->right, sizeof(double) * (size_t)n);
+  double *x = work;
+  if (frot_lu_solve(copy, x, n)) {
+    /* Dependent rows (hyperstatic): the least reactions, if the rows do not contradict. */
+    double *b = work, *scratch = work + n;
+    x = w->step;
+    memcpy(copy, w->active, sizeof(double) * (size_t)(n * n));
+    memcpy(b, w->right, sizeof(double) * (size_t)n);
+    frot_least_norm(copy, b, n, n, x, scratch, w->pivot);
+    for (int r = 0; r < n; r++) {
+      double sum = -w->right[r], size = fabs(w->right[r]);
+      for (int c = 0; c < n; c++) {
+        sum += w->active[c * n + r] * x[c];
+        size += fabs(w->active[c * n + r] * x[c]);
+      }
+      if (!(fabs(sum) <= 1e-9 * size)) return 1;
+    }
+  }
+  for (int r = 0; r < n; r++) w->lam[w->row_of[r]] = x[r];
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!modes[i].closed) continue;
+    const frot_contact *contact = &m->contacts[i];
+    ratios follow = ratios_of(w, &modes[i], i, at_rest && at_rest[i]);
+    if (follow.friction != 0) w->lam[contact->row_t] = follow.friction * w->lam[contact->row_n];
+    if (follow.rolling != 0) w->lam[contact->row_r] = follow.rolling * w->lam[contact->row_n];
+  }
+  return !finite(w->lam, nr);
+}
+
+void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen) {
+  int nw = m->nv + m->na;
+  memcpy(w->a, w->force, sizeof(double) * (size_t)nw);
+  for (int r = 0; r < m->n_rows; r++)
+    if (w->lam[r] != 0)
+      for (int k = 0; k < nw; k++) w->a[k] += w->lam[r] * w->half_rows[nw * r + k];
+  frot_backward(w->factor, nw, nw, w->a);
+  for (int k = 0; k < m->nv; k++)
+    if (frozen[k] != 0) w->a[k] = 0;
+}
+
+/* Guards of one bounded relative motion: of friction (bound mu_s N) or of rolling (bound delta N). */
+static void bounded(int mode, double rate, double rate_scale, double lam, double bound,
+                    double *guard, double *scale) {
+  if (mode == FROT_STICK) {
+    guard[0] = bound - lam, guard[1] = bound + lam;
+    scale[0] = scale[1] = fabs(bound) + fabs(lam);
+  } else if (mode != FROT_NONE) {
+    guard[0] = mode == FROT_SLIP_FORWARD ? rate : -rate;
+    scale[0] = rate_scale;
+  }
+}
+
+static double term_size(const frot_model *m, const frot_work *w, int row, const double *x) {
+  double sum = 0;
+  for (int k = 0; k < m->nv; k++) sum += fabs(w->rows[(m->nv + m->na) * row + k] * x[k]);
+  return sum;
+}
+
+void frot_guards(const frot_model *m, const frot_state *s, frot_work *w, const double *q,
+                 const double *v, const double *d, const frot_contact_mode *modes, double *guard,
+                 double *scale) {
+  frot_layout l = frot_layout_of(m);
+  const double *unilateral = s->data + l.unilateral;
+  for (int i = 0; i < m->n_contacts; i++) {
+    const frot_contact *contact = &m->contacts[i];
+    const frot_contact_mode *mode = &modes[i];
+    double g[FROT_GUARDS] = {1, 1, 1, 1, 1}, size[FROT_GUARDS] = {1, 1, 1, 1, 1};
+    if (!mode->closed) {
+      g[0] = w->gap[i];
+      size[0] = fabs(w->gap[i]) + term_size(m, w, contact->row_n, q);
+    } else {
+      const double *k = w->coefficient + 3 * i;
+      double lam_n = w->lam[contact->row_n];
+      if (unilateral[i] != 0 || mode->friction != FROT_NONE || mode->rolling != FROT_NONE) {
+        g[0] = mode->side * lam_n;
+        size[0] = fabs(lam_n);
+      }
+      if (mode->friction != FROT_NONE)
+        bounded(mode->friction, w->rate[contact->row_t], term_size(m, w, contact->row_t, v),
+                w->lam[contact->row_t], k[1] * mode->side * lam_n, g + 1, size + 1);
+      if (mode->rolling != FROT_NONE)
+        bounded(mode->rolling, w->rate[contact->row_r], term_size(m, w, contact->row_r, v),
+                w->lam[contact->row_r], k[2] * mode->side * lam_n, g + 3, size + 3);
+    }
+    memcpy(guard + FROT_GUARDS * i, g, sizeof g);
+    if (scale) memcpy(scale + FROT_GUARDS * i, size, sizeof size);
+  }
+  for (int j = 0; j < m->n_conditions; j++) {
+    int at = FROT_GUARDS * m->n_contacts + j;
+    guard[at] = d[j] != 0 ? w->condition[j] : -w->condition[j];
+    if (scale) scale[at] = fabs(guard[at]);
+  }
+}
+
+int frot_derivatives(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z,
+                     const double *d, const frot_contact_mode *modes, const double *frozen,
+                     double *slope) {
+  frot_layout l = frot_layout_of(m);
+  const double *v = z + m->nq;
+  int status = frot_dynamics(m, s, w, t, z, v, d, modes);
+  if (status != FROT_OK) return status;
+  if (frot_reactions(m, w, modes, NULL)) return FROT_DIVERGE;
+  frot_accelerations(m, w, frozen);
+  if (!finite(w->a, l.nw)) return FROT_NAN;
+  memcpy(slope, w->qd, sizeof(double) * (size_t)m->nq);
+  memcpy(slope + m->nq, w->a, sizeof(double) * (size_t)m->nv);
+  double dissipated = 0;
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!modes[i].closed) continue;
+    const frot_contact *contact = &m->contacts[i];
+    if (modes[i].friction > FROT_STICK)
+      dissipated -= w->lam[contact->row_t] * w->rate[contact->row_t];
+    if (modes[i].rolling > FROT_STICK)
+      dissipated -= w->lam[contact->row_r] * w->rate[contact->row_r];
+  }
+  slope[m->nq + m->nv] = dissipated;
+  slope[m->nq + m->nv + 1] = w->power[0];
+  frot_guards(m, s, w, z, v, d, modes, slope + l.nx, NULL);
+  return FROT_OK;
+}
+
+/* Rows that hold in `modes` and act on the speeds themselves, into w->row_of; returns their number.
+ * With `normals_only`, the relations between positions. */
+static int holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
+                        const unsigned char *stuck, int normals_only) {
+  int n = 0;
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!modes[i].closed) continue;
+    const frot_contact *contact = &m->contacts[i];
+    if (!contact->reduced) w->row_of[n++] = contact->row_n;
+    if (normals_only) continue;
+    if (modes[i].friction == FROT_STICK || (stuck && (stuck[i] & 1)))
+      w->row_of[n++] = contact->row_t;
+    if (modes[i].rolling == FROT_STICK || (stuck && (stuck[i] & 2)))
+      w->row_of[n++] = contact->row_r;
+  }
+  return n;
+}
+
+/* x <- x - M^-1 J' (J M^-1 J')^+ error, over the n rows of w->row_of. */
+static void correct(const frot_model *m, frot_work *w, int n, const double *error, double *x) {
+  int nv = m->nv, nw = m->nv + m->na;
+  for (int i = 0; i < n; i++) {
+    double *half = w->jacobian + nv * i;
+    memcpy(half, w->rows + nw * w->row_of[i], sizeof(double) * (size_t)nv);
+    frot_forward(w->factor, nw, nv, half);
+  }
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++)
+      w->active[j * n + i] = frot_dot(w->jacobian + nv * i, w->jacobian + nv * j, nv);
+  double *b = w->right, *lam = w->step + nw;
+  memcpy(b, error, sizeof(double) * (size_t)n);
+  frot_least_norm(w->active, b, n, n, lam, w->lstsq, w->pivot);
+  memset(w->step, 0, sizeof(double) * (size_t)nv);
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < nv; k++) w->step[k] += w->jacobian[nv * i + k] * lam[i];
+  frot_backward(w->factor, nw, nv, w->step);
+  for (int k = 0; k < nv; k++) x[k] -= w->step[k];
+}
+
+int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
+                 const double *d, const frot_contact_mode *modes, const unsigned char *stuck,
+                 int position) {
+  int moved = 0;
+  if (holding_rows(m, w, modes, stuck, 0) == 0) return 0;
+  for (int pass = 0; position && pass < 3; pass++) {
+    frot_kinematics(m, s, w, t, q, v, d);
+    int n = holding_rows(m, w, modes, stuck, 1), off = 0, k = 0;
+    for (int i = 0; i < m->n_contacts; i++) {
+      if (!modes[i].closed || m->contacts[i].reduced) continue;
+      w->residual[k++] = w->gap[i];
+      if (fabs(w->gap[i]) > 4 * DBL_EPSILON * term_size(m, w, m->contacts[i].row_n, q)) off = 1;
+    }
+    if (!off || n == 0) break;
+    correct(m, w, n, w->residual, q);
+    moved = 1;
+  }
+  for (int pass = 0; pass < 3; pass++) {
+    frot_kinematics(m, s, w, t, q, v, d);
+    int n = holding_rows(m, w, modes, stuck, 0), off = 0;
+    for (int i = 0; i < n; i++) {
+      int row = w->row_of[i];
+      w->residual[i] = w->rate[row];
+      if (fabs(w->rate[row]) > 2 * DBL_EPSILON * term_size(m, w, row, v)) off = 1;
+    }
+    if (!off) break;
+    correct(m, w, n, w->residual, v);
+    moved = 1;
+  }
+  return moved;
+}
+
+/* Marks the speeds whose unit vector lies in the span of the rows that depend on frozen
+ * coordinates alone. */
+static int frozen_by_rows(const frot_model *m, frot_work *w, int n, const double *known,
+                          double *frozen) {
+  int nv = m->nv, nw = m->nv + m->na, count = 0, columns = 0;
+  double *basis = w->jacobian;
+  for (int i = 0; i < n; i++) {
+    int row = w->row_of[i], usable = !m->row_depends[row * (m->nq + 1) + m->nq];
+    for (int k = 0; k < m->nq; k++)
+      if (m->row_depends[row * (m->nq + 1) + k] && known[k] == 0) usable = 0;
+    if (!usable) continue;
+    double *x = basis + nv * columns;
+    memcpy(x, w->rows + nw * row, sizeof(double) * (size_t)nv);
+    double before = sqrt(frot_dot(x, x, nv));
+    for (int pass = 0; pass < 2; pass++)
+      for (int c = 0; c < columns; c++) {
+        double f = frot_dot(x, basis + nv * c, nv);
+        for (int k = 0; k < nv; k++) x[k] -= f * basis[nv * c + k];
+      }
+    double after = sqrt(frot_dot(x, x, nv));
+    if (!(after > 1e-10 * before)) continue;
+    for (int k = 0; k < nv; k++) x[k] /= after;
+    columns++;
+  }
+  for (int k = 0; k < nv; k++) {
+    double inside = 0;
+    for (int c = 0; c < columns; c++) inside += basis[nv * c + k] * basis[nv * c + k];
+    frozen[k] = inside > 1 - 1e-12 && known[k] != 0;
+    count += frozen[k] != 0;
+  }
+  return count;
+}
+
+void frot_find_frozen(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
+                      double *frozen) {
+  int n = holding_rows(m, w, modes, NULL, 0);
+  double *known = w->step;
+  for (int k = 0; k < m->nv; k++) known[k] = 1;
+  for (int count = m->nv + 1;;) {
+    int now = frozen_by_rows(m, w, n, known, frozen);
+    if (now == count || now == 0) return;
+    count = now;
+    memcpy(known, frozen, sizeof(double) * (size_t)m->nv);
+  }
+}

@@ -1,0 +1,378 @@
+#include "resolve.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "mechanics.h"
+
+#define ENOUGH 200000    /* combinations of modes examined one by one */
+#define CONTACT_OPTIONS 24
+
+typedef struct {
+  const frot_model *m;
+  frot_state *s;
+  frot_work *w;
+  frot_layout l;
+  const double *fired, *unilateral;
+  unsigned char *zero;    /* per contact: bit 0 no slip, bit 1 no rolling */
+  unsigned char *at_rest; /* per contact: no slip, so that mu_s bounds it */
+} instant;
+
+long long frot_events_at_once(const frot_model *m) { return 4 * m->n_contacts + m->n_conditions + 4; }
+
+static double row_speed_size(const frot_model *m, const frot_work *w, int row, const double *v) {
+  double sum = 0;
+  for (int k = 0; k < m->nv; k++) sum += fabs(w->rows[(m->nv + m->na) * row + k] * v[k]);
+  return sum;
+}
+
+/* Whether a slip or rolling rate is zero: its guard (of index `guard`) fired at zero, or it is zero to
+ * rounding against its terms and the sizes it had. */
+static int is_zero_rate(const instant *in, int row, const double *v, int guard, int moved) {
+  if (moved && in->fired[guard] != 0) return 1;
+  double size = fmax(row_speed_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
+  return fabs(in->w->rate[row]) <= FROT_ZERO * size;
+}
+
+/* Whether a law's coefficient can ever bound anything: a constant zero is skipped. */
+static int bounds_something(const frot_work *w, const frot_contact *contact, int i, int rolling) {
+  const double *k = w->coefficient + 3 * i;
+  if (rolling) return contact->row_r >= 0 && !(contact->fixed_delta && k[2] == 0);
+  return contact->row_t >= 0 && !(contact->fixed_mu && k[0] == 0 && k[1] == 0);
+}
+
+/* The modes one bounded motion may take: into `list`, returns how many. `exit`: -1 or +1 when the
+ * bound of rest was reached towards slip in that direction. */
+static int friction_options(int active, double rate, int zero, int left, signed char *list) {
+  if (!active) return list[0] = FROT_NONE, 1;
+  if (!zero) return list[0] = rate > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD, 1;
+  if (left > 0) return list[0] = FROT_SLIP_FORWARD, 1;
+  if (left < 0) return list[0] = FROT_SLIP_BACKWARD, 1;
+  list[0] = FROT_STICK, list[1] = FROT_SLIP_FORWARD, list[2] = FROT_SLIP_BACKWARD;
+  return 3;
+}
+
+/* A reaction that reached its upper bound (first guard) lets the body go backward. */
+static int left_by(const double *fired) { return fired[0] != 0 ? -1 : (fired[1] != 0 ? 1 : 0); }
+
+static int contact_options(const instant *in, int i, int forced,
+                           frot_contact_mode *list) {
+  const frot_contact *contact = &in->m->contacts[i];
+  const double *fired = in->fired + FROT_GUARDS * i;
+  frot_contact_mode before = in->w->before[i];
+  int n = 0, can_open = in->unilateral[i] != 0;
+  int was_stuck = before.closed && before.friction == FROT_STICK;
+  int was_locked = before.closed && before.rolling == FROT_STICK;
+  int leaves = forced && before.closed && can_open && fired[0] != 0;
+  if (!leaves) {
+    signed char friction[3], rolling[3];
+    int act_t = bounds_something(in->w, contact, i, 0), act_r = bounds_something(in->w, contact, i, 1);
+    int zero_t = in->zero[i] & 1, zero_r = in->zero[i] & 2;
+    int n_t = friction_options(act_t, act_t ? in->w->rate[contact->row_t] : 0, zero_t,
+                               forced && was_stuck ? left_by(fired + 1) : 0, friction);
+    int n_r = friction_options(act_r, act_r ? in->w->rate[contact->row_r] : 0, zero_r,
+                               forced && was_locked ? left_by(fired + 3) : 0, rolling);
+    for (int a = 0; a < n_t; a++)
+      for (int b = 0; b < n_r; b++)
+        for (int side = 1; side >= -1; side -= 2) {
+          if (side < 0 && (can_open || (!act_t && !act_r))) continue;
+          list[n++] = (frot_contact_mode){1, (signed char)side, friction[a], rolling[b], {0}};
+        }
+  }
+  if (can_open) list[n++] = (frot_contact_mode){0, 1, FROT_NONE, FROT_NONE, {0}};
+  return n;
+}
+
+/* Size of the terms of a row's acceleration, for the comparison with zero. */
+static double acceleration_size(const instant *in, int row) {
+  int nr = in->m->n_rows;
+  double sum = fabs(in->w->free[row]) + fabs(in->w->c[row]);
+  for (int k = 0; k < nr; k++)
+    if (in->w->lam[k] != 0) sum += fabs(in->w->delassus[row * nr + k] * in->w->lam[k]);
+  return sum;
+}
+
+static double acceleration(const instant *in, int row) {
+  int nr = in->m->n_rows;
+  double sum = in->w->free[row];
+  for (int k = 0; k < nr; k++)
+    if (in->w->lam[k] != 0) sum += in->w->delassus[row * nr + k] * in->w->lam[k];
+  return sum;
+}
+
+static int motion_is_admissible(const instant *in, int mode, int row, int departs, double bound) {
+  double lam = in->w->lam[row];
+  if (mode == FROT_STICK) return fabs(lam) <= bound + 1e-10 * (fabs(bound) + fabs(lam));
+  if (mode == FROT_NONE || !departs) return 1;
+  double a = acceleration(in, row) * (mode == FROT_SLIP_FORWARD ? 1 : -1);
+  return a >= -1e-9 * acceleration_size(in, row);
+}
+
+/* Whether the reactions of w->trial over the contacts `chosen` satisfy every inequality. */
+static int is_admissible(const instant *in, const int *chosen, int count) {
+  frot_work *w = in->w;
+  if (frot_reactions(in->m, w, w->trial, in->at_rest)) return 0;
+  double largest = 0;
+  for (int r = 0; r < in->m->n_rows; r++) largest = fmax(largest, fabs(w->lam[r]));
+  for (int c = 0; c < count; c++) {
+    int i = chosen[c];
+    const frot_contact *contact = &in->m->contacts[i];
+    const frot_contact_mode *mode = &w->trial[i];
+    if (!mode->closed) {
+      double a = acceleration(in, contact->row_n);
+      if (!(a >= -1e-9 * acceleration_size(in, contact->row_n))) return 0;
+      continue;
+    }
+    double normal = mode->side * w->lam[contact->row_n];
+    const double *k = w->coefficient + 3 * i;
+    int matters = in->unilateral[i] != 0 || mode->friction != FROT_NONE || mode->rolling != FROT_NONE;
+    if (matters && normal < -1e-10 * largest) return 0;
+    if (contact->row_t >= 0 &&
+        !motion_is_admissible(in, mode->friction, contact->row_t, in->zero[i] & 1,
+                              k[1] * fabs(normal)))
+      return 0;
+    if (contact->row_r >= 0 &&
+        !motion_is_admissible(in, mode->rolling, contact->row_r, in->zero[i] & 2,
+                              k[2] * fabs(normal)))
+      return 0;
+  }
+  return 1;
+}
+
+static int stuck_count(const frot_contact_mode *mode) {
+  return (mode->friction == FROT_STICK) + (mode->rolling == FROT_STICK);
+}
+
+static int same_mode(const frot_contact_mode *a, const frot_contact_mode *b) {
+  if (!a->closed || !b->closed) return a->closed == b->closed;
+  return a->friction == b->friction && a->rolling == b->rolling;
+}
+
+/* How much a combination is preferred: rest first, then continuity, or the other way round. */
+static int preference(const instant *in, const int *chosen, int count) {
+  int rest = 0, kept = 0;
+  for (int c = 0; c < count; c++) {
+    rest += stuck_count(&in->w->trial[chosen[c]]);
+    kept += same_mode(&in->w->trial[chosen[c]], &in->w->before[chosen[c]]);
+  }
+  int big = 2 * in->m->n_contacts + 1;
+  return in->s->options.on_indeterminate == FROT_CONTINUE ? kept * big + rest : rest * big + kept;
+}
+
+/* Two combinations are one motion when the accelerations of their rows are equal. */
+static int is_new_motion(const instant *in, const int *chosen, int count) {
+  for (int c = 0; c < count; c++) {
+    const frot_contact *contact = &in->m->contacts[chosen[c]];
+    int rows[3] = {contact->row_n, contact->row_t, contact->row_r};
+    for (int k = 0; k < 3; k++) {
+      if (rows[k] < 0) continue;
+      double change = acceleration(in, rows[k]) - in->w->best_acceleration[rows[k]];
+      if (fabs(change) > 1e-7 * acceleration_size(in, rows[k])) return 1;
+    }
+  }
+  return 0;
+}
+
+static void remember(const instant *in, const int *chosen, int count) {
+  for (int c = 0; c < count; c++) {
+    int i = chosen[c];
+    const frot_contact *contact = &in->m->contacts[i];
+    in->w->best[i] = in->w->trial[i];
+    int rows[3] = {contact->row_n, contact->row_t, contact->row_r};
+    for (int k = 0; k < 3; k++)
+      if (rows[k] >= 0) in->w->best_acceleration[rows[k]] = acceleration(in, rows[k]);
+  }
+}
+
+/* Search the combinations of the contacts `chosen`, which are coupled with each other only. Returns
+ * the number of motions found, -1 when there are too many combinations. */
+static int search(const instant *in, const int *chosen, int count, int forced) {
+  frot_work *w = in->w;
+  frot_contact_mode lists[CONTACT_OPTIONS];
+  int *options = w->choice, *digit = w->choice + count;
+  double combinations = 1;
+  for (int i = 0; i < in->m->n_contacts; i++) w->trial[i] = (frot_contact_mode){0};
+  for (int c = 0; c < count; c++) {
+    options[c] = contact_options(in, chosen[c], forced, lists);
+    digit[c] = 0;
+    w->trial[chosen[c]] = lists[0];
+    combinations *= options[c];
+  }
+  if (combinations > ENOUGH) return -1;
+  int motions = 0, best = 0;
+  for (;;) {
+    if (is_admissible(in, chosen, count)) {
+      int rank = preference(in, chosen, count);
+      if (motions == 0) {
+        motions = 1, best = rank;
+        remember(in, chosen, count);
+      } else {
+        motions += is_new_motion(in, chosen, count);
+        if (rank > best) best = rank, remember(in, chosen, count);
+      }
+    }
+    int c = 0;
+    for (; c < count; c++) {
+      digit[c] = (digit[c] + 1) % options[c];
+      contact_options(in, chosen[c], forced, lists);
+      w->trial[chosen[c]] = lists[digit[c]];
+      if (digit[c] != 0) break;
+    }
+    if (c == count) return motions;
+  }
+}
+
+/* Contacts in one component act on each other through the masses. */
+static void find_components(const instant *in) {
+  const frot_model *m = in->m;
+  int *component = in->w->component;
+  for (int i = 0; i < m->n_contacts; i++) component[i] = in->w->best[i].closed ? i : -1;
+  for (int i = 0; i < m->n_contacts; i++)
+    for (int j = 0; j < i; j++) {
+      if (component[i] < 0 || component[j] < 0 || component[i] == component[j]) continue;
+      int a[3] = {m->contacts[i].row_n, m->contacts[i].row_t, m->contacts[i].row_r};
+      int b[3] = {m->contacts[j].row_n, m->contacts[j].row_t, m->contacts[j].row_r};
+      int coupled = 0;
+      for (int k = 0; k < 9; k++) {
+        int r = a[k / 3], c = b[k % 3];
+        if (r >= 0 && c >= 0 && in->w->delassus[r * m->n_rows + c] != 0) coupled = 1;
+      }
+      if (!coupled) continue;
+      int from = component[i], to = component[j];
+      for (int k = 0; k <= i; k++)
+        if (component[k] == from) component[k] = to;
+    }
+}
+
+static void note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact, int before,
+                 int after, int solutions) {
+  s->statistics.events++;
+  if (!recorder || recorder->event_count >= recorder->event_capacity) return;
+  recorder->events[recorder->event_count++] =
+      (frot_event){t, kind, contact, before, after, solutions, 0};
+}
+
+static int mode_value(const frot_contact_mode *mode) {
+  if (!mode->closed) return FROT_MODE_OPEN;
+  return mode->friction == FROT_STICK ? FROT_MODE_STICK : FROT_MODE_SLIP;
+}
+
+static void note_changes(const instant *in, double t, const frot_contact_mode *after,
+                         frot_recorder *recorder) {
+  for (int i = 0; i < in->m->n_contacts; i++) {
+    const frot_contact_mode *a = &in->w->before[i], *b = &after[i];
+    int from = mode_value(a), to = mode_value(b);
+    if (from != to) {
+      int kind = to == FROT_MODE_OPEN     ? FROT_EVENT_SEPARATION
+                 : from == FROT_MODE_OPEN ? FROT_EVENT_CONTACT
+                 : to == FROT_MODE_STICK  ? FROT_EVENT_STICK
+                                          : FROT_EVENT_SLIP;
+      note(recorder, in->s, t, kind, i, from, to, 1);
+    } else if (a->closed && a->friction != b->friction && a->friction > FROT_STICK &&
+               b->friction > FROT_STICK) {
+      note(recorder, in->s, t, FROT_EVENT_REVERSAL, i, from, to, 1);
+    }
+    if (!a->closed || !b->closed) continue;
+    if (a->rolling != b->rolling && a->rolling != FROT_NONE && b->rolling != FROT_NONE) {
+      int kind = b->rolling == FROT_STICK   ? FROT_EVENT_ROLL_STOP
+                 : a->rolling == FROT_STICK ? FROT_EVENT_ROLL_START
+                                            : FROT_EVENT_ROLL_REVERSAL;
+      note(recorder, in->s, t, kind, i, a->rolling, b->rolling, 1);
+    }
+    if (a->side != b->side && in->unilateral[i] == 0)
+      note(recorder, in->s, t, FROT_EVENT_REACTION, i, from, to, 1);
+  }
+}
+
+/* Contacts that may be closed after the instant, into w->best: those that were, and open ones whose
+ * gap has closed. A gap that closes with speed is an impact. */
+static int closable(const instant *in, double t, const double *v, int first) {
+  const frot_model *m = in->m;
+  for (int i = 0; i < m->n_contacts; i++) {
+    const frot_contact *contact = &m->contacts[i];
+    frot_contact_mode mode = in->w->before[i];
+    in->w->best[i] = mode;
+    if (mode.closed || first) continue;
+    if (in->fired[FROT_GUARDS * i] == 0) continue;
+    double rate = in->w->rate[contact->row_n];
+    if (rate < -1e-9 * (row_speed_size(m, in->w, contact->row_n, v)))
+      return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
+    in->w->best[i].closed = 1;
+  }
+  return FROT_OK;
+}
+
+int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
+                 int first, frot_recorder *recorder) {
+  frot_layout l = frot_layout_of(m);
+  int nc = m->n_contacts;
+  double *d = s->data + l.d, *fired = s->data + l.fired, *frozen = s->data + l.frozen;
+  frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + l.modes);
+  unsigned char *flags = (unsigned char *)(w->choice + 2 * nc);
+  instant in = {m, s, w, l, fired, s->data + l.unilateral, flags, flags + nc};
+  memcpy(w->before, modes, sizeof *modes * (size_t)nc);
+  memset(flags, 0, 2 * (size_t)nc);
+
+  for (int j = 0; j < m->n_conditions; j++) {
+    if (fired[FROT_GUARDS * nc + j] == 0) continue;
+    d[j] = 1 - d[j];
+    if (!first) note(recorder, s, t, FROT_EVENT_CONDITION, j, (int)(1 - d[j]), (int)d[j], 1);
+  }
+  frot_kinematics(m, s, w, t, q, v, d);
+  int status = closable(&in, t, v, first);
+  if (status != FROT_OK) return status;
+
+  /* Speeds: a slip that has come to zero is zero exactly. */
+  for (int i = 0; i < nc; i++) {
+    if (!w->best[i].closed) continue;
+    const frot_contact *contact = &m->contacts[i];
+    int slipped = w->before[i].friction > FROT_STICK, rolled = w->before[i].rolling > FROT_STICK;
+    if (contact->row_t >= 0 && is_zero_rate(&in, contact->row_t, v, FROT_GUARDS * i + 1, slipped))
+      flags[i] |= 1;
+    if (contact->row_r >= 0 && is_zero_rate(&in, contact->row_r, v, FROT_GUARDS * i + 3, rolled))
+      flags[i] |= 2;
+  }
+  status = frot_dynamics(m, s, w, t, q, v, d, w->best);
+  if (status != FROT_OK) return frot_fail(s, status, t, -1, -1, -1, 0);
+  for (int i = 0; i < nc; i++) { /* a law that bounds nothing holds nothing */
+    if (!bounds_something(w, &m->contacts[i], i, 0)) flags[i] &= (unsigned char)~1;
+    if (!bounds_something(w, &m->contacts[i], i, 1)) flags[i] &= (unsigned char)~2;
+    in.at_rest[i] = flags[i] & 1;
+  }
+  memcpy(w->trial, w->best, sizeof *modes * (size_t)nc);
+  for (int i = 0; i < nc; i++) w->trial[i].friction = w->trial[i].rolling = FROT_NONE;
+  frot_project(m, s, w, t, q, v, d, w->trial, flags, 1);
+  status = frot_dynamics(m, s, w, t, q, v, d, w->best);
+  if (status != FROT_OK) return frot_fail(s, status, t, -1, -1, -1, 0);
+
+  find_components(&in);
+  int several = 0, several_at = -1;
+  for (int root = 0; root < nc; root++) {
+    int *chosen = w->row_of + m->n_rows, count = 0;
+    for (int i = 0; i < nc; i++)
+      if (w->component[i] == root) chosen[count++] = i;
+    if (count == 0) continue;
+    int motions = search(&in, chosen, count, 1);
+    if (motions == 0) motions = search(&in, chosen, count, 0);
+    if (motions < 0) return frot_fail(s, FROT_TOO_LARGE, t, chosen[0], -1, -1, count);
+    if (motions == 0) return frot_fail(s, FROT_IMPASSE, t, chosen[0], -1, -1, 0);
+    if (motions > 1) several = motions, several_at = chosen[0];
+  }
+  if (several) {
+    note(recorder, s, t, FROT_EVENT_SEVERAL, several_at, mode_value(&w->before[several_at]),
+         mode_value(&w->best[several_at]), several);
+    if (s->options.on_indeterminate == FROT_HALT)
+      return frot_fail(s, FROT_SEVERAL, t, several_at, -1, -1, several);
+  }
+  memcpy(modes, w->best, sizeof *modes * (size_t)nc);
+  if (!first) note_changes(&in, t, modes, recorder);
+  frot_find_frozen(m, w, modes, frozen);
+  for (int k = 0; k < m->nv; k++)
+    if (frozen[k] != 0) v[k] = 0;
+  memset(fired, 0, sizeof(double) * (size_t)l.ng);
+  /* The guards of another mode have another size. */
+  for (int i = 0; i < nc; i++)
+    if (memcmp(&modes[i], &w->before[i], sizeof *modes) != 0)
+      memset(s->data + l.scale_g + FROT_GUARDS * i, 0, sizeof(double) * FROT_GUARDS);
+  return FROT_OK;
+}

@@ -1,0 +1,182 @@
+/* The life of an instance: parameters, start, changes from outside, the run. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "initial.h"
+#include "mechanics.h"
+#include "resolve.h"
+#include "state.h"
+#include "step.h"
+
+/* Events at one instant after which the modes will not settle. */
+#define CROWD 100
+#define MONITOR_EVERY 64
+
+int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, double experiment[4]) {
+  frot_layout l = frot_layout_of(m);
+  double *p = w->values, *checks = w->values + m->np;
+  w->arg[0] = s->data + l.given, w->arg[1] = s->data + l.set, w->arg[2] = s->data + l.u;
+  w->res[0] = p, w->res[1] = checks;
+  w->res[2] = s->data + l.unilateral, w->res[3] = s->data + l.experiment;
+  m->parameters.call(w->arg, w->res, w->iw, w->w, 0);
+  memcpy(s->data + l.p, p, sizeof(double) * (size_t)m->np);
+  for (int i = 0; i < m->n_checks; i++) {
+    double x = checks[i];
+    int rule = m->checks[i].rule;
+    int good = rule == FROT_POSITIVE       ? x > 0
+               : rule == FROT_NOT_NEGATIVE ? x >= 0
+               : rule == FROT_FINITE       ? isfinite(x)
+                                           : x >= checks[i - 1];
+    if (!good || !isfinite(x))
+      return frot_fail(s, FROT_CHECK, s->t, -1, i, -1, x);
+  }
+  if (experiment) memcpy(experiment, s->data + l.experiment, 4 * sizeof(double));
+  return FROT_OK;
+}
+
+static double energy_now(const frot_model *m, frot_state *s, frot_work *w, const double *x) {
+  frot_layout l = frot_layout_of(m);
+  double kinetic = 0, potential = 0;
+  w->arg[0] = &s->t, w->arg[1] = x, w->arg[2] = x + m->nq;
+  w->arg[3] = s->data + l.u, w->arg[4] = s->data + l.p, w->arg[5] = s->data + l.d;
+  w->res[0] = &kinetic, w->res[1] = &potential;
+  m->energy.call(w->arg, w->res, w->iw, w->w, 0);
+  s->energy_scale = fmax(s->energy_scale, fabs(kinetic));
+  return kinetic + potential;
+}
+
+int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
+               const frot_options *options) {
+  frot_bind_work(m, w);
+  frot_layout l = frot_layout_of(m);
+  s->phase = FROT_CLEARED;
+  s->fault = (frot_fault){FROT_OK, -1, -1, -1, t, 0};
+  s->statistics = (frot_statistics){0, 0, 0, 0};
+  s->options = options ? *options : (frot_options){0, FROT_REST, 0};
+  s->t = t;
+  int status = frot_settle_parameters(m, s, w, NULL);
+  if (status != FROT_OK) return status;
+  const double *experiment = s->data + l.experiment;
+  double start = isnan(experiment[0]) ? 0 : experiment[0];
+  s->tolerance = s->options.tolerance > 0 ? s->options.tolerance
+                 : isnan(experiment[2])   ? 1e-8
+                                          : experiment[2];
+  s->h_max = experiment[1] > start ? experiment[1] - start : 1;
+  s->pending = s->has_slope = s->changed = s->crowded = 0;
+  s->crowded_since = t;
+  memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
+  memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
+  memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
+  memset(s->data + l.frozen, 0, sizeof(double) * (size_t)m->nv);
+  double *x = s->data + l.x;
+  memset(x, 0, sizeof(double) * (size_t)l.nx);
+  status = frot_initial_values(m, s, w, t, x, x + m->nq);
+  if (status != FROT_OK) return status;
+  status = frot_resolve(m, s, w, t, x, x + m->nq, 1, NULL);
+  if (status != FROT_OK) return status;
+  frot_make_instant(m, s, t, x);
+  s->energy_scale = 0;
+  s->energy = energy_now(m, s, w, x);
+  status = frot_first_step(m, s, w);
+  if (status != FROT_OK) return status;
+  s->phase = FROT_RUNNING;
+  return FROT_OK;
+}
+
+/* Conditions whose value has changed sign without the motion passing through it. */
+static void fire_changed_conditions(const frot_model *m, frot_state *s, frot_work *w) {
+  frot_layout l = frot_layout_of(m);
+  const double *x = s->data + l.x, *d = s->data + l.d;
+  frot_kinematics(m, s, w, s->t, x, x + m->nq, d);
+  for (int j = 0; j < m->n_conditions; j++) {
+    int holds = m->condition_strict[j] ? w->condition[j] > 0 : w->condition[j] >= 0;
+    s->data[l.fired + FROT_GUARDS * m->n_contacts + j] = holds != (d[j] != 0);
+  }
+}
+
+int frot_settle(const frot_model *m, frot_state *s, frot_work *w) {
+  if (s->phase != FROT_RUNNING || !s->changed) return s->fault.status;
+  frot_bind_work(m, w);
+  frot_layout l = frot_layout_of(m);
+  frot_segment g = frot_segment_at(m, s->data + l.segment);
+  double *x = w->z1;
+  frot_interpolate(m, &g, s->t, x);
+  double before = energy_now(m, s, w, x);
+  s->changed = 0;
+  int status = frot_settle_parameters(m, s, w, NULL);
+  if (status != FROT_OK) return status;
+  memcpy(s->data + l.x, x, sizeof(double) * (size_t)l.nx);
+  x = s->data + l.x;
+  memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
+  fire_changed_conditions(m, s, w);
+  status = frot_resolve(m, s, w, s->t, x, x + m->nq, 0, NULL);
+  if (status != FROT_OK) return status;
+  frot_make_instant(m, s, s->t, x);
+  s->energy += energy_now(m, s, w, x) - before;
+  s->pending = 0;
+  return FROT_OK;
+}
+
+int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t, frot_recorder *recorder,
+                 frot_monitor monitor, void *context) {
+  if (s->phase == FROT_FAULTED) return s->fault.status;
+  if (s->phase != FROT_RUNNING || !(t >= s->t)) return FROT_MISUSE;
+  frot_bind_work(m, w);
+  frot_layout l = frot_layout_of(m);
+  frot_segment g = frot_segment_at(m, s->data + l.segment);
+  double *x = s->data + l.x;
+  if (s->changed) {
+    int status = frot_settle(m, s, w);
+    if (status != FROT_OK) return status;
+  }
+  while (*g.t1 <= t) {
+    if (recorder && (recorder->event_count + frot_events_at_once(m) > recorder->event_capacity ||
+                     recorder->segment_count >= recorder->segment_capacity))
+      return FROT_FULL;
+    int status = FROT_OK;
+    if (s->pending) {
+      if (++s->crowded > CROWD)
+        status = frot_fail(s, FROT_CHATTER, *g.t1, -1, -1, -1, s->crowded);
+      else
+        status = frot_resolve(m, s, w, *g.t1, x, x + m->nq, 0, recorder);
+      s->pending = s->has_slope = 0;
+    }
+    long long steps = s->statistics.steps;
+    if (status == FROT_OK) status = frot_step(m, s, w);
+    if (status != FROT_OK) {
+      s->t = *g.t1;
+      return status;
+    }
+    if (s->statistics.steps == steps) continue;
+    s->energy_scale = fmax(s->energy_scale, fabs(s->data[l.x + m->nq + m->nv]));
+    if (recorder) {
+      memcpy(recorder->segments + recorder->segment_count * l.ns, s->data + l.segment,
+             sizeof(double) * (size_t)l.ns);
+      recorder->segment_count++;
+    }
+    if (monitor && s->statistics.steps % MONITOR_EVERY == 0 && monitor(context, fmin(*g.t1, t))) {
+      s->t = fmin(*g.t1, t);
+      return FROT_STOPPED;
+    }
+  }
+  s->t = t;
+  return FROT_OK;
+}
+
+int frot_energy(const frot_model *m, frot_state *s, frot_work *w, double balance[5]) {
+  if (s->phase == FROT_CLEARED) return FROT_MISUSE;
+  frot_bind_work(m, w);
+  frot_layout l = frot_layout_of(m);
+  frot_segment g = frot_segment_at(m, s->data + l.segment);
+  frot_interpolate(m, &g, s->t, w->z1);
+  double mechanical = energy_now(m, s, w, w->z1);
+  double dissipated = w->z1[m->nq + m->nv], work = w->z1[m->nq + m->nv + 1];
+  balance[0] = mechanical - s->energy + dissipated - work;
+  balance[1] = fmax(fmax(s->energy_scale, fabs(mechanical - s->energy)),
+                    fmax(fabs(dissipated), fabs(work)));
+  balance[2] = mechanical;
+  balance[3] = dissipated;
+  balance[4] = work;
+  return FROT_OK;
+}

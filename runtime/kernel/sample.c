@@ -1,0 +1,59 @@
+/* Values of the variables: at the time reached, and anywhere in recorded segments. */
+#include <string.h>
+
+#include "mechanics.h"
+#include "state.h"
+#include "step.h"
+
+static int mode_value(const frot_contact_mode *mode) {
+  if (!mode->closed) return FROT_MODE_OPEN;
+  return mode->friction == FROT_STICK ? FROT_MODE_STICK : FROT_MODE_SLIP;
+}
+
+static int values_in(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g,
+                     double t, double *values) {
+  double *x = w->z1;
+  frot_interpolate(m, g, t, x);
+  const double *q = x, *v = x + m->nq;
+  long long evaluations = s->statistics.evaluations;
+  int status = frot_dynamics(m, s, w, t, q, v, g->d, g->modes);
+  if (status == FROT_OK && frot_reactions(m, w, g->modes, NULL)) status = FROT_DIVERGE;
+  s->statistics.evaluations = evaluations; /* looking on is not part of the run */
+  if (status != FROT_OK) return status;
+  frot_accelerations(m, w, g->frozen);
+  frot_layout l = frot_layout_of(m);
+  w->arg[0] = &t, w->arg[1] = q, w->arg[2] = v, w->arg[3] = s->data + l.u, w->arg[4] = s->data + l.p;
+  w->arg[5] = g->d, w->arg[6] = w->a, w->arg[7] = w->lam, w->arg[8] = x + m->nq + m->nv;
+  w->res[0] = values;
+  m->variables.call(w->arg, w->res, w->iw, w->w, 0);
+  for (int i = 0; i < m->n_contacts; i++) values[i] = mode_value(&g->modes[i]);
+  return FROT_OK;
+}
+
+int frot_values(const frot_model *m, frot_state *s, frot_work *w, double *values) {
+  if (s->phase == FROT_CLEARED) return FROT_MISUSE;
+  frot_bind_work(m, w);
+  frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
+  return values_in(m, s, w, &g, s->t, values);
+}
+
+int frot_segment_values(const frot_model *m, frot_state *s, frot_work *w, const double *segment,
+                        double t, double *values) {
+  frot_bind_work(m, w);
+  frot_segment g = frot_segment_at(m, (double *)segment);
+  return values_in(m, s, w, &g, t, values);
+}
+
+int frot_sample(const frot_model *m, frot_state *s, frot_work *w, const double *segments,
+                long long segment_count, const double *times, long long count, double *values) {
+  long long size = frot_segment_size(m), at = 0;
+  if (segment_count <= 0) return FROT_MISUSE;
+  for (long long i = 0; i < count; i++) {
+    /* a segment begins with its first time */
+    while (at + 1 < segment_count && segments[(at + 1) * size] <= times[i]) at++;
+    int status =
+        frot_segment_values(m, s, w, segments + at * size, times[i], values + i * m->n_variables);
+    if (status != FROT_OK) return status;
+  }
+  return FROT_OK;
+}

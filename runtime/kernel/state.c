@@ -1,0 +1,180 @@
+/* Layout of the state and of the scratch block; parameters and inputs. */
+#include "state.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A mode fills a double exactly, so that it can lie in an array of doubles. */
+typedef char frot_mode_fills_double[sizeof(frot_contact_mode) == sizeof(double) ? 1 : -1];
+
+frot_layout frot_layout_of(const frot_model *m) {
+  frot_layout l;
+  l.nw = m->nv + m->na;
+  l.nx = m->nq + m->nv + FROT_QUADRATURES;
+  l.ng = FROT_GUARDS * m->n_contacts + m->n_conditions;
+  l.nz = l.nx + l.ng;
+  l.nd = m->n_conditions + m->n_contacts;
+  l.ns = 3 + m->n_contacts + l.nd + m->nv + l.nx + DP_DENSE * l.nx;
+  int at = 0;
+  l.set = at, at += m->np;
+  l.given = at, at += m->np;
+  l.p = at, at += m->np;
+  l.u = at, at += m->nu;
+  l.experiment = at, at += 4;
+  l.unilateral = at, at += m->n_contacts;
+  l.x = at, at += l.nx;
+  l.slope = at, at += l.nz;
+  l.scale_x = at, at += l.nx;
+  l.scale_g = at, at += l.ng;
+  l.fired = at, at += l.ng;
+  l.modes = at, at += m->n_contacts;
+  l.d = at, at += l.nd;
+  l.frozen = at, at += m->nv;
+  l.segment = at, at += l.ns;
+  l.size = at;
+  return l;
+}
+
+size_t frot_state_size(const frot_model *model) {
+  return sizeof(frot_state) + sizeof(double) * (size_t)frot_layout_of(model).size;
+}
+
+long long frot_segment_size(const frot_model *model) { return frot_layout_of(model).ns; }
+
+frot_segment frot_segment_at(const frot_model *m, double *data) {
+  frot_layout l = frot_layout_of(m);
+  frot_segment s;
+  s.t0 = data, s.t1 = data + 1, s.h = data + 2;
+  data += 3;
+  s.modes = (frot_contact_mode *)(void *)data, data += m->n_contacts;
+  s.d = data, data += l.nd;
+  s.frozen = data, data += m->nv;
+  s.x0 = data, data += l.nx;
+  s.f = data;
+  return s;
+}
+
+/* Hands out pieces of the scratch block; with a NULL base it only counts. */
+typedef struct {
+  char *base;
+  size_t used;
+} arena;
+
+static void *take(arena *a, size_t count, size_t size) {
+  size_t at = (a->used + 15) & ~(size_t)15;
+  a->used = at + (count + 1) * size;
+  return a->base ? a->base + at : NULL;
+}
+
+#define TAKE(field, count) (w->field = take(&a, (size_t)(count), sizeof *w->field))
+
+static size_t bind(const frot_model *m, frot_work *w, char *base) {
+  frot_layout l = frot_layout_of(m);
+  const frot_callable *calls[] = {&m->parameters,       &m->start,      &m->initial_position,
+                                  &m->initial_velocity, &m->kinematics, &m->dynamics,
+                                  &m->variables,        &m->energy};
+  int n_arg = 0, n_res = 0, n_iw = 0, n_w = 0;
+  for (size_t i = 0; i < sizeof calls / sizeof *calls; i++) {
+    if (calls[i]->n_arg > n_arg) n_arg = calls[i]->n_arg;
+    if (calls[i]->n_res > n_res) n_res = calls[i]->n_res;
+    if (calls[i]->n_iw > n_iw) n_iw = calls[i]->n_iw;
+    if (calls[i]->n_w > n_w) n_w = calls[i]->n_w;
+  }
+  int nr = m->n_rows, nc = m->n_contacts;
+  int ne = (m->n_position > m->n_velocity ? m->n_position : m->n_velocity) + nr + nc;
+  int big = ne > l.nw ? ne : l.nw;
+  if (nr > big) big = nr;
+  arena a = {base, sizeof(frot_work)};
+  TAKE(arg, n_arg), TAKE(res, n_res), TAKE(iw, n_iw), TAKE(w, n_w);
+  TAKE(pivot, big);
+  TAKE(qd, m->nq), TAKE(mass, l.nw * l.nw), TAKE(h, l.nw), TAKE(rows, l.nw * nr), TAKE(c, nr);
+  TAKE(rate, nr), TAKE(gap, nc), TAKE(condition, m->n_conditions), TAKE(coefficient, 3 * nc);
+  TAKE(power, 1), TAKE(distance, nc);
+  TAKE(factor, l.nw * l.nw), TAKE(force, l.nw), TAKE(half_rows, l.nw * nr);
+  TAKE(delassus, nr * nr), TAKE(free, nr), TAKE(lam, nr), TAKE(a, l.nw);
+  TAKE(active, big * big), TAKE(right, big), TAKE(lstsq, 2 * big * big + 6 * big);
+  TAKE(row_of, nr + nc), TAKE(guard, l.ng), TAKE(k, DP_ALL * l.nz);
+  TAKE(z0, l.nz), TAKE(z1, l.nz), TAKE(ztry, l.nz), TAKE(f, DP_DENSE * l.nz);
+  int nvar = m->np > l.nw ? m->np : l.nw;
+  TAKE(values, nvar + m->n_checks + m->nq + m->nv + 4);
+  TAKE(jacobian, l.nw * ne), TAKE(residual, ne), TAKE(step, l.nw + ne);
+  TAKE(trial, nc), TAKE(best, nc), TAKE(before, nc);
+  TAKE(best_acceleration, nr), TAKE(choice, 4 * nc), TAKE(component, nc);
+  return a.used;
+}
+
+void frot_bind_work(const frot_model *model, frot_work *work) { bind(model, work, (char *)work); }
+
+size_t frot_work_size(const frot_model *model) {
+  frot_work counted;
+  return bind(model, &counted, NULL);
+}
+
+int frot_fail(frot_state *s, int status, double t, int contact, int item, int other, double value) {
+  s->fault = (frot_fault){status, contact, item, other, t, value};
+  s->phase = FROT_FAULTED;
+  return status;
+}
+
+void frot_state_clear(const frot_model *m, frot_state *s) {
+  frot_layout l = frot_layout_of(m);
+  memset(s, 0, frot_state_size(m));
+  s->magic = FROT_MAGIC;
+  s->version = FROT_LAYOUT_VERSION;
+  s->size = frot_state_size(m);
+  strncpy(s->key, m->key, FROT_KEY - 1);
+  s->fault = (frot_fault){FROT_OK, -1, -1, -1, 0, 0};
+  for (int i = 0; i < m->np; i++) s->data[l.given + i] = s->data[l.p + i] = m->p_default[i];
+  for (int i = 0; i < m->nu; i++) s->data[l.u + i] = m->u_default[i];
+}
+
+int frot_state_valid(const frot_model *m, const void *block, size_t size) {
+  const frot_state *s = block;
+  frot_layout l = frot_layout_of(m);
+  if (size != frot_state_size(m) || s->magic != FROT_MAGIC || s->version != FROT_LAYOUT_VERSION ||
+      s->size != size || strncmp(s->key, m->key, FROT_KEY - 1) != 0)
+    return 0;
+  if (s->phase < FROT_CLEARED || s->phase > FROT_FAULTED) return 0;
+  if (!isfinite(s->t) || !isfinite(s->h) || !isfinite(s->h_max) || !isfinite(s->tolerance)) return 0;
+  if (s->fault.contact < -1 || s->fault.contact >= m->n_contacts) return 0;
+  const frot_contact_mode *modes = (const void *)(s->data + l.modes);
+  frot_segment g = frot_segment_at(m, (double *)(s->data + l.segment));
+  for (int i = 0; i < 2 * m->n_contacts; i++) {
+    const frot_contact_mode *mode = i < m->n_contacts ? modes + i : g.modes + i - m->n_contacts;
+    if (mode->closed < 0 || mode->closed > 1 || mode->side < -1 || mode->side > 1 ||
+        mode->friction < 0 || mode->friction > 3 || mode->rolling < 0 || mode->rolling > 3)
+      return 0;
+  }
+  return 1;
+}
+
+void frot_set_parameter(const frot_model *m, frot_state *s, int index, double value) {
+  frot_layout l = frot_layout_of(m);
+  if (index < 0 || index >= m->np) return;
+  if (s->data[l.set + index] != 0 && s->data[l.given + index] == value) return;
+  if (!m->p_dependent[index] && s->data[l.given + index] == value) return;
+  s->data[l.set + index] = 1;
+  s->data[l.given + index] = value;
+  s->changed = 1;
+}
+
+void frot_set_input(const frot_model *m, frot_state *s, int index, double value) {
+  frot_layout l = frot_layout_of(m);
+  if (index < 0 || index >= m->nu || s->data[l.u + index] == value) return;
+  s->data[l.u + index] = value;
+  s->changed = 1;
+}
+
+double frot_get_parameter(const frot_model *m, const frot_state *s, int index) {
+  frot_layout l = frot_layout_of(m);
+  if (index < 0 || index >= m->np) return NAN;
+  return s->data[(m->p_dependent[index] && s->data[l.set + index] == 0 ? l.p : l.given) + index];
+}
+
+double frot_get_input(const frot_model *m, const frot_state *s, int index) {
+  return index < 0 || index >= m->nu ? NAN : s->data[frot_layout_of(m).u + index];
+}
+
+double frot_time(const frot_state *s) { return s->t; }
+const frot_fault *frot_last_fault(const frot_state *s) { return &s->fault; }
+const frot_statistics *frot_run_statistics(const frot_state *s) { return &s->statistics; }

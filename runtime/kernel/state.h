@@ -1,0 +1,101 @@
+/* The flat block of an instance and the scratch memory, as the kernel's files see them. */
+#ifndef FROT_STATE_H
+#define FROT_STATE_H
+
+#include "dormand_prince.h"
+#include "frot.h"
+
+#define FROT_MAGIC 0x46524f54u
+#define FROT_LAYOUT_VERSION 1
+#define FROT_KEY 72
+#define FROT_GUARDS 5 /* guards of a contact: see guards.c */
+#define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
+
+enum frot_phase { FROT_CLEARED = 0, FROT_RUNNING = 1, FROT_FAULTED = 2 };
+
+/* Mode of one contact. As large as a double, so that segments are arrays of doubles. */
+typedef struct {
+  signed char closed;   /* 0 open, 1 closed */
+  signed char side;     /* sign of a bilateral normal reaction, +1 or -1 */
+  signed char friction; /* frot_friction */
+  signed char rolling;  /* frot_friction */
+  signed char reserved[4];
+} frot_contact_mode;
+
+/* Offsets in doubles from the head of state->data, and sizes. Computed from the model. */
+typedef struct {
+  int nw, nx, nz, ng, nd, ns; /* ns: doubles of a segment */
+  int set, given, p, u, experiment, unilateral, x, slope, scale_x, scale_g, fired, modes, d, frozen,
+      segment, size;
+} frot_layout;
+
+struct frot_state {
+  unsigned magic, version;
+  unsigned long long size; /* bytes of the block */
+  char key[FROT_KEY];
+  int phase;
+  int pending;   /* an event waits at the end of the current segment */
+  int has_slope; /* slope holds the derivatives at the end of the current segment */
+  int changed;   /* parameters or inputs were set since the last frot_settle */
+  int crowded;   /* events since the time last moved on */
+  int reserved;
+  double crowded_since;
+  double t;      /* time reached */
+  double h;      /* next step */
+  double h_max;
+  double tolerance;
+  double energy; /* kinetic + potential at the start, corrected for changes from outside */
+  double energy_scale;
+  frot_options options;
+  frot_fault fault;
+  frot_statistics statistics;
+  double data[];
+};
+
+/* Parts of a segment. */
+typedef struct {
+  double *t0, *t1, *h;
+  frot_contact_mode *modes;
+  double *d, *frozen;
+  double *x0; /* nx: q, v, quadratures */
+  double *f;  /* DP_DENSE x nx */
+} frot_segment;
+
+struct frot_work {
+  const double **arg;
+  double **res;
+  long long *iw;
+  double *w;
+  int *pivot;
+  /* results of `dynamics` and `kinematics` */
+  double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power, *distance;
+  /* factor of the mass matrix, L^-1 h, L^-1 J', W and the rows' free accelerations */
+  double *factor, *force, *half_rows, *delassus, *free;
+  double *lam, *a; /* reactions (n_rows), accelerations (nw) */
+  double *active, *right, *lstsq; /* the active rows' system */
+  int *row_of;                    /* rows of the active system */
+  double *guard;                  /* ng */
+  double *k;                      /* DP_ALL x nz */
+  double *z0, *z1, *ztry;         /* nz */
+  double *f;                      /* DP_DENSE x nz */
+  double *values, *jacobian, *residual, *step; /* initial values and projection */
+  frot_contact_mode *trial, *best, *before;
+  double *best_acceleration;
+  int *choice, *component;
+  double t; /* where dynamics was last evaluated */
+};
+
+frot_layout frot_layout_of(const frot_model *model);
+/* Set the pointers of a scratch block into itself. */
+void frot_bind_work(const frot_model *model, frot_work *work);
+frot_segment frot_segment_at(const frot_model *model, double *data);
+
+static inline double *frot_set_flags(frot_state *s, const frot_layout *l) { return s->data + l->set; }
+static inline frot_contact_mode *frot_modes(frot_state *s, const frot_layout *l) {
+  return (frot_contact_mode *)(void *)(s->data + l->modes);
+}
+
+/* Record a fault and return its status. */
+int frot_fail(frot_state *state, int status, double t, int contact, int item, int other, double value);
+
+#endif

@@ -1,0 +1,316 @@
+/* Explicit Runge-Kutta step of order 8 with dense output of order 7 and location of events.
+ *
+ * Beside coordinates, speeds and the energies, the integrals of the guards are integrated. Their dense
+ * output, differentiated, follows every guard inside the step at no cost in evaluations, and their
+ * error estimate makes the step resolve what the guards do even while nothing moves. */
+#include "step.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "mechanics.h"
+#include "resolve.h"
+#include "roots.h"
+
+/* Part of the tolerance given to one step, so that the whole run keeps it. */
+#define LOCAL_SHARE 0.1
+#define LEAST_TOLERANCE 2e-15
+/* A guard need only be followed well enough to see where it goes. */
+#define GUARD_LOOSEST 1e-3
+#define GUARD_TIGHTEST 1e-6
+#define GUARD_FLOOR 1e-12
+#define LEAST_STEP (16 * DBL_EPSILON)
+#define LOCATE_PASSES 12
+
+static double *stage(const frot_layout *l, frot_work *w, int i) { return w->k + i * l->nz; }
+
+static const frot_contact_mode *modes_of(frot_state *s, const frot_layout *l) {
+  return (const frot_contact_mode *)(const void *)(s->data + l->modes);
+}
+
+static int slope_at(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l, double t,
+                    const double *z, double *slope) {
+  return frot_derivatives(m, s, w, t, z, s->data + l->d, modes_of(s, l), s->data + l->frozen, slope);
+}
+
+/* Stages 1..12 of a step h from z0, stage 0 being there; w->z1 is the end, stage 12 its derivative. */
+static int run_stages(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                      double t, double h) {
+  for (int i = 1; i <= DP_STAGES; i++) {
+    double *z = i == DP_STAGES ? w->z1 : w->ztry;
+    for (int j = 0; j < l->nz; j++) {
+      double sum = 0;
+      for (int k = 0; k < i; k++) sum += dp_a[i][k] * w->k[k * l->nz + j];
+      z[j] = w->z0[j] + h * sum;
+    }
+    int status = slope_at(m, s, w, l, i == DP_STAGES ? t + h : t + dp_c[i] * h, z, stage(l, w, i));
+    if (status != FROT_OK) return status;
+  }
+  return FROT_OK;
+}
+
+/* Estimate of the local error over its bound: at most 1 for a good step. */
+static double error_ratio(const frot_model *m, const frot_state *s, const frot_work *w,
+                          const frot_layout *l, double h) {
+  double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
+  double guard_tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
+  for (int j = 0; j < l->nz; j++) {
+    if (j >= m->nq + m->nv && j < l->nx) continue; /* energies follow */
+    double e5 = 0, e3 = 0, largest = 0;
+    for (int k = 0; k <= DP_STAGES; k++) {
+      double slope = w->k[k * l->nz + j];
+      e5 += dp_e5[k] * slope;
+      e3 += dp_e3[k] * slope;
+      largest = fmax(largest, fabs(slope));
+    }
+    if (largest == 0) continue;
+    e5 *= h, e3 *= h;
+    double bound;
+    if (j < l->nx) {
+      double size = fmax(s->data[l->scale_x + j], fmax(fabs(w->z0[j]), fabs(w->z1[j])));
+      bound = tolerance * fmax(size, h * largest);
+    } else {
+      double size = s->data[l->scale_g + j - l->nx];
+      bound = guard_tolerance * h * fmax(largest, GUARD_LOOSEST * size);
+    }
+    double joint = sqrt(e5 * e5 + 0.01 * e3 * e3);
+    if (joint > 0) worst = fmax(worst, e5 * e5 / joint / bound);
+  }
+  return worst;
+}
+
+/* Vectors of the dense output of the step h into w->f (DP_DENSE x nz). Takes three evaluations. */
+static int make_dense(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                      double t, double h) {
+  for (int i = DP_STAGES + 1; i < DP_ALL; i++) {
+    for (int j = 0; j < l->nz; j++) {
+      double sum = 0;
+      for (int k = 0; k < i; k++) sum += dp_a[i][k] * w->k[k * l->nz + j];
+      w->ztry[j] = w->z0[j] + h * sum;
+    }
+    int status = slope_at(m, s, w, l, t + dp_c[i] * h, w->ztry, stage(l, w, i));
+    if (status != FROT_OK) return status;
+  }
+  const double *start = stage(l, w, 0), *end = stage(l, w, DP_STAGES);
+  for (int j = 0; j < l->nz; j++) {
+    double step = w->z1[j] - w->z0[j];
+    w->f[j] = step;
+    w->f[l->nz + j] = h * start[j] - step;
+    w->f[2 * l->nz + j] = 2 * step - h * (end[j] + start[j]);
+    for (int i = 0; i < 4; i++) {
+      double sum = 0;
+      for (int k = 0; k < DP_ALL; k++) sum += dp_d[i][k] * w->k[k * l->nz + j];
+      w->f[(3 + i) * l->nz + j] = h * sum;
+    }
+  }
+  return FROT_OK;
+}
+
+static void guard_polynomial(const frot_work *w, const frot_layout *l, int guard, double h,
+                             double g[7]) {
+  for (int k = 0; k < 7; k++) {
+    double sum = 0;
+    for (int j = 0; j < DP_DENSE; j++) sum += dp_rate[k][j] * w->f[j * l->nz + l->nx + guard];
+    g[k] = sum / h;
+  }
+}
+
+/* The first guard to fall inside the step, its theta in *theta; -1 when none does. */
+static int first_guard(const frot_state *s, const frot_work *w, const frot_layout *l, double h,
+                       double *theta) {
+  int found = -1;
+  *theta = FROT_NO_ROOT;
+  for (int j = 0; j < l->ng; j++) {
+    double g[7];
+    guard_polynomial(w, l, j, h, g);
+    double size = s->data[l->scale_g + j];
+    for (int k = 0; k < 7; k++) size = fmax(size, fabs(g[k]));
+    double at = frot_first_fall(g, GUARD_FLOOR * size);
+    if (at < *theta) *theta = at, found = j;
+  }
+  return found;
+}
+
+/* Shorten the step so that it ends where guard j is zero, by the secant on steps made anew: the event
+ * is as exact as the steps are. Returns a status; *h is the length and *falls whether it does fall. */
+static int locate(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l, double t,
+                  int j, double theta, double *h, int *falls) {
+  double longest = *h, g[7];
+  guard_polynomial(w, l, j, *h, g);
+  double span = 1e-4, left = fmax(theta - span, 0), right = fmin(theta + span, 1);
+  double slope =
+      (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * longest);
+  double at = theta * longest, last_at = 0, last = 0, value = 0;
+  for (int pass = 0;; pass++) {
+    int status = run_stages(m, s, w, l, t, at);
+    if (status != FROT_OK) return status;
+    value = stage(l, w, DP_STAGES)[l->nx + j];
+    if (pass > 0 && at != last_at && value != last) {
+      double secant = (value - last) / (at - last_at);
+      if (secant < 0) slope = secant;
+    }
+    if (value == 0 || !(slope < 0) || pass == LOCATE_PASSES) break;
+    last_at = at, last = value;
+    double next = at - value / slope;
+    if (!(next > 0)) next = 0.5 * at;
+    if (next > longest) next = longest;
+    if (fabs(next - at) <= 2 * DBL_EPSILON * fmax(fabs(t + at), at) || next == at) break;
+    at = next;
+  }
+  *h = at;
+  /* A dip that never reaches zero is no event; the shorter step stands all the same. */
+  *falls = value <= 1e-9 * s->data[l->scale_g + j];
+  return FROT_OK;
+}
+
+void frot_interpolate(const frot_model *m, const frot_segment *g, double t, double *x) {
+  int nx = frot_layout_of(m).nx;
+  double theta = *g->h > 0 ? (t - *g->t0) / *g->h : 0, one = 1 - theta;
+  for (int j = 0; j < nx; j++) {
+    double sum = 0;
+    for (int i = DP_DENSE - 1; i >= 0; i--) {
+      sum += g->f[i * nx + j];
+      sum *= i % 2 == 0 ? theta : one;
+    }
+    x[j] = g->x0[j] + sum;
+  }
+}
+
+static void copy_modes(frot_state *s, const frot_layout *l, const frot_model *m,
+                       const frot_segment *g) {
+  memcpy(g->modes, s->data + l->modes, sizeof *g->modes * (size_t)m->n_contacts);
+  memcpy(g->d, s->data + l->d, sizeof(double) * (size_t)l->nd);
+  memcpy(g->frozen, s->data + l->frozen, sizeof(double) * (size_t)m->nv);
+}
+
+void frot_make_instant(const frot_model *m, frot_state *s, double t, const double *x) {
+  frot_layout l = frot_layout_of(m);
+  frot_segment g = frot_segment_at(m, s->data + l.segment);
+  *g.t0 = *g.t1 = t;
+  *g.h = 0;
+  copy_modes(s, &l, m, &g);
+  memcpy(g.x0, x, sizeof(double) * (size_t)l.nx);
+  memset(g.f, 0, sizeof(double) * DP_DENSE * (size_t)l.nx);
+  memmove(s->data + l.x, x, sizeof(double) * (size_t)l.nx);
+  s->has_slope = 0;
+}
+
+/* Note how large values and guards have been; w->z1 and the last evaluation are at hand. */
+static void note_sizes(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                       const double *z) {
+  for (int j = 0; j < m->nq + m->nv; j++)
+    s->data[l->scale_x + j] = fmax(s->data[l->scale_x + j], fabs(z[j]));
+  double *scale = w->guard;
+  frot_guards(m, s, w, z, z + m->nq, s->data + l->d, modes_of(s, l), w->ztry, scale);
+  for (int j = 0; j < l->ng; j++)
+    s->data[l->scale_g + j] = fmax(s->data[l->scale_g + j], scale[j]);
+}
+
+/* Derivative at the start of the step into stage 0. */
+static int start_slope(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                       double t) {
+  memcpy(w->z0, s->data + l->x, sizeof(double) * (size_t)l->nx);
+  memset(w->z0 + l->nx, 0, sizeof(double) * (size_t)l->ng);
+  if (s->has_slope) {
+    memcpy(stage(l, w, 0), s->data + l->slope, sizeof(double) * (size_t)l->nz);
+    return FROT_OK;
+  }
+  int status = slope_at(m, s, w, l, t, w->z0, stage(l, w, 0));
+  if (status == FROT_OK) note_sizes(m, s, w, l, w->z0);
+  return status;
+}
+
+int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
+  frot_layout l = frot_layout_of(m);
+  int status = start_slope(m, s, w, &l, s->t);
+  if (status != FROT_OK) return frot_fail(s, status, s->t, -1, -1, -1, 0);
+  double h = s->h_max;
+  for (int j = 0; j < m->nq + m->nv; j++) {
+    double slope = fabs(stage(&l, w, 0)[j]), size = fabs(w->z0[j]);
+    if (slope > 0 && size > 0) h = fmin(h, 0.01 * size / slope);
+  }
+  s->h = fmax(h, 1e-6 * s->h_max);
+  return FROT_OK;
+}
+
+/* The contact with the largest reaction, to name in a fault. */
+static int loaded_contact(const frot_model *m, const frot_work *w) {
+  int worst = -1;
+  double largest = 0;
+  for (int i = 0; i < m->n_contacts; i++) {
+    double size = fabs(w->lam[m->contacts[i].row_n]);
+    if (size > largest || size != size) largest = size, worst = i;
+  }
+  return worst;
+}
+
+static int fire_at_start(frot_state *s, const frot_layout *l, int guard) {
+  s->data[l->fired + guard] = 1;
+  s->pending = 1;
+  return FROT_OK;
+}
+
+/* Guards that have come to zero together with the first one at the end of the step. */
+static void fire(frot_state *s, const frot_work *w, const frot_layout *l, int first) {
+  const double *end = w->k + DP_STAGES * l->nz + l->nx, *start = w->k + l->nx;
+  for (int j = 0; j < l->ng; j++) {
+    double limit = FROT_ZERO * s->data[l->scale_g + j];
+    if (j == first || (end[j] <= limit && start[j] > limit)) s->data[l->fired + j] = 1;
+  }
+  s->pending = 1;
+}
+
+int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
+  frot_layout l = frot_layout_of(m);
+  frot_segment g = frot_segment_at(m, s->data + l.segment);
+  double t = *g.t1, h = fmin(s->h, s->h_max);
+  int status = start_slope(m, s, w, &l, t), rejections = 0;
+  if (status != FROT_OK) return frot_fail(s, status, t, loaded_contact(m, w), -1, -1, 0);
+  for (;;) {
+    if (!(h > LEAST_STEP * fmax(fabs(t), 1e-3 * s->h_max)))
+      return frot_fail(s, status == FROT_OK ? FROT_DIVERGE : status, t, loaded_contact(m, w), -1, -1,
+                       h);
+    status = run_stages(m, s, w, &l, t, h);
+    double ratio = status == FROT_OK ? error_ratio(m, s, w, &l, h) : NAN;
+    if (ratio <= 1) {
+      note_sizes(m, s, w, &l, w->z1);
+      status = make_dense(m, s, w, &l, t, h);
+      if (status == FROT_OK) {
+        double factor = ratio > 0 ? 0.9 * pow(ratio, -1.0 / 8) : 6;
+        s->h = fmin(h * fmin(fmax(factor, 1.0 / 3), rejections ? 1 : 6), s->h_max);
+        break;
+      }
+      ratio = NAN;
+    }
+    s->statistics.rejected++;
+    rejections++;
+    h *= ratio > 1 && ratio < 1e300 ? fmax(0.9 * pow(ratio, -1.0 / 8), 1.0 / 3) : 0.25;
+  }
+
+  double theta;
+  int guard = first_guard(s, w, &l, h, &theta), falls = 0;
+  if (guard >= 0) {
+    if (theta * h <= LEAST_STEP * fmax(fabs(t), h)) return fire_at_start(s, &l, guard);
+    status = locate(m, s, w, &l, t, guard, theta, &h, &falls);
+    if (status == FROT_OK) status = make_dense(m, s, w, &l, t, h);
+    if (status != FROT_OK) return frot_fail(s, status, t, loaded_contact(m, w), -1, -1, h);
+  }
+  s->statistics.steps++;
+  if (falls) fire(s, w, &l, guard);
+
+  *g.t0 = t, *g.t1 = t + h, *g.h = h;
+  copy_modes(s, &l, m, &g);
+  memcpy(g.x0, w->z0, sizeof(double) * (size_t)l.nx);
+  for (int i = 0; i < DP_DENSE; i++)
+    memcpy(g.f + i * l.nx, w->f + i * l.nz, sizeof(double) * (size_t)l.nx);
+
+  /* Onto the relations; the slope at the end serves the next step if nothing moved. */
+  double *x = s->data + l.x, *slope = s->data + l.slope;
+  memcpy(x, w->z1, sizeof(double) * (size_t)l.nx);
+  memcpy(slope, stage(&l, w, DP_STAGES), sizeof(double) * (size_t)l.nz);
+  int moved = frot_project(m, s, w, *g.t1, x, x + m->nq, s->data + l.d, modes_of(s, &l), NULL, 1);
+  s->has_slope = !moved && !s->pending;
+  if (*g.t1 > s->crowded_since + 1e-9 * s->h_max) s->crowded_since = *g.t1, s->crowded = 0;
+  return FROT_OK;
+}

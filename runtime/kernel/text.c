@@ -1,0 +1,135 @@
+/* Faults and events in words. */
+#include <stdio.h>
+#include <string.h>
+
+#include "state.h"
+
+static const char *mode_name(int mode) {
+  return mode == FROT_MODE_OPEN ? "open" : mode == FROT_MODE_STICK ? "stick" : "slip";
+}
+
+static const char *rolling_name(int mode) {
+  return mode == FROT_STICK ? "held" : mode == FROT_NONE ? "free" : "rolling";
+}
+
+static const char *contact_name(const frot_model *m, int contact) {
+  return contact >= 0 && contact < m->n_contacts ? m->contacts[contact].name : "the model";
+}
+
+void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_t size) {
+  const char *name = contact_name(m, e->contact);
+  switch (e->kind) {
+    case FROT_EVENT_CONDITION:
+      snprintf(text, size, "condition %d: %s -> %s at t = %.17g", e->contact + 1,
+               e->before ? "true" : "false", e->after ? "true" : "false", e->t);
+      return;
+    case FROT_EVENT_REVERSAL:
+      snprintf(text, size, "%s: slip reverses at t = %.17g", name, e->t);
+      return;
+    case FROT_EVENT_REACTION:
+      snprintf(text, size, "%s: the reaction changes sides at t = %.17g", name, e->t);
+      return;
+    case FROT_EVENT_SEVERAL:
+      snprintf(text, size, "%s: %d motions are admissible at t = %.17g; taken: %s", name,
+               e->solutions, e->t, mode_name(e->after));
+      return;
+    case FROT_EVENT_ROLL_STOP:
+    case FROT_EVENT_ROLL_START:
+      snprintf(text, size, "%s: %s -> %s at t = %.17g", name, rolling_name(e->before),
+               rolling_name(e->after), e->t);
+      return;
+    case FROT_EVENT_ROLL_REVERSAL:
+      snprintf(text, size, "%s: rolling reverses at t = %.17g", name, e->t);
+      return;
+    default:
+      snprintf(text, size, "%s: %s -> %s at t = %.17g", name, mode_name(e->before),
+               mode_name(e->after), e->t);
+  }
+}
+
+static void initial_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
+  const char *one = f->item >= 0 ? m->statements[f->item].text : "the statements";
+  if (f->contact >= 0)
+    snprintf(text, size,
+             "the initial values contradict liaison '%s': `%s` puts the bodies into each other or "
+             "off the liaison (by %.3g in SI)",
+             contact_name(m, f->contact), one, f->value);
+  else if (f->other >= 0)
+    snprintf(text, size, "the initial values contradict each other: `%s` and `%s` (by %.3g in SI)",
+             one, m->statements[f->other].text, f->value);
+  else
+    snprintf(text, size, "the initial statement `%s` cannot be satisfied (by %.3g in SI)", one,
+             f->value);
+}
+
+void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_t size) {
+  const frot_fault *f = &s->fault;
+  const char *name = contact_name(m, f->contact);
+  if (size == 0) return;
+  switch (f->status) {
+    case FROT_OK:
+      text[0] = 0;
+      return;
+    case FROT_CHECK: {
+      const frot_check *check = &m->checks[f->item];
+      const char *rule = check->rule == FROT_POSITIVE           ? "it must be positive"
+                         : check->rule == FROT_NOT_NEGATIVE     ? "it must not be negative"
+                         : check->rule == FROT_NOT_BELOW_PREVIOUS
+                             ? "it must not be below the coefficient of motion"
+                             : "it must be a finite number";
+      snprintf(text, size, "the %s is %.17g: %s", check->subject, f->value, rule);
+      return;
+    }
+    case FROT_INITIAL:
+      initial_text(m, f, text, size);
+      return;
+    case FROT_IMPACT:
+      snprintf(text, size,
+               "liaison '%s': the bodies meet at t = %.17g with a normal speed of %.6g m/s; impacts "
+               "are not supported yet, so the run ends here",
+               name, f->t, -f->value);
+      return;
+    case FROT_IMPASSE:
+      snprintf(text, size,
+               "liaison '%s': no admissible motion at t = %.17g (impasse); a tangential impact is "
+               "not supported yet, so the run ends here; a smaller friction coefficient avoids it",
+               name, f->t);
+      return;
+    case FROT_SEVERAL:
+      snprintf(text, size,
+               "liaison '%s': %d motions are admissible at t = %.17g and on_indeterminate = stop",
+               name, (int)f->value, f->t);
+      return;
+    case FROT_CHATTER:
+      snprintf(text, size,
+               "the modes do not settle at t = %.17g (%d events at one instant): two laws of "
+               "friction switch each other; change a coefficient or the starting values a little",
+               f->t, (int)f->value);
+      return;
+    case FROT_NAN:
+      snprintf(text, size,
+               "a force, a coefficient or an output gives no finite number at t = %.17g: look for a "
+               "division by zero, a root or a logarithm of a negative value",
+               f->t);
+      return;
+    case FROT_DIVERGE:
+      snprintf(text, size,
+               "%s%s%s: the step goes to zero at t = %.17g: the reaction grows without bound "
+               "(jamming) or a force is singular there",
+               f->contact >= 0 ? "liaison '" : "", name, f->contact >= 0 ? "'" : "", f->t);
+      return;
+    case FROT_SINGULAR:
+      snprintf(text, size,
+               "the mass matrix is singular at t = %.17g: a motion is possible that moves no mass",
+               f->t);
+      return;
+    case FROT_TOO_LARGE:
+      snprintf(text, size,
+               "liaison '%s': %d coupled liaisons change at once at t = %.17g, which is more than "
+               "can be examined yet",
+               name, (int)f->value, f->t);
+      return;
+    default:
+      snprintf(text, size, "fault %d at t = %.17g", f->status, f->t);
+  }
+}
