@@ -1,0 +1,5 @@
+"""Programs as functional mock-up units (FMI 2.0 and FMI 3.0, co-simulation)."""
+
+from frot.runtime.fmi.export import InvalidFmuError, export, platform_folder
+
+__all__ = ["InvalidFmuError", "export", "platform_folder"]

@@ -1,0 +1,152 @@
+/* An instance of an FMU: what the FMI 2.0 and FMI 3.0 faces of a model share.
+ *
+ * The faces (fmi2*.c, fmi3*.c) translate types and calls; instance.c makes and frees instances and
+ * writes the log, lifecycle.c runs the state machine and the kernel, access.c reads and sets values,
+ * snapshot.c saves and restores. Nothing is global: several instances live side by side.
+ */
+#ifndef FROT_FMU_INSTANCE_H
+#define FROT_FMU_INSTANCE_H
+
+#include "frot.h"
+
+/* The numbers fmi2Status and fmi3Status have in common. */
+enum frot_fmu_status {
+  FROT_FMU_OK = 0,
+  FROT_FMU_WARNING = 1,
+  FROT_FMU_DISCARD = 2, /* the motion is right up to the last successful time, and stops there */
+  FROT_FMU_ERROR = 3
+};
+
+enum frot_fmu_phase {
+  FROT_FMU_INSTANTIATED = 0,
+  FROT_FMU_INITIALIZATION = 1,
+  FROT_FMU_STEPPING = 2,
+  FROT_FMU_DISCARDED = 3, /* a step ended early: values are those of the last successful time */
+  FROT_FMU_FAILED = 4,
+  FROT_FMU_TERMINATED = 5
+};
+
+enum frot_fmu_role {
+  FROT_FMU_TIME = 0,
+  FROT_FMU_PARAMETER = 1,
+  FROT_FMU_DEPENDENT = 2, /* a parameter that follows from others */
+  FROT_FMU_INPUT = 3,
+  FROT_FMU_VARIABLE = 4
+};
+
+/* Bits of the log's categories; those the description lists. */
+enum frot_fmu_category {
+  FROT_FMU_LOG_EVENTS = 1,
+  FROT_FMU_LOG_DISCARD = 2,
+  FROT_FMU_LOG_ERROR = 4,
+  FROT_FMU_LOG_ALL = 7
+};
+
+/* What lies behind a value reference: the reference is the index in the table, which is time, the
+ * parameters, the inputs, the variables, each in the kernel's order. */
+typedef struct {
+  const char *name;
+  int type; /* frot_type */
+  int role; /* frot_fmu_role */
+} frot_fmu_variable;
+
+/* Written by the exporter (fmu_table.c) beside the model. */
+extern const frot_fmu_variable frot_fmu_variables[];
+extern const unsigned frot_fmu_variable_count;
+extern const int frot_fmu_on_indeterminate; /* frot_indeterminate */
+extern const frot_model frot_the_model;
+
+/* Sets of types an FMI function accesses. */
+#define FROT_FMU_TYPE(type) (1 << (type))
+
+typedef struct frot_fmu frot_fmu;
+typedef struct frot_fmu_snapshot frot_fmu_snapshot;
+
+/* Hands a message to the environment. `fmu` carries the name and the environment's pointer. */
+typedef void (*frot_fmu_sink)(const frot_fmu *fmu, int status, const char *category,
+                              const char *message);
+
+/* What a saved state holds besides the kernel's block. */
+typedef struct {
+  int phase;
+  int has_tolerance, has_stop;
+  int started; /* in initialization mode: the start is solved with the values held */
+  int status;  /* of the step that ended early */
+  int reserved;
+  double tolerance, start, stop;
+  double t; /* last successful time */
+} frot_fmu_life;
+
+struct frot_fmu {
+  const frot_model *model;
+  const char *name;
+  void *name_memory;
+  void *environment;
+  frot_fmu_sink sink;
+  void *(*allocate)(size_t count, size_t size);
+  void (*release)(void *memory);
+  unsigned categories;
+  int values_valid;
+  size_t state_size;
+  frot_state *state;
+  frot_work *work;
+  double *values; /* n_variables, at life.t where values_valid */
+  frot_recorder recorder;
+  frot_fmu_life life;
+  frot_fmu_snapshot *snapshots;
+};
+
+#if defined __GNUC__
+#define FROT_FMU_PRINTF(text, first) __attribute__((format(printf, text, first)))
+#else
+#define FROT_FMU_PRINTF(text, first)
+#endif
+
+/* instance.c */
+
+/* A new instance of `size` bytes that begins as `draft` (sink, environment, allocator). NULL with a
+ * logged sentence if the name, the token or the memory does not do. */
+frot_fmu *frot_fmu_open(const frot_fmu *draft, size_t size, const char *function, const char *name,
+                        const char *token, int logging);
+void frot_fmu_close(frot_fmu *fmu);
+void *frot_fmu_memory(const frot_fmu *fmu, size_t size); /* zeroed, or NULL */
+int frot_fmu_set_logging(frot_fmu *fmu, const char *function, int on, size_t count,
+                         const char *const *names);
+/* Log a sentence under the category of the status; the answer is the status. */
+int frot_fmu_say(const frot_fmu *fmu, int status, const char *format, ...) FROT_FMU_PRINTF(3, 4);
+void frot_fmu_say_event(const frot_fmu *fmu, const char *message);
+/* The refusal of a function of an ability the description does not declare. */
+int frot_fmu_refuse(const frot_fmu *fmu, const char *function, const char *reason);
+
+/* lifecycle.c: every call answers a frot_fmu_status. */
+int frot_fmu_misplaced(const frot_fmu *fmu, const char *function);
+int frot_fmu_setup(frot_fmu *fmu, const char *function, int has_tolerance, double tolerance,
+                   double start, int has_stop, double stop);
+int frot_fmu_enter_initialization(frot_fmu *fmu, const char *function);
+int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function);
+int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step);
+int frot_fmu_terminate(frot_fmu *fmu, const char *function);
+void frot_fmu_reset(frot_fmu *fmu);
+/* Bring the kernel to the instant that values are asked at. */
+int frot_fmu_ready(frot_fmu *fmu, const char *function, int role);
+
+/* access.c */
+int frot_fmu_arrays(const frot_fmu *fmu, const char *function, const unsigned *references,
+                    const void *values, size_t count);
+int frot_fmu_get(frot_fmu *fmu, const char *function, unsigned reference, int types, double *value);
+/* Whether a value may be set, with a logged sentence if not. */
+int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned reference, int types,
+                      double value);
+void frot_fmu_set(frot_fmu *fmu, unsigned reference, double value);
+
+/* snapshot.c: `handle` is the environment's fmi2FMUstate or fmi3FMUState. */
+int frot_fmu_save(frot_fmu *fmu, const char *function, void **handle);
+int frot_fmu_restore(frot_fmu *fmu, const char *function, void *handle);
+int frot_fmu_drop(frot_fmu *fmu, const char *function, void **handle);
+int frot_fmu_serialized_size(frot_fmu *fmu, const char *function, void *handle, size_t *size);
+int frot_fmu_serialize(frot_fmu *fmu, const char *function, void *handle, void *bytes, size_t size);
+int frot_fmu_deserialize(frot_fmu *fmu, const char *function, const void *bytes, size_t size,
+                         void **handle);
+void frot_fmu_drop_all(frot_fmu *fmu);
+
+#endif

@@ -1,0 +1,117 @@
+"""The C sources an FMU is built from and carries: model, kernel, FMI face, table, FMI headers."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import fmpy
+from frot.runtime.fmi.description import scalars, to_xml
+from frot.runtime.fmi.names import model_identifier
+from frot.runtime.program import MODEL_SOURCE, Program
+
+TABLE_SOURCE = "fmu_table.c"
+
+_COMMON = ("instance.c", "lifecycle.c", "access.c", "snapshot.c", "instance.h")
+_FACES = {
+    "2.0": ("fmi2.c", "fmi2_refused.c", "fmi2_instance.h"),
+    "3.0": ("fmi3.c", "fmi3_refused.c", "fmi3_refused_types.c", "fmi3_instance.h"),
+}
+_FMI_HEADERS = {
+    "2.0": ("fmi2TypesPlatform.h", "fmi2FunctionTypes.h", "fmi2Functions.h"),
+    "3.0": ("fmi3PlatformTypes.h", "fmi3FunctionTypes.h", "fmi3Functions.h"),
+}
+_TYPES = {
+    "real": "FROT_REAL",
+    "integer": "FROT_INTEGER",
+    "boolean": "FROT_BOOLEAN",
+    "mode": "FROT_MODE",
+}
+_ROLES = {
+    "independent": "FROT_FMU_TIME",
+    "parameter": "FROT_FMU_PARAMETER",
+    "calculatedParameter": "FROT_FMU_DEPENDENT",
+    "input": "FROT_FMU_INPUT",
+    "output": "FROT_FMU_VARIABLE",
+    "local": "FROT_FMU_VARIABLE",
+}
+_ON_INDETERMINATE = {"rest": "FROT_REST", "continue": "FROT_CONTINUE", "stop": "FROT_HALT"}
+
+
+def _string(value: str) -> str:
+    """A C string literal of UTF-8 (octal escapes end after three digits, hexadecimal never)."""
+    plain = {ord(c) for c in map(chr, range(32, 127))} - {ord('"'), ord("\\"), ord("?")}
+    return (
+        '"' + "".join(chr(b) if b in plain else f"\\{b:03o}" for b in value.encode("utf-8")) + '"'
+    )
+
+
+def variable_table(program: Program) -> str:
+    """The C of the table of variables by value reference, see instance.h."""
+    _, variables = scalars(program)
+    rows = "\n".join(
+        f"    {{{_string(v.name)}, {_TYPES[v.type]}, {_ROLES[v.causality]}}}," for v in variables
+    )
+    choice = _ON_INDETERMINATE[program.experiment.on_indeterminate]
+    return (
+        "/* What lies behind each value reference. */\n"
+        '#include "instance.h"\n\n'
+        f"const frot_fmu_variable frot_fmu_variables[] = {{\n{rows}\n}};\n"
+        f"const unsigned frot_fmu_variable_count = {len(variables)}u;\n"
+        f"const int frot_fmu_on_indeterminate = {choice};\n"
+    )
+
+
+def source_files(program: Program, fmi: str) -> dict[str, bytes]:
+    """All sources by name, in order, for one flat folder.
+
+    OSError if a file cannot be read; RuntimeError if two files have the same name.
+    """
+    found: dict[str, bytes] = {MODEL_SOURCE: program.source.read_bytes()}
+    kernel = files("frot.runtime.kernel")
+    headers = Path(fmpy.__file__).parent / "c-code"
+    parts = [
+        *sorted(
+            (entry.name, entry.read_bytes())
+            for entry in kernel.iterdir()
+            if entry.name.endswith((".c", ".h"))
+        ),
+        *(
+            (name, files("frot.runtime.fmi").joinpath(name).read_bytes())
+            for name in (*_COMMON, *_FACES[fmi])
+        ),
+        (TABLE_SOURCE, variable_table(program).encode("ascii")),
+        *((name, (headers / name).read_bytes()) for name in _FMI_HEADERS[fmi]),
+    ]
+    for name, content in parts:
+        if name in found:
+            raise RuntimeError(f"two C sources are called {name}")
+        found[name] = content
+    return found
+
+
+def to_compile(sources: dict[str, bytes]) -> tuple[str, ...]:
+    """The names among `sources` that are compiled."""
+    return tuple(name for name in sources if name.endswith(".c"))
+
+
+def build_description(program: Program, compiled: tuple[str, ...]) -> bytes:
+    """The text of FMI 3.0's sources/buildDescription.xml."""
+    root = ET.Element("fmiBuildDescription", fmiVersion="3.0")
+    configuration = ET.SubElement(
+        root,
+        "BuildConfiguration",
+        modelIdentifier=model_identifier(program.name),
+        description="Needs the C library with its mathematics and nothing else.",
+    )
+    group = ET.SubElement(
+        configuration,
+        "SourceFileSet",
+        language="C99",
+        # Contracted multiplications and additions would give other bits.
+        compilerOptions="-O2 -ffp-contract=off",
+    )
+    for name in compiled:
+        ET.SubElement(group, "SourceFile", name=name)
+    return to_xml(root)
