@@ -126,7 +126,17 @@ class If:
 
 
 Expression = (
-    Literal | Reference | Time | Quantity | Derivative | Element | Vector | Unary | Binary | Call | If
+    Literal
+    | Reference
+    | Time
+    | Quantity
+    | Derivative
+    | Element
+    | Vector
+    | Unary
+    | Binary
+    | Call
+    | If
 )
 
 # ------------------------------------------------------------------ declarations
@@ -136,7 +146,7 @@ Expression = (
 class Parameter:
     """A parameter (tunable) or a constant; `value` may depend on other parameters.
 
-    `unit` is the unit of the author's default (`mm`), for display; values are SI.
+    `unit` is the unit of the author's default (`mm`), for display; values are SI. `quantity` is the name of its type (`Angle`).
     """
 
     name: str
@@ -146,6 +156,7 @@ class Parameter:
     doc: str = ""
     unit: str = ""
     constant: bool = False
+    quantity: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -158,6 +169,7 @@ class Input:
     span: Span
     doc: str = ""
     unit: str = ""
+    quantity: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -170,6 +182,7 @@ class Output:
     span: Span
     doc: str = ""
     unit: str = ""
+    quantity: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -278,12 +291,13 @@ class Liaison:
 class Force:
     """An applied force; `arguments` are expressions or places by the names of its kind.
 
-    A point argument given as a tuple, `(0, 0) m`, is an expression in ground axes.
+    A point argument given as a tuple, `(0, 0) m`, is an expression in ground axes. The `holder` of
+    a couple is a liaison, or the `G` of a body.
     """
 
     name: str
     kind: ForceKind
-    arguments: Mapping[str, Expression | Place]
+    arguments: Mapping[str, Expression | Place | Liaison]
     span: Span
     doc: str = ""
 

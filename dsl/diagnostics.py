@@ -69,3 +69,23 @@ class Log:
 
     def __iter__(self) -> Iterator[Diagnostic]:
         return iter(self.diagnostics)
+
+
+class FrotError(Exception):
+    """What a user did cannot be carried out; its text is the rendered diagnostics.
+
+    `diagnostics` holds them as data.
+    """
+
+    def __init__(self, log: Log) -> None:
+        from frot.dsl.render import render_log
+
+        super().__init__(render_log(log))
+        self.diagnostics = tuple(log)
+
+
+def fail(code: str, message: str, *, help: str = "", notes: tuple[str, ...] = ()) -> FrotError:
+    """A FrotError of one diagnostic without a place in a text."""
+    log = Log()
+    log.report(code, message, None, help=help, notes=notes)
+    return FrotError(log)

@@ -1,0 +1,159 @@
+"""Liaisons with their laws, and applied forces."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from frot.dsl import checked, tree
+from frot.dsl.catalogue import FORCES, LAWS, LIAISONS, find, spellings
+from frot.dsl.check_arguments import bind
+from frot.dsl.check_geometry import called
+from frot.dsl.check_values import known
+from frot.dsl.describe import quantity
+from frot.dsl.diagnostics import Label
+from frot.dsl.scope import Scope, did_you_mean
+
+
+def liaison(node: tree.Liaison, scope: Scope, defined: frozenset[str]) -> checked.Liaison | None:
+    """The checked liaison with its laws; None after a message."""
+    if node.subscripts:
+        scope.log.report("E0701", "arrays of liaisons are not supported yet", node.span)
+        return None
+    call = called(node.kind, "liaison", scope)
+    laws = _laws(node, scope, defined)
+    if node.driven is not None:
+        scope.log.report("E0701", "'driven' is not supported yet", node.driven_span)
+        return None
+    if call is None:
+        return None
+    name, callee, arguments = call
+    kind = find(LIAISONS, name)
+    if kind is None:
+        if name in defined:
+            scope.log.report("E0701", "user-defined liaisons are not supported yet", callee.span)
+        elif scope.knows(name):
+            help_text = did_you_mean(name, spellings(LIAISONS))
+            word = "joint" if node.keyword == "joint" else "liaison"
+            scope.log.report("E0202", f"unknown {word} {name!r}", callee.span, help=help_text)
+        return None
+    if scope.planar and kind.relations_planar is None:
+        scope.log.report(
+            "E0506", f"{name!r} is a liaison of space models; this model is planar", callee.span
+        )
+        return None
+    found = bind(arguments, kind.arguments, name, node.kind.span, scope)
+    if not found.complete or laws is None:
+        return None
+    a = cast(checked.Place, found.values.pop("a"))
+    b = cast(checked.Place, found.values.pop("b"))
+    if not _parts_agree(node, kind.name, a, b, scope):
+        return None
+    options = cast("dict[str, checked.Expression]", found.values)
+    return checked.Liaison(node.name.text, kind, a, b, options, laws, node.span, node.doc)
+
+
+def _parts_agree(
+    node: tree.Liaison, kind: str, a: checked.Place, b: checked.Place, scope: Scope
+) -> bool:
+    if _root(a) is _root(b):
+        scope.log.report(
+            "E0507",
+            f"both places of {node.keyword} {node.name.text!r} are on body {_root(a).name!r}",
+            node.kind.span,
+        )
+        return False
+    points = (checked.BodyPoint, checked.Frame)
+    if kind == "contact_ponctuel" and isinstance(a, points) and isinstance(b, points):
+        scope.log.report(
+            "E0205", "a contact needs a curve or a surface on one side", node.kind.span
+        )
+        return False
+    return True
+
+
+def _root(place: checked.Place) -> checked.Body:
+    owner: checked.Body | checked.Frame
+    match place:
+        case checked.CurvePlace(curve=curve):
+            owner = curve.owner
+        case checked.Frame():
+            owner = place
+        case checked.BodyPoint(body=body) | checked.BodyGeometry(body=body):
+            owner = body
+    while isinstance(owner, checked.Frame):
+        owner = owner.owner
+    return owner
+
+
+def _laws(
+    node: tree.Liaison, scope: Scope, defined: frozenset[str]
+) -> tuple[checked.Law, ...] | None:
+    found: list[checked.Law] = []
+    failed = False
+    for written in node.laws:
+        law = _law(written, scope, defined)
+        if law is None:
+            failed = True
+            continue
+        same = next((other for other in found if other.kind is law.kind), None)
+        if same is not None:
+            message = f"the law {law.kind.name!r} is given twice"
+            first = Label(same.span, "first here")
+            scope.log.report("E0502", message, law.span, labels=(first,))
+        found.append(law)
+    return None if failed else tuple(found)
+
+
+def _law(written: tree.Expression, scope: Scope, defined: frozenset[str]) -> checked.Law | None:
+    call = called(written, "law", scope)
+    if call is None:
+        return None
+    name, callee, arguments = call
+    kind = find(LAWS, name)
+    if kind is None:
+        if name in defined:
+            scope.log.report("E0701", "user-defined laws are not supported yet", callee.span)
+        elif scope.knows(name):
+            help_text = did_you_mean(name, spellings(LAWS))
+            scope.log.report("E0202", f"unknown law {name!r}", callee.span, help=help_text)
+        return None
+    found = bind(arguments, kind.arguments, name, written.span, scope)
+    if not found.complete:
+        return None
+    values = cast("dict[str, checked.Expression]", found.values)
+    _check_pair(values, scope)
+    return checked.Law(kind, values, written.span)
+
+
+def _check_pair(values: dict[str, checked.Expression], scope: Scope) -> None:
+    for low, high in (("mu", "mu_s"), ("min", "max")):
+        if low in values and high in values:
+            a, b = known(values[low], scope), known(values[high], scope)
+            if isinstance(a, float) and isinstance(b, float) and b < a:
+                kind = values[low].type
+                scope.log.report(
+                    "E0402",
+                    f"{high} must not be below {low}: {quantity(b, kind)} < {quantity(a, kind)}",
+                    values[high].span,
+                )
+
+
+def force(node: tree.Force, scope: Scope) -> checked.Force | None:
+    """The checked force; None after a message."""
+    if node.subscripts:
+        scope.log.report("E0701", "arrays of forces are not supported yet", node.span)
+        return None
+    call = called(node.kind, "force", scope)
+    if call is None:
+        return None
+    name, callee, arguments = call
+    kind = find(FORCES, name)
+    if kind is None:
+        if scope.knows(name):
+            help_text = did_you_mean(name, spellings(FORCES))
+            scope.log.report("E0202", f"unknown force {name!r}", callee.span, help=help_text)
+        return None
+    found = bind(arguments, kind.arguments, name, node.kind.span, scope)
+    if not found.complete:
+        return None
+    return checked.Force(node.name.text, kind, found.values, node.span, node.doc)

@@ -1,0 +1,164 @@
+"""The statements `world`, `experiment`, and those of the section `initial`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from frot.dsl import checked, tree
+from frot.dsl.catalogue import Argument
+from frot.dsl.catalogue.types import ACCELERATION, TIME
+from frot.dsl.check_arguments import bind, word
+from frot.dsl.check_expressions import agrees, expect, expression
+from frot.dsl.check_values import known
+from frot.dsl.describe import describe, quantity
+from frot.dsl.dimensions import REAL, Type
+from frot.dsl.evaluate import constant
+from frot.dsl.scope import Scope, did_you_mean
+from frot.dsl.source import Span
+
+_GRAVITY = Argument("gravity", ACCELERATION, required=False, sign="nonnegative")
+_EXPERIMENT = (
+    Argument("stop", TIME, required=False),
+    Argument("start", TIME, required=False),
+    Argument("tolerance", REAL, required=False, sign="positive"),
+    Argument("interval", TIME, required=False, sign="positive"),
+)
+_WORDS = {
+    "method": ("auto", "explicit", "implicit", "timestepping"),
+    "on_impasse": ("impact", "stop"),
+    "on_indeterminate": ("rest", "continue", "stop"),
+}
+TOLERANCES = (1e-14, 1e-1)
+
+
+def _split(
+    arguments: Sequence[tree.Argument], names: Sequence[str]
+) -> tuple[list[tree.Argument], dict[str, tree.Argument]]:
+    """The arguments bound as values, and those whose value is a word."""
+    words = {
+        a.name.text: a for a in arguments if isinstance(a.name, tree.Name) and a.name.text in names
+    }
+    return [a for a in arguments if a not in words.values()], words
+
+
+# ------------------------------------------------------------------ world
+
+
+def default_world(planar: bool) -> checked.World:
+    """Gravity as it is where the text is silent."""
+    return checked.World(None, "-y" if planar else "-z", None)
+
+
+def world(call: tree.Call, scope: Scope) -> checked.World:
+    """The world of `world(gravity = ..., down = -y)`."""
+    rest, words = _split(call.arguments, ("down",))
+    found = bind(rest, (_GRAVITY,), "world", call.span, scope, constants=True)
+    down = default_world(scope.planar).down
+    if "down" in words:
+        down = _direction(words["down"].value, scope) or down
+    gravity = found.values.get("gravity")
+    return checked.World(gravity, down, call.span)  # type: ignore[arg-type]
+
+
+def _direction(node: tree.Expression, scope: Scope) -> str | None:
+    sign, axis = "+", node
+    if isinstance(node, tree.Prefix) and node.op in "+-":
+        sign, axis = node.op, node.operand
+    axes = ("x", "y") if scope.planar else ("x", "y", "z")
+    if isinstance(axis, tree.Name) and axis.text in axes:
+        return sign + axis.text
+    shown = ", ".join(f"{s}{a}" for a in axes for s in "+-")
+    message = f"'down' is one of {shown}, found {node.span.text!r}"
+    scope.log.report("E0404", message, node.span)
+    return None
+
+
+# ------------------------------------------------------------------ experiment
+
+
+def default_experiment() -> checked.Experiment:
+    """The options of a run where the text is silent."""
+    return checked.Experiment(None, None, None, None, "auto", "impact", "rest", None)
+
+
+def experiment(call: tree.Call, scope: Scope) -> checked.Experiment:
+    """The options of `experiment(stop = 3 s, ...)`."""
+    rest, words = _split(call.arguments, tuple(_WORDS))
+    all_names = (*_EXPERIMENT, *(Argument(n, kind="word", words=w) for n, w in _WORDS.items()))
+    for argument in rest:
+        if isinstance(argument.name, tree.Name) and argument.name.text not in [
+            a.name for a in _EXPERIMENT
+        ]:
+            name = argument.name.text
+            help_text = did_you_mean(name, [a.name for a in all_names])
+            message = f"'experiment' has no option {name!r}"
+            scope.log.report("E0204", message, argument.name.span, help=help_text)
+            rest = [a for a in rest if a is not argument]
+    found = bind(rest, _EXPERIMENT, "experiment", call.span, scope, constants=True)
+    chosen = {"method": "auto", "on_impasse": "impact", "on_indeterminate": "rest"}
+    for name, argument in words.items():
+        chosen[name] = word(argument.value, _WORDS[name], name, scope) or chosen[name]
+    values: dict[str, checked.Expression | None] = {
+        a.name: found.values.get(a.name)  # type: ignore[misc]
+        for a in _EXPERIMENT
+    }
+    _check_times(values, scope)
+    return checked.Experiment(
+        values["stop"],
+        values["start"],
+        values["tolerance"],
+        values["interval"],
+        chosen["method"],
+        chosen["on_impasse"],
+        chosen["on_indeterminate"],
+        call.span,
+    )
+
+
+def _check_times(values: dict[str, checked.Expression | None], scope: Scope) -> None:
+    stop, start, tolerance = values["stop"], values["start"], values["tolerance"]
+    if stop is not None:
+        last = known(stop, scope)
+        first = known(start, scope) if start is not None else 0.0
+        if isinstance(last, float) and isinstance(first, float) and last <= first:
+            message = f"stop = {quantity(last, TIME)} is not after start = {quantity(first, TIME)}"
+            scope.log.report("E0402", message, stop.span)
+    if tolerance is not None:
+        value = known(tolerance, scope)
+        low, high = TOLERANCES
+        if isinstance(value, float) and value > 0 and not low <= value <= high:
+            message = f"tolerance must be between {low:g} and {high:g}; it is {value:g}"
+            scope.log.report("E0402", message, tolerance.span)
+
+
+# ------------------------------------------------------------------ initial
+
+
+def initial(
+    left: tree.Expression, right: tree.Expression, span: Span, guess: bool, scope: Scope
+) -> checked.InitialEquation | None:
+    """The checked `left = right`; None after a message."""
+    first = expression(left, scope)
+    if first is None:
+        expression(right, scope)
+        return None
+    if first.type.base not in ("real", "integer"):
+        scope.log.report(
+            "E0301",
+            f"an initial equation is between numbers, not {describe(first.type)}",
+            left.span,
+        )
+        return None
+    wanted = Type("real", first.type.dimension, first.type.shape)
+    second = expect(right, wanted, scope)
+    if second is None or not agrees(second.type, wanted):
+        return None
+    if constant(first) is None and constant(second) is None:
+        scope.log.report(
+            "E0508",
+            "this statement holds only parameters: it determines nothing",
+            span,
+            help="name a variable of a body, a frame or a liaison on one side",
+        )
+        return None
+    return checked.InitialEquation(first, second, span, guess)

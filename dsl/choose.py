@@ -1,0 +1,82 @@
+"""Which of the definitions of a file is the model."""
+
+from __future__ import annotations
+
+from frot.dsl import tree
+from frot.dsl.build_expressions import children
+from frot.dsl.diagnostics import Label, Log
+from frot.dsl.scope import did_you_mean
+
+
+def choose(file: tree.Tree, name: str | None, log: Log) -> tree.Definition | None:
+    """The model named, or the only one that is not a part of another; None after a message."""
+    definitions = [e for e in file.elements if isinstance(e, tree.Definition)]
+    models = [d for d in definitions if d.kind == "model"]
+    whole = [d for d in models if not d.has("partial")]
+    if name is not None:
+        return _named(file, name, models, whole, log)
+    if not whole:
+        if not (file.lost or log.failed):
+            message = "the text holds no model that can be run" if models else "there is no model"
+            start = models[0].header if models else file.span
+            log.report("E0509", message, start, help="write 'planar model Name ... end Name;'")
+        return None
+    used = set().union(*(_types_used(d) - {d.name.text} for d in definitions))
+    free = [d for d in whole if d.name.text not in used]
+    if len(free) == 1:
+        return free[0]
+    if len(whole) == 1:
+        return whole[0]
+    candidates = free or whole
+    names = ", ".join(d.name.text for d in candidates)
+    log.report(
+        "E0510",
+        f"the text holds several models: {names}",
+        candidates[-1].header,
+        labels=tuple(Label(d.header, "one") for d in candidates[:-1]),
+        help=f"name the one to use, as model={candidates[-1].name.text!r}",
+    )
+    return None
+
+
+def _named(
+    file: tree.Tree,
+    name: str,
+    models: list[tree.Definition],
+    whole: list[tree.Definition],
+    log: Log,
+) -> tree.Definition | None:
+    found = next((d for d in whole if d.name.text == name), None)
+    if found is not None:
+        return found
+    partial = next((d for d in models if d.name.text == name), None)
+    if partial is not None:
+        log.report("E0509", f"{name!r} is partial: it is only a base of others", partial.header)
+        return None
+    names = [d.name.text for d in whole]
+    help_text = did_you_mean(name, names)
+    notes = (f"there are: {', '.join(names)}",) if names else ()
+    log.report("E0207", f"no model {name!r} in the text", file.span, notes=notes, help=help_text)
+    return None
+
+
+def _types_used(definition: tree.Definition) -> set[str]:
+    """The names of types of components and of bases."""
+    used: set[str] = set()
+    for element in definition.elements:
+        if isinstance(element, tree.Component):
+            used |= _heads(element.type)
+        elif isinstance(element, tree.Extends):
+            used |= _heads(element.base)
+    return used
+
+
+def _heads(root: tree.Expression) -> set[str]:
+    pending = [root]
+    found = set()
+    while pending:
+        node = pending.pop()
+        if isinstance(node, tree.Name):
+            found.add(node.text)
+        pending.extend(children(node))
+    return found

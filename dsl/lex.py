@@ -1,0 +1,69 @@
+"""Text to tokens, as the parser needs them: a word is a keyword only where one can stand.
+
+The terminals are those of the grammar; this lexer differs from lark's contextual one in cost (one
+regular expression instead of one for each state) and in never failing: what is no token is JUNK.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from lark import Lark
+
+JUNK = "JUNK"
+END = "$END"
+_REGEXPS = ("WS", "COMMENT", "QUANTITY", "NUMBER", "STRING", "IDENT")
+
+
+class Lexer:
+    """The terminals of a grammar, ready to be matched at any offset of a text."""
+
+    def __init__(self, grammar: Lark) -> None:
+        patterns = {t.name: t.pattern for t in grammar.terminals}
+        literal = {p.value: n for n, p in patterns.items() if p.type == "str"}
+        self.keywords = {w: n for w, n in literal.items() if w[0].isalpha()}
+        self.symbols = {w: n for w, n in literal.items() if not w[0].isalpha()}
+        symbols = "|".join(re.escape(s) for s in sorted(self.symbols, key=len, reverse=True))
+        groups = [f"(?P<{name}>{patterns[name].to_regexp()})" for name in _REGEXPS]
+        self._master = re.compile("|".join([*groups, f"(?P<SYMBOL>{symbols})"]))
+        self._close_unit = re.compile(patterns["CLOSE_UNIT"].to_regexp())
+
+    def next(self, text: str, offset: int, accepted: Container[str]) -> tuple[str, int, int]:
+        """Type, start and end of the token at or after `offset`; `$END` at the end.
+
+        `accepted` are the types the parser can take: they decide between keyword and identifier,
+        and whether a unit belongs to a closing parenthesis.
+        """
+        while True:
+            found = self._master.match(text, offset)
+            if found is None:
+                if offset >= len(text):
+                    return END, offset, offset
+                return JUNK, offset, offset + 1
+            kind = found.lastgroup
+            if kind == "WS" or kind == "COMMENT":
+                offset = found.end()
+                continue
+            start, end = found.span()
+            if kind == "IDENT":
+                return self._word(found[0], accepted), start, end
+            if kind == "SYMBOL":
+                name = self.symbols[found[0]]
+                if name == "RPAR" and "CLOSE_UNIT" in accepted:
+                    unit = self._close_unit.match(text, offset)
+                    if unit is not None:
+                        return "CLOSE_UNIT", start, unit.end()
+                if name == "DOT" and "DOT_STAR" in accepted and text.startswith(".*", start):
+                    return "DOT_STAR", start, start + 2
+                return name, start, end
+            assert kind is not None
+            return kind, start, end
+
+    def _word(self, word: str, accepted: Container[str]) -> str:
+        keyword = self.keywords.get(word)
+        if keyword is None or (keyword not in accepted and "IDENT" in accepted):
+            return "IDENT"
+        return keyword

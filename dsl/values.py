@@ -1,0 +1,111 @@
+"""Values of parameters: their defaults, and those given as text on a command line."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+
+from frot.dsl import checked
+from frot.dsl.describe import describe
+from frot.dsl.dimensions import Type
+from frot.dsl.evaluate import Value, evaluate
+from frot.dsl.order import in_order
+from frot.dsl.units import Unit, UnknownUnit, parse_unit
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S*)\s*")
+
+
+def default_values(
+    model: checked.Model, overrides: Mapping[str, object] | None = None
+) -> dict[checked.Parameter, object]:
+    """SI values of all parameters and constants; those that depend on others follow them.
+
+    `overrides` are SI values by name. Raises KeyError for a name that is no parameter, and
+    ValueError with a sentence for a constant that is overridden and for what `evaluate` refuses.
+    """
+    given = dict(overrides or {})
+    by_name = {p.name: p for p in model.parameters}
+    for name in given:
+        if name not in by_name:
+            raise KeyError(name)
+        if by_name[name].constant:
+            raise ValueError(f"{name!r} is a constant; it cannot be set")
+    needs = {p.name: [q.name for q in _parameters(p.value)] for p in model.parameters}
+    order, _ = in_order(needs)
+    values: dict[checked.Parameter, object] = {}
+    for name in order:
+        parameter = by_name[name]
+        values[parameter] = given[name] if name in given else evaluate(parameter.value, values)
+    return {p: values[p] for p in model.parameters}
+
+
+def _parameters(root: checked.Expression) -> Iterator[checked.Parameter]:
+    pending: list[checked.Expression] = [root]
+    while pending:
+        node = pending.pop()
+        match node:
+            case checked.Reference(target=checked.Parameter() as parameter):
+                yield parameter
+            case checked.Element(operand=o) | checked.Unary(operand=o):
+                pending.append(o)
+            case checked.Derivative(operand=o):
+                pending.append(o)
+            case checked.Vector(items=items) | checked.Call(arguments=items):
+                pending.extend(items)
+            case checked.Binary(left=left, right=right):
+                pending.extend((left, right))
+            case checked.If(condition=condition, yes=yes, no=no):
+                pending.extend((condition, yes, no))
+
+
+def parse_value(text: str, kind: Type) -> Value:
+    """The SI value written as `0.2`, `12 mm`, `20 deg`, `false` or `(1, 0) m`.
+
+    A bare number is in SI. Raises ValueError with a sentence.
+    """
+    text = text.strip()
+    if kind.base == "string":
+        return text.strip('"')
+    if kind.base == "boolean":
+        if text not in ("true", "false"):
+            raise ValueError(f"expected true or false, found {text!r}")
+        return text == "true"
+    if not kind.is_scalar:
+        return _vector(text, kind)
+    found = _NUMBER.fullmatch(text)
+    if found is None:
+        raise ValueError(f"expected {describe(kind)}, found {text!r}")
+    value = float(found[1])
+    if found[2]:
+        unit = _unit(found[2], kind)
+        value = value * unit.factor + unit.offset
+    if not math.isfinite(value):
+        raise ValueError(f"the number {text!r} is too large")
+    if kind.base == "integer" and not value.is_integer():
+        raise ValueError(f"expected a whole number, found {text!r}")
+    return value
+
+
+def _unit(text: str, kind: Type) -> Unit:
+    try:
+        unit = parse_unit(text)
+    except UnknownUnit as error:
+        near = f"; did you mean {error.near!r}?" if error.near else ""
+        raise ValueError(f"{error}{near}") from None
+    if unit.dimension != kind.dimension:
+        found = describe(Type(dimension=unit.dimension))
+        raise ValueError(f"expected {describe(Type(dimension=kind.dimension))}, found {found}")
+    return unit
+
+
+def _vector(text: str, kind: Type) -> Value:
+    found = re.fullmatch(r"\((.*)\)\s*(\S*)", text)
+    if found is None:
+        raise ValueError(f"expected {describe(kind)} as '(1, 0)', found {text!r}")
+    items = found[1].split(",")
+    if len(items) != kind.shape[0]:
+        raise ValueError(f"expected {kind.shape[0]} items, found {len(items)}")
+    tail = f" {found[2]}" if found[2] else ""
+    item = Type(kind.base, kind.dimension, kind.shape[1:])
+    return tuple(parse_value(i.strip() + tail, item) for i in items)
