@@ -1,22 +1,26 @@
 """The language room: text to a checked model, with every fault of the text in a log.
 
-Lark is loaded when a text is first parsed, not here.
+Parts are loaded when they are first used: the passes at the first text, lark at the first parse.
 """
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import TYPE_CHECKING
 
-from frot.dsl import checked
-from frot.dsl.check import check
-from frot.dsl.codes import CODES
 from frot.dsl.diagnostics import Diagnostic, Label, Log
-from frot.dsl.dump import dump
-from frot.dsl.evaluate import NotConstant, evaluate
-from frot.dsl.parse import parse
-from frot.dsl.render import render, render_log
 from frot.dsl.source import Source, Span
-from frot.dsl.values import default_values, parse_value
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from frot.dsl import checked
+    from frot.dsl.checking import check
+    from frot.dsl.codes import CODES
+    from frot.dsl.dumping import dump
+    from frot.dsl.evaluation import NotConstant, evaluate
+    from frot.dsl.parsing import parse
+    from frot.dsl.rendering import render, render_log
+    from frot.dsl.values import default_values, parse_value
 
 __all__ = [
     "CODES",
@@ -39,8 +43,35 @@ __all__ = [
 ]
 
 
+_HOMES = {
+    "CODES": "codes",
+    "NotConstant": "evaluation",
+    "check": "checking",
+    "default_values": "values",
+    "dump": "dumping",
+    "evaluate": "evaluation",
+    "parse": "parsing",
+    "parse_value": "values",
+    "render": "rendering",
+    "render_log": "rendering",
+}
+
+
+def __getattr__(name: str) -> object:
+    home = _HOMES.get(name)
+    if home is None:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    found: object = getattr(import_module(f"{__name__}.{home}"), name)
+    globals()[name] = found
+    return found
+
+
 def load(path: str | Path, log: Log, model: str | None = None) -> checked.Model | None:
     """The checked model of a `.frot` file; None if an error was reported to `log`."""
+    from pathlib import Path
+
     name = str(path)
     try:
         # A leading byte order mark is legal in UTF-8; line ends are kept as they are.
@@ -64,4 +95,7 @@ def compile_text(
 
     `name` stands for the text in messages; `model` chooses where the text holds several.
     """
+    from frot.dsl.checking import check
+    from frot.dsl.parsing import parse
+
     return check(parse(Source(name, text), log), log, model)

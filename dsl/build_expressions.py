@@ -36,7 +36,7 @@ _LITERAL = re.compile(r"(?P<number>[0-9.]+(?:[eE][+-]?[0-9]+)?)(?P<space>[ \t]*)
 _ESCAPES = {"n": "\n", "t": "\t"}
 
 
-class TooDeep(Exception):  # noqa: N818 - it leaves a statement, it is not an error of ours
+class TooDeep(Exception):
     """An expression nested too deeply; it was told, its statement is dropped."""
 
 

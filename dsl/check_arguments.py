@@ -12,7 +12,7 @@ from frot.dsl.check_names import kind_of, place, resolve
 from frot.dsl.check_values import check_bounds
 from frot.dsl.describe import describe, listed
 from frot.dsl.dimensions import BOOLEAN, STRING, Type
-from frot.dsl.evaluate import constant
+from frot.dsl.evaluation import constant
 from frot.dsl.scope import Scope, did_you_mean, near
 from frot.dsl.source import Span
 

@@ -8,7 +8,7 @@ from frot.dsl.check_expressions import agrees, expect, expression, unit_of
 from frot.dsl.check_values import computed
 from frot.dsl.describe import describe
 from frot.dsl.dimensions import STRING, Type
-from frot.dsl.evaluate import constant
+from frot.dsl.evaluation import constant
 from frot.dsl.scope import Scope, did_you_mean
 
 Component = checked.Parameter | checked.Input | checked.Output
@@ -77,11 +77,11 @@ def component(clause: tree.Component, item: tree.Declared, scope: Scope) -> Comp
         kind, factor = Type("real", unit.dimension), unit.factor
     match role(clause):
         case "input":
-            return _input(item, kind, modifiers.get("start"), scope)
+            return _input(item, kind, clause.type.text, modifiers.get("start"), scope)
         case "output":
-            return _output(item, kind, scope)
+            return _output(item, kind, clause.type.text, scope)
         case word:
-            return _parameter(item, kind, factor, word == "constant", scope)
+            return _parameter(item, kind, clause.type.text, factor, word == "constant", scope)
 
 
 def _modifiers(item: tree.Declared, scope: Scope) -> dict[str, tree.Argument] | None:
@@ -127,7 +127,12 @@ def _integer(node: tree.Expression, scope: Scope) -> checked.Expression | None:
 
 
 def _parameter(
-    item: tree.Declared, kind: Type, factor: float | None, is_constant: bool, scope: Scope
+    item: tree.Declared,
+    kind: Type,
+    quantity: str,
+    factor: float | None,
+    is_constant: bool,
+    scope: Scope,
 ) -> checked.Parameter | None:
     word = "constant" if is_constant else "parameter"
     if item.value is None:
@@ -151,7 +156,9 @@ def _parameter(
         )
         return None
     unit = _written_unit(item.value)
-    found = checked.Parameter(item.name.text, kind, value, item.span, item.doc, unit, is_constant)
+    found = checked.Parameter(
+        item.name.text, kind, value, item.span, item.doc, unit, is_constant, quantity
+    )
     result = computed(value, scope)
     if result is not None:
         scope.values[found] = result
@@ -159,7 +166,11 @@ def _parameter(
 
 
 def _input(
-    item: tree.Declared, kind: Type, start: tree.Argument | None, scope: Scope
+    item: tree.Declared,
+    kind: Type,
+    quantity: str,
+    start: tree.Argument | None,
+    scope: Scope,
 ) -> checked.Input | None:
     if item.value is not None:
         scope.log.report(
@@ -170,10 +181,10 @@ def _input(
         )
         return None
     if start is None:
-        zero: float | bool | str = {"boolean": False, "string": ""}.get(kind.base, 0.0)
-        return checked.Input(
-            item.name.text, kind, checked.Literal(zero, kind, item.span), item.span, item.doc
-        )
+        zeros: dict[str, bool | str] = {"boolean": False, "string": ""}
+        zero = zeros.get(kind.base, 0.0)
+        first = checked.Literal(zero, kind, item.span)
+        return checked.Input(item.name.text, kind, first, item.span, item.doc, "", quantity)
     value = expect(start.value, kind, scope)
     if value is None:
         return None
@@ -182,10 +193,10 @@ def _input(
         scope.log.report("E0305", "a start value must depend on parameters only", moving.span)
         return None
     unit = _written_unit(start.value)
-    return checked.Input(item.name.text, kind, value, item.span, item.doc, unit)
+    return checked.Input(item.name.text, kind, value, item.span, item.doc, unit, quantity)
 
 
-def _output(item: tree.Declared, kind: Type, scope: Scope) -> checked.Output | None:
+def _output(item: tree.Declared, kind: Type, quantity: str, scope: Scope) -> checked.Output | None:
     if item.value is None:
         scope.log.report(
             "E0504",
@@ -207,4 +218,4 @@ def _output(item: tree.Declared, kind: Type, scope: Scope) -> checked.Output | N
         )
         return None
     unit = _written_unit(item.value)
-    return checked.Output(item.name.text, whole, value, item.span, item.doc, unit)
+    return checked.Output(item.name.text, whole, value, item.span, item.doc, unit, quantity)

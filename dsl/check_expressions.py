@@ -307,13 +307,15 @@ def _known(node: checked.Expression) -> float | None:
     return None
 
 
-def _refuse(node: tree.Infix, message: str, a: Type, b: Type, scope: Scope) -> None:
+def _refuse(node: tree.Infix, message: str, a: Type, b: Type, scope: Scope) -> Type | None:
+    """Report operands that do not fit; there is then no type."""
     scope.log.report(
         "E0304" if message.startswith(("two", "'", "the", "a ", "vec")) else "E0301",
         f"{message}: {describe(a)} {node.op} {describe(b)}",
         node.span,
         caret=f"{describe(a)} {node.op} {describe(b)}",
     )
+    return None
 
 
 def _conditional(node: tree.Conditional, scope: Scope) -> checked.Expression | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from typing import cast
 
 from frot.dsl import checked, tree
 from frot.dsl.catalogue import SHAPES, Argument, find, spellings, vector
@@ -40,7 +40,7 @@ def called(
 def body(node: tree.Body, scope: Scope, defined: frozenset[str]) -> checked.Body | None:
     """The checked body; None after a message."""
     if node.subscripts:
-        scope.log.report("E0701", f"arrays of bodies are not supported yet", node.span)
+        scope.log.report("E0701", "arrays of bodies are not supported yet", node.span)
         return None
     call = called(node.shape, "shape", scope)
     if call is None:
@@ -49,7 +49,7 @@ def body(node: tree.Body, scope: Scope, defined: frozenset[str]) -> checked.Body
     shape = find(SHAPES, name)
     if shape is None:
         if name in defined:
-            scope.log.report("E0701", f"user-defined shapes are not supported yet", callee.span)
+            scope.log.report("E0701", "user-defined shapes are not supported yet", callee.span)
         elif scope.knows(name):
             help_text = did_you_mean(name, spellings(SHAPES))
             scope.log.report("E0202", f"unknown shape {name!r}", callee.span, help=help_text)
@@ -63,12 +63,8 @@ def body(node: tree.Body, scope: Scope, defined: frozenset[str]) -> checked.Body
     found = bind(arguments, shape.arguments, name, node.shape.span, scope, constants=True)
     if not found.complete:
         return None
-    values = {k: v for k, v in found.values.items() if _is_expression(v)}
+    values = cast("dict[str, checked.Expression]", found.values)
     return checked.Body(node.name.text, shape, values, node.span, node.doc)
-
-
-def _is_expression(value: object) -> bool:
-    return hasattr(value, "type")
 
 
 def _owner(node: tree.Expression, scope: Scope) -> checked.Body | checked.Frame | None:
@@ -93,12 +89,11 @@ def frame(node: tree.Frame, scope: Scope) -> checked.Frame | None:
         failed = failed or origin is None
     if node.rotation is not None:
         found = bind(node.rotation, _ROTATION, "rotated", node.span, scope)
-        value = found.values.get("angle")
         failed = failed or not found.complete
-        angle = value if _is_expression(value) else None
+        angle = cast("checked.Expression | None", found.values.get("angle"))
     if failed or owner is None:
         return None
-    return checked.Frame(node.name.text, owner, origin, angle, node.span, node.doc)  # type: ignore[arg-type]
+    return checked.Frame(node.name.text, owner, origin, angle, node.span, node.doc)
 
 
 def curve(node: tree.Curve, scope: Scope) -> checked.Curve | None:
@@ -118,11 +113,7 @@ def curve(node: tree.Curve, scope: Scope) -> checked.Curve | None:
     found = bind(arguments, _LINE, name, node.kind.span, scope)
     if not found.complete:
         return None
-    values: Mapping[str, checked.Expression] = {
-        k: v
-        for k, v in found.values.items()
-        if _is_expression(v)  # type: ignore[misc]
-    }
+    values = cast("dict[str, checked.Expression]", found.values)
     direction = values["direction"]
     value = known(direction, scope)
     if isinstance(value, tuple) and all(v == 0 for v in value):

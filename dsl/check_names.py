@@ -103,7 +103,9 @@ def _of_body(body: checked.Body, node: tree.Member, scope: Scope, want: str) -> 
     if body.shape is None:
         if name == "line" and scope.planar:
             return checked.CurvePlace(scope.ground_line, node.span)
-        frames, geometry, turns = ("origin",), ("line",), True
+        frames: tuple[str, ...] = ("origin",)
+        geometry: tuple[str, ...] = ("line",)
+        turns = True
     else:
         frames, geometry = body.shape.frames, tuple(body.shape.geometry)
         turns = body.shape.turns

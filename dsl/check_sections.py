@@ -12,7 +12,7 @@ from frot.dsl.check_expressions import agrees, expect, expression
 from frot.dsl.check_values import known
 from frot.dsl.describe import describe, quantity
 from frot.dsl.dimensions import REAL, Type
-from frot.dsl.evaluate import constant
+from frot.dsl.evaluation import constant
 from frot.dsl.scope import Scope, did_you_mean
 from frot.dsl.source import Span
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from frot.dsl import checked
 from frot.dsl.catalogue import Argument
 from frot.dsl.describe import quantity
-from frot.dsl.evaluate import NotConstant, Value, evaluate
+from frot.dsl.evaluation import NotConstant, Value, evaluate
 from frot.dsl.scope import Scope
 from frot.dsl.source import Span
 

@@ -46,7 +46,8 @@ class Time:
 class Quantity:
     """A variable of a body, frame, place or liaison: `hoop.position`, `support.abscissa`.
 
-    `owner` of `rod.start.velocity` is the `BodyPoint` (rod, "start"); of `hoop.position`, the `Body`.
+    `owner` of `rod.start.velocity` is the `BodyPoint` (rod, "start"); of `hoop.position`, the
+    `Body`.
     """
 
     owner: Body | Frame | BodyPoint | Liaison
@@ -146,7 +147,8 @@ Expression = (
 class Parameter:
     """A parameter (tunable) or a constant; `value` may depend on other parameters.
 
-    `unit` is the unit of the author's default (`mm`), for display; values are SI. `quantity` is the name of its type (`Angle`).
+    `unit` is the unit of the author's default (`mm`), for display; values are SI.
+    `quantity` is the name of its type (`Angle`).
     """
 
     name: str

@@ -45,7 +45,8 @@ _SYNTAX = {
     ),
     "E0106": Code(
         "number and word glued together",
-        "A unit stands after its number with a space between: '3 m'. A product needs its sign: '3*m'.",
+        "A unit stands after its number with a space between: '3 m'. A product needs its sign: "
+        "'3*m'.",
         "Put in the space or the '*'.",
         snippet("parameter Length r = 3m;"),
     ),
@@ -167,7 +168,8 @@ _VALUES = {
     "E0402": Code(
         "value out of its range",
         "The value is outside of what can be meant: a stop time not after the start, a coefficient "
-        "at rest below that of motion, a restitution above one, a tolerance outside of 1e-14 to 0.1.",
+        "at rest below that of motion, a restitution above one, a tolerance outside of 1e-14 to "
+        "0.1.",
         "Correct the value.",
         snippet("", "", "  experiment(stop = 0 s);\n"),
     ),

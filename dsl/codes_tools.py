@@ -76,11 +76,17 @@ TOOLS: Mapping[str, Code] = {
         "No motion is compatible with the laws of friction at this instant (Painlevé 1895). "
         "The experiment asks to stop there.",
         "Use 'on_impasse = impact' to let a tangential impact resolve it.",
-        snippet(_ROD, "bar.angle = 63 deg;\nbar.start.position = (0, 0) m;"),
+        snippet(
+            _ROD,
+            "bar.angle = 63 deg;\nbar.start.position = (0, 0) m;\n"
+            "bar.start.velocity = (-1, 0) m/s;",
+            "  experiment(stop = 1 s, on_impasse = stop);\n",
+        ),
     ),
     "E0903": Code(
         "chattering",
-        "More events follow one another than time can resolve, and no rest was found at their limit.",
+        "More events follow one another than time can resolve, and no rest was found at their "
+        "limit.",
         "Look at the liaisons of the last events.",
         "",
     ),

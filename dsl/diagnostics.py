@@ -78,7 +78,7 @@ class FrotError(Exception):
     """
 
     def __init__(self, log: Log) -> None:
-        from frot.dsl.render import render_log
+        from frot.dsl.rendering import render_log
 
         super().__init__(render_log(log))
         self.diagnostics = tuple(log)

@@ -11,9 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from lark import Lark
-
     from frot.dsl.lex import Lexer
+    from lark import Lark
 
 GRAMMAR = Path(__file__).with_name("frot.lark")
 OPTIONS = {

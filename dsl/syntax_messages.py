@@ -18,8 +18,24 @@ class Lexeme(Protocol):
     end: int
 
 
-_SECTIONS = ("initial", "equation", "parameter", "constant", "liaison", "body", "frame", "curve")
-_SECTIONS += ("surface", "force", "output", "input", "planar", "partial", "model", "connector")
+_OPENING = (
+    "initial",
+    "equation",
+    "parameter",
+    "constant",
+    "liaison",
+    "body",
+    "frame",
+    "curve",
+    "surface",
+    "force",
+    "output",
+    "input",
+    "planar",
+    "partial",
+    "model",
+    "connector",
+)
 _SAY = {
     "SEMICOLON": "';'",
     "RPAR": "')'",
@@ -152,7 +168,7 @@ def _misplaced(
     hint = ""
     if statement and statement[0].type == "IDENT":
         first = text[statement[0].start : statement[0].end]
-        near = difflib.get_close_matches(first.lower(), _SECTIONS, n=1, cutoff=0.75)
+        near = difflib.get_close_matches(first.lower(), _OPENING, n=1, cutoff=0.75)
         if near and len(statement) <= 2:
             word, span = first, _span(source, statement[0])
             hint = f"did you mean {near[0]!r}?"

@@ -397,8 +397,11 @@ Element = (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tree:
-    """A file. `lost` are the words of statements that could not be read: a later pass is silent
-    about names that are missing because of them."""
+    """A file.
+
+    `lost` are the words of statements that could not be read: a later pass is silent about names
+    that are missing because of them.
+    """
 
     source: Source
     elements: tuple[Element, ...]

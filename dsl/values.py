@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from frot.dsl import checked
 from frot.dsl.describe import describe
 from frot.dsl.dimensions import Type
-from frot.dsl.evaluate import Value, evaluate
+from frot.dsl.evaluation import Value, evaluate
 from frot.dsl.order import in_order
 from frot.dsl.units import Unit, UnknownUnit, parse_unit
 

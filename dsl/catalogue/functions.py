@@ -2,7 +2,8 @@
 
 Rules: `number` takes and gives numbers; `same` keeps the dimension of its one operand; `root` takes
 its square root; `alike` takes any number of operands of one dimension and keeps it; `ratio` takes
-two of one dimension and gives a number; `dot`, `cross`, `norm` act on vectors; `sign` gives a number.
+two of one dimension and gives a number; `dot`, `cross`, `norm` act on vectors; `sign` gives a
+number.
 """
 
 from __future__ import annotations
@@ -22,9 +23,9 @@ class Function:
     doc: str = ""
 
 
-_NUMBER = (
-    "sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp log log10 floor ceil"
-).split()
+_TRIGONOMETRIC = ("sin", "cos", "tan", "asin", "acos", "atan")
+_HYPERBOLIC = ("sinh", "cosh", "tanh", "asinh", "acosh", "atanh")
+_NUMBER = (*_TRIGONOMETRIC, *_HYPERBOLIC, "exp", "log", "log10", "floor", "ceil")
 
 FUNCTIONS: Mapping[str, Function] = {
     **{name: Function(name, "number") for name in _NUMBER},
@@ -42,4 +43,6 @@ FUNCTIONS: Mapping[str, Function] = {
 }
 
 # Functions of the language that have no meaning in `checked.Model` yet.
-LATER = frozenset("pre edge change sample reinit transpose smooth noEvent delay integral".split())
+LATER = frozenset(
+    ("pre", "edge", "change", "sample", "reinit", "transpose", "smooth", "noEvent", "delay")
+)

@@ -23,12 +23,12 @@ if TYPE_CHECKING:
 DEEPEST = 200
 # Words that begin a statement or end a block: skipping stops before them.
 STARTS = frozenset(
-    "parameter constant input output flow body corps frame repère repere curve surface liaison "
-    "joint force effort initial equation extends import end when".split()
+    """parameter constant input output flow body corps frame repère repere curve surface liaison
+    joint force effort initial equation extends import end when""".split()  # noqa: SIM905
 )
 # Terminals that open something closed by `end`, and how `end` names it.
 _BLOCKS = {"WHEN": "WHEN", "IF": "IF", "FOR": "FOR"}
-_HEADERS = frozenset("MODEL CONNECTOR RECORD FUNCTION PACKAGE SHAPE".split())
+_HEADERS = frozenset(["MODEL", "CONNECTOR", "RECORD", "FUNCTION", "PACKAGE", "SHAPE"])
 
 
 def parse(source: Source, log: Log) -> Tree:
@@ -117,9 +117,7 @@ class _Reader:
         at_start = "EQUATION" in self.states[state.state_stack[-1]]
         text = self.source.text[token.start : token.end]
         try:
-            state.feed_token(
-                Token(token.type, text, token.start, 0, 0, 0, 0, token.end)  # type: ignore[call-arg]
-            )
+            state.feed_token(Token(token.type, text, token.start, 0, 0, 0, 0, token.end))
         except UnexpectedToken:
             return False
         if at_start:

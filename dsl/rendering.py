@@ -36,10 +36,10 @@ def render(diagnostic: Diagnostic, colour: bool = False) -> str:
                 side = paint(f"{number:>{width}}", "rule")
                 lines.append(f"{side} {rule} {shown}".rstrip())
                 lines.append(f"{' ' * width} {rule} {paint(under.rstrip(), style)}")
-    for note in diagnostic.notes:
-        lines.append(f"{' ' * width} {paint('=', 'rule')} note: {_clean(note)}")
+    equals = f"{' ' * width} {paint('=', 'rule')}"
+    lines.extend(f"{equals} note: {_clean(note)}" for note in diagnostic.notes)
     if diagnostic.help:
-        lines.append(f"{' ' * width} {paint('=', 'rule')} help: {_clean(diagnostic.help)}")
+        lines.append(f"{equals} help: {_clean(diagnostic.help)}")
     return "\n".join(lines)
 
 

@@ -12,7 +12,7 @@ from frot.dsl import checked
 Value = float | bool | str | tuple[Any, ...]
 
 
-class NotConstant(Exception):  # noqa: N818 - an answer, not a fault
+class NotConstant(Exception):
     """The expression holds time, an input, an output or a variable of the motion."""
 
     def __init__(self, node: checked.Expression) -> None:
@@ -103,7 +103,8 @@ def _unary(node: checked.Unary, values: Mapping[checked.Parameter, object]) -> V
     operand: Any = evaluate(node.operand, values)
     if node.op == "not":
         return not operand
-    return _mapped(operator.neg, operand)
+    result: Value = _mapped(operator.neg, operand)
+    return result
 
 
 def _binary(node: checked.Binary, values: Mapping[checked.Parameter, object]) -> Value:
@@ -119,10 +120,12 @@ def _binary(node: checked.Binary, values: Mapping[checked.Parameter, object]) ->
     function = _OPERATORS[op]
     if op in ("==", "<>"):
         return bool(function(left, right))
-    return _mapped(function, left, right)
+    result: Value = _mapped(function, left, right)
+    return result
 
 
 def _power(node: checked.Binary, base: float, power: float) -> float:
+    result: float | complex
     try:
         result = base**power
     except ZeroDivisionError:
@@ -179,10 +182,18 @@ _OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
 }
 
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
-    **{
-        name: getattr(math, name)
-        for name in "sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh".split()
-    },
+    "sin": math.sin,
+    "cos": math.cos,
+    "tan": math.tan,
+    "asin": math.asin,
+    "acos": math.acos,
+    "atan": math.atan,
+    "sinh": math.sinh,
+    "cosh": math.cosh,
+    "tanh": math.tanh,
+    "asinh": math.asinh,
+    "acosh": math.acosh,
+    "atanh": math.atanh,
     "exp": math.exp,
     "log": math.log,
     "log10": math.log10,
