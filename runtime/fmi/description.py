@@ -80,7 +80,11 @@ def _from_variable(name: str, reference: int, info: VariableInfo) -> Scalar:
 
 def scalars(program: Program) -> tuple[str, tuple[Scalar, ...]]:
     """The naming convention and all variables of an FMU of `program`, by value reference."""
-    infos = (*program.parameters, *program.inputs, *program.variables)
+    infos: tuple[ParameterInfo | VariableInfo, ...] = (
+        *program.parameters,
+        *program.inputs,
+        *program.variables,
+    )
     convention, names = variable_names(("time", *(info.name for info in infos)))
     second = Unit("s", (0, 0, 1, 0, 0, 0, 0, 0))
     found = [Scalar("time", 0, "real", "independent", "continuous", "", None, second, "time")]

@@ -1,0 +1,61 @@
+"""The hand-written model as FMUs of both versions."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from frot.runtime import fmi
+from frot.runtime.program import Program
+from harness import Host, compile_library, hand_program, unpack_library
+
+
+@pytest.fixture(scope="session")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Program:
+    return hand_program(tmp_path_factory.mktemp("hand"))
+
+
+@pytest.fixture(scope="session")
+def archives(program: Program, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    folder = tmp_path_factory.mktemp("fmu")
+    paths = {}
+    for version in ("2.0", "3.0"):
+        paths[version] = folder / f"Hand{version[0]}.fmu"
+        fmi.export(program, paths[version], version, compile_library)
+    return paths
+
+
+@pytest.fixture(scope="session")
+def libraries(
+    archives: dict[str, Path], tmp_path_factory: pytest.TempPathFactory
+) -> dict[int, Path]:
+    return {
+        int(version[0]): unpack_library(path, version, tmp_path_factory.mktemp(f"fmi{version[0]}"))
+        for version, path in archives.items()
+    }
+
+
+@pytest.fixture(params=[2, 3], ids=["fmi2", "fmi3"])
+def version(request: pytest.FixtureRequest) -> int:
+    return int(request.param)
+
+
+@pytest.fixture
+def host(libraries: dict[int, Path], version: int) -> Iterator[Callable[..., Host]]:
+    """Makes instances, frees them at the end."""
+    made: list[Host] = []
+
+    def make(**options: Any) -> Host:
+        made.append(Host(libraries[version], version, **options))
+        return made[-1]
+
+    yield make
+    for one in made:
+        if one.instance is not None:
+            one.free()

@@ -1,0 +1,17 @@
+"""Calls in any order with any arguments: the process lives."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_random_calls_do_not_crash(libraries: dict[int, Path], version: int, seed: int) -> None:
+    script = Path(__file__).with_name("fuzz.py")
+    command = [sys.executable, str(script), str(libraries[version]), str(version), str(seed), "150"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, done.stderr[-2000:]

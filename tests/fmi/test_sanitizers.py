@@ -1,0 +1,37 @@
+"""Wrapper and kernel under the address, leak and undefined behaviour sanitizers."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+from frot.runtime.fmi.sources import source_files, to_compile
+from frot.runtime.program import Program
+from harness import SANITIZE
+
+WARNINGS = ("-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror")
+OURS = ("instance.c", "lifecycle.c", "access.c", "snapshot.c", "fmi", "fmu_table.c")
+
+
+def test_lives_of_instances_are_clean(version: int, program: Program, tmp_path: Path) -> None:
+    sources = source_files(program, f"{version}.0")
+    for name, content in sources.items():
+        (tmp_path / name).write_bytes(content)
+    drive = Path(__file__).with_name("drive.c")
+    flags = ("-std=c99", "-O1", "-ffp-contract=off", *SANITIZE, f"-DDRIVE={version}")
+    files = [tmp_path / name for name in to_compile(sources)]
+    command = ["cc", *flags, f"-I{tmp_path}", str(drive), *map(str, files), "-lm"]
+    subprocess.run([*command, "-o", str(tmp_path / "drive")], check=True)
+    done = subprocess.run([tmp_path / "drive"], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_our_c_compiles_without_warnings(version: int, program: Program, tmp_path: Path) -> None:
+    sources = source_files(program, f"{version}.0")
+    for name, content in sources.items():
+        (tmp_path / name).write_bytes(content)
+    ours = [str(tmp_path / name) for name in to_compile(sources) if name.startswith(OURS)]
+    assert len(ours) >= 7
+    command = ["cc", "-std=c99", "-O2", *WARNINGS, "-fsyntax-only", f"-I{tmp_path}", *ours]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
