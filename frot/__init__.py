@@ -1,1 +1,38 @@
-"""Frot."""
+"""Frot: models of rigid bodies with liaisons and dry friction, run exactly and exported as FMUs.
+
+```python
+import frot
+model = frot.load("hoop.frot")
+result = model.simulate(stop=3.0, parameters={"mu": 0.2})
+result["hoop.position.x"], result.events, result.at(1.5)["hoop.velocity.x"]
+```
+"""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from frot.dsl.diagnostics import FrotError
+    from frot.model import Model, compile, load
+    from frot.runtime.result import Event, Result
+    from frot.runtime.run import SimulationError
+
+_HOMES = {
+    "Event": "frot.runtime.result",
+    "FrotError": "frot.dsl.diagnostics",
+    "Model": "frot.model",
+    "Result": "frot.runtime.result",
+    "SimulationError": "frot.runtime.run",
+    "compile": "frot.model",
+    "load": "frot.model",
+}
+__all__ = ["Event", "FrotError", "Model", "Result", "SimulationError", "compile", "load"]
+
+
+def __getattr__(name: str) -> object:
+    """Load a name when it is asked for, so that `frot --help` loads nothing heavy."""
+    import importlib
+
+    if name not in _HOMES:
+        raise AttributeError(f"module 'frot' has no attribute '{name}'")
+    return getattr(importlib.import_module(_HOMES[name]), name)

@@ -1,0 +1,36 @@
+"""The runtime room: a compiled program to motion, results and FMUs."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from frot.runtime.plotting import plot
+    from frot.runtime.program import Program
+    from frot.runtime.result import Event, Result
+    from frot.runtime.run import SimulationError, simulate
+
+_HOMES = {
+    "Event": "result",
+    "Program": "program",
+    "Result": "result",
+    "SimulationError": "run",
+    "plot": "plotting",
+    "simulate": "run",
+}
+__all__ = [
+    "Event",
+    "Program",
+    "Result",
+    "SimulationError",
+    "plot",
+    "simulate",
+]
+
+
+def __getattr__(name: str) -> object:
+    """Load a part when it is asked for, so that nothing heavy is loaded in vain."""
+    import importlib
+
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)

@@ -112,9 +112,11 @@ typedef struct {
   frot_callable parameters;
   /* start(t, u, p) -> q guess, v guess */
   frot_callable start;
-  /* initial_position(t, q, v, u, p, d) -> residual (n_position), its transposed Jacobian in q */
+  /* initial_position(t, q, v, u, p, d) -> residual (n_position), its transposed Jacobian in q,
+   *   size of its terms (n_position) */
   frot_callable initial_position;
-  /* initial_velocity(t, q, v, u, p, d) -> residual (n_velocity), its transposed Jacobian in v */
+  /* initial_velocity(t, q, v, u, p, d) -> residual (n_velocity), its transposed Jacobian in v,
+   *   size of its terms (n_velocity) */
   frot_callable initial_velocity;
   /* kinematics(t, q, v, u, p, d) -> gap (n_contacts), rows J' (nw x n_rows), rate (n_rows),
    *   conditions (n_conditions), distance with sign by which the side is chosen (n_contacts) */
@@ -236,6 +238,8 @@ const frot_statistics *frot_run_statistics(const frot_state *state);
 
 /* The sentence that tells a fault, with names, values in SI and the remedy, ended by NUL. */
 void frot_fault_text(const frot_model *model, const frot_state *state, char *text, size_t size);
+/* Places (file:line:column, one a line) of what the fault is about; empty if none is to blame. */
+void frot_fault_places(const frot_model *model, const frot_state *state, char *text, size_t size);
 /* The sentence that tells an event: "floor: slip -> stick at t = 1.86884131838260". */
 void frot_event_text(const frot_model *model, const frot_event *event, char *text, size_t size);
 

@@ -33,7 +33,7 @@ static int evaluate(problem *p) {
   const frot_callable *call = p->velocity ? &m->initial_velocity : &m->initial_position;
   w->arg[0] = &p->t, w->arg[1] = p->q, w->arg[2] = p->v, w->arg[3] = p->s->data + l.u;
   w->arg[4] = p->s->data + l.p, w->arg[5] = p->d;
-  w->res[0] = w->residual, w->res[1] = w->jacobian;
+  w->res[0] = w->residual, w->res[1] = w->jacobian, w->res[2] = w->size;
   call->call(w->arg, w->res, w->iw, w->w, 0);
   frot_kinematics(m, p->s, w, p->t, p->q, p->v, p->d);
   for (int i = 0; i < m->n_contacts; i++) {
@@ -41,6 +41,7 @@ static int evaluate(problem *p) {
     int row = m->contacts[i].row_n;
     w->residual[n] = p->velocity ? w->rate[row] : w->gap[i];
     memcpy(w->jacobian + nv * n, w->rows + nw * row, sizeof(double) * (size_t)nv);
+    w->size[n] = fabs(w->residual[n]);
     n++;
   }
   p->n = n;
@@ -52,7 +53,7 @@ static int evaluate(problem *p) {
 
 /* Size of the terms of equation i at the present values. */
 static double size_of(const problem *p, int i) {
-  double sum = fabs(p->w->residual[i]);
+  double sum = p->w->size[i];
   const double *x = unknown(p);
   for (int k = 0; k < p->m->nv; k++) sum += fabs(p->w->jacobian[p->m->nv * i + k] * x[k]);
   return sum;

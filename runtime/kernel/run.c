@@ -14,6 +14,7 @@
 #define MONITOR_EVERY 64
 
 int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, double experiment[4]) {
+  frot_bind_work(m, w);
   frot_layout l = frot_layout_of(m);
   double *p = w->values, *checks = w->values + m->np;
   w->arg[0] = s->data + l.given, w->arg[1] = s->data + l.set, w->arg[2] = s->data + l.u;

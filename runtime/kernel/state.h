@@ -78,7 +78,7 @@ struct frot_work {
   double *k;                      /* DP_ALL x nz */
   double *z0, *z1, *ztry;         /* nz */
   double *f;                      /* DP_DENSE x nz */
-  double *values, *jacobian, *residual, *step; /* initial values and projection */
+  double *values, *jacobian, *residual, *size, *step; /* initial values and projection */
   frot_contact_mode *trial, *best, *before;
   double *best_acceleration;
   int *choice, *component;

@@ -133,3 +133,15 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       snprintf(text, size, "fault %d at t = %.17g", f->status, f->t);
   }
 }
+
+void frot_fault_places(const frot_model *m, const frot_state *s, char *text, size_t size) {
+  const frot_fault *f = &s->fault;
+  const char *places[3] = {"", "", ""};
+  if (f->status == FROT_CHECK && f->item >= 0) places[0] = m->checks[f->item].place;
+  if (f->status == FROT_INITIAL) {
+    if (f->item >= 0) places[0] = m->statements[f->item].place;
+    if (f->other >= 0) places[1] = m->statements[f->other].place;
+  }
+  if (f->contact >= 0 && f->contact < m->n_contacts) places[2] = m->contacts[f->contact].place;
+  if (size > 0) snprintf(text, size, "%s\n%s\n%s", places[0], places[1], places[2]);
+}

@@ -1,0 +1,72 @@
+"""Values that parameters must give: positive masses, finite numbers and the like."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from frot.compiler.mechanism import Mechanism
+from frot.compiler.walk import is_fixed
+from frot.dsl.catalogue import Argument
+from frot.dsl.checked import Call, Expression, Place, Reference
+from frot.dsl.dimensions import REAL
+from frot.dsl.source import Span
+
+POSITIVE, NOT_NEGATIVE, FINITE, NOT_BELOW_PREVIOUS = range(4)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Check:
+    """`value` must satisfy `rule` (frot_rule); `subject` names it in a sentence."""
+
+    rule: int
+    subject: str
+    value: Expression
+    span: Span | None
+
+
+def parameter_checks(mechanism: Mechanism) -> tuple[Check, ...]:
+    """Every check that depends on parameters alone, in the order of the text."""
+    return tuple(_checks(mechanism))
+
+
+def _checks(mechanism: Mechanism) -> Iterator[Check]:
+    model = mechanism.model
+    for parameter in model.parameters:
+        if not parameter.constant:
+            value = Reference(parameter, parameter.type, parameter.span)
+            yield Check(FINITE, f"parameter '{parameter.name}'", value, parameter.span)
+    for body in model.bodies:
+        if body.shape is not None:
+            owner = f"body '{body.name}'"
+            yield from _arguments(owner, body.shape.arguments, body.arguments)
+    for curve in model.curves:
+        direction = curve.arguments["direction"]
+        length = Call("norm", (direction,), REAL, direction.span)
+        yield Check(
+            POSITIVE, f"length of the direction of curve '{curve.name}'", length, direction.span
+        )
+    for force in model.forces:
+        yield from _arguments(f"force '{force.name}'", force.kind.arguments, force.arguments)
+    for liaison in model.liaisons:
+        for law in liaison.laws:
+            owner = f"liaison '{liaison.name}'"
+            yield from _arguments(owner, law.kind.arguments, law.arguments)
+            mu, mu_s = law.arguments.get("mu"), law.arguments.get("mu_s")
+            if mu is not None and mu_s is not None and is_fixed(mu) and is_fixed(mu_s):
+                yield Check(FINITE, f"mu of liaison '{liaison.name}'", mu, mu.span)
+                yield Check(
+                    NOT_BELOW_PREVIOUS, f"mu_s of liaison '{liaison.name}'", mu_s, mu_s.span
+                )
+
+
+def _arguments(
+    owner: str, kinds: tuple[Argument, ...], values: Mapping[str, Expression | Place]
+) -> Iterator[Check]:
+    rules = {"positive": POSITIVE, "nonnegative": NOT_NEGATIVE}
+    for kind in kinds:
+        value = values.get(kind.name)
+        if value is None or isinstance(value, Place) or kind.sign not in rules:
+            continue
+        if is_fixed(value):
+            yield Check(rules[kind.sign], f"{kind.name} of {owner}", value, value.span)

@@ -1,0 +1,77 @@
+"""Gap, slip and rolling rate of the contacts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+
+from frot.compiler.kinematics import Kinematics, Line
+from frot.compiler.mechanism import Contact, is_unilateral
+from frot.compiler.mechanize import owner_body, point_body
+from frot.dsl.checked import World
+
+DOWN = {"+x": (1, 0), "-x": (-1, 0), "+y": (0, 1), "-y": (0, -1)}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Geometry:
+    """A contact as functions of the coordinates.
+
+    `line.normal` points to the side a free body is expected on: to the left of the line's direction
+    for a bilateral point on a line; against gravity, where gravity tells, for a contact that can
+    part. `side` multiplies it by the side the body starts on. `gap` >= 0 while apart. `distance` is
+    the signed distance whose sign chooses the side. `slip` and `roll` are the velocity of the body's
+    material point relative to the line's, along the line's direction, and the relative angular
+    velocity.
+    """
+
+    line: Line
+    side: ca.SX
+    gap: ca.SX
+    distance: ca.SX
+    slip: ca.SX
+    roll: ca.SX
+    abscissa: ca.SX
+
+
+def down(world: World) -> ca.SX:
+    """Unit vector of gravity."""
+    return ca.SX(ca.DM(DOWN[world.down]))
+
+
+def contact_geometry(
+    contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
+) -> Geometry:
+    """Geometry and relative velocities of a contact; for a point on a line of one that is ideal too."""
+    body, base = point_body(contact.point), owner_body(contact.line.owner)
+    line = kinematics.line(contact.line)
+    bilateral = contact.liaison.kind.name == "point_courbe" and not is_unilateral(contact.liaison)
+    if bilateral:
+        side = ca.SX(1)
+    else:
+        upward = ca.if_else(ca.dot(line.normal, down(world)) > 1e-12, -1, 1)
+        line = Line(line.through, line.direction, upward * line.normal)
+    centre = kinematics.position(contact.point)
+    radius = (
+        kinematics.fixed.lower(contact.round.arguments["radius"])
+        if contact.round is not None
+        else ca.SX(0)
+    )
+    height = ca.dot(line.normal, centre - line.through)
+    touching = centre - side * radius * line.normal
+    slip = ca.dot(
+        line.direction,
+        kinematics.velocity_at(body, touching) - kinematics.velocity_at(base, touching),
+    )
+    roll = kinematics.velocity(kinematics.poses[body].angle - kinematics.poses[base].angle)
+    middle = ca.dot(line.normal, kinematics.poses[body].origin - line.through)
+    return Geometry(
+        line=line,
+        side=side,
+        gap=side * height - radius,
+        distance=height if contact.round is not None else middle,
+        slip=slip,
+        roll=roll,
+        abscissa=ca.dot(line.direction, centre - line.through),
+    )

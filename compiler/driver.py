@@ -1,0 +1,140 @@
+"""Checked model to compiled program: the one place that knows the order of the passes."""
+
+from __future__ import annotations
+
+import hashlib
+from importlib.metadata import PackageNotFoundError, version
+from importlib.resources import files
+from pathlib import Path
+
+from frot.compiler.cache import own_identity, store, stored, write_manifest
+from frot.compiler.mechanize import mechanize
+from frot.compiler.toolchain import FLAGS, Toolchain, compile_objects, link_library
+from frot.compiler.units import unit_of
+from frot.dsl import Log, default_values, evaluate
+from frot.dsl.checked import Expression, Input, Model, Parameter
+from frot.dsl.dimensions import dimension
+from frot.runtime.program import (
+    LIBRARY,
+    MODEL_SOURCE,
+    ExperimentInfo,
+    ParameterInfo,
+    Program,
+    Unit,
+    VariableInfo,
+    read_program,
+)
+
+# An older installation has no metadata while it is being built.
+try:
+    VERSION = version("frot")
+except PackageNotFoundError:
+    VERSION = "0"
+
+
+def kernel_folder() -> Path:
+    """Where the kernel's sources lie."""
+    return Path(str(files("frot.runtime.kernel")))
+
+
+def kernel_sources() -> list[Path]:
+    """The kernel's C files."""
+    return sorted(kernel_folder().glob("*.c"))
+
+
+def build(model: Model, key: str, toolchain: Toolchain, log: Log) -> Program | None:
+    """Run every pass and the C compiler; what the text is to blame for goes to the log."""
+    from frot.compiler.generate import generate
+    from frot.compiler.lower import lower
+    from frot.compiler.reduce import reduce
+
+    mechanism = mechanize(model, log)
+    if mechanism is None:
+        return None
+    reduced = reduce(mechanism, log)
+    lowered = lower(reduced, log) if reduced is not None else None
+    if reduced is None or lowered is None:
+        return None
+    values = default_values(model, {})
+    parameters = tuple(
+        ParameterInfo(
+            p.name, p.type.base, _unit(p), float(values[p]), p.doc, dependent  # type: ignore[arg-type]
+        )
+        for p, dependent in zip(reduced.symbols.parameters, lowered.dependent, strict=True)
+    )
+    inputs = tuple(
+        ParameterInfo(i.name, i.type.base, _unit(i), float(evaluate(i.start, values)), i.doc)  # type: ignore[arg-type]
+        for i in reduced.symbols.inputs
+    )
+    text = generate(lowered, key, [p.default for p in parameters], [i.default for i in inputs])
+    objects = _kernel_objects(toolchain)
+
+    def fill(folder: Path) -> None:
+        source = folder / MODEL_SOURCE
+        source.write_text(text, encoding="utf-8")
+        made = compile_objects(toolchain, [source], [kernel_folder()], folder)
+        link_library(toolchain, [*made, *sorted(objects.glob("*.o"))], folder / LIBRARY)
+        made[0].unlink()
+        write_manifest(
+            Program(
+                name=model.name,
+                doc=model.doc,
+                key=key,
+                version=VERSION,
+                planar=model.planar,
+                parameters=parameters,
+                inputs=inputs,
+                variables=tuple(
+                    VariableInfo(
+                        v.name,
+                        "mode" if v.mode else "real",
+                        unit_of(v.dimension, v.quantity, v.unit),
+                        "output" if v.output else "local",
+                        v.doc,
+                    )
+                    for v in lowered.variables
+                ),
+                contacts=tuple(c.liaison.name for c in mechanism.contacts),
+                experiment=_experiment(model),
+                compiler=toolchain.command,
+                flags=FLAGS,
+                folder=folder,
+            ),
+            folder,
+        )
+
+    return read_program(store("programs", key, fill))
+
+
+def _kernel_objects(toolchain: Toolchain) -> Path:
+    """The kernel's objects, compiled once for all models."""
+    digest = hashlib.sha256(
+        "\0".join((own_identity(), toolchain.identity, *FLAGS)).encode()
+    ).hexdigest()
+
+    def fill(folder: Path) -> None:
+        compile_objects(toolchain, kernel_sources(), [kernel_folder()], folder)
+
+    return stored("kernels", digest) or store("kernels", digest, fill)
+
+
+def _unit(declared: Parameter | Input) -> Unit:
+    if declared.type.base != "real":
+        return unit_of(dimension())
+    return unit_of(declared.type.dimension, declared.quantity, declared.unit)
+
+
+def _experiment(model: Model) -> ExperimentInfo:
+    values = default_values(model, {})
+
+    def number(expression: Expression | None) -> float | None:
+        return None if expression is None else float(evaluate(expression, values))  # type: ignore[arg-type]
+
+    experiment = model.experiment
+    return ExperimentInfo(
+        number(experiment.start),
+        number(experiment.stop),
+        number(experiment.tolerance),
+        number(experiment.interval),
+        experiment.on_indeterminate,
+    )

@@ -1,0 +1,177 @@
+"""Expressions of the text to CasADi expressions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import casadi as ca
+
+from frot.compiler.symbols import Symbols
+from frot.compiler.walk import is_fixed
+from frot.dsl import Log, evaluate
+from frot.dsl.checked import (
+    Binary,
+    Call,
+    Derivative,
+    Element,
+    Expression,
+    If,
+    Input,
+    Literal,
+    Parameter,
+    Quantity,
+    Reference,
+    Time,
+    Unary,
+    Vector,
+)
+
+FUNCTIONS: dict[str, Callable[..., ca.SX]] = {
+    name: getattr(ca, name)
+    for name in (
+        "sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp log log10 sqrt floor ceil "
+        "sign atan2"
+    ).split()
+} | {
+    "abs": ca.fabs,
+    "mod": lambda x, y: x - y * ca.floor(x / y),
+    "hypot": lambda x, y: ca.sqrt(x * x + y * y),
+    "dot": ca.dot,
+    "norm": lambda x: ca.sqrt(ca.sumsqr(x)),
+    "cross": lambda x, y: x[0] * y[1] - x[1] * y[0],
+}
+
+STEPPING = ("floor", "ceil", "mod")
+
+
+@dataclass(slots=True)
+class Conditions:
+    """Conditions on time and motion that switch a force or a coefficient: `value` > 0 while true.
+
+    `strict`: whether the condition is false where its value is zero.
+    """
+
+    flags: list[ca.SX] = field(default_factory=list)
+    values: list[ca.SX] = field(default_factory=list)
+    strict: list[bool] = field(default_factory=list)
+
+    def add(self, value: ca.SX, strict: bool) -> ca.SX:
+        """A flag, 0 or 1, that follows the sign of `value` by located events."""
+        flag = ca.SX.sym(f"condition_{len(self.flags)}")
+        self.flags.append(flag)
+        self.values.append(value)
+        self.strict.append(strict)
+        return flag
+
+
+@dataclass(slots=True)
+class Lowering:
+    """Lowers expressions; `quantity` gives the variables of bodies and liaisons, `rate` d/dt.
+
+    With `conditions`, every switch that depends on time, inputs or motion becomes a located event;
+    without, it is taken as it stands (for what is only looked at: outputs, initial statements).
+    """
+
+    symbols: Symbols
+    quantity: Callable[[Quantity], ca.SX]
+    rate: Callable[[ca.SX], ca.SX]
+    log: Log
+    conditions: Conditions | None = None
+
+    def lower(self, expression: Expression) -> ca.SX:
+        """The CasADi value: a scalar or a column."""
+        match expression:
+            case Literal():
+                return ca.SX(float(expression.value))
+            case Reference():
+                return self._reference(expression)
+            case Time():
+                return self.symbols.t
+            case Quantity():
+                return self.quantity(expression)
+            case Derivative():
+                return self.rate(self.lower(expression.operand))
+            case Element():
+                return self.lower(expression.operand)[expression.index]
+            case Vector():
+                return ca.vertcat(*(self.lower(item) for item in expression.items))
+            case Unary():
+                value = self.lower(expression.operand)
+                return 1 - value if expression.op == "not" else -value
+            case Binary():
+                return self._binary(expression)
+            case If():
+                condition = self.lower(expression.condition)
+                return ca.if_else(condition, self.lower(expression.yes), self.lower(expression.no))
+            case Call():
+                return self._call(expression)
+        raise TypeError(f"no expression: {expression!r}")
+
+    def _reference(self, node: Reference) -> ca.SX:
+        target = node.target
+        if isinstance(target, Parameter):
+            if target.constant:
+                value = evaluate(target.value, {})
+                return ca.SX(ca.DM(value if not isinstance(value, tuple) else list(value)))
+            return self.symbols.p[self.symbols.parameters.index(target)]
+        if isinstance(target, Input):
+            return self.symbols.u[self.symbols.inputs.index(target)]
+        return self.lower(target.value)
+
+    def _located(self, expression: Expression) -> Conditions | None:
+        """Where the events of a switch go, None if it never changes in a run or is only looked at."""
+        return None if is_fixed(expression) else self.conditions
+
+    def _binary(self, node: Binary) -> ca.SX:
+        left, right = self.lower(node.left), self.lower(node.right)
+        match node.op:
+            case "+":
+                return left + right
+            case "-":
+                return left - right
+            case "*":
+                return left * right
+            case "/":
+                return left / right
+            case "^":
+                return left**right
+            case "and":
+                return left * right
+            case "or":
+                return left + right - left * right
+        conditions = self._located(node)
+        if node.op in ("==", "<>"):
+            if conditions is not None and node.left.type.base == "real":
+                self._refuse(f"`{node.op}` between values that change", node)
+            return left == right if node.op == "==" else left != right
+        positive = left - right if node.op in (">", ">=") else right - left
+        strict = node.op in ("<", ">")
+        if conditions is not None:
+            return conditions.add(positive, strict)
+        return positive > 0 if strict else positive >= 0
+
+    def _call(self, node: Call) -> ca.SX:
+        arguments = [self.lower(argument) for argument in node.arguments]
+        conditions = self._located(node)
+        name = node.function
+        if name in ("min", "max"):
+            value = arguments[0]
+            for other in arguments[1:]:
+                value = self._least(value, other, conditions, -1 if name == "max" else 1)
+            return value
+        if conditions is not None and name in ("abs", "sign"):
+            above = conditions.add(arguments[0], False)
+            return (2 * above - 1) * (arguments[0] if name == "abs" else 1)
+        if conditions is not None and name in STEPPING:
+            self._refuse(f"`{name}` of a value that changes, in a force or coefficient", node)
+        return FUNCTIONS[name](*arguments)
+
+    @staticmethod
+    def _least(x: ca.SX, y: ca.SX, conditions: Conditions | None, sign: int) -> ca.SX:
+        below = sign * (y - x)
+        flag = conditions.add(below, False) if conditions is not None else below >= 0
+        return ca.if_else(flag, x, y)
+
+    def _refuse(self, what: str, node: Expression) -> None:
+        self.log.report("E0701", f"{what} is not supported yet", node.span)

@@ -1,0 +1,233 @@
+"""Mechanism to reduced equations: M a = h + J' lam with the rows of the contacts.
+
+Auxiliary speeds along the normals of reduced liaisons (T. Kane, D. Levinson, Dynamics: Theory and
+Applications, 1985, sect. 4.9) bring their reactions to light without adding a coordinate: they are
+zero, and so are their accelerations, in every motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import casadi as ca
+
+from frot.compiler.contacts import Geometry, contact_geometry, down
+from frot.compiler.expressions import Conditions, Lowering
+from frot.compiler.forces import load
+from frot.compiler.kinematics import Kinematics
+from frot.compiler.mechanism import Contact, Mechanism
+from frot.compiler.symbols import Rows, Symbols, contact_rows, make_symbols
+from frot.compiler.variables import Variables
+from frot.dsl import Log
+from frot.dsl.checked import Liaison, Quantity
+
+STANDARD_GRAVITY = 9.81
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reduced:
+    """Equations of the motion in CasADi expressions, auxiliary speeds at zero.
+
+    `mass` (nw x nw), `force` (nw), `rows` (n_rows x nw), `bias` (n_rows: J a + bias is the rows'
+    acceleration), `rate` (n_rows), `gap` and `distance` (n_contacts), `coefficients` (3 x n_contacts:
+    mu, mu_s, delta), `power` of the loads without potential, `kinetic`, `potential`.
+    """
+
+    mechanism: Mechanism
+    symbols: Symbols
+    contact_rows: tuple[Rows, ...]
+    variables: Variables
+    fixed: Lowering
+    conditions: Conditions
+    mass: ca.SX
+    force: ca.SX
+    rows: ca.SX
+    bias: ca.SX
+    rate: ca.SX
+    gap: ca.SX
+    distance: ca.SX
+    coefficients: ca.SX
+    power: ca.SX
+    kinetic: ca.SX
+    potential: ca.SX
+
+
+def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
+    """Form the equations; what cannot be lowered is reported."""
+    symbols = make_symbols(mechanism)
+
+    def nothing(node: Quantity) -> ca.SX:
+        raise TypeError(f"{node.name} in an expression of parameters")
+
+    fixed = Lowering(symbols, nothing, lambda value: value * 0, log)
+    kinematics = Kinematics(mechanism, symbols, fixed)
+    variables = _variables(mechanism, kinematics, symbols)
+    conditions = Conditions()
+    moving = Lowering(symbols, variables.quantity, variables.rate, log, conditions)
+    rates = _rates(mechanism.contacts, variables, kinematics)
+    speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
+    motion = _masses(mechanism, variables)
+    loads = _loads(mechanism, variables, moving, log)
+    coefficients = _coefficients(mechanism.contacts, moving, symbols, log)
+    geometry = [variables.geometry[contact.liaison] for contact in mechanism.contacts]
+    if log.failed:
+        return None
+    settled = variables.settled
+    conditions.values = [settled(value) for value in conditions.values]
+    return Reduced(
+        mechanism=mechanism,
+        symbols=symbols,
+        contact_rows=contact_rows(mechanism.contacts),
+        variables=variables,
+        fixed=fixed,
+        conditions=conditions,
+        mass=settled(motion.mass),
+        force=settled(motion.force + loads.force),
+        rows=settled(ca.jacobian(rates, speeds)),
+        bias=settled(ca.jtimes(rates, places, speeds)),
+        rate=settled(rates),
+        gap=settled(_column(g.gap for g in geometry)),
+        distance=settled(_column(g.distance for g in geometry)),
+        coefficients=settled(coefficients),
+        power=settled(loads.power),
+        kinetic=settled(motion.kinetic),
+        potential=settled(motion.potential + loads.potential),
+    )
+
+
+def _column(values: Iterable[ca.SX]) -> ca.SX:
+    items = list(values)
+    return ca.vertcat(*items) if items else ca.SX.zeros(0)
+
+
+def _variables(mechanism: Mechanism, kinematics: Kinematics, symbols: Symbols) -> Variables:
+    world = mechanism.model.world
+    geometry: dict[Liaison, Geometry] = {}
+    for index, contact in enumerate(mechanism.contacts):
+        side = symbols.sides[index]
+        geometry[contact.liaison] = contact_geometry(contact, kinematics, side, world)
+    for contact in mechanism.ideal:
+        geometry[contact.liaison] = contact_geometry(contact, kinematics, ca.SX(1), world)
+    return Variables(
+        symbols,
+        kinematics,
+        geometry,
+        {contact.liaison: contact for contact in mechanism.contacts},
+        {
+            contact.liaison: rows
+            for contact, rows in zip(
+                mechanism.contacts, contact_rows(mechanism.contacts), strict=True
+            )
+        },
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Masses:
+    """Mass matrix, weight less inertial bias, and energies of the bodies."""
+
+    mass: ca.SX
+    force: ca.SX
+    kinetic: ca.SX
+    potential: ca.SX
+
+
+def _masses(mechanism: Mechanism, variables: Variables) -> _Masses:
+    kinematics, symbols = variables.kinematics, variables.symbols
+    world = mechanism.model.world
+    speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
+    gravity = STANDARD_GRAVITY if world.gravity is None else kinematics.fixed.lower(world.gravity)
+    mass, force = ca.SX.zeros(speeds.numel(), speeds.numel()), ca.SX.zeros(speeds.numel())
+    kinetic, potential = ca.SX(0), ca.SX(0)
+    for body in mechanism.model.bodies:
+        pose = kinematics.poses[body]
+        weight = variables.mass(body) * gravity * down(world)
+        for velocity, inertia, load in (
+            (kinematics.velocity(pose.origin), variables.mass(body), weight),
+            (kinematics.velocity(pose.angle), variables.inertia(body), ca.SX(0)),
+        ):
+            jacobian = ca.jacobian(velocity, speeds)
+            mass += inertia * (jacobian.T @ jacobian)
+            force += jacobian.T @ (load - inertia * ca.jtimes(velocity, places, speeds))
+        kinetic += variables.of_body(body, "kinetic_energy")
+        potential -= ca.dot(weight, pose.origin)
+    return _Masses(mass, force, kinetic, potential)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Loads:
+    """Generalized applied forces, the potential of some and the power of the others."""
+
+    force: ca.SX
+    potential: ca.SX
+    power: ca.SX
+
+
+def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering, log: Log) -> _Loads:
+    kinematics, symbols = variables.kinematics, variables.symbols
+    speeds = ca.vertcat(symbols.v, symbols.sw)
+    force, potential, power = ca.SX.zeros(speeds.numel()), ca.SX(0), ca.SX(0)
+    for applied in mechanism.forces:
+        result = load(applied, kinematics, moving, mechanism.model.ground)
+        for action in result.actions:
+            if _reads_solution(action.force, symbols):
+                log.report(
+                    "E0701",
+                    f"force '{applied.name}' reads an acceleration or a reaction: this is not "
+                    "supported yet",
+                    applied.span,
+                    help="write it in terms of time, positions and velocities",
+                )
+                break
+            velocity = kinematics.velocity_at(action.body, action.place)
+            force += ca.jacobian(velocity, speeds).T @ action.force
+            if result.potential is None:
+                power += ca.dot(velocity, action.force)
+        if result.potential is not None:
+            potential += result.potential
+    return _Loads(force, potential, power)
+
+
+def _reads_solution(value: ca.SX, symbols: Symbols) -> bool:
+    return any(
+        s.numel() and value.numel() and ca.depends_on(value, s) for s in (symbols.a, symbols.lam)
+    )
+
+
+def _rates(contacts: tuple[Contact, ...], variables: Variables, kinematics: Kinematics) -> ca.SX:
+    rates: list[ca.SX] = []
+    for contact in contacts:
+        geometry = variables.geometry[contact.liaison]
+        rates.append(kinematics.velocity(geometry.gap))
+        if contact.mu is not None:
+            rates.append(geometry.slip)
+        if contact.delta is not None:
+            rates.append(geometry.roll)
+    return _column(rates)
+
+
+def _coefficients(
+    contacts: tuple[Contact, ...], moving: Lowering, symbols: Symbols, log: Log
+) -> ca.SX:
+    """mu, mu_s, delta of each contact; a negative one is no number, so that it is not used unseen."""
+    values: list[ca.SX] = []
+    for contact in contacts:
+        for expression in (contact.mu, contact.mu_s, contact.delta):
+            if expression is None:
+                values.append(ca.SX(0))
+                continue
+            value = moving.lower(expression)
+            if _reads_solution(value, symbols) or _reads_speed(value, symbols):
+                log.report(
+                    "E0701",
+                    f"a coefficient of liaison '{contact.liaison.name}' that depends on the motion "
+                    "otherwise than by positions is not supported yet",
+                    expression.span,
+                )
+            values.append(ca.if_else(value >= 0, value, ca.SX.nan()))
+    return _column(values)
+
+
+def _reads_speed(value: ca.SX, symbols: Symbols) -> bool:
+    return bool(symbols.v.numel() and ca.depends_on(value, symbols.v))

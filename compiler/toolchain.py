@@ -1,0 +1,125 @@
+"""The C compiler: which one, and how it is called."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from frot.dsl.diagnostics import fail
+
+FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off")
+LINK_FLAGS = ("-shared", "-lm")
+HIDDEN = "-fvisibility=hidden"
+TIMEOUT = 600.0
+
+
+@dataclass(frozen=True, slots=True)
+class Toolchain:
+    """A C compiler as the words of a command, and what identifies it: words, size and date."""
+
+    command: tuple[str, ...]
+    identity: str
+
+
+def find_toolchain() -> Toolchain:
+    """`$FROT_CC`, else `cc`, `gcc` or `clang` on the path, else the `ziglang` package.
+
+    Raises FrotError (E0801) when there is none.
+    """
+    wanted = os.environ.get("FROT_CC", "").strip()
+    if wanted:
+        words = shlex.split(wanted)
+        if shutil.which(words[0]) is None:
+            raise fail(
+                "E0801",
+                f"the C compiler of FROT_CC does not exist: {wanted}",
+                help="set FROT_CC to a C compiler's command, or unset it",
+            )
+        return _toolchain(tuple(words))
+    for name in ("cc", "gcc", "clang"):
+        if shutil.which(name) is not None:
+            return _toolchain((name,))
+    if importlib.util.find_spec("ziglang") is not None:
+        return _toolchain((sys.executable, "-m", "ziglang", "cc"))
+    raise fail(
+        "E0801",
+        "no C compiler was found",
+        help="install one (Debian: `apt install gcc`), `pip install ziglang`, or set FROT_CC",
+    )
+
+
+def _toolchain(command: tuple[str, ...]) -> Toolchain:
+    binary = Path(shutil.which(command[0]) or command[0]).resolve()
+    try:
+        stat = binary.stat()
+        seal = f"{binary} {stat.st_size} {stat.st_mtime_ns}"
+    except OSError:
+        seal = str(binary)
+    return Toolchain(command, " ".join((*command, seal)))
+
+
+def run_compiler(toolchain: Toolchain, arguments: Sequence[str | Path]) -> None:
+    """Run the compiler; FrotError (E0802) with the first lines of its output when it fails."""
+    command = [*toolchain.command, *(str(a) for a in arguments)]
+    try:
+        done = subprocess.run(
+            command,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=TIMEOUT,
+            check=False,
+            stdin=subprocess.DEVNULL,
+        )
+    except FileNotFoundError:
+        raise fail("E0801", f"no C compiler: {command[0]} does not exist") from None
+    except subprocess.TimeoutExpired:
+        raise fail("E0802", f"the C compiler took more than {TIMEOUT:.0f} s") from None
+    except OSError as error:
+        raise fail("E0802", f"the C compiler could not be run: {error}") from None
+    if done.returncode != 0:
+        lines = (done.stderr or done.stdout).strip().splitlines()[:8]
+        raise fail(
+            "E0802",
+            f"the C compiler failed: {shlex.join(toolchain.command)}",
+            notes=tuple(lines),
+            help="set FROT_CC to another compiler, or report this with the model",
+        )
+
+
+def compile_objects(
+    toolchain: Toolchain, sources: Sequence[Path], include: Sequence[Path], folder: Path
+) -> list[Path]:
+    """Compile each source to an object in `folder`, two at a time."""
+    from concurrent.futures import ThreadPoolExecutor
+
+    flags = [*FLAGS, *(f"-I{path}" for path in include)]
+    objects = [folder / f"{source.stem}.o" for source in sources]
+    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        list(
+            pool.map(
+                lambda pair: run_compiler(toolchain, [*flags, "-c", pair[0], "-o", pair[1]]),
+                zip(sources, objects, strict=True),
+            )
+        )
+    return objects
+
+
+def link_library(toolchain: Toolchain, inputs: Sequence[Path], target: Path) -> None:
+    """Link objects to a shared library."""
+    run_compiler(toolchain, [*inputs, "-o", target, *LINK_FLAGS])
+
+
+def compile_library(
+    toolchain: Toolchain, sources: Sequence[Path], include: Sequence[Path], target: Path
+) -> None:
+    """Compile sources to a shared library of which only marked functions are seen."""
+    flags = [*FLAGS, HIDDEN, *(f"-I{path}" for path in include)]
+    run_compiler(toolchain, [*flags, *sources, "-o", target, *LINK_FLAGS])

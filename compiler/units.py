@@ -1,0 +1,50 @@
+"""Units of the values a program takes and gives: SI, with the author's unit for display."""
+
+from __future__ import annotations
+
+from frot.dsl.dimensions import Dimension, dimension
+from frot.dsl.units import parse_unit
+from frot.runtime.program import Unit
+
+_BY_QUANTITY = {
+    "Angle": "rad",
+    "AngularVelocity": "rad/s",
+    "AngularAcceleration": "rad/s^2",
+    "Torque": "N.m",
+    "RotationalStiffness": "N.m/rad",
+    "RotationalDamping": "N.m.s/rad",
+    "Frequency": "Hz",
+}
+_TURNING = {"Angle": 1, "AngularVelocity": 1, "AngularAcceleration": 1}
+_TURNING |= {"RotationalStiffness": -1, "RotationalDamping": -1}
+
+_BY_DIMENSION: dict[Dimension, str] = {
+    dimension(m=1, kg=1, s=-2): "N",
+    dimension(m=2, kg=1, s=-2): "J",
+    dimension(m=2, kg=1, s=-3): "W",
+    dimension(kg=1, s=-2): "N/m",
+    dimension(kg=1, s=-1): "N.s/m",
+    dimension(m=1, kg=1, s=-1): "N.s",
+    dimension(m=-1, kg=1, s=-2): "Pa",
+    dimension(m=2, kg=1, s=-3, A=-1): "V",
+    dimension(m=2, kg=1, s=-3, A=-2): "Ohm",
+    dimension(m=2, kg=1, s=-2, A=-2): "H",
+    dimension(m=-2, kg=-1, s=4, A=2): "F",
+}
+
+
+def unit_of(of: Dimension, quantity: str = "", written: str = "") -> Unit:
+    """The SI unit of a dimension; `written`, the author's unit, is kept for display if it differs.
+
+    A half exponent (a square root of a unit) has no place in an FMU: such a unit is left out.
+    """
+    if any(e.denominator != 1 for e in of.exponents):
+        return Unit("1")
+    name = _BY_QUANTITY.get(quantity) or _BY_DIMENSION.get(of) or of.unit
+    exponents = (*(int(e) for e in of.exponents), _TURNING.get(quantity, 0))
+    if not written or written == name:
+        return Unit(name, exponents)
+    parsed = parse_unit(written)
+    if parsed is None or parsed.dimension != of:
+        return Unit(name, exponents)
+    return Unit(name, exponents, written, float(parsed.factor))

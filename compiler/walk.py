@@ -1,0 +1,68 @@
+"""Walking through expressions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from frot.dsl.checked import (
+    Binary,
+    Call,
+    Derivative,
+    Element,
+    Expression,
+    If,
+    Model,
+    Parameter,
+    Quantity,
+    Reference,
+    Time,
+    Unary,
+    Vector,
+)
+
+
+def subexpressions(expression: Expression) -> Iterator[Expression]:
+    """The expression and everything in it, through declared outputs it names."""
+    from frot.dsl.checked import Output
+
+    stack = [expression]
+    while stack:
+        node = stack.pop()
+        yield node
+        match node:
+            case Derivative() | Element() | Unary():
+                stack.append(node.operand)
+            case Vector():
+                stack.extend(node.items)
+            case Binary():
+                stack.extend((node.left, node.right))
+            case Call():
+                stack.extend(node.arguments)
+            case If():
+                stack.extend((node.condition, node.yes, node.no))
+            case Reference() if isinstance(node.target, Output):
+                stack.append(node.target.value)
+
+
+def is_fixed(expression: Expression) -> bool:
+    """Whether the value depends on parameters and constants alone."""
+    return all(
+        not isinstance(node, (Time, Quantity, Derivative))
+        and not (isinstance(node, Reference) and not isinstance(node.target, Parameter))
+        for node in subexpressions(expression)
+    )
+
+
+def read_expressions(model: Model) -> Iterator[Expression]:
+    """Every expression of the model that can read a variable of a body or liaison."""
+    for output in model.outputs:
+        yield output.value
+    for equation in model.initial:
+        yield from (equation.left, equation.right)
+    for force in model.forces:
+        for argument in force.arguments.values():
+            if isinstance(argument, Expression):
+                yield argument
+    for liaison in model.liaisons:
+        for law in liaison.laws:
+            yield from law.arguments.values()

@@ -1,0 +1,218 @@
+"""The command line: `frot check | simulate | fmu`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from frot.model import Model
+    from frot.runtime.result import Result
+
+EXIT_ERROR, EXIT_INTERRUPTED = 1, 130
+STAGES = ("tree", "instance", "mechanism", "equations", "cost")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; the exit status is 0, 1 after an error message, 2 after wrong usage."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if options.command is None:
+        parser.print_help()
+        return 0
+    try:
+        return int(options.run(options))
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return EXIT_INTERRUPTED
+    except BrokenPipeError:
+        # The reader of our output has gone (`frot ... | head`): nobody is left to be told.
+        sys.stderr.close()
+        return 0
+    except Exception as error:
+        from frot.dsl.diagnostics import FrotError
+
+        if not isinstance(error, FrotError):
+            raise
+        _complain(error)
+        return EXIT_ERROR
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="frot",
+        description="Models of rigid bodies with liaisons and dry friction: check them, run them "
+        "exactly, export them as FMUs.",
+        epilog="`frot COMMAND --help` tells more. Exit status: 0 done, 1 an error was reported, "
+        "2 wrong usage.",
+    )
+    parser.add_argument("--version", action="version", version=_Version())
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND")
+
+    check = _command(
+        commands, "check", "check a model; print its mobility and liaisons", _check
+    )
+    check.add_argument(
+        "--emit",
+        choices=STAGES,
+        help="print what one stage of the compiler makes instead of the report",
+    )
+
+    simulate = _command(commands, "simulate", "run a model", _simulate)
+    _settings(simulate)
+    simulate.add_argument("--start", type=_number, metavar="T", help="start time in s")
+    simulate.add_argument("--stop", type=_number, metavar="T", help="stop time in s")
+    simulate.add_argument(
+        "--tolerance", type=_number, metavar="X", help="local error, from 1e-14 to 0.1"
+    )
+    simulate.add_argument(
+        "--interval", type=_number, metavar="T", help="distance of the output times in s"
+    )
+    simulate.add_argument(
+        "-o", "--output", metavar="FILE", help="write all variables to .csv, .json or .npz"
+    )
+    simulate.add_argument("--plot", metavar="FILE", help="draw the motion to .png, .svg or .pdf")
+    simulate.add_argument("--quiet", action="store_true", help="print no summary")
+
+    fmu = _command(commands, "fmu", "export a model as a co-simulation FMU", _fmu)
+    fmu.add_argument("-o", "--output", metavar="FILE", help="the .fmu (default: MODEL.fmu)")
+    fmu.add_argument("--fmi", choices=("2.0", "3.0"), default="2.0", help="version (default: 2.0)")
+    return parser
+
+
+def _command(
+    commands: argparse._SubParsersAction[argparse.ArgumentParser],
+    name: str,
+    summary: str,
+    run: object,
+) -> argparse.ArgumentParser:
+    parser = commands.add_parser(name, help=summary, description=f"frot {name}: {summary}.")
+    parser.add_argument("file", metavar="FILE", help="a .frot file")
+    parser.add_argument("--model", metavar="NAME", help="which model, if the file holds several")
+    parser.set_defaults(run=run)
+    return parser
+
+
+def _settings(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        type=_assignment,
+        metavar="NAME=VALUE",
+        help="set a parameter, in SI or with a unit: --set mu=0.2 --set 'r=120 mm' (repeatable)",
+    )
+    parser.add_argument(
+        "--input",
+        action="append",
+        default=[],
+        type=_assignment,
+        metavar="NAME=VALUE",
+        help="hold an input at a value (repeatable)",
+    )
+
+
+class _Version:
+    """The version, looked up only when it is printed."""
+
+    def __mod__(self, _: object) -> str:
+        from importlib.metadata import version
+
+        return f"frot {version('frot')}"
+
+    def __str__(self) -> str:
+        return self % None
+
+
+def _assignment(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip() or not value.strip():
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=VALUE")
+    return name.strip(), value.strip()
+
+
+def _number(text: str) -> float:
+    import math
+
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number") from None
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a finite number")
+    return value
+
+
+def _load(options: argparse.Namespace) -> Model:
+    from frot.model import load
+
+    return load(options.file, options.model)
+
+
+def _check(options: argparse.Namespace) -> int:
+    from frot.stages import emit_stage, report_file
+
+    if options.emit:
+        print(emit_stage(options.file, options.model, options.emit))
+    else:
+        print(report_file(options.file, options.model))
+    return 0
+
+
+def _simulate(options: argparse.Namespace) -> int:
+    from frot.progress import Progress
+    from frot.runtime import SimulationError
+
+    model = _load(options)
+    program = model.program()
+    result: Result | None
+    failure: SimulationError | None = None
+    with Progress(f"simulating {program.name}") as progress:
+        try:
+            result = model.simulate(
+                stop=options.stop,
+                start=options.start,
+                tolerance=options.tolerance,
+                interval=options.interval,
+                parameters=dict(options.set),
+                inputs=dict(options.input),
+                watch=progress.watch(options.stop or program.experiment.stop),
+            )
+        except SimulationError as error:
+            result, failure = error.result, error
+    if result is not None:
+        if options.output:
+            result.save(options.output)
+        if options.plot:
+            from frot.runtime import plot
+
+            plot(result, options.plot)
+        if not options.quiet:
+            print(result.summary())
+    if failure is not None:
+        raise failure
+    return 0
+
+
+def _fmu(options: argparse.Namespace) -> int:
+    model = _load(options)
+    target = options.output or f"{model.program().name}.fmu"
+    model.export_fmu(target, options.fmi)
+    print(f"{target}: FMI {options.fmi} co-simulation, checked by FMPy")
+    return 0
+
+
+def _complain(error: Exception) -> None:
+    from frot.dsl import render
+    from frot.dsl.diagnostics import FrotError
+
+    assert isinstance(error, FrotError)
+    colour = sys.stderr.isatty()
+    for diagnostic in error.diagnostics:
+        print(render(diagnostic, colour), file=sys.stderr)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,157 @@
+"""A model as its user holds it: loaded, run, exported."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from frot.compiler import find_program, find_toolchain, program_key
+from frot.dsl.diagnostics import FrotError, Log, fail
+from frot.dsl.reading import read_text
+
+if TYPE_CHECKING:
+    from frot.compiler.dae import Dae
+    from frot.compiler.report import Report
+    from frot.dsl import checked
+    from frot.runtime.program import Program
+    from frot.runtime.result import Result
+
+
+class Model:
+    """A model of a `.frot` text. Made by `load` or `compile`."""
+
+    def __init__(self, text: str, name: str, model: str | None) -> None:
+        """`name` is the file's, for messages; `model` chooses one of several in the text."""
+        self._text, self._file, self._chosen = text, name, model
+        self._checked: checked.Model | None = None
+        self._program: Program | None = None
+
+    @property
+    def name(self) -> str:
+        """The model's name in the text."""
+        if self._program is not None:
+            return self._program.name
+        return self.checked().name
+
+    def checked(self) -> checked.Model:
+        """The checked model; FrotError with every fault of the text."""
+        if self._checked is None:
+            from frot.dsl import compile_text
+
+            log = Log()
+            checked_model = compile_text(self._text, log, name=self._file, model=self._chosen)
+            if checked_model is None or log.failed:
+                raise FrotError(log)
+            self._checked = checked_model
+        return self._checked
+
+    def program(self) -> Program:
+        """The compiled program, from the cache if it is there."""
+        if self._program is None:
+            toolchain = find_toolchain()
+            key = program_key(f"{self._file}\n{self._text}", self._chosen, toolchain)
+            self._program = find_program(key)
+            if self._program is None:
+                from frot.compiler import build
+
+                log = Log()
+                self._program = build(self.checked(), key, toolchain, log)
+                if self._program is None:
+                    raise FrotError(log)
+        return self._program
+
+    def simulate(
+        self,
+        *,
+        stop: float | None = None,
+        start: float | None = None,
+        tolerance: float | None = None,
+        interval: float | None = None,
+        parameters: Mapping[str, object] | None = None,
+        inputs: Mapping[str, object] | None = None,
+        watch: Callable[[float], bool] | None = None,
+    ) -> Result:
+        """Run the model; see `frot.runtime.run.simulate`."""
+        from frot.runtime import simulate
+
+        return simulate(
+            self.program(),
+            stop=stop,
+            start=start,
+            tolerance=tolerance,
+            interval=interval,
+            parameters=parameters,
+            inputs=inputs,
+            watch=watch,
+        )
+
+    def report(self) -> Report:
+        """Mobility and liaisons; `str(report)` is what `frot check` prints."""
+        from frot.compiler import make_report
+
+        log = Log()
+        report = make_report(self.checked(), log)
+        if report is None:
+            raise FrotError(log)
+        return report
+
+    def dae(self) -> Dae:
+        """The CasADi DAE with its switching: see `frot.compiler.dae.Dae`."""
+        from frot.compiler import make_dae
+
+        log = Log()
+        dae = make_dae(self.checked(), log)
+        if dae is None:
+            raise FrotError(log)
+        return dae
+
+    def export_fmu(self, path: str | Path, fmi: str = "2.0") -> None:
+        """Write a co-simulation FMU for this machine's platform. `fmi`: "2.0" or "3.0"."""
+        from functools import partial
+
+        from frot.compiler import compile_library
+        from frot.runtime.fmi import export
+
+        if fmi not in ("2.0", "3.0"):
+            raise fail("E0806", f"FMI version '{fmi}' is not known", help="choose 2.0 or 3.0")
+        target = Path(path)
+        try:
+            export(self.program(), target, fmi, partial(compile_library, find_toolchain()))
+        except OSError as error:
+            raise fail(
+                "E0803",
+                f"'{target}' cannot be written: {error.strerror or error}",
+                help=f"is '{target.parent}' a folder that can be written?",
+            ) from None
+
+
+def load(path: str | Path, model: str | None = None) -> Model:
+    """Read a `.frot` file. `model` chooses one of several models in it.
+
+    Raises:
+        FrotError: E0804 if the file cannot be read, and every fault of the text.
+    """
+    log = Log()
+    text = read_text(path, log)
+    if text is None:
+        raise FrotError(log)
+    return _make(text, str(path), model)
+
+
+def compile(text: str, model: str | None = None) -> Model:
+    """A model from a text. `model` chooses one of several models in it.
+
+    Raises:
+        FrotError: Every fault of the text.
+    """
+    return _make(text, "<text>", model)
+
+
+def _make(text: str, name: str, chosen: str | None) -> Model:
+    model = Model(text, name, chosen)
+    toolchain = find_toolchain()
+    model._program = find_program(program_key(f"{name}\n{text}", chosen, toolchain))
+    if model._program is None:
+        model.checked()
+    return model

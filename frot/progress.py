@@ -1,0 +1,55 @@
+"""Progress of a long run, on a terminal only."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any
+
+PATIENCE = 0.7
+
+
+class Progress:
+    """Shows how far a run is once it has taken longer than a moment."""
+
+    def __init__(self, title: str) -> None:
+        """`title` stands beside the bar."""
+        self._title = title
+        self._bar: Any = None
+        self._task: Any = None
+        self._begun = time.monotonic()
+
+    def __enter__(self) -> Progress:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._bar is not None:
+            self._bar.stop()
+
+    def watch(self, stop: float | None) -> Callable[[float], bool]:
+        """A function for `simulate(watch=...)` that shows the time reached out of `stop`."""
+        visible = sys.stderr.isatty()
+
+        def watch(reached: float) -> bool:
+            if visible and time.monotonic() - self._begun > PATIENCE:
+                self._show(reached, stop)
+            return False
+
+        return watch
+
+    def _show(self, reached: float, stop: float | None) -> None:
+        if self._bar is None:
+            from rich.console import Console
+            from rich.progress import Progress as Bar
+
+            self._bar = Bar(console=Console(stderr=True), transient=True)
+            self._bar.start()
+            self._task = self._bar.add_task(self._title, total=stop)
+        self._bar.update(self._task, completed=reached)

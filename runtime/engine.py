@@ -1,0 +1,283 @@
+"""The C kernel and a compiled model, bound with ctypes."""
+
+from __future__ import annotations
+
+import ctypes as ct
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from frot.runtime.program import Program
+
+Floats = NDArray[np.float64]
+
+OK, FULL, STOPPED = 0, 1, 2
+INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
+_TEXT = 1024
+
+
+class Options(ct.Structure):
+    """frot_options."""
+
+    _fields_ = (("tolerance", ct.c_double), ("on_indeterminate", ct.c_int), ("reserved", ct.c_int))
+
+
+class RawEvent(ct.Structure):
+    """frot_event."""
+
+    _fields_ = (
+        ("t", ct.c_double),
+        ("kind", ct.c_int),
+        ("contact", ct.c_int),
+        ("before", ct.c_int),
+        ("after", ct.c_int),
+        ("solutions", ct.c_int),
+        ("reserved", ct.c_int),
+    )
+
+
+class Recorder(ct.Structure):
+    """frot_recorder."""
+
+    _fields_ = (
+        ("segments", ct.c_void_p),
+        ("segment_capacity", ct.c_longlong),
+        ("segment_count", ct.c_longlong),
+        ("events", ct.POINTER(RawEvent)),
+        ("event_capacity", ct.c_longlong),
+        ("event_count", ct.c_longlong),
+    )
+
+
+class Fault(ct.Structure):
+    """frot_fault."""
+
+    _fields_ = (
+        ("status", ct.c_int),
+        ("contact", ct.c_int),
+        ("item", ct.c_int),
+        ("other", ct.c_int),
+        ("t", ct.c_double),
+        ("value", ct.c_double),
+    )
+
+
+class Statistics(ct.Structure):
+    """frot_statistics: counts of a run."""
+
+    _fields_ = (
+        ("steps", ct.c_longlong),
+        ("rejected", ct.c_longlong),
+        ("evaluations", ct.c_longlong),
+        ("events", ct.c_longlong),
+    )
+
+
+_Monitor = ct.CFUNCTYPE(ct.c_int, ct.c_void_p, ct.c_double)
+_POINTER, _DOUBLE, _INT, _LONG = ct.c_void_p, ct.c_double, ct.c_int, ct.c_longlong
+_SIGNATURES: dict[str, tuple[object, tuple[object, ...]]] = {
+    "frot_state_size": (ct.c_size_t, (_POINTER,)),
+    "frot_work_size": (ct.c_size_t, (_POINTER,)),
+    "frot_segment_size": (_LONG, (_POINTER,)),
+    "frot_state_clear": (None, (_POINTER, _POINTER)),
+    "frot_set_parameter": (None, (_POINTER, _POINTER, _INT, _DOUBLE)),
+    "frot_set_input": (None, (_POINTER, _POINTER, _INT, _DOUBLE)),
+    "frot_get_parameter": (_DOUBLE, (_POINTER, _POINTER, _INT)),
+    "frot_settle_parameters": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER)),
+    "frot_start": (_INT, (_POINTER, _POINTER, _POINTER, _DOUBLE, ct.POINTER(Options))),
+    "frot_settle": (_INT, (_POINTER, _POINTER, _POINTER)),
+    "frot_advance": (
+        _INT,
+        (_POINTER, _POINTER, _POINTER, _DOUBLE, ct.POINTER(Recorder), _POINTER, _POINTER),
+    ),
+    "frot_sample": (
+        _INT,
+        (_POINTER, _POINTER, _POINTER, _POINTER, _LONG, _POINTER, _LONG, _POINTER),
+    ),
+    "frot_energy": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER)),
+    "frot_time": (_DOUBLE, (_POINTER,)),
+    "frot_last_fault": (ct.POINTER(Fault), (_POINTER,)),
+    "frot_run_statistics": (ct.POINTER(Statistics), (_POINTER,)),
+    "frot_fault_text": (None, (_POINTER, _POINTER, ct.c_char_p, ct.c_size_t)),
+    "frot_event_text": (None, (_POINTER, ct.POINTER(RawEvent), ct.c_char_p, ct.c_size_t)),
+    "frot_fault_places": (None, (_POINTER, _POINTER, ct.c_char_p, ct.c_size_t)),
+}
+
+
+@functools.lru_cache(maxsize=64)
+def _load(path: str) -> ct.CDLL:
+    library = ct.CDLL(path)
+    for name, (result, arguments) in _SIGNATURES.items():
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments
+    return library
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Run:
+    """What a call of `Engine.advance` gave: the kernel's status, the segments and the events."""
+
+    status: int
+    segments: Floats
+    events: list[RawEvent]
+
+
+def _address(array: Floats) -> int:
+    return int(array.ctypes.data)
+
+
+class Engine:
+    """One instance of a compiled model."""
+
+    def __init__(self, program: Program) -> None:
+        """Load the library and clear a new state."""
+        self.program = program
+        self._library = _load(str(program.library))
+        self._model = ct.addressof(ct.c_char.in_dll(self._library, "frot_the_model"))
+        self._state = np.zeros(-(-self._library.frot_state_size(self._model) // 8))
+        self._work = np.zeros(-(-self._library.frot_work_size(self._model) // 8) + 1)
+        self.segment_size = int(self._library.frot_segment_size(self._model))
+        self._library.frot_state_clear(self._model, self._s)
+
+    @property
+    def _s(self) -> int:
+        return _address(self._state)
+
+    @property
+    def _w(self) -> int:
+        return _address(self._work)
+
+    def save(self) -> Floats:
+        """A copy of the whole instance."""
+        return self._state.copy()
+
+    def restore(self, saved: Floats) -> None:
+        """Put a copy made by `save` back."""
+        self._state[:] = saved
+
+    def set_parameter(self, index: int, value: float) -> None:
+        """Set a parameter, in SI; takes effect at the next start or settle."""
+        self._library.frot_set_parameter(self._model, self._s, index, value)
+
+    def get_parameter(self, index: int) -> float:
+        """Value of a parameter, in SI."""
+        return float(self._library.frot_get_parameter(self._model, self._s, index))
+
+    def set_input(self, index: int, value: float) -> None:
+        """Set an input, in SI."""
+        self._library.frot_set_input(self._model, self._s, index, value)
+
+    def settle_parameters(self) -> tuple[int, Floats]:
+        """Status, and start, stop, tolerance, interval of the experiment (NaN where silent)."""
+        experiment = np.full(4, np.nan)
+        status = self._library.frot_settle_parameters(
+            self._model, self._s, self._w, _address(experiment)
+        )
+        return int(status), experiment
+
+    def start(self, t: float, tolerance: float, on_indeterminate: str) -> int:
+        """Solve the initial values; `tolerance` 0 takes the model's own."""
+        options = Options(tolerance, INDETERMINATE[on_indeterminate], 0)
+        return int(
+            self._library.frot_start(self._model, self._s, self._w, t, ct.byref(options))
+        )
+
+    def settle(self) -> int:
+        """Let changed parameters and inputs take effect at the time reached."""
+        return int(self._library.frot_settle(self._model, self._s, self._w))
+
+    def advance(self, t: float, watch: Callable[[float], bool] | None = None) -> Run:
+        """Run to time t. `watch(time)` is called now and then; True stops the run."""
+        events: list[RawEvent] = []
+        chunks: list[Floats] = []
+        interrupted: list[BaseException] = []
+
+        def monitor(_: int, time: float) -> int:
+            try:
+                return int(watch(time)) if watch is not None else 0
+            except BaseException as error:  # nothing may pass through C
+                interrupted.append(error)
+                return 1
+
+        callback = _Monitor(monitor)
+        capacity = 64
+        while True:
+            buffer = np.empty((capacity, self.segment_size))
+            raw = (RawEvent * (4 * len(self.program.contacts) + 256))()
+            recorder = Recorder(_address(buffer), capacity, 0, raw, len(raw), 0)
+            status = int(
+                self._library.frot_advance(
+                    self._model, self._s, self._w, t, ct.byref(recorder), callback, None
+                )
+            )
+            chunks.append(buffer[: recorder.segment_count].copy())
+            events.extend(
+                RawEvent.from_buffer_copy(raw[i]) for i in range(recorder.event_count)
+            )
+            if interrupted:
+                raise interrupted[0]
+            if status != FULL:
+                return Run(status, np.concatenate(chunks), events)
+            capacity = min(2 * capacity, 65536)
+
+    def sample(self, segments: Floats, times: Floats) -> Floats:
+        """Values (times x variables) over segments in order; times in ascending order."""
+        values = np.empty((len(times), len(self.program.variables)))
+        status = self._library.frot_sample(
+            self._model,
+            self._s,
+            self._w,
+            _address(segments),
+            len(segments),
+            _address(times),
+            len(times),
+            _address(values),
+        )
+        if status != OK:
+            raise ArithmeticError(f"status {status} at a time inside the run")
+        return values
+
+    def energy(self) -> Floats:
+        """Residual of the balance, energy scale, mechanical energy, dissipated, work."""
+        balance = np.zeros(5)
+        self._library.frot_energy(self._model, self._s, self._w, _address(balance))
+        return balance
+
+    @property
+    def time(self) -> float:
+        """The time reached."""
+        return float(self._library.frot_time(self._s))
+
+    @property
+    def fault(self) -> Fault:
+        """The last fault."""
+        return Fault.from_buffer_copy(self._library.frot_last_fault(self._s).contents)
+
+    @property
+    def fault_text(self) -> str:
+        """The last fault in a sentence."""
+        return self._words(self._library.frot_fault_text)
+
+    @property
+    def fault_places(self) -> tuple[str, ...]:
+        """`file:line:column` of what the last fault is about."""
+        return tuple(filter(None, self._words(self._library.frot_fault_places).split("\n")))
+
+    def _words(self, function: Callable[..., None]) -> str:
+        text = ct.create_string_buffer(_TEXT)
+        function(self._model, self._s, text, _TEXT)
+        return text.value.decode("utf-8", "replace")
+
+    def event_text(self, event: RawEvent) -> str:
+        """An event in words."""
+        text = ct.create_string_buffer(_TEXT)
+        self._library.frot_event_text(self._model, ct.byref(event), text, _TEXT)
+        return text.value.decode("utf-8", "replace")
+
+    @property
+    def statistics(self) -> Statistics:
+        """Counts of the run so far."""
+        return Statistics.from_buffer_copy(self._library.frot_run_statistics(self._s).contents)

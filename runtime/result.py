@@ -1,0 +1,250 @@
+"""The result of a run: values on the output grid, values at any time, events, statistics."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+
+import numpy as np
+
+from frot.dsl.diagnostics import fail
+from frot.runtime.engine import Engine, Floats
+from frot.runtime.program import Program
+
+KINDS = (
+    "stick",
+    "slip",
+    "reversal",
+    "separation",
+    "contact",
+    "roll_stop",
+    "roll_start",
+    "roll_reversal",
+    "reaction",
+    "condition",
+    "several",
+)
+MODES = ("open", "stick", "slip")
+ROLLING = ("free", "held", "rolling", "rolling")
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """A change of mode: `kind` of KINDS, `liaison`, modes `before` and `after`, time in s."""
+
+    time: float
+    kind: str
+    liaison: str
+    before: str
+    after: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Balance:
+    """Energy at the end: `residual` of kinetic + potential + dissipated - work, in J.
+
+    `scale` is the largest of the energies that took part; `relative` their quotient.
+    """
+
+    residual: float
+    scale: float
+    mechanical: float
+    dissipated: float
+    work: float
+
+    @property
+    def relative(self) -> float:
+        """Residual over scale; 0 where nothing had energy."""
+        return abs(self.residual) / self.scale if self.scale > 0 else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """What the run took: accepted and rejected steps, evaluations, wall time of the kernel (s)."""
+
+    steps: int
+    rejected: int
+    evaluations: int
+    wall_time: float
+
+
+class Values(Mapping[str, Floats]):
+    """Values of all variables at given times, by name."""
+
+    def __init__(self, program: Program, values: Floats) -> None:
+        """`values`: times x variables, or variables for a single time."""
+        self._columns = {v.name: k for k, v in enumerate(program.variables)}
+        self._values = values
+
+    def __getitem__(self, name: str) -> Floats:
+        """Values of the variable: an array, or a number for a single time."""
+        if name not in self._columns:
+            near = get_close_matches(name, self._columns, 1)
+            hint = f"; did you mean '{near[0]}'?" if near else ""
+            raise KeyError(f"no variable '{name}'{hint}")
+        return self._values[..., self._columns[name]]  # type: ignore[no-any-return]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+
+class Result(Mapping[str, Floats]):
+    """A run. `result["hoop.position.x"]` and `result.time` are arrays on the output grid, in SI.
+
+    `at(t)[name]` gives values at any time of the run, from the dense output of the steps.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        engine: Engine,
+        time: Floats,
+        segments: Floats,
+        events: tuple[Event, ...],
+        figures: Figures,
+    ) -> None:
+        """Built by `simulate`; `segments` are the kernel's."""
+        self.program = program
+        self.time = time
+        self.events = events
+        self.figures = figures
+        self.balance = Balance(*(float(x) for x in engine.energy()))
+        self.parameters = {
+            p.name: engine.get_parameter(k) for k, p in enumerate(program.parameters)
+        }
+        self._engine = engine
+        self._segments = segments
+        self._values = Values(program, engine.sample(segments, time))
+
+    def __getitem__(self, name: str) -> Floats:
+        return self.time if name == "time" else self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        yield "time"
+        yield from self._values
+
+    def __len__(self) -> int:
+        return len(self._values) + 1
+
+    def at(self, t: float | Floats) -> Values:
+        """Values at time t (s), or at each of an array of times; ValueError outside the run."""
+        times = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        first, last = self.time[0], self.time[-1]
+        if times.size and not (np.all(times >= first) and np.all(times <= last)):
+            raise ValueError(f"the run goes from {first:.17g} s to {last:.17g} s")
+        order = np.argsort(times, kind="stable")
+        sampled = np.empty((len(times), len(self.program.variables)))
+        sampled[order] = self._engine.sample(self._segments, np.ascontiguousarray(times[order]))
+        return Values(self.program, sampled[0] if np.ndim(t) == 0 else sampled)
+
+    def save(self, path: str | Path) -> None:
+        """Write all variables on the grid to `.csv`, `.json` or `.npz`, whole or not at all."""
+        path = Path(path)
+        writers = {".csv": self._csv, ".json": self._json, ".npz": self._npz}
+        if path.suffix.lower() not in writers:
+            raise fail(
+                "E0806",
+                f"the format of '{path}' is not known",
+                help="name a file that ends in .csv, .json or .npz",
+            )
+        write_whole(path, writers[path.suffix.lower()]())
+
+    def _csv(self) -> bytes:
+        text = io.StringIO(newline="")
+        writer = csv.writer(text)
+        modes = {v.name for v in self.program.variables if v.type == "mode"}
+        writer.writerow(list(self))
+        columns = [
+            [MODES[int(x)] for x in self[name]]
+            if name in modes
+            else [repr(x) for x in self[name].tolist()]
+            for name in self
+        ]
+        writer.writerows(zip(*columns, strict=True))
+        return text.getvalue().encode("utf-8")
+
+    def _json(self) -> bytes:
+        units = {v.name: v.unit.name for v in self.program.variables}
+        content = {
+            "model": self.program.name,
+            "parameters": self.parameters,
+            "units": {"time": "s", **units},
+            "modes": list(MODES),
+            "variables": {name: self[name].tolist() for name in self},
+            "events": [
+                {
+                    "time": e.time,
+                    "kind": e.kind,
+                    "liaison": e.liaison,
+                    "before": e.before,
+                    "after": e.after,
+                }
+                for e in self.events
+            ],
+        }
+        return (json.dumps(content, ensure_ascii=False, indent=1) + "\n").encode("utf-8")
+
+    def _npz(self) -> bytes:
+        buffer = io.BytesIO()
+        np.savez_compressed(buffer, **{name: self[name] for name in self})  # type: ignore[arg-type]
+        return buffer.getvalue()
+
+    def summary(self) -> str:
+        """Events, steps, evaluations, wall time and energy balance, in a few lines."""
+        figures, balance = self.figures, self.balance
+        lines = [f"{self.program.name}: {self.time[0]:.6g} s to {self.time[-1]:.6g} s"]
+        lines += [f"  {event.text}" for event in self.events]
+        if not self.events:
+            lines.append("  no events")
+        lines.append(
+            f"  {figures.steps} steps ({figures.rejected} rejected), {figures.evaluations} "
+            f"evaluations, {1e3 * figures.wall_time:.3g} ms in the kernel"
+        )
+        lines.append(
+            f"  energy balance: {balance.residual:.2e} J, {balance.relative:.1e} of "
+            f"{balance.scale:.6g} J (dissipated {balance.dissipated:.6g} J)"
+        )
+        return "\n".join(lines)
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file so that it is there whole or not at all; FrotError (E0803) if it cannot be."""
+    try:
+        handle, name = tempfile.mkstemp(prefix=f".{path.name}-", dir=path.parent or Path())
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(content)
+            mask = os.umask(0)
+            os.umask(mask)
+            os.chmod(name, 0o666 & ~mask)
+            os.replace(name, path)
+        except BaseException:
+            Path(name).unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        raise fail(
+            "E0803",
+            f"'{path}' cannot be written: {error.strerror or error}",
+            help=_remedy(path, error),
+        ) from None
+
+
+def _remedy(path: Path, error: OSError) -> str:
+    import errno
+
+    if not path.parent.is_dir():
+        return f"make the folder '{path.parent}' first"
+    if error.errno == errno.ENOSPC:
+        return "free some space, or write to another disk"
+    return "choose a file that can be written"

@@ -1,0 +1,231 @@
+"""A run of a compiled program."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from frot.dsl.diagnostics import FrotError, Log, fail
+from frot.runtime.engine import OK, STOPPED, Engine, Floats, RawEvent
+from frot.runtime.program import ParameterInfo, Program
+from frot.runtime.result import KINDS, MODES, ROLLING, Event, Figures, Result
+
+DEFAULT_POINTS = 500
+MOST_POINTS = 10_000_000
+TOLERANCES = (1e-14, 1e-1)
+
+CODES = {
+    10: "E0401",
+    11: "E0601",
+    12: "E0601",
+    13: "E0905",
+    14: "E0902",
+    15: "E0902",
+    16: "E0903",
+    17: "E0904",
+}
+
+
+class SimulationError(FrotError):
+    """A run that could not go on. `result` holds the motion up to there, None if there is none."""
+
+    def __init__(self, log: Log, result: Result | None) -> None:
+        super().__init__(log)
+        self.result = result
+
+
+def simulate(
+    program: Program,
+    *,
+    stop: float | None = None,
+    start: float | None = None,
+    tolerance: float | None = None,
+    interval: float | None = None,
+    parameters: Mapping[str, object] | None = None,
+    inputs: Mapping[str, object] | None = None,
+    watch: Callable[[float], bool] | None = None,
+) -> Result:
+    """Run from `start` to `stop` (s); what is None comes from the model's experiment.
+
+    Args:
+        program: The compiled model.
+        stop: End of the run.
+        start: Begin of the run.
+        tolerance: Local error relative to each state's scale, from 1e-14 to 0.1.
+        interval: Distance of the output times; by default a 500th of the run.
+        parameters: Values by name: numbers in SI, or texts with a unit such as "20 deg".
+        inputs: Constant values of the inputs, as for `parameters`.
+        watch: Called now and then with the time reached; True ends the run there.
+
+    Raises:
+        FrotError: Unknown names and bad values (E0805, E0806).
+        SimulationError: Values the model cannot have, contradictory initial values, and faults of
+            the motion; it holds the result up to the fault.
+    """
+    engine = Engine(program)
+    for name, value in _values(parameters, program.parameters, "parameter", program):
+        engine.set_parameter(name, value)
+    for name, value in _values(inputs, program.inputs, "input", program):
+        engine.set_input(name, value)
+    status, experiment = engine.settle_parameters()
+    if status != OK:
+        raise _fault(engine, None)
+    begin = _choose(start, experiment[0], 0.0)
+    end = _choose(stop, experiment[1], begin + 1.0)
+    asked = _choose(tolerance, experiment[2], 1e-8)
+    if not (math.isfinite(begin) and math.isfinite(end) and end > begin):
+        raise fail(
+            "E0806",
+            f"the run cannot go from {begin:g} s to {end:g} s",
+            help="choose a stop time after the start time",
+        )
+    if not TOLERANCES[0] <= asked <= TOLERANCES[1]:
+        raise fail(
+            "E0806",
+            f"the tolerance {asked:g} is out of range",
+            help=f"choose one from {TOLERANCES[0]:g} to {TOLERANCES[1]:g}",
+        )
+    times = _grid(begin, end, _choose(interval, experiment[3], (end - begin) / DEFAULT_POINTS))
+    begun = clock.perf_counter()
+    if engine.start(begin, asked, program.experiment.on_indeterminate) != OK:
+        raise _fault(engine, None)
+    run = engine.advance(end, watch)
+    wall = clock.perf_counter() - begun
+    if run.status not in (OK, STOPPED):
+        end = min(engine.fault.t, engine.time)
+    elif run.status == STOPPED:
+        end = engine.time
+    kept = times[times < end]
+    grid = np.append(kept, end) if run.status != OK else times
+    counts = engine.statistics
+    figures = Figures(counts.steps, counts.rejected, counts.evaluations, wall)
+    events = tuple(_event(engine, raw) for raw in run.events if raw.t <= end)
+    result = (
+        Result(program, engine, grid, run.segments, events, figures) if len(run.segments) else None
+    )
+    if run.status not in (OK, STOPPED) or result is None:
+        raise _fault(engine, result)
+    return result
+
+
+def _choose(given: float | None, modelled: float, default: float) -> float:
+    if given is not None:
+        return float(given)
+    return default if math.isnan(modelled) else float(modelled)
+
+
+def _grid(begin: float, end: float, interval: float) -> Floats:
+    """Times begin + k interval below `end`, and `end`."""
+    if not (math.isfinite(interval) and interval > 0):
+        raise fail("E0806", f"the interval {interval:g} s is not positive")
+    count = (end - begin) / interval
+    if count > MOST_POINTS:
+        raise fail(
+            "E0806",
+            f"an interval of {interval:g} s gives {count:.3g} output times",
+            help=f"choose an interval that gives at most {MOST_POINTS}",
+        )
+    times = begin + np.arange(int(round(count * (1 + 1e-12))) + 1) * interval
+    near = 1e-9 * interval
+    return np.append(times[times < end - near], end)
+
+
+def _values(
+    given: Mapping[str, object] | None,
+    known: tuple[ParameterInfo, ...],
+    what: str,
+    program: Program,
+) -> list[tuple[int, float]]:
+    from difflib import get_close_matches
+
+    index = {p.name: k for k, p in enumerate(known)}
+    values: list[tuple[int, float]] = []
+    for name, value in (given or {}).items():
+        if name not in index:
+            near = get_close_matches(name, index, 1)
+            listed = ", ".join(index) or "none"
+            raise fail(
+                "E0805",
+                f"model '{program.name}' has no {what} '{name}'",
+                notes=(f"{what}s: {listed}",),
+                help=f"did you mean '{near[0]}'?" if near else "",
+            )
+        values.append((index[name], parameter_value(known[index[name]], value)))
+    return values
+
+
+def parameter_value(info: ParameterInfo, value: object) -> float:
+    """A value in SI from a number, a truth value or a text such as `12 mm`; FrotError if bad."""
+    try:
+        if isinstance(value, str):
+            number = _from_text(info, value)
+        elif isinstance(value, (bool, int, float, np.number, np.bool_)):
+            number = float(value)
+        else:
+            raise ValueError(f"{value!r} is not a number")
+        if info.type == "boolean" and number not in (0.0, 1.0):
+            raise ValueError(f"{value!r} is not true or false")
+        if info.type == "integer" and number != round(number):
+            raise ValueError(f"{value!r} is not an integer")
+        if not math.isfinite(number):
+            raise ValueError(f"{value!r} is not a finite number")
+    except ValueError as error:
+        raise fail("E0806", f"bad value of '{info.name}': {error}", help=_expected(info)) from None
+    return number
+
+
+def _expected(info: ParameterInfo) -> str:
+    if info.type == "boolean":
+        return "write true or false"
+    if info.type == "integer" or info.unit.name == "1":
+        return "write a number"
+    return f"write a number in {info.unit.name}, or one with its unit"
+
+
+def _from_text(info: ParameterInfo, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        pass
+    from frot.dsl import parse_value
+    from frot.dsl.dimensions import Dimension, Fraction, Type
+
+    of = Dimension(tuple(Fraction(e) for e in info.unit.exponents[:7]))
+    return float(parse_value(text, Type(info.type, of)))  # type: ignore[arg-type]
+
+
+def _event(engine: Engine, raw: RawEvent) -> Event:
+    kind = KINDS[raw.kind]
+    if kind == "condition":
+        names = ("false", "true")
+        liaison = f"condition {raw.contact + 1}"
+    else:
+        names = ROLLING if kind.startswith("roll_") else MODES
+        liaison = engine.program.contacts[raw.contact]
+    return Event(
+        raw.t, kind, liaison, names[raw.before], names[raw.after], engine.event_text(raw)
+    )
+
+
+def _fault(engine: Engine, result: Result | None) -> SimulationError:
+    log = Log()
+    places = engine.fault_places
+    log.report(
+        CODES.get(engine.fault.status, "E0901"),
+        engine.fault_text,
+        None,
+        notes=tuple(f"at {place}" for place in places),
+        help=_fault_help(engine.fault.status),
+    )
+    return SimulationError(log, result)
+
+
+def _fault_help(status: int) -> str:
+    if status in (11, 12):
+        return "leave one of the statements out, or make them agree"
+    if status == 10:
+        return "give the parameter another value"
+    return ""
