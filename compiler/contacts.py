@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-
 from frot.compiler.kinematics import Kinematics, Line
 from frot.compiler.mechanism import Contact, is_unilateral
 from frot.compiler.mechanize import owner_body, point_body

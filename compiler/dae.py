@@ -1,3 +1,230 @@
-"""dae."""
-class Dae: ...
-def make_dae(*a): ...
+"""The CasADi DAE of a model with its switching, for other integrators and optimal control."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.lower import Lowered, lower
+from frot.compiler.mechanize import mechanize
+from frot.compiler.reduce import Reduced, reduce
+from frot.compiler.symbols import coordinate_names
+from frot.dsl import Log
+from frot.dsl.checked import Model
+
+CLOSED, SIDE, FRICTION, ROLLING = range(4)
+NONE, STICK, FORWARD, BACKWARD = range(4)
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """Names in the order of the functions' vectors; all values are in SI."""
+
+    x: tuple[str, ...]
+    z: tuple[str, ...]
+    u: tuple[str, ...]
+    p: tuple[str, ...]
+    mode: tuple[str, ...]
+    guards: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Dae:
+    """x' = ode, 0 = alg in a given mode, the guards that end the mode and the resets at its end.
+
+    All Functions take (t, x, z, u, p, mode). x: coordinates then speeds; z: accelerations then
+    reactions of the contacts' rows; `mode` has four numbers a contact, then the conditions (0 or 1)
+    and the sides of the contacts (+1 or -1): closed (0 or 1), sign of a bilateral normal reaction,
+    friction and rolling (0 no law, 1 stick, 2 slip forward, 3 slip backward).
+
+    * `ode` (x'), `alg` (0, index 1: a linear system in z);
+    * `guards`: five a contact, positive while the mode lasts: normal (gap if open, reaction if
+      closed), friction (2), rolling (2); then the conditions. One that cannot end the mode is 1;
+    * `solve` (t, x, u, p, mode) -> z: the linear system solved;
+    * `u0`, `p0`: start values of the inputs and the parameters, in SI;
+    * `reset` (t, x, z, u, p, mode) -> x_after: speeds moved onto the relations of `mode`, the mode
+      entered, by the least change in the metric of the mass. Without impacts nothing else jumps.
+
+    The next mode at an event is a complementarity problem: `frot.Model.simulate` solves it.
+    """
+
+    names: Names
+    ode: ca.Function
+    alg: ca.Function
+    guards: ca.Function
+    solve: ca.Function
+    reset: ca.Function
+    u0: ca.DM
+    p0: ca.DM
+
+    def problem(self) -> dict[str, ca.SX]:
+        """`t x z p ode alg` for `casadi.integrator`; its p is (u, p, mode) in one column."""
+        t, x, z = (ca.SX.sym(n, *self.ode.size_in(k)) for k, n in enumerate("txz"))
+        parts = [ca.SX.sym(n, *self.ode.size_in(3 + k)) for k, n in enumerate(("u", "p", "m"))]
+        return {
+            "t": t,
+            "x": x,
+            "z": z,
+            "p": ca.vertcat(*parts),
+            "ode": self.ode(t, x, z, *parts),
+            "alg": self.alg(t, x, z, *parts),
+        }
+
+
+def make_dae(model: Model, log: Log) -> Dae | None:
+    """The DAE of a model; None where it is refused (reported to `log`)."""
+    mechanism = mechanize(model, log)
+    reduced = reduce(mechanism, log) if mechanism is not None else None
+    lowered = lower(reduced, log) if reduced is not None else None
+    return _assemble(lowered) if lowered is not None else None
+
+
+def _assemble(lowered: Lowered) -> Dae:
+    from frot.dsl import default_values, evaluate
+
+    reduced = lowered.reduced
+    s, contacts = reduced.symbols, reduced.mechanism.contacts
+    flags = ca.vertcat(*reduced.conditions.flags) if reduced.conditions.flags else ca.SX.zeros(0)
+    contact_modes = ca.SX.sym("m", 4 * len(contacts))
+    mode = ca.vertcat(contact_modes, flags, s.sides)
+    x, z = ca.vertcat(s.q, s.v), ca.vertcat(s.a, s.lam)
+    arguments = [s.t, x, z, s.u, s.p, mode]
+    names = ["t", "x", "z", "u", "p", "mode"]
+    auxiliary = ca.SX.zeros(s.w.shape)
+    balance = reduced.mass @ ca.vertcat(s.a, auxiliary) - reduced.force - reduced.rows.T @ s.lam
+    alg = ca.vertcat(balance, *_laws(reduced, contact_modes))
+    linear, constant = ca.jacobian(alg, z), ca.substitute(alg, z, ca.SX.zeros(z.shape))
+    solved = -ca.solve(linear, constant) if z.numel() else ca.SX.zeros(0)
+    values = default_values(reduced.mechanism.model, {})
+    guards = ca.vertcat(*_guards(reduced, contact_modes))
+    q_names = [n for c in reduced.mechanism.coordinates for n in coordinate_names(c)]
+    row_names = [
+        n
+        for c, r in zip(contacts, reduced.contact_rows, strict=True)
+        for n in (
+            f"{c.liaison.name}.normal_force",
+            *([f"{c.liaison.name}.tangential_force"] if r.tangent >= 0 else []),
+            *([f"{c.liaison.name}.rolling_couple"] if r.rolling >= 0 else []),
+        )
+    ]
+    return Dae(
+        names=Names(
+            x=(*q_names, *(f"der({n})" for n in q_names)),
+            z=(*(f"der(der({n}))" for n in q_names), *row_names),
+            u=tuple(i.name for i in s.inputs),
+            p=tuple(p.name for p in s.parameters),
+            mode=(
+                *(
+                    f"{c.liaison.name}.{part}"
+                    for c in contacts
+                    for part in ("closed", "reaction_sign", "friction", "rolling")
+                ),
+                *(f"condition_{k + 1}" for k in range(len(reduced.conditions.flags))),
+                *(f"{c.liaison.name}.side" for c in contacts),
+            ),
+            guards=(
+                *(
+                    f"{c.liaison.name}.{part}"
+                    for c in contacts
+                    for part in ("normal", "friction_1", "friction_2", "rolling_1", "rolling_2")
+                ),
+                *(f"condition_{k + 1}" for k in range(len(reduced.conditions.flags))),
+            ),
+        ),
+        ode=ca.Function("ode", arguments, [ca.vertcat(s.v, s.a)], names, ["ode"]),
+        alg=ca.Function("alg", arguments, [alg], names, ["alg"]),
+        guards=ca.Function("guards", arguments, [guards], names, ["guards"]),
+        solve=ca.Function(
+            "solve",
+            [s.t, x, s.u, s.p, mode],
+            [solved],
+            ["t", "x", "u", "p", "mode"],
+            ["z"],
+        ),
+        reset=ca.Function("reset", arguments, [_reset(reduced, contact_modes)], names, ["x_after"]),
+        u0=ca.DM([evaluate(i.start, values) for i in s.inputs]),
+        p0=ca.DM([float(values[p]) for p in s.parameters]),  # type: ignore[arg-type]
+    )
+
+
+def _laws(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:
+    """One equation a row that is not balanced by an auxiliary speed, and one for each of these."""
+    s = reduced.symbols
+    accelerations = (
+        reduced.rows @ ca.vertcat(s.a, ca.SX.zeros(s.w.shape)) + reduced.bias
+        if s.lam.numel()
+        else ca.SX.zeros(0)
+    )
+    equations: list[ca.SX] = []
+    for i, (contact, rows) in enumerate(
+        zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
+    ):
+        mode = modes[4 * i : 4 * i + 4]
+        closed, normal = mode[CLOSED], s.lam[rows.normal]
+        if not contact.reduced:
+            equations.append(ca.if_else(closed, accelerations[rows.normal], normal))
+        for row, kind, coefficient in (
+            (rows.tangent, mode[FRICTION], reduced.coefficients[3 * i]),
+            (rows.rolling, mode[ROLLING], reduced.coefficients[3 * i + 2]),
+        ):
+            if row < 0:
+                continue
+            sign = ca.if_else(kind == FORWARD, 1, 0) - ca.if_else(kind == BACKWARD, 1, 0)
+            follows = s.lam[row] + sign * coefficient * mode[SIDE] * normal
+            held = ca.if_else(kind == STICK, accelerations[row], follows)
+            equations.append(ca.if_else(closed, held, s.lam[row]))
+    return equations
+
+
+def _guards(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:
+    s = reduced.symbols
+    guards: list[ca.SX] = []
+    for i, (contact, rows) in enumerate(
+        zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
+    ):
+        mode = modes[4 * i : 4 * i + 4]
+        normal = mode[SIDE] * s.lam[rows.normal]
+        gap = ca.SX(1) if contact.reduced else reduced.gap[i]
+        guards.append(ca.if_else(mode[CLOSED], normal, gap))
+        for row, kind, coefficient in (
+            (rows.tangent, mode[FRICTION], reduced.coefficients[3 * i + 1]),
+            (rows.rolling, mode[ROLLING], reduced.coefficients[3 * i + 2]),
+        ):
+            if row < 0:
+                guards += [ca.SX(1), ca.SX(1)]
+                continue
+            bound, lam, rate = coefficient * normal, s.lam[row], reduced.rate[row]
+            slips = mode[CLOSED] * ((kind == FORWARD) + (kind == BACKWARD))
+            stuck = mode[CLOSED] * (kind == STICK)
+            along = ca.if_else(kind == FORWARD, rate, -rate)
+            guards.append(ca.if_else(stuck, bound - lam, ca.if_else(slips, along, 1)))
+            guards.append(ca.if_else(stuck, bound + lam, 1))
+    for flag, value in zip(reduced.conditions.flags, reduced.conditions.values, strict=True):
+        guards.append(ca.if_else(flag, value, -value))
+    return guards
+
+
+def _reset(reduced: Reduced, modes: ca.SX) -> ca.SX:
+    """Speeds with J v = 0 on the rows that hold: v - M^-1 J' (J M^-1 J' + I - D)^-1 D J v.
+
+    D has a one for each row that holds; other rows of J are replaced by zero.
+    """
+    s = reduced.symbols
+    nv, nr = s.v.numel(), s.lam.numel()
+    if nr == 0:
+        return ca.vertcat(s.q, s.v)
+    holds = ca.SX.zeros(nr)
+    for i, (contact, rows) in enumerate(
+        zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
+    ):
+        mode = modes[4 * i : 4 * i + 4]
+        if not contact.reduced:
+            holds[rows.normal] = mode[CLOSED]
+        for row, kind in ((rows.tangent, mode[FRICTION]), (rows.rolling, mode[ROLLING])):
+            if row >= 0:
+                holds[row] = mode[CLOSED] * (kind == STICK)
+    active = ca.diag(holds) @ reduced.rows[:, :nv]
+    mass = reduced.mass[:nv, :nv]
+    spread = ca.solve(mass, active.T)
+    system = active @ spread + ca.diag(1 - holds)
+    return ca.vertcat(s.q, s.v - spread @ ca.solve(system, active @ s.v))

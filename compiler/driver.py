@@ -58,7 +58,12 @@ def build(model: Model, key: str, toolchain: Toolchain, log: Log) -> Program | N
     values = default_values(model, {})
     parameters = tuple(
         ParameterInfo(
-            p.name, p.type.base, _unit(p), float(values[p]), p.doc, dependent  # type: ignore[arg-type]
+            p.name,
+            p.type.base,
+            _unit(p),
+            float(values[p]),
+            p.doc,
+            dependent,  # type: ignore[arg-type]
         )
         for p, dependent in zip(reduced.symbols.parameters, lowered.dependent, strict=True)
     )

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import casadi as ca
-
 from frot.compiler.symbols import Symbols
 from frot.compiler.walk import is_fixed
 from frot.dsl import Log, evaluate
@@ -29,10 +28,7 @@ from frot.dsl.checked import (
 
 FUNCTIONS: dict[str, Callable[..., ca.SX]] = {
     name: getattr(ca, name)
-    for name in (
-        "sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp log log10 sqrt floor ceil "
-        "sign atan2"
-    ).split()
+    for name in ["sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp", "log", "log10", "sqrt", "floor", "ceil", "sign", "atan2"]
 } | {
     "abs": ca.fabs,
     "mod": lambda x, y: x - y * ca.floor(x / y),

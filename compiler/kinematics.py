@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-
 from frot.compiler.expressions import Lowering
 from frot.compiler.mechanism import LineCoordinates, Mechanism, Point
 from frot.compiler.symbols import Symbols, coordinate_names

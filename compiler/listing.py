@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import casadi as ca
-
 from frot.compiler.expressions import Lowering
 from frot.compiler.reduce import Reduced
 from frot.dsl.checked import Body, Liaison

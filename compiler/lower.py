@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-
 from frot.compiler.checks import Check, parameter_checks
-from frot.compiler.listing import Listed, list_variables
 from frot.compiler.expressions import Lowering
+from frot.compiler.listing import Listed, list_variables
 from frot.compiler.reduce import Reduced
 from frot.compiler.walk import is_fixed, subexpressions
 from frot.dsl import Log
@@ -87,7 +86,9 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
             [*state, s.a, s.lam, s.energy],
             _clean([settled(_column([v.value for v in variables]))]),
         ),
-        "energy": ca.Function("frot_energy_at", state, _clean([reduced.kinetic, reduced.potential])),
+        "energy": ca.Function(
+            "frot_energy_at", state, _clean([reduced.kinetic, reduced.potential])
+        ),
     }
     return Lowered(
         reduced,
@@ -236,9 +237,7 @@ def _guess(reduced: Reduced, looking: Lowering, unknown: ca.SX, log: Log) -> ca.
             if unknown is s.q and s.v.numel() and ca.depends_on(left[i], s.v):
                 continue
             zero = [ca.SX.zeros(s.q.shape), ca.SX.zeros(s.v.shape)]
-            here, slope = ca.substitute(
-                [left[i], ca.jacobian(left[i], unknown)], [s.q, s.v], zero
-            )
+            here, slope = ca.substitute([left[i], ca.jacobian(left[i], unknown)], [s.q, s.v], zero)
             value += slope.T * (right[i] - here) / ca.sumsqr(slope)
     return value
 

@@ -11,7 +11,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import casadi as ca
-
 from frot.compiler.contacts import Geometry, contact_geometry, down
 from frot.compiler.expressions import Conditions, Lowering
 from frot.compiler.forces import load

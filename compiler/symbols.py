@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-
 from frot.compiler.mechanism import Contact, Coordinates, LineCoordinates, Mechanism
 from frot.dsl.checked import Body, Input, Parameter
 

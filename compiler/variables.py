@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-
 from frot.compiler.contacts import Geometry
 from frot.compiler.kinematics import Kinematics
 from frot.compiler.mechanism import Contact

@@ -51,9 +51,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=_Version())
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
 
-    check = _command(
-        commands, "check", "check a model; print its mobility and liaisons", _check
-    )
+    check = _command(commands, "check", "check a model; print its mobility and liaisons", _check)
     check.add_argument(
         "--emit",
         choices=STAGES,

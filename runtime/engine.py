@@ -8,9 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-
 from frot.runtime.program import Program
+from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
@@ -181,9 +180,7 @@ class Engine:
     def start(self, t: float, tolerance: float, on_indeterminate: str) -> int:
         """Solve the initial values; `tolerance` 0 takes the model's own."""
         options = Options(tolerance, INDETERMINATE[on_indeterminate], 0)
-        return int(
-            self._library.frot_start(self._model, self._s, self._w, t, ct.byref(options))
-        )
+        return int(self._library.frot_start(self._model, self._s, self._w, t, ct.byref(options)))
 
     def settle(self) -> int:
         """Let changed parameters and inputs take effect at the time reached."""
@@ -214,9 +211,7 @@ class Engine:
                 )
             )
             chunks.append(buffer[: recorder.segment_count].copy())
-            events.extend(
-                RawEvent.from_buffer_copy(raw[i]) for i in range(recorder.event_count)
-            )
+            events.extend(RawEvent.from_buffer_copy(raw[i]) for i in range(recorder.event_count))
             if interrupted:
                 raise interrupted[0]
             if status != FULL:

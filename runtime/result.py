@@ -13,7 +13,6 @@ from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
-
 from frot.dsl.diagnostics import fail
 from frot.runtime.engine import Engine, Floats
 from frot.runtime.program import Program

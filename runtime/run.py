@@ -7,7 +7,6 @@ import time as clock
 from collections.abc import Callable, Mapping
 
 import numpy as np
-
 from frot.dsl.diagnostics import FrotError, Log, fail
 from frot.runtime.engine import OK, STOPPED, Engine, Floats, RawEvent
 from frot.runtime.program import ParameterInfo, Program
@@ -205,9 +204,7 @@ def _event(engine: Engine, raw: RawEvent) -> Event:
     else:
         names = ROLLING if kind.startswith("roll_") else MODES
         liaison = engine.program.contacts[raw.contact]
-    return Event(
-        raw.t, kind, liaison, names[raw.before], names[raw.after], engine.event_text(raw)
-    )
+    return Event(raw.t, kind, liaison, names[raw.before], names[raw.after], engine.event_text(raw))
 
 
 def _fault(engine: Engine, result: Result | None) -> SimulationError:
