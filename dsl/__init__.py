@@ -70,22 +70,10 @@ def __getattr__(name: str) -> object:
 
 def load(path: str | Path, log: Log, model: str | None = None) -> checked.Model | None:
     """The checked model of a `.frot` file; None if an error was reported to `log`."""
-    from pathlib import Path
+    from frot.dsl.reading import read_text
 
-    name = str(path)
-    try:
-        # A leading byte order mark is legal in UTF-8; line ends are kept as they are.
-        text = Path(path).read_bytes().decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        message = f"cannot read {name!r}: it is not UTF-8 (line {line})"
-        log.report("E0804", message, None, help="save the file with the encoding UTF-8")
-        return None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        log.report("E0804", f"cannot read {name!r}: {reason}", None)
-        return None
-    return compile_text(text, log, name, model)
+    text = read_text(path, log)
+    return None if text is None else compile_text(text, log, str(path), model)
 
 
 def compile_text(

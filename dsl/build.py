@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -27,7 +28,7 @@ def _elements(nodes: Iterable[Any], at: Place, dropped: set[str]) -> tuple[tree.
         try:
             found.append(_ELEMENTS[node.data](node, at, dropped))
         except TooDeep:
-            dropped.update(str(t) for t in node.scan_values(lambda t: t.type == "IDENT"))
+            dropped.update(re.findall(r"[^\W\d]\w*", at.span(node).text))
     return tuple(found)
 
 

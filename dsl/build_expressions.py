@@ -13,7 +13,10 @@ from frot.dsl.diagnostics import Log
 from frot.dsl.source import Source, Span
 from frot.dsl.syntax_messages import too_deep
 
-DEEPEST = 200
+# Parentheses, calls and `if`s in one another, which the passes follow by recursion, and levels of
+# the tree, where each term of a sum is one. Both keep well inside Python's own limit.
+NESTED = 100
+HIGHEST = 200
 
 # Precedence of binary operators; `^` alone associates to the right.
 _BINDING = {
@@ -60,15 +63,15 @@ class Place:
 def expression(node: Any, at: Place) -> tree.Expression:
     """The expression of lark's node. Raises TooDeep after reporting it."""
     result = _expression(node, at, 0)
-    if height(result) > DEEPEST:
-        too_deep(at.log, at.span(node), DEEPEST)
+    if height(result) > HIGHEST:
+        too_deep(at.log, at.span(node), HIGHEST)
         raise TooDeep
     return result
 
 
 def _expression(node: Any, at: Place, depth: int) -> tree.Expression:
-    if depth > DEEPEST:
-        too_deep(at.log, at.span(node), DEEPEST)
+    if depth > NESTED:
+        too_deep(at.log, at.span(node), NESTED)
         raise TooDeep
     if node.data == "flat":
         return _read_operators(node, at, depth)
@@ -206,10 +209,10 @@ def _read_operators(node: Any, at: Place, depth: int) -> tree.Expression:
 
 
 def height(root: tree.Expression) -> int:
-    """The number of levels of an expression, found without recursion; stops past DEEPEST."""
+    """The number of levels of an expression, found without recursion; stops past HIGHEST."""
     level: list[tree.Expression] = [root]
     count = 0
-    while level and count <= DEEPEST:
+    while level and count <= HIGHEST:
         count += 1
         level = [child for node in level for child in children(node)]
     return count

@@ -79,6 +79,8 @@ def _which(
     if item.name is None:
         if position < len(usable):
             return usable[position]
+        if position > len(usable):
+            return None
         scope.log.report(
             "E0204",
             f"too many arguments for {what!r}",

@@ -67,7 +67,7 @@ def unit_of(text: str, span: Span, scope: Scope) -> Unit | None:
         return parse_unit(text)
     except UnknownUnit as error:
         help_text = f"did you mean {error.near!r}?" if error.near else ""
-        if "/" in text and not help_text:
+        if "/" in text and not help_text and str(error).startswith("unknown"):
             help_text = "to divide by a variable leave spaces: 'a / b'"
         scope.log.report("E0302", str(error), span, help=help_text)
         return None

@@ -81,6 +81,7 @@ def _outside(file: tree.Tree, log: Log) -> None:
             log.report("E0701", "imports are not supported yet", element.span)
         elif not isinstance(element, tree.Definition):
             log.report("E0501", "this statement stands outside of a model", element.span)
+            return
 
 
 def _model(file: tree.Tree, definition: tree.Definition, log: Log) -> checked.Model:
@@ -142,7 +143,10 @@ def _sort(definition: tree.Definition, scope: Scope, defined: frozenset[str]) ->
             seen.setdefault(section, element.span)
             if section == "equation":
                 message = "the section 'equation' is not supported yet"
-                scope.log.report("E0701", message, element.span)
+                before = definition.elements[max(0, definition.elements.index(element) - 1)]
+                twice = isinstance(before, tree.Section) and before is not element
+                help_text = "the first values are in the section 'initial', alone" if twice else ""
+                scope.log.report("E0701", message, element.span, help=help_text)
         elif isinstance(element, tree.Equation):
             _sort_equation(element, section, result, scope)
         elif type(element) in _UNSUPPORTED:

@@ -13,6 +13,14 @@ def choose(file: tree.Tree, name: str | None, log: Log) -> tree.Definition | Non
     definitions = [e for e in file.elements if isinstance(e, tree.Definition)]
     models = [d for d in definitions if d.kind == "model"]
     whole = [d for d in models if not d.has("partial")]
+    first: dict[str, tree.Definition] = {}
+    for definition in definitions:
+        other = first.setdefault(definition.name.text, definition)
+        if other is not definition:
+            message = f"the name {definition.name.text!r} is defined twice"
+            labels = (Label(other.name.span, "first here"),)
+            log.report("E0502", message, definition.name.span, labels=labels)
+            return None
     if name is not None:
         return _named(file, name, models, whole, log)
     if not whole:

@@ -58,7 +58,8 @@ _SYNTAX = {
     ),
     "E0108": Code(
         "expression nested too deeply",
-        "An expression may be nested 200 levels deep; a sum of more than 200 terms counts as such.",
+        "Parentheses, calls and 'if's may be nested 100 levels deep, and a sum or product may have "
+        "200 terms.",
         "Give names to its parts.",
         snippet(f"parameter Real x = {'(' * 210}1{')' * 210};"),
     ),

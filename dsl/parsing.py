@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from frot.dsl import syntax_messages as messages
+from frot.dsl.build_expressions import NESTED
 from frot.dsl.diagnostics import LIMIT, Log
 from frot.dsl.lex import END, JUNK
 from frot.dsl.source import Source, Span
@@ -20,7 +21,6 @@ from frot.dsl.tree import Tree
 if TYPE_CHECKING:
     from lark.parsers.lalr_parser_state import ParserState
 
-DEEPEST = 200
 # Words that begin a statement or end a block: skipping stops before them.
 STARTS = frozenset(
     """parameter constant input output flow body corps frame repère repere curve surface liaison
@@ -78,8 +78,8 @@ class _Reader:
             token = Lexeme(*next_token(text, offset, self.states[self.state.state_stack[-1]]))
             if token.type == END:
                 return self._finish(token)
-            if self.depth >= DEEPEST and token.type in ("LPAR", "LSQB"):
-                messages.too_deep(log=self.log, span=self._span(token), limit=DEEPEST)
+            if self.depth >= NESTED and token.type in ("LPAR", "LSQB"):
+                messages.too_deep(log=self.log, span=self._span(token), limit=NESTED)
                 self.reported += 1
                 offset = self._resume(token)
                 continue
@@ -95,10 +95,10 @@ class _Reader:
                 offset = token.start
                 continue
             self._complain(token)
-            if self.kept is None and self.statement and self._in_header():
-                return None
+            header = self.kept is None and bool(self.statement) and self._in_header()
             offset = self._resume(token)
-            if self.reported >= LIMIT:
+            if header or self.reported >= LIMIT or not self._fits("END"):
+                # What follows a broken header, or stands outside of models, would all be faults.
                 return None
 
     def _span(self, token: Lexeme) -> Span:
@@ -161,7 +161,7 @@ class _Reader:
 
     def _repair(self, token: Lexeme) -> bool:
         """Put in a missing `)` or `;` where `token` then fits; True if it was done and told."""
-        if not self.statement or self.previous is None:
+        if not self.statement or self.previous is None or not self._in_block():
             return False
         place = self.previous.end
         opened = self._open_parentheses()
@@ -212,7 +212,17 @@ class _Reader:
         self.reported += 1
 
     def _in_header(self) -> bool:
-        return any(t.type in _HEADERS for t in self.statement)
+        return self.statement[0].type in (*_HEADERS, "PLANAR", "PARTIAL")
+
+    def _in_block(self) -> bool:
+        """Whether the statement stands inside of a definition."""
+        if self.kept is None:
+            return not self._in_header()
+        now = self.state.state_stack
+        self.state.state_stack = self.kept[0]
+        inside = self._fits("END")
+        self.state.state_stack = now
+        return inside
 
     def _resume(self, token: Lexeme) -> int:
         """Forget the statement and give the offset at which reading goes on."""
@@ -257,7 +267,7 @@ class _Reader:
 
         if not self._fits(END):
             self._complain_at_end(token)
-        for _ in range(DEEPEST):
+        for _ in range(NESTED):
             if self._fits(END):
                 break
             for word in ("WHEN", "IF", "FOR", None):
@@ -278,17 +288,21 @@ class _Reader:
             messages.unexpected(self.log, self.source, self.previous, token, set(), [], True)
             return
         if self.statement and "EQUATION" not in self.states[self.state.state_stack[-1]]:
-            if self._repair(Lexeme("END", token.start, token.start)):
-                pass
-            else:
+            closing = Lexeme("END", token.start, token.start)
+            if not (self._repair(token) or self._repair(closing)):
                 self._complain(token)
                 self._resume(token)
-            if self.log.failed and self._closes_nothing():
+                if self._in_end(token):
+                    return
+            if self._fits(END):
                 return
-        messages.missing_end(self.log, self.source, self._open_block(), token)
+        if not (self.reported and self._in_end(token)):
+            messages.missing_end(self.log, self.source, self._open_block(), token)
 
-    def _closes_nothing(self) -> bool:
-        return self._fits(END)
+    def _in_end(self, token: Lexeme) -> bool:
+        """Whether the last line begins with `end`, so that it is not missing."""
+        last = self.source.text[: token.start].rstrip().rpartition("\n")[2]
+        return re.match(r"\s*end\b", last) is not None
 
     def _open_block(self) -> str:
         """What the innermost open block's `end` is followed by."""
@@ -303,8 +317,7 @@ class _Reader:
                 isinstance(item, Token)
                 and item.type == "IDENT"
                 and index
-                and (isinstance(stack[index - 1], Token) or stack[index - 1].data.endswith("_word"))
-                and not re.fullmatch(r"when|if|for", str(stack[index - 1]))
+                and getattr(stack[index - 1], "data", "") in ("_kind", "liaison_word", "law_word")
             ):
                 return str(item)
         return ""

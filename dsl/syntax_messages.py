@@ -118,8 +118,9 @@ def unexpected(
     span = _span(source, token)
     if token.type == "JUNK":
         _junk(log, source, token)
-    elif text.startswith("/*", token.start):
-        log.report("E0107", "this comment is not closed", span, help="close it with '*/'")
+    elif word == "*" and previous is not None and text[previous.start : token.end] == "/*":
+        opening = Span(source, previous.start, token.end)
+        log.report("E0107", "this comment is not closed", opening, help="close it with '*/'")
     elif (
         previous is not None
         and previous.type == "NUMBER"
@@ -172,8 +173,9 @@ def _misplaced(
         if near and len(statement) <= 2:
             word, span = first, _span(source, statement[0])
             hint = f"did you mean {near[0]!r}?"
-    if word == ":=":
-        hint = "an equation is written with '='"
+    elif token.type == "IDENT" and statement and statement[0].type in ("PLANAR", "PARTIAL"):
+        near = difflib.get_close_matches(word.lower(), _OPENING, n=1, cutoff=0.75)
+        hint = f"did you mean {near[0]!r}?" if near else ""
     said = [_SAY[k] for k in _SAY if k in expected]
     if "IDENT" in expected and ("NUMBER" in expected or "LPAR" in expected):
         said = ["an expression", *(s for s in said if s not in ("a name", "'('"))]

@@ -94,7 +94,10 @@ LIAISONS = table(
         POINT,
         (5, None),
         {"angle": REAL},
-        (_axis("axis"), Argument("pitch", LENGTH, doc="advance per turn")),
+        (
+            Argument("axis", REAL, "axis", space_only=True, doc="direction, axes of a"),
+            Argument("pitch", LENGTH, doc="advance per turn"),
+        ),
         doc="A screw.",
     ),
     _liaison(
