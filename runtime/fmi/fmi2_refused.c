@@ -97,8 +97,10 @@ fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c)
   return refuse(c, __func__, NOT_EXCHANGE);
 }
 
-fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean noSetFMUStatePriorToCurrentPoint,
-                                       fmi2Boolean *enterEventMode, fmi2Boolean *terminateSimulation)
+fmi2Status fmi2CompletedIntegratorStep(fmi2Component c,
+                                       fmi2Boolean noSetFMUStatePriorToCurrentPoint,
+                                       fmi2Boolean *enterEventMode,
+                                       fmi2Boolean *terminateSimulation)
 {
   (void)noSetFMUStatePriorToCurrentPoint;
   (void)enterEventMode;

@@ -42,12 +42,12 @@ fmi3Instance fmi3InstantiateCoSimulation(
   frot_fmi3_draft(&draft, instanceName, instanceEnvironment, logMessage);
   if (eventModeUsed) {
     frot_fmu_refuse(&draft.fmu, __func__,
-                    "there is no event mode (hasEventMode is false), so eventModeUsed must be false");
+                    "there is no event mode: hasEventMode is false, so must eventModeUsed be");
     return NULL;
   }
   if (nRequiredIntermediateVariables > 0) {
     frot_fmu_refuse(&draft.fmu, __func__,
-                    "there is no intermediate update, so no intermediate variables can be required");
+                    "there is no intermediate update, so no variable can be required for it");
     return NULL;
   }
   return frot_fmu_open(&draft.fmu, sizeof draft, __func__, instanceName, instantiationToken,
@@ -96,7 +96,7 @@ static int same_count(const frot_fmu *fmu, const char *function, size_t referenc
 {
   if (references == values) return FROT_FMU_OK;
   return frot_fmu_say(fmu, FROT_FMU_ERROR,
-                      "%s: there are %lu value references and %lu values; all variables are scalars.",
+                      "%s: there are %lu value references and %lu values for scalars.",
                       function, (unsigned long)references, (unsigned long)values);
 }
 

@@ -77,8 +77,8 @@ static int draft_acceptable(const frot_fmu *draft, const char *function, const c
   }
   if (token == NULL || strcmp(token, model->key) != 0) {
     frot_fmu_say(draft, FROT_FMU_ERROR,
-                 "%s: the token '%s' is not that of this model, '%s': the model description and the "
-                 "library are not of the same export.",
+                 "%s: the token '%s' is not that of this model, '%s': the model description "
+                 "and the library are not of the same export.",
                  function, token == NULL ? "" : token, model->key);
     return 0;
   }

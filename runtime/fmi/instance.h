@@ -1,8 +1,8 @@
 /* An instance of an FMU: what the FMI 2.0 and FMI 3.0 faces of a model share.
  *
  * The faces (fmi2*.c, fmi3*.c) translate types and calls; instance.c makes and frees instances and
- * writes the log, lifecycle.c runs the state machine and the kernel, access.c reads and sets values,
- * snapshot.c saves and restores. Nothing is global: several instances live side by side.
+ * writes the log, lifecycle.c runs the state machine and the kernel, access.c reads and sets
+ * values, snapshot.c saves and restores. Nothing is global: instances live side by side.
  */
 #ifndef FROT_FMU_INSTANCE_H
 #define FROT_FMU_INSTANCE_H

@@ -6,6 +6,9 @@
 #define SENTENCE 1536
 /* Communication points are sums of steps made by the environment: they differ by rounding. */
 #define ROUNDING 1e-9
+/* An environment suggests a tolerance; beyond these the integrator gains or holds nothing. */
+#define TIGHTEST 1e-14
+#define LOOSEST 1e-1
 
 static const char *phase_name(int phase)
 {
@@ -52,7 +55,8 @@ static int ends_early(int fault)
 /* Ends the motion with the kernel's fault. */
 static int stop_at_fault(frot_fmu *fmu, const char *function, int fault)
 {
-  const double t = frot_last_fault(fmu->state)->t;
+  /* The fault may lie in a step that was only tried: values end where the kernel stands. */
+  const double t = frot_time(fmu->state);
   if (ends_early(fault)) {
     fmu->life.phase = FROT_FMU_DISCARDED;
     fmu->life.status = FROT_FMU_DISCARD;
@@ -86,7 +90,7 @@ int frot_fmu_setup(frot_fmu *fmu, const char *function, int has_tolerance, doubl
     return frot_fmu_say(fmu, FROT_FMU_ERROR, "%s: the stop time %.15g lies before the start %.15g.",
                         function, stop, start);
   fmu->life.has_tolerance = has_tolerance != 0;
-  fmu->life.tolerance = has_tolerance ? tolerance : 0.0;
+  fmu->life.tolerance = has_tolerance ? fmin(fmax(tolerance, TIGHTEST), LOOSEST) : 0.0;
   fmu->life.has_stop = has_stop != 0;
   fmu->life.stop = has_stop ? stop : 0.0;
   fmu->life.start = start;
@@ -184,8 +188,9 @@ int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step
     return frot_fmu_say(fmu, FROT_FMU_ERROR, "%s: the step %g s is lost in rounding at %.15g s.",
                         function, step, life->t);
   if (life->has_stop && t > life->stop + ROUNDING * fmax(fabs(life->stop), scale))
-    return frot_fmu_say(fmu, FROT_FMU_ERROR, "%s: the step to %.15g s passes the stop time %.15g s.",
-                        function, t, life->stop);
+    return frot_fmu_say(fmu, FROT_FMU_ERROR,
+                        "%s: the step to %.15g s passes the stop time %.15g s.", function, t,
+                        life->stop);
   int status = settle(fmu, function);
   if (status != FROT_FMU_OK) return status;
   fmu->values_valid = 0;

@@ -11,9 +11,9 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+from fmu_host import Host, compile_library, hand_program, unpack_library
 from frot.runtime import fmi
 from frot.runtime.program import Program
-from harness import Host, compile_library, hand_program, unpack_library
 
 
 @pytest.fixture(scope="session")

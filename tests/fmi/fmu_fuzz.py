@@ -1,6 +1,6 @@
 """Random calls on instances, in a process of its own: it must end by itself, with status 0.
 
-Usage: fuzz.py LIBRARY VERSION SEED SEQUENCES
+Usage: fmu_fuzz.py LIBRARY VERSION SEED SEQUENCES
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from harness import ERROR, OK, Host
+from fmu_host import ERROR, OK, Host
 
 NUMBERS = (0.0, 1.0, -1.0, 0.5, 1e-9, 1e9, 1e300, -1e300, 5e-324, math.nan, math.inf, -math.inf)
 KINDS = {2: ("Real", "Integer", "Boolean", "String"),

@@ -19,10 +19,10 @@ import numpy as np
 import pytest
 from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
+from fmu_host import METRE, ONE, RADIAN, Host, compile_library
 from frot.runtime import fmi
 from frot.runtime.fmi.names import model_identifier, structured_name, variable_names
 from frot.runtime.program import ParameterInfo, Program, Unit, VariableInfo
-from harness import METRE, ONE, RADIAN, Host, compile_library
 
 VERSIONS = ("2.0", "3.0")
 
@@ -87,6 +87,21 @@ def test_sources_compile_as_listed(
         rows.append(one.run(0.0, 5.0, 0.25))
         one.free()
     assert rows[0] == rows[1]
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("dialect", ["c99", "gnu99", "gnu17"])
+def test_sources_compile_in_every_dialect(
+    archives: dict[str, Path], version: str, dialect: str, tmp_path: Path
+) -> None:
+    """Importers build with the compiler's extensions on, as CMake does."""
+    with zipfile.ZipFile(archives[version]) as file:
+        names = [name for name in file.namelist() if name.startswith("sources/")]
+        file.extractall(tmp_path, names)
+    compiled = [str(tmp_path / name) for name in names if name.endswith(".c")]
+    command = ["cc", f"-std={dialect}", "-fsyntax-only", "-Wall", "-Wextra", *compiled]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 @pytest.mark.parametrize("version", VERSIONS)

@@ -11,7 +11,7 @@ import pytest
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_random_calls_do_not_crash(libraries: dict[int, Path], version: int, seed: int) -> None:
-    script = Path(__file__).with_name("fuzz.py")
+    script = Path(__file__).with_name("fmu_fuzz.py")
     command = [sys.executable, str(script), str(libraries[version]), str(version), str(seed), "150"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
     assert done.returncode == 0, done.stderr[-2000:]

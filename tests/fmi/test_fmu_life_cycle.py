@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 
 import pytest
-from harness import (
+from fmu_host import (
     COUNT,
     DISCARD,
     ERROR,

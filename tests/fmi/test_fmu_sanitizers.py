@@ -5,9 +5,9 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
+from fmu_host import SANITIZE
 from frot.runtime.fmi.sources import source_files, to_compile
 from frot.runtime.program import Program
-from harness import SANITIZE
 
 WARNINGS = ("-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror")
 OURS = ("instance.c", "lifecycle.c", "access.c", "snapshot.c", "fmi", "fmu_table.c")

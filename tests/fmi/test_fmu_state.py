@@ -6,7 +6,7 @@ import ctypes
 import random
 from collections.abc import Callable
 
-from harness import ERROR, MU, OK, STIFFNESS, X0, Host, X
+from fmu_host import ERROR, MU, OK, STIFFNESS, X0, Host, X
 
 Make = Callable[..., Host]
 
