@@ -97,19 +97,16 @@ def _check_end(end_name: Any, keyword: str, name: tree.Word, span: Span, at: Pla
                 labels=(Label(name.span, "opened here"),),
                 help=f"write 'end {name.text};'",
             )
-    elif span.end == len(at.source.text) and not at.source.text[span.start :].rstrip().endswith(
-        ";"
-    ):
-        return  # the `end` was put in by the parser, which told it
-    elif at.span(node_end := end_name).end == 0 or node_end is not None:
-        tail = at.source.text[: span.end].rstrip("; \t\r\n")
-        if tail.endswith("end"):
-            at.log.report(
-                "E0105",
-                f"'end' of {keyword} {name.text!r} without its name",
-                Span(at.source, len(tail) - 3, len(tail)),
-                help=f"write 'end {name.text};'",
-            )
+        return
+    # An `end` that the parser put in at the end of the text is not written there; it was told.
+    tail = at.source.text[: span.end].rstrip("; \t\r\n")
+    if tail.endswith("end"):
+        at.log.report(
+            "E0105",
+            f"'end' of {keyword} {name.text!r} without its name",
+            Span(at.source, len(tail) - 3, len(tail)),
+            help=f"write 'end {name.text};'",
+        )
 
 
 def _formal(node: Any, at: Place) -> tree.Formal:

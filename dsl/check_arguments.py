@@ -257,7 +257,7 @@ def word(node: tree.Expression, words: Sequence[str], name: str, scope: Scope) -
 
 
 def _axis(argument: Argument, node: tree.Expression, scope: Scope) -> checked.Expression | None:
-    if isinstance(node, tree.Name) and node.text in ("x", "y", "z"[: scope.size - 2] or "y"):
+    if isinstance(node, tree.Name) and node.text in ("x", "y", "z")[: scope.size]:
         return checked.Literal(node.text, STRING, node.span)
     return expect(node, vector(argument.type, scope.planar), scope)
 
