@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from frot.compiler.mechanism import Mechanism
 from frot.compiler.walk import is_fixed
 from frot.dsl.catalogue import Argument
-from frot.dsl.checked import Call, Expression, Place, Reference
+from frot.dsl.checked import Call, Expression, Liaison, Place, Reference
 from frot.dsl.dimensions import REAL
 from frot.dsl.source import Span
 
@@ -61,12 +61,12 @@ def _checks(mechanism: Mechanism) -> Iterator[Check]:
 
 
 def _arguments(
-    owner: str, kinds: tuple[Argument, ...], values: Mapping[str, Expression | Place]
+    owner: str, kinds: tuple[Argument, ...], values: Mapping[str, Expression | Place | Liaison]
 ) -> Iterator[Check]:
     rules = {"positive": POSITIVE, "nonnegative": NOT_NEGATIVE}
     for kind in kinds:
         value = values.get(kind.name)
-        if value is None or isinstance(value, Place) or kind.sign not in rules:
+        if value is None or isinstance(value, (Place, Liaison)) or kind.sign not in rules:
             continue
         if is_fixed(value):
             yield Check(rules[kind.sign], f"{kind.name} of {owner}", value, value.span)

@@ -17,12 +17,11 @@ DOWN = {"+x": (1, 0), "-x": (-1, 0), "+y": (0, 1), "-y": (0, -1)}
 class Geometry:
     """A contact as functions of the coordinates.
 
-    `line.normal` points to the side a free body is expected on: to the left of the line's direction
-    for a bilateral point on a line; against gravity, where gravity tells, for a contact that can
-    part. `side` multiplies it by the side the body starts on. `gap` >= 0 while apart. `distance` is
-    the signed distance whose sign chooses the side. `slip` and `roll` are the velocity of the body's
-    material point relative to the line's, along the line's direction, and the relative angular
-    velocity.
+    `line.normal` points to the left of the line's direction for a bilateral point on a line;
+    against gravity, where gravity tells, for a contact that can part. `side` multiplies it by the
+    side the body starts on. `gap` >= 0 while apart. `distance` is the signed distance whose sign
+    chooses the side. `slip` and `roll` are the velocity of the body's material point relative to
+    the line's, along the line's direction, and the relative angular velocity.
     """
 
     line: Line
@@ -42,7 +41,7 @@ def down(world: World) -> ca.SX:
 def contact_geometry(
     contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
 ) -> Geometry:
-    """Geometry and relative velocities of a contact; for a point on a line of one that is ideal too."""
+    """Geometry and relative velocities of a contact, be it ideal or with friction."""
     body, base = point_body(contact.point), owner_body(contact.line.owner)
     line = kinematics.line(contact.line)
     bilateral = contact.liaison.kind.name == "point_courbe" and not is_unilateral(contact.liaison)

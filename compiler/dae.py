@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import casadi as ca
+import numpy as np
 from frot.compiler.lower import Lowered, lower
 from frot.compiler.mechanize import mechanize
 from frot.compiler.reduce import Reduced, reduce
 from frot.compiler.symbols import coordinate_names
+from frot.compiler.walk import as_number
 from frot.dsl import Log
 from frot.dsl.checked import Model
 
@@ -142,9 +145,13 @@ def _assemble(lowered: Lowered) -> Dae:
             ["z"],
         ),
         reset=ca.Function("reset", arguments, [_reset(reduced, contact_modes)], names, ["x_after"]),
-        u0=ca.DM([evaluate(i.start, values) for i in s.inputs]),
-        p0=ca.DM([float(values[p]) for p in s.parameters]),  # type: ignore[arg-type]
+        u0=_column(as_number(evaluate(i.start, values)) for i in s.inputs),
+        p0=_column(as_number(values[p]) for p in s.parameters),
     )
+
+
+def _column(numbers: Iterable[float]) -> ca.DM:
+    return ca.DM(np.array(list(numbers)))
 
 
 def _laws(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:

@@ -11,6 +11,7 @@ from frot.compiler.cache import own_identity, store, stored, write_manifest
 from frot.compiler.mechanize import mechanize
 from frot.compiler.toolchain import FLAGS, Toolchain, compile_objects, link_library
 from frot.compiler.units import unit_of
+from frot.compiler.walk import as_number
 from frot.dsl import Log, default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
 from frot.dsl.dimensions import dimension
@@ -57,18 +58,11 @@ def build(model: Model, key: str, toolchain: Toolchain, log: Log) -> Program | N
         return None
     values = default_values(model, {})
     parameters = tuple(
-        ParameterInfo(
-            p.name,
-            p.type.base,
-            _unit(p),
-            float(values[p]),
-            p.doc,
-            dependent,  # type: ignore[arg-type]
-        )
+        ParameterInfo(p.name, p.type.base, _unit(p), as_number(values[p]), p.doc, dependent)
         for p, dependent in zip(reduced.symbols.parameters, lowered.dependent, strict=True)
     )
     inputs = tuple(
-        ParameterInfo(i.name, i.type.base, _unit(i), float(evaluate(i.start, values)), i.doc)  # type: ignore[arg-type]
+        ParameterInfo(i.name, i.type.base, _unit(i), as_number(evaluate(i.start, values)), i.doc)
         for i in reduced.symbols.inputs
     )
     text = generate(lowered, key, [p.default for p in parameters], [i.default for i in inputs])
@@ -133,7 +127,7 @@ def _experiment(model: Model) -> ExperimentInfo:
     values = default_values(model, {})
 
     def number(expression: Expression | None) -> float | None:
-        return None if expression is None else float(evaluate(expression, values))  # type: ignore[arg-type]
+        return None if expression is None else as_number(evaluate(expression, values))
 
     experiment = model.experiment
     return ExperimentInfo(

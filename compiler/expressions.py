@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import casadi as ca
 from frot.compiler.symbols import Symbols
 from frot.compiler.walk import is_fixed
-from frot.dsl import Log, evaluate
+from frot.dsl import Log
 from frot.dsl.checked import (
     Binary,
     Call,
@@ -28,7 +28,28 @@ from frot.dsl.checked import (
 
 FUNCTIONS: dict[str, Callable[..., ca.SX]] = {
     name: getattr(ca, name)
-    for name in ["sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp", "log", "log10", "sqrt", "floor", "ceil", "sign", "atan2"]
+    for name in [
+        "sin",
+        "cos",
+        "tan",
+        "asin",
+        "acos",
+        "atan",
+        "sinh",
+        "cosh",
+        "tanh",
+        "asinh",
+        "acosh",
+        "atanh",
+        "exp",
+        "log",
+        "log10",
+        "sqrt",
+        "floor",
+        "ceil",
+        "sign",
+        "atan2",
+    ]
 } | {
     "abs": ca.fabs,
     "mod": lambda x, y: x - y * ca.floor(x / y),
@@ -108,15 +129,14 @@ class Lowering:
         target = node.target
         if isinstance(target, Parameter):
             if target.constant:
-                value = evaluate(target.value, {})
-                return ca.SX(ca.DM(value if not isinstance(value, tuple) else list(value)))
+                return self.lower(target.value)
             return self.symbols.p[self.symbols.parameters.index(target)]
         if isinstance(target, Input):
             return self.symbols.u[self.symbols.inputs.index(target)]
         return self.lower(target.value)
 
     def _located(self, expression: Expression) -> Conditions | None:
-        """Where the events of a switch go, None if it never changes in a run or is only looked at."""
+        """Where the events of a switch go; None if it never changes or is only looked at."""
         return None if is_fixed(expression) else self.conditions
 
     def _binary(self, node: Binary) -> ca.SX:

@@ -10,7 +10,9 @@ from frot.compiler.kinematics import Kinematics
 from frot.compiler.mechanism import Point
 from frot.compiler.mechanize import point_body
 from frot.compiler.walk import is_fixed
-from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Literal, Place
+from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Liaison, Literal, Place
+
+Argument = Expression | Place | Liaison
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,13 +33,12 @@ class Load:
 
 
 def _point(
-    argument: Expression | Place, kinematics: Kinematics, lowering: Lowering, ground: Body
+    argument: Argument, kinematics: Kinematics, lowering: Lowering, ground: Body
 ) -> tuple[Body, ca.SX]:
     if isinstance(argument, (BodyPoint, Frame)):
         point: Point = argument
         return point_body(point), kinematics.position(point)
-    assert not isinstance(argument, Place)
-    return ground, lowering.lower(argument)
+    return ground, lowering.lower(_value(argument))
 
 
 def load(force: Force, kinematics: Kinematics, lowering: Lowering, ground: Body) -> Load:
@@ -68,10 +69,10 @@ def load(force: Force, kinematics: Kinematics, lowering: Lowering, ground: Body)
     return Load(actions, energy if constant else None)
 
 
-def _value(argument: Expression | Place) -> Expression:
-    assert not isinstance(argument, Place)
+def _value(argument: Argument) -> Expression:
+    assert isinstance(argument, Expression)
     return argument
 
 
-def _is_zero(argument: Expression | Place) -> bool:
+def _is_zero(argument: Argument) -> bool:
     return isinstance(argument, Literal) and argument.value == 0

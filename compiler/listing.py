@@ -16,7 +16,7 @@ AXES = ("x", "y")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Listed:
-    """One scalar variable. `quantity` is the name of its type (`Angle`), `unit` the author's unit."""
+    """One scalar variable. `quantity` names its type (`Angle`), `unit` is the author's."""
 
     name: str
     value: ca.SX

@@ -16,10 +16,10 @@ from frot.dsl.checked import InitialEquation, Parameter, Reference
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lowered:
-    """The functions by their names in the contract, and the tables that go with them.
+    """The functions by their names in the contract, and their tables.
 
-    `position_statement` and `velocity_statement`: for each scalar initial equation, the index of its
-    statement in `statements`.
+    `position_statement` and `velocity_statement` give, for each scalar initial equation, the index
+    of its statement in `statements`.
     """
 
     reduced: Reduced
@@ -139,9 +139,8 @@ def _parameters(
             resolved[parameter] = values[parameter]
             return values[parameter]
         for node in subexpressions(parameter.value):
-            if isinstance(node, Reference) and isinstance(node.target, Parameter):
-                if not node.target.constant:
-                    resolve(node.target)
+            if isinstance(node, Reference) and node.target in s.parameters:
+                resolve(node.target)
         value = complete(looking.lower(parameter.value))
         resolved[parameter] = ca.if_else(is_set[i] != 0, values[parameter], value)
         return resolved[parameter]

@@ -1,7 +1,6 @@
-"""The mechanism: bodies, the liaisons that give them coordinates, contacts and forces, as plain data.
+"""The mechanism as plain data: bodies, their coordinates, contacts and forces."""
 
-Still free of any algebra: expressions are those of the checked model.
-"""
+# Still free of any algebra: expressions are those of the checked model.
 
 from __future__ import annotations
 

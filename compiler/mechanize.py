@@ -1,4 +1,4 @@
-"""Checked model to mechanism: which liaisons give coordinates, which are contacts, what is refused."""
+"""Checked model to mechanism: what gives coordinates, what is a contact, what is refused."""
 
 from __future__ import annotations
 
@@ -155,16 +155,9 @@ def _refuse_law(law: Law, log: Log) -> None:
                 )
 
 
-def _law(liaison: Liaison, kind: str, log: Log) -> Law | None:
-    laws = [law for law in liaison.laws if law.kind.name == kind]
-    if len(laws) > 1:
-        log.report(
-            "E0502",
-            f"liaison '{liaison.name}' has the law '{kind}' twice",
-            laws[1].span,
-            help="leave one of them out",
-        )
-    return laws[0] if laws else None
+def _law(liaison: Liaison, kind: str) -> Law | None:
+    """The law of this kind; a liaison has each kind once at most."""
+    return next((law for law in liaison.laws if law.kind.name == kind), None)
 
 
 def _contact(liaison: Liaison, log: Log) -> Contact | None:
@@ -188,23 +181,15 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
         point: Point = BodyPoint(other.body, "G", other.span)
     else:
         point = other
-    moving, fixed = point_body(point), owner_body(line.owner)
-    if moving is fixed:
-        log.report(
-            "E0503",
-            f"liaison '{liaison.name}' joins body '{moving.name}' with itself",
-            liaison.span,
-            help="the two places must belong to different bodies",
-        )
-        return None
     if not is_fixed(liaison.options["unilateral"]):
         _refuse(log, "an option `unilateral` that changes", liaison.options["unilateral"].span)
         return None
-    coulomb = _law(liaison, "coulomb", log)
-    rolling = _law(liaison, "rolling_resistance", log)
+    coulomb = _law(liaison, "coulomb")
+    rolling = _law(liaison, "rolling_resistance")
+    moving = point_body(point)
     if rolling is not None and moving.shape is not None and not moving.shape.turns:
         log.report(
-            "E0504",
+            "E0511",
             f"rolling resistance on '{moving.name}', which does not turn",
             rolling.span,
             help="a particle has no angle; use a disc or a ring",

@@ -29,8 +29,8 @@ class Reduced:
     """Equations of the motion in CasADi expressions, auxiliary speeds at zero.
 
     `mass` (nw x nw), `force` (nw), `rows` (n_rows x nw), `bias` (n_rows: J a + bias is the rows'
-    acceleration), `rate` (n_rows), `gap` and `distance` (n_contacts), `coefficients` (3 x n_contacts:
-    mu, mu_s, delta), `power` of the loads without potential, `kinetic`, `potential`.
+    acceleration), `rate` (n_rows), `gap` and `distance` (n_contacts), `coefficients` (mu, mu_s,
+    delta of each contact), `power` of the loads without potential, `kinetic`, `potential`.
     """
 
     mechanism: Mechanism
@@ -142,13 +142,13 @@ def _masses(mechanism: Mechanism, variables: Variables) -> _Masses:
     for body in mechanism.model.bodies:
         pose = kinematics.poses[body]
         weight = variables.mass(body) * gravity * down(world)
-        for velocity, inertia, load in (
+        for velocity, inertia, push in (
             (kinematics.velocity(pose.origin), variables.mass(body), weight),
             (kinematics.velocity(pose.angle), variables.inertia(body), ca.SX(0)),
         ):
             jacobian = ca.jacobian(velocity, speeds)
             mass += inertia * (jacobian.T @ jacobian)
-            force += jacobian.T @ (load - inertia * ca.jtimes(velocity, places, speeds))
+            force += jacobian.T @ (push - inertia * ca.jtimes(velocity, places, speeds))
         kinetic += variables.of_body(body, "kinetic_energy")
         potential -= ca.dot(weight, pose.origin)
     return _Masses(mass, force, kinetic, potential)
@@ -209,7 +209,7 @@ def _rates(contacts: tuple[Contact, ...], variables: Variables, kinematics: Kine
 def _coefficients(
     contacts: tuple[Contact, ...], moving: Lowering, symbols: Symbols, log: Log
 ) -> ca.SX:
-    """mu, mu_s, delta of each contact; a negative one is no number, so that it is not used unseen."""
+    """mu, mu_s, delta of each contact; a negative one is no number, so that it is seen."""
     values: list[ca.SX] = []
     for contact in contacts:
         for expression in (contact.mu, contact.mu_s, contact.delta):

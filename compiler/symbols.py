@@ -14,9 +14,9 @@ class Symbols:
     """CasADi symbols, all columns.
 
     `t` time; `q` coordinates (nq), `v` speeds (nv = nq in the plane), `w` and `sw` auxiliary
-    coordinates and speeds (na), zero in the motion, along which a reduced liaison's reaction is read;
-    `u` inputs, `p` parameters, `d` conditions (0 or 1) then sides of the contacts (+1 or -1);
-    `a` accelerations (nv), `lam` reactions of the rows, `energy` (dissipated, work).
+    coordinates and speeds (na), zero in the motion, along which the reaction of a reduced liaison
+    is read; `u` inputs, `p` parameters, `sides` of the contacts (+1 or -1); `a` accelerations (nv),
+    `lam` reactions of the rows, `energy` (dissipated, work).
     """
 
     t: ca.SX

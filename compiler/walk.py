@@ -53,6 +53,13 @@ def is_fixed(expression: Expression) -> bool:
     )
 
 
+def as_number(value: object) -> float:
+    """A value of `evaluate` as the kernel holds it: truth values are 0 and 1."""
+    if not isinstance(value, (bool, int, float)):
+        raise TypeError(f"{value!r} is no number")
+    return float(value)
+
+
 def read_expressions(model: Model) -> Iterator[Expression]:
     """Every expression of the model that can read a variable of a body or liaison."""
     for output in model.outputs:

@@ -256,6 +256,15 @@ _STRUCTURE = {
         "Say which one is meant, with '--model' or model=.",
         "planar model A\nend A;\nplanar model B\nend B;\n",
     ),
+    "E0511": Code(
+        "law on a body that cannot obey it",
+        "The law bounds a couple, but the body of this liaison does not turn.",
+        "Use a shape that turns, such as a disc or a ring, or leave the law out.",
+        snippet(
+            "body ball: particle(mass = 1 kg);\n"
+            "liaison floor: contact_ponctuel(ground.line, ball) with rolling_resistance(1 mm);",
+        ),
+    ),
 }
 
 _LATER = {

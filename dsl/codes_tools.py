@@ -65,6 +65,13 @@ TOOLS: Mapping[str, Code] = {
         "Write a number in SI, or a number and a unit in quotes: --set 'r=12 mm'.",
         "",
     ),
+    "E0807": Code(
+        "no FMU can be made",
+        "The model or this platform has something that FMI cannot express, or FMPy found a fault "
+        "in the archive. Nothing was written.",
+        "Name a file that ends in .fmu; report the message if the fault is in the archive.",
+        "",
+    ),
     "E0901": Code(
         "fault in the run",
         "The motion could not be computed past the time named.",

@@ -24,7 +24,7 @@ class Lexer:
     def __init__(self, grammar: Lark) -> None:
         patterns = {t.name: t.pattern for t in grammar.terminals}
         literal = {p.value: n for n, p in patterns.items() if p.type == "str"}
-        self.keywords = {w: n for w, n in literal.items() if w[0].isalpha()}
+        self.keywords: dict[str, str] = {w: n for w, n in literal.items() if w[0].isalpha()}
         self.symbols = {w: n for w, n in literal.items() if not w[0].isalpha()}
         symbols = "|".join(re.escape(s) for s in sorted(self.symbols, key=len, reverse=True))
         groups = [f"(?P<{name}>{patterns[name].to_regexp()})" for name in _REGEXPS]

@@ -48,7 +48,7 @@ def _parser() -> argparse.ArgumentParser:
         epilog="`frot COMMAND --help` tells more. Exit status: 0 done, 1 an error was reported, "
         "2 wrong usage.",
     )
-    parser.add_argument("--version", action="version", version=_Version())
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
 
     check = _command(commands, "check", "check a model; print its mobility and liaisons", _check)
@@ -112,16 +112,14 @@ def _settings(parser: argparse.ArgumentParser) -> None:
     )
 
 
-class _Version:
-    """The version, looked up only when it is printed."""
+class _Version(argparse.Action):
+    """Prints the version, which is looked up only then."""
 
-    def __mod__(self, _: object) -> str:
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         from importlib.metadata import version
 
-        return f"frot {version('frot')}"
-
-    def __str__(self) -> str:
-        return self % None
+        print(f"frot {version('frot')}")
+        parser.exit()
 
 
 def _assignment(text: str) -> tuple[str, str]:

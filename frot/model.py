@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -106,12 +106,26 @@ class Model:
             raise FrotError(log)
         return dae
 
-    def export_fmu(self, path: str | Path, fmi: str = "2.0") -> None:
-        """Write a co-simulation FMU for this machine's platform. `fmi`: "2.0" or "3.0"."""
+    def export_fmu(
+        self, path: str | Path, fmi: str = "2.0", platforms: Sequence[str] | None = None
+    ) -> None:
+        """Write a co-simulation FMU. `fmi`: "2.0" or "3.0"; `platforms`: this machine's only.
+
+        Raises:
+            FrotError: The file cannot be written, or an option has a bad value.
+        """
         from functools import partial
 
         from frot.compiler import compile_library
-        from frot.runtime.fmi import export
+        from frot.runtime.fmi import InvalidFmuError, export, platform_folder
+
+        own = platform_folder("3.0").removeprefix("binaries/")
+        if platforms is not None and list(platforms) != [own]:
+            raise fail(
+                "E0701",
+                f"an FMU for {', '.join(platforms)} is not supported yet",
+                help=f"this machine makes FMUs for {own}",
+            )
 
         if fmi not in ("2.0", "3.0"):
             raise fail("E0806", f"FMI version '{fmi}' is not known", help="choose 2.0 or 3.0")
@@ -124,6 +138,8 @@ class Model:
                 f"'{target}' cannot be written: {error.strerror or error}",
                 help=f"is '{target.parent}' a folder that can be written?",
             ) from None
+        except (ValueError, RuntimeError, InvalidFmuError) as error:
+            raise fail("E0807", f"no FMU can be made: {error}") from None
 
 
 def load(path: str | Path, model: str | None = None) -> Model:

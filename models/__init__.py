@@ -1,0 +1,1 @@
+"""The library and the worked examples, as `.frot` files."""

@@ -16,7 +16,7 @@ MODEL_SOURCE = "model.c"
 class Unit:
     """A unit of values: name and exponents of m, kg, s, A, K, mol, cd, rad; all values are in SI.
 
-    `display` is the author's unit (`mm`), with `display_factor` SI units in one of it; empty if none.
+    `display` is the author's unit (`mm`), of `display_factor` SI units; empty if it is the same.
     """
 
     name: str
@@ -66,8 +66,8 @@ class ExperimentInfo:
 class Program:
     """A compiled model in a folder: `model.c`, the shared library and this description.
 
-    Order of `parameters`, `inputs`, `variables` is that of the kernel's arrays; variables begin with
-    the modes of `contacts`. `key` identifies the model's text, the compiler and its flags.
+    `parameters`, `inputs`, `variables` are in the order of the kernel's arrays; variables begin
+    with the modes of `contacts`. `key` identifies the model's text, the compiler and its flags.
     """
 
     name: str

@@ -89,7 +89,7 @@ class Values(Mapping[str, Floats]):
             near = get_close_matches(name, self._columns, 1)
             hint = f"; did you mean '{near[0]}'?" if near else ""
             raise KeyError(f"no variable '{name}'{hint}")
-        return self._values[..., self._columns[name]]  # type: ignore[no-any-return]
+        return self._values[..., self._columns[name]]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)

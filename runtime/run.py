@@ -127,7 +127,7 @@ def _grid(begin: float, end: float, interval: float) -> Floats:
             f"an interval of {interval:g} s gives {count:.3g} output times",
             help=f"choose an interval that gives at most {MOST_POINTS}",
         )
-    times = begin + np.arange(int(round(count * (1 + 1e-12))) + 1) * interval
+    times = begin + np.arange(round(count * (1 + 1e-12)) + 1) * interval
     near = 1e-9 * interval
     return np.append(times[times < end - near], end)
 
@@ -189,8 +189,10 @@ def _from_text(info: ParameterInfo, text: str) -> float:
         return float(text)
     except ValueError:
         pass
+    from fractions import Fraction
+
     from frot.dsl import parse_value
-    from frot.dsl.dimensions import Dimension, Fraction, Type
+    from frot.dsl.dimensions import Dimension, Type
 
     of = Dimension(tuple(Fraction(e) for e in info.unit.exponents[:7]))
     return float(parse_value(text, Type(info.type, of)))  # type: ignore[arg-type]
@@ -198,6 +200,7 @@ def _from_text(info: ParameterInfo, text: str) -> float:
 
 def _event(engine: Engine, raw: RawEvent) -> Event:
     kind = KINDS[raw.kind]
+    names: tuple[str, ...]
     if kind == "condition":
         names = ("false", "true")
         liaison = f"condition {raw.contact + 1}"

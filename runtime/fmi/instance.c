@@ -6,7 +6,6 @@
 #include <string.h>
 
 #define MESSAGE 2048
-#define SEGMENTS 8 /* the kernel keeps them beside the events; nobody reads them here */
 
 static const char *category_of(int status)
 {
@@ -91,17 +90,14 @@ static int draft_acceptable(const frot_fmu *draft, const char *function, const c
   return 1;
 }
 
-/* Room for the events of several instants: a contact has up to four at one, a condition one. */
+/* Room for the events of several instants; nobody reads the segments. */
 static int make_recorder(frot_fmu *fmu)
 {
   const frot_model *model = fmu->model;
-  const long long events = 8LL * (model->n_contacts + model->n_conditions) + 16;
-  const size_t segment = (size_t)frot_segment_size(model) * sizeof(double);
-  fmu->recorder.segments = frot_fmu_memory(fmu, SEGMENTS * segment);
-  fmu->recorder.segment_capacity = SEGMENTS;
+  const long long events = 4 * frot_events_at_once(model);
   fmu->recorder.events = frot_fmu_memory(fmu, (size_t)events * sizeof(frot_event));
   fmu->recorder.event_capacity = events;
-  return fmu->recorder.segments != NULL && fmu->recorder.events != NULL;
+  return fmu->recorder.events != NULL;
 }
 
 frot_fmu *frot_fmu_open(const frot_fmu *draft, size_t size, const char *function, const char *name,
@@ -138,7 +134,7 @@ void frot_fmu_close(frot_fmu *fmu)
 {
   if (fmu == NULL) return;
   void *const pieces[] = {fmu->name_memory, fmu->state, fmu->work, fmu->values,
-                          fmu->recorder.segments, fmu->recorder.events};
+                          fmu->recorder.events};
   void (*release)(void *) = fmu->release;
   frot_fmu_drop_all(fmu);
   /* An environment's own freeMemory may not take NULL. */

@@ -54,7 +54,6 @@ typedef struct {
 extern const frot_fmu_variable frot_fmu_variables[];
 extern const unsigned frot_fmu_variable_count;
 extern const int frot_fmu_on_indeterminate; /* frot_indeterminate */
-extern const frot_model frot_the_model;
 
 /* Sets of types an FMI function accesses. */
 #define FROT_FMU_TYPE(type) (1 << (type))

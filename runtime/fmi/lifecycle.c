@@ -159,14 +159,13 @@ static int advance(frot_fmu *fmu, double t)
   char sentence[SENTENCE];
   int status;
   do {
-    if (recorder != NULL) recorder->event_count = recorder->segment_count = 0;
+    if (recorder != NULL) recorder->event_count = 0;
     status = frot_advance(fmu->model, fmu->state, fmu->work, t, recorder, NULL, NULL);
     for (long long i = 0; recorder != NULL && i < recorder->event_count; i++) {
       frot_event_text(fmu->model, &recorder->events[i], sentence, sizeof sentence);
       frot_fmu_say_event(fmu, sentence);
     }
-  } while (status == FROT_FULL && recorder != NULL &&
-           (recorder->event_count > 0 || recorder->segment_count > 0));
+  } while (status == FROT_FULL && recorder != NULL && recorder->event_count > 0);
   return status;
 }
 

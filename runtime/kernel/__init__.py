@@ -1,0 +1,1 @@
+"""The C kernel: its sources, to be compiled with every model."""

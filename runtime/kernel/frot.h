@@ -163,6 +163,9 @@ typedef struct {
   long long steps, rejected, evaluations, events;
 } frot_statistics;
 
+/* The model compiled together with the kernel. */
+extern const frot_model frot_the_model;
+
 /* Options of a run, fixed at frot_start. */
 enum frot_indeterminate { FROT_REST = 0, FROT_CONTINUE = 1, FROT_HALT = 2 };
 typedef struct {
@@ -175,7 +178,8 @@ typedef struct {
 typedef struct frot_state frot_state;
 typedef struct frot_work frot_work;
 
-/* Where segments and events go, in memory of the caller. A segment takes frot_segment_size doubles. */
+/* Where segments and events go, in memory of the caller. A segment takes frot_segment_size doubles;
+ * with segments NULL only events are recorded. The events need room for frot_events_at_once. */
 typedef struct {
   double *segments;
   long long segment_capacity, segment_count;
@@ -189,6 +193,9 @@ typedef int (*frot_monitor)(void *context, double t);
 size_t frot_state_size(const frot_model *model); /* bytes */
 size_t frot_work_size(const frot_model *model);  /* bytes */
 long long frot_segment_size(const frot_model *model); /* doubles */
+
+/* Events that one instant may bring. */
+long long frot_events_at_once(const frot_model *model);
 
 /* Fill a new state with the defaults of the model. */
 void frot_state_clear(const frot_model *model, frot_state *state);

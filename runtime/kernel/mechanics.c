@@ -13,7 +13,7 @@ static void inputs(const frot_model *m, frot_state *s, frot_work *w, const doubl
   w->arg[3] = s->data + l.u, w->arg[4] = s->data + l.p, w->arg[5] = d;
 }
 
-static int finite(const double *x, int n) {
+static int all_finite(const double *x, int n) {
   double sum = 0;
   for (int i = 0; i < n; i++) sum += x[i] - x[i];
   return sum == 0;
@@ -29,10 +29,10 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   m->dynamics.call(w->arg, w->res, w->iw, w->w, 0);
   s->statistics.evaluations++;
   w->t = t;
-  if (!finite(w->mass, nw * nw) || !finite(w->h, nw) || !finite(w->rows, nw * nr) ||
-      !finite(w->c, nr) || !finite(w->qd, m->nq) || !finite(w->coefficient, 3 * m->n_contacts) ||
-      !finite(w->condition, m->n_conditions) || !finite(w->gap, m->n_contacts) ||
-      !finite(w->power, 1))
+  if (!all_finite(w->mass, nw * nw) || !all_finite(w->h, nw) || !all_finite(w->rows, nw * nr) ||
+      !all_finite(w->c, nr) || !all_finite(w->qd, m->nq) || !all_finite(w->coefficient, 3 * m->n_contacts) ||
+      !all_finite(w->condition, m->n_conditions) || !all_finite(w->gap, m->n_contacts) ||
+      !all_finite(w->power, 1))
     return FROT_NAN;
   memcpy(w->factor, w->mass, sizeof(double) * (size_t)(nw * nw));
   if (frot_cholesky(w->factor, nw)) return FROT_SINGULAR;
@@ -158,7 +158,7 @@ int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *m
     if (follow.friction != 0) w->lam[contact->row_t] = follow.friction * w->lam[contact->row_n];
     if (follow.rolling != 0) w->lam[contact->row_r] = follow.rolling * w->lam[contact->row_n];
   }
-  return !finite(w->lam, nr);
+  return !all_finite(w->lam, nr);
 }
 
 void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen) {
@@ -235,7 +235,7 @@ int frot_derivatives(const frot_model *m, frot_state *s, frot_work *w, double t,
   if (status != FROT_OK) return status;
   if (frot_reactions(m, w, modes, NULL)) return FROT_DIVERGE;
   frot_accelerations(m, w, frozen);
-  if (!finite(w->a, l.nw)) return FROT_NAN;
+  if (!all_finite(w->a, l.nw)) return FROT_NAN;
   memcpy(slope, w->qd, sizeof(double) * (size_t)m->nq);
   memcpy(slope + m->nq, w->a, sizeof(double) * (size_t)m->nv);
   double dissipated = 0;

@@ -20,7 +20,4 @@
 int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  int first, frot_recorder *recorder);
 
-/* Room the events of one instant may take in a recorder. */
-long long frot_events_at_once(const frot_model *m);
-
 #endif

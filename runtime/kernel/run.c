@@ -96,7 +96,7 @@ static void fire_changed_conditions(const frot_model *m, frot_state *s, frot_wor
   }
 }
 
-int frot_settle(const frot_model *m, frot_state *s, frot_work *w) {
+static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
   if (s->phase != FROT_RUNNING || !s->changed) return s->fault.status;
   frot_bind_work(m, w);
   frot_layout l = frot_layout_of(m);
@@ -111,12 +111,16 @@ int frot_settle(const frot_model *m, frot_state *s, frot_work *w) {
   x = s->data + l.x;
   memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
   fire_changed_conditions(m, s, w);
-  status = frot_resolve(m, s, w, s->t, x, x + m->nq, 0, NULL);
+  status = frot_resolve(m, s, w, s->t, x, x + m->nq, 0, recorder);
   if (status != FROT_OK) return status;
   frot_make_instant(m, s, s->t, x);
   s->energy += energy_now(m, s, w, x) - before;
   s->pending = 0;
   return FROT_OK;
+}
+
+int frot_settle(const frot_model *m, frot_state *s, frot_work *w) {
+  return settle(m, s, w, NULL);
 }
 
 int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t, frot_recorder *recorder,
@@ -128,12 +132,12 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t, fro
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   double *x = s->data + l.x;
   if (s->changed) {
-    int status = frot_settle(m, s, w);
+    int status = settle(m, s, w, recorder);
     if (status != FROT_OK) return status;
   }
   while (*g.t1 <= t) {
     if (recorder && (recorder->event_count + frot_events_at_once(m) > recorder->event_capacity ||
-                     recorder->segment_count >= recorder->segment_capacity))
+                     (recorder->segments && recorder->segment_count >= recorder->segment_capacity)))
       return FROT_FULL;
     int status = FROT_OK;
     if (s->pending) {
@@ -151,7 +155,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t, fro
     }
     if (s->statistics.steps == steps) continue;
     s->energy_scale = fmax(s->energy_scale, fabs(s->data[l.x + m->nq + m->nv]));
-    if (recorder) {
+    if (recorder && recorder->segments) {
       memcpy(recorder->segments + recorder->segment_count * l.ns, s->data + l.segment,
              sizeof(double) * (size_t)l.ns);
       recorder->segment_count++;

@@ -34,7 +34,9 @@ int frot_values(const frot_model *m, frot_state *s, frot_work *w, double *values
   if (s->phase == FROT_CLEARED) return FROT_MISUSE;
   frot_bind_work(m, w);
   frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
-  return values_in(m, s, w, &g, s->t, values);
+  int status = values_in(m, s, w, &g, s->t, values);
+  if (status != FROT_OK && s->phase == FROT_RUNNING) frot_fail(s, status, s->t, -1, -1, -1, 0);
+  return status;
 }
 
 int frot_segment_values(const frot_model *m, frot_state *s, frot_work *w, const double *segment,

@@ -31,8 +31,9 @@ def test_each_fault_is_told_once_where_it_stands(path: Path) -> None:
 def test_the_example_of_a_code_triggers_it_and_nothing_else(code: str) -> None:
     log = Log()
     compile_text(CODES[code].example, log)
-    # Initial values are judged by the compiler: here their examples must be sound texts.
-    assert [d.code for d in log] == ([] if code.startswith("E06") else [code]), render_log(log)
+    # What the compiler judges must be a sound text here.
+    judged_later = code.startswith("E06") or code == "E0511"
+    assert [d.code for d in log] == ([] if judged_later else [code]), render_log(log)
 
 
 def test_every_code_is_explained() -> None:
