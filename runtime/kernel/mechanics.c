@@ -6,6 +6,8 @@
 
 #include "linear.h"
 
+#define FRICTION_WEIGHT 1e-5
+
 static void inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t,
                    const double *q, const double *v, const double *d) {
   frot_layout l = frot_layout_of(m);
@@ -94,9 +96,15 @@ static ratios ratios_of(const frot_work *w, const frot_contact_mode *mode, int i
                   opposed(mode, mode->rolling) * k[2]};
 }
 
+static int is_normal(const frot_model *m, int row) {
+  for (int i = 0; i < m->n_contacts; i++)
+    if (m->contacts[i].row_n == row) return 1;
+  return 0;
+}
+
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                    const unsigned char *at_rest) {
-  int nr = m->n_rows, n = 0;
+  int nr = m->n_rows, nw = m->nv + m->na, n = 0;
   memset(w->lam, 0, sizeof(double) * (size_t)nr);
   for (int i = 0; i < m->n_contacts; i++) {
     if (!modes[i].closed) continue;
@@ -135,14 +143,22 @@ int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *m
   memcpy(work, w->right, sizeof(double) * (size_t)n);
   double *x = work;
   if (frot_lu_solve(copy, x, n)) {
-    /* Dependent rows (hyperstatic): the least reactions, if the rows do not contradict. */
+    /* Dependent rows (hyperstatic): reactions of least friction, if the rows do not contradict.
+     * Friction weighs so much more than normal reactions that rest is not lost for want of it. */
     double *b = work, *scratch = work + n;
+    double push = sqrt(frot_dot(w->force, w->force, nw));
     x = w->step;
-    memcpy(copy, w->active, sizeof(double) * (size_t)(n * n));
+    for (int c = 0; c < n; c++) {
+      double weight = is_normal(m, w->row_of[c]) ? 1 : FRICTION_WEIGHT;
+      for (int r = 0; r < n; r++) copy[c * n + r] = weight * w->active[c * n + r];
+    }
     memcpy(b, w->right, sizeof(double) * (size_t)n);
     frot_least_norm(copy, b, n, n, x, scratch, w->pivot);
+    for (int c = 0; c < n; c++)
+      if (!is_normal(m, w->row_of[c])) x[c] *= FRICTION_WEIGHT;
     for (int r = 0; r < n; r++) {
-      double sum = -w->right[r], size = fabs(w->right[r]);
+      int row = w->row_of[r];
+      double sum = -w->right[r], size = push * sqrt(w->delassus[row * nr + row]) + fabs(w->c[row]);
       for (int c = 0; c < n; c++) {
         sum += w->active[c * n + r] * x[c];
         size += fabs(w->active[c * n + r] * x[c]);

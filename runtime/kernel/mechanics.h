@@ -15,8 +15,8 @@ void frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t,
                      const double *v, const double *d);
 
 /* Reactions w->lam of the rows in `modes`, after frot_dynamics. Where at_rest (n_contacts, may be
- * NULL) is nonzero, slip is resisted by the coefficient of rest mu_s. The least reactions are taken
- * where they are not unique. Returns 1 when no finite reactions exist. */
+ * NULL) is nonzero, slip is resisted by the coefficient of rest mu_s. Reactions of least friction
+ * are taken where they are not unique. Returns 1 when no finite reactions exist. */
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                    const unsigned char *at_rest);
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "linear.h"
 #include "mechanics.h"
 
 #define ENOUGH 200000    /* combinations of modes examined one by one */
@@ -16,6 +17,7 @@ typedef struct {
   const double *fired, *unilateral;
   unsigned char *zero;    /* per contact: bit 0 no slip, bit 1 no rolling */
   unsigned char *at_rest; /* per contact: no slip, so that mu_s bounds it */
+  double push;            /* size of the forces in the metric of the mass */
 } instant;
 
 long long frot_events_at_once(const frot_model *m) { return 4 * m->n_contacts + m->n_conditions + 4; }
@@ -64,6 +66,7 @@ static int contact_options(const instant *in, int i, int forced,
   int was_stuck = before.closed && before.friction == FROT_STICK;
   int was_locked = before.closed && before.rolling == FROT_STICK;
   int leaves = forced && before.closed && can_open && fired[0] != 0;
+  int turns = forced && before.closed && !can_open && fired[0] != 0;
   if (!leaves) {
     signed char friction[3], rolling[3];
     int act_t = bounds_something(in->w, contact, i, 0), act_r = bounds_something(in->w, contact, i, 1);
@@ -76,6 +79,7 @@ static int contact_options(const instant *in, int i, int forced,
       for (int b = 0; b < n_r; b++)
         for (int side = 1; side >= -1; side -= 2) {
           if (side < 0 && (can_open || (!act_t && !act_r))) continue;
+          if (turns && side == before.side) continue;
           list[n++] = (frot_contact_mode){1, (signed char)side, friction[a], rolling[b], {0}};
         }
   }
@@ -83,10 +87,11 @@ static int contact_options(const instant *in, int i, int forced,
   return n;
 }
 
-/* Size of the terms of a row's acceleration, for the comparison with zero. */
+/* Size of the terms of a row's acceleration, for the comparison with zero. Forces may cancel along
+ * the row, so what they could do to it at most counts too. */
 static double acceleration_size(const instant *in, int row) {
   int nr = in->m->n_rows;
-  double sum = fabs(in->w->free[row]) + fabs(in->w->c[row]);
+  double sum = fabs(in->w->c[row]) + in->push * sqrt(in->w->delassus[row * nr + row]);
   for (int k = 0; k < nr; k++)
     if (in->w->lam[k] != 0) sum += fabs(in->w->delassus[row * nr + k] * in->w->lam[k]);
   return sum;
@@ -145,7 +150,7 @@ static int stuck_count(const frot_contact_mode *mode) {
 
 static int same_mode(const frot_contact_mode *a, const frot_contact_mode *b) {
   if (!a->closed || !b->closed) return a->closed == b->closed;
-  return a->friction == b->friction && a->rolling == b->rolling;
+  return a->side == b->side && a->friction == b->friction && a->rolling == b->rolling;
 }
 
 /* How much a combination is preferred: rest first, then continuity, or the other way round. */
@@ -309,7 +314,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   double *d = s->data + l.d, *fired = s->data + l.fired, *frozen = s->data + l.frozen;
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + l.modes);
   unsigned char *flags = (unsigned char *)(w->choice + 2 * nc);
-  instant in = {m, s, w, l, fired, s->data + l.unilateral, flags, flags + nc};
+  instant in = {m, s, w, l, fired, s->data + l.unilateral, flags, flags + nc, 0};
   memcpy(w->before, modes, sizeof *modes * (size_t)nc);
   memset(flags, 0, 2 * (size_t)nc);
 
@@ -345,6 +350,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   status = frot_dynamics(m, s, w, t, q, v, d, w->best);
   if (status != FROT_OK) return frot_fail(s, status, t, -1, -1, -1, 0);
 
+  in.push = sqrt(frot_dot(w->force, w->force, l.nw));
   find_components(&in);
   int several = 0, several_at = -1;
   for (int root = 0; root < nc; root++) {
