@@ -33,6 +33,13 @@ class Geometry:
     abscissa: ca.SX
 
 
+def _side_distance(contact: Contact, height: ca.SX, middle: ca.SX) -> ca.SX:
+    """What chooses the side: the ground is below its own line, whatever the start says."""
+    if contact.line.span is None:
+        return ca.SX(1)
+    return height if contact.round is not None else middle
+
+
 def down(world: World) -> ca.SX:
     """Unit vector of gravity."""
     return ca.SX(ca.DM(DOWN[world.down]))
@@ -68,7 +75,7 @@ def contact_geometry(
         line=line,
         side=side,
         gap=side * height - radius,
-        distance=height if contact.round is not None else middle,
+        distance=_side_distance(contact, height, middle),
         slip=slip,
         roll=roll,
         abscissa=ca.dot(line.direction, centre - line.through),

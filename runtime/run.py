@@ -19,7 +19,6 @@ TOLERANCES = (1e-14, 1e-1)
 CODES = {
     10: "E0401",
     11: "E0601",
-    12: "E0601",
     13: "E0905",
     14: "E0902",
     15: "E0902",
@@ -224,7 +223,7 @@ def _fault(engine: Engine, result: Result | None) -> SimulationError:
 
 
 def _fault_help(status: int) -> str:
-    if status in (11, 12):
+    if status == 11:
         return "leave one of the statements out, or make them agree"
     if status == 10:
         return "give the parameter another value"

@@ -28,7 +28,6 @@ enum frot_status {
   FROT_STOPPED = 2,   /* the monitor asked to stop */
   FROT_CHECK = 10,    /* a parameter has a value the model cannot have */
   FROT_INITIAL = 11,  /* contradictory initial values */
-  FROT_ENTERING = 12, /* bodies start in each other, or run into each other at the start */
   FROT_IMPACT = 13,   /* two bodies meet: impacts are not computed */
   FROT_IMPASSE = 14,  /* no admissible motion */
   FROT_SEVERAL = 15,  /* several admissible motions and on_indeterminate = stop */

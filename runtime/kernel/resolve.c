@@ -80,6 +80,8 @@ static int contact_options(const instant *in, int i, int forced,
         for (int side = 1; side >= -1; side -= 2) {
           if (side < 0 && (can_open || (!act_t && !act_r))) continue;
           if (turns && side == before.side) continue;
+          /* held all round, the side follows from the reaction: is_admissible sets it */
+          if (side < 0 && !turns && friction[a] <= FROT_STICK && rolling[b] <= FROT_STICK) continue;
           list[n++] = (frot_contact_mode){1, (signed char)side, friction[a], rolling[b], {0}};
         }
   }
@@ -122,12 +124,14 @@ static int is_admissible(const instant *in, const int *chosen, int count) {
   for (int c = 0; c < count; c++) {
     int i = chosen[c];
     const frot_contact *contact = &in->m->contacts[i];
-    const frot_contact_mode *mode = &w->trial[i];
+    frot_contact_mode *mode = &w->trial[i];
     if (!mode->closed) {
       double a = acceleration(in, contact->row_n);
       if (!(a >= -1e-9 * acceleration_size(in, contact->row_n))) return 0;
       continue;
     }
+    if (in->unilateral[i] == 0 && mode->friction <= FROT_STICK && mode->rolling <= FROT_STICK)
+      mode->side = w->lam[contact->row_n] < 0 ? -1 : 1;
     double normal = mode->side * w->lam[contact->row_n];
     const double *k = w->coefficient + 3 * i;
     int matters = in->unilateral[i] != 0 || mode->friction != FROT_NONE || mode->rolling != FROT_NONE;
@@ -307,6 +311,14 @@ static int closable(const instant *in, double t, const double *v, int first) {
   return FROT_OK;
 }
 
+void frot_tell_start(const frot_model *m, frot_state *s, frot_recorder *recorder) {
+  if (!s->several) return;
+  frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
+  int mode = mode_value(&g.modes[s->several_at]);
+  note(recorder, s, *g.t0, FROT_EVENT_SEVERAL, s->several_at, mode, mode, s->several);
+  s->several = 0;
+}
+
 int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  int first, frot_recorder *recorder) {
   frot_layout l = frot_layout_of(m);
@@ -365,8 +377,11 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     if (motions > 1) several = motions, several_at = chosen[0];
   }
   if (several) {
-    note(recorder, s, t, FROT_EVENT_SEVERAL, several_at, mode_value(&w->before[several_at]),
-         mode_value(&w->best[several_at]), several);
+    if (first)
+      s->several = several, s->several_at = several_at; /* told by the first frot_advance */
+    else
+      note(recorder, s, t, FROT_EVENT_SEVERAL, several_at, mode_value(&w->before[several_at]),
+           mode_value(&w->best[several_at]), several);
     if (s->options.on_indeterminate == FROT_HALT)
       return frot_fail(s, FROT_SEVERAL, t, several_at, -1, -1, several);
   }

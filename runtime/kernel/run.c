@@ -64,7 +64,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
                  : isnan(experiment[2])   ? 1e-8
                                           : experiment[2];
   s->h_max = experiment[1] > start ? experiment[1] - start : 1;
-  s->pending = s->has_slope = s->changed = s->crowded = 0;
+  s->pending = s->has_slope = s->changed = s->crowded = s->several = 0;
   s->crowded_since = t;
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
@@ -139,6 +139,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t, fro
     if (recorder && (recorder->event_count + frot_events_at_once(m) > recorder->event_capacity ||
                      (recorder->segments && recorder->segment_count >= recorder->segment_capacity)))
       return FROT_FULL;
+    frot_tell_start(m, s, recorder);
     int status = FROT_OK;
     if (s->pending) {
       if (++s->crowded > CROWD)

@@ -38,6 +38,8 @@ struct frot_state {
   int has_slope; /* slope holds the derivatives at the end of the current segment */
   int changed;   /* parameters or inputs were set since the last frot_settle */
   int crowded;   /* events since the time last moved on */
+  int several;   /* admissible motions at the start, until this is told as an event */
+  int several_at;
   int reserved;
   double crowded_since;
   double t;      /* time reached */

@@ -58,7 +58,7 @@ static void initial_text(const frot_model *m, const frot_fault *f, char *text, s
     snprintf(text, size, "the initial values contradict each other: `%s` and `%s` (by %.3g in SI)",
              one, m->statements[f->other].text, f->value);
   else
-    snprintf(text, size, "the initial statement `%s` cannot be satisfied (by %.3g in SI)", one,
+    snprintf(text, size, "the initial statement `%s` cannot hold together with the liaisons (by %.3g in SI)", one,
              f->value);
 }
 
