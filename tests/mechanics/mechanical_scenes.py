@@ -214,7 +214,7 @@ end WedgeAndHoop;
 """
 
 WEDGE_AND_BEAD = """
-planar model WedgeAndBead "Bead on the rough slope of a wedge that slides with friction on the ground"
+planar model WedgeAndBead "Bead on the rough slope of a wedge that rubs on the ground"
   parameter Mass M = 2 kg;
   parameter Angle C = 0.6 rad;
   parameter Real f = 0.1;
@@ -356,7 +356,7 @@ end Lifted;
 """
 
 TURNED_REACTION = """
-planar model TurnedReaction "Bead in a rough tube; a growing force across it turns the reaction round"
+planar model TurnedReaction "Bead in a rough tube; a force across it turns the reaction"
   parameter Mass m = 1 kg;
   parameter Acceleration g = 9.81 m/s^2;
   parameter Force before = 0 N;

@@ -20,7 +20,6 @@ from mechanical_scenes import (
     row,
     rows,
     scene,
-    times_of,
     weighed,
 )
 

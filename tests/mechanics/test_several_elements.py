@@ -303,7 +303,7 @@ def test_a_dumbbell_with_two_motions_is_reported_and_with_none_is_refused(scenes
     """Painlevé 1895, p. 13-16: f = 3.2 > 2 sqrt(2)."""
     p = row("dumbbell_acceleration-2")["parameters"]
     given = {"f": p["f"], "th": p["th"], "w0": p["thd"], "r": p["r"]}
-    with pytest.raises(frot.FrotError, match="E0902.*2 motions"):
+    with pytest.raises(frot.FrotError, match=r"E0902.*2 motions"):
         scenes.run(DUMBBELL.format(option=STOP), v0=1.0, **given)
     with pytest.raises(frot.FrotError, match=r"E0902.*no admissible motion"):
         scenes.run(DUMBBELL.format(option=STOP), v0=-1.0, **given)
@@ -335,7 +335,7 @@ def test_two_points_on_parallel_lines_past_the_limit_are_told(scenes: Scenes) ->
     """parallel_lines-2: two motions for x' > 0, none for x' < 0 (Painlevé 1895, p. 94)."""
     p = row("parallel_lines-2")["parameters"]
     given = {n: p[n] for n in ("f", "f1", "alpha", "X", "X1")}
-    with pytest.raises(frot.FrotError, match="E0902.*2 motions"):
+    with pytest.raises(frot.FrotError, match=r"E0902.*2 motions"):
         scenes.run(PARALLEL.format(option=STOP), v0=1.0, **given)
     with pytest.raises(frot.FrotError, match=r"E0902.*no admissible motion"):
         scenes.run(PARALLEL.format(option=STOP), v0=-1.0, **given)
@@ -353,7 +353,7 @@ def test_the_painleve_rod_slides_parts_or_jams_as_the_theory_says(
         with pytest.raises(frot.FrotError, match=r"E0902.*no admissible motion"):
             scenes.run(text, **given)
     elif e["case"] == "indeterminate":
-        with pytest.raises(frot.FrotError, match="E0902.*2 motions"):
+        with pytest.raises(frot.FrotError, match=r"E0902.*2 motions"):
             scenes.run(text, **given)
     else:
         result = scenes.run(text, **given)
