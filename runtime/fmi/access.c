@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-static const char *type_name(int types)
-{
+static const char *type_name(int types) {
   if (types & FROT_FMU_TYPE(FROT_REAL)) return "real number";
   if (types & FROT_FMU_TYPE(FROT_BOOLEAN)) return "boolean";
   if (types & FROT_FMU_TYPE(FROT_INTEGER)) return "integer";
@@ -13,16 +12,14 @@ static const char *type_name(int types)
 }
 
 int frot_fmu_arrays(const frot_fmu *fmu, const char *function, const unsigned *references,
-                    const void *values, size_t count)
-{
+                    const void *values, size_t count) {
   if (count == 0 || (references != NULL && values != NULL)) return FROT_FMU_OK;
   return frot_fmu_say(fmu, FROT_FMU_ERROR, "%s: the value references or the values are NULL.",
                       function);
 }
 
 static const frot_fmu_variable *find(const frot_fmu *fmu, const char *function, unsigned reference,
-                                     int types)
-{
+                                     int types) {
   if (reference >= frot_fmu_variable_count) {
     frot_fmu_say(fmu, FROT_FMU_ERROR, "%s: there is no value reference %u.", function, reference);
     return NULL;
@@ -35,8 +32,8 @@ static const frot_fmu_variable *find(const frot_fmu *fmu, const char *function, 
   return &frot_fmu_variables[reference];
 }
 
-int frot_fmu_get(frot_fmu *fmu, const char *function, unsigned reference, int types, double *value)
-{
+int frot_fmu_get(frot_fmu *fmu, const char *function, unsigned reference, int types,
+                 double *value) {
   const frot_model *model = fmu->model;
   const frot_fmu_variable *variable = find(fmu, function, reference, types);
   if (variable == NULL) return FROT_FMU_ERROR;
@@ -44,23 +41,32 @@ int frot_fmu_get(frot_fmu *fmu, const char *function, unsigned reference, int ty
   if (status != FROT_FMU_OK) return status;
   const int index = (int)reference - 1;
   switch (variable->role) {
-    case FROT_FMU_TIME: *value = fmu->life.t; break;
+    case FROT_FMU_TIME:
+      *value = fmu->life.t;
+      break;
     case FROT_FMU_PARAMETER:
-    case FROT_FMU_DEPENDENT: *value = frot_get_parameter(model, fmu->state, index); break;
-    case FROT_FMU_INPUT: *value = frot_get_input(model, fmu->state, index - model->np); break;
-    default: *value = fmu->values[index - model->np - model->nu]; break;
+    case FROT_FMU_DEPENDENT:
+      *value = frot_get_parameter(model, fmu->state, index);
+      break;
+    case FROT_FMU_INPUT:
+      *value = frot_get_input(model, fmu->state, index - model->np);
+      break;
+    default:
+      *value = fmu->values[index - model->np - model->nu];
+      break;
   }
   return FROT_FMU_OK;
 }
 
 int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned reference, int types,
-                      double value)
-{
+                      double value) {
   switch (fmu->life.phase) {
     case FROT_FMU_INSTANTIATED:
     case FROT_FMU_INITIALIZATION:
-    case FROT_FMU_STEPPING: break;
-    default: return frot_fmu_misplaced(fmu, function);
+    case FROT_FMU_STEPPING:
+      break;
+    default:
+      return frot_fmu_misplaced(fmu, function);
   }
   const frot_fmu_variable *variable = find(fmu, function, reference, types);
   if (variable == NULL) return FROT_FMU_ERROR;
@@ -74,8 +80,7 @@ int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned refere
   return FROT_FMU_OK;
 }
 
-void frot_fmu_set(frot_fmu *fmu, unsigned reference, double value)
-{
+void frot_fmu_set(frot_fmu *fmu, unsigned reference, double value) {
   const int index = (int)reference - 1;
   if (frot_fmu_variables[reference].role == FROT_FMU_INPUT)
     frot_set_input(fmu->model, fmu->state, index - fmu->model->np, value);

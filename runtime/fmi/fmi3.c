@@ -5,15 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void send(const frot_fmu *fmu, int status, const char *category, const char *message)
-{
+static void send(const frot_fmu *fmu, int status, const char *category, const char *message) {
   const frot_fmi3 *instance = (const frot_fmi3 *)fmu;
   instance->log(fmu->environment, (fmi3Status)status, category, message);
 }
 
 void frot_fmi3_draft(frot_fmi3 *draft, fmi3String name, fmi3InstanceEnvironment environment,
-                     fmi3LogMessageCallback log)
-{
+                     fmi3LogMessageCallback log) {
   memset(draft, 0, sizeof *draft);
   draft->log = log;
   draft->fmu.sink = log == NULL ? NULL : send;
@@ -31,8 +29,7 @@ fmi3Instance fmi3InstantiateCoSimulation(
     fmi3Boolean visible, fmi3Boolean loggingOn, fmi3Boolean eventModeUsed,
     fmi3Boolean earlyReturnAllowed, const fmi3ValueReference requiredIntermediateVariables[],
     size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
-    fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate)
-{
+    fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
   frot_fmi3 draft;
   (void)resourcePath;
   (void)visible;
@@ -57,16 +54,14 @@ fmi3Instance fmi3InstantiateCoSimulation(
 void fmi3FreeInstance(fmi3Instance instance) { frot_fmu_close(instance); }
 
 fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean loggingOn, size_t nCategories,
-                               const fmi3String categories[])
-{
+                               const fmi3String categories[]) {
   if (instance == NULL) return fmi3Error;
   return (fmi3Status)frot_fmu_set_logging(instance, __func__, loggingOn, nCategories, categories);
 }
 
 fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean toleranceDefined,
                                        fmi3Float64 tolerance, fmi3Float64 startTime,
-                                       fmi3Boolean stopTimeDefined, fmi3Float64 stopTime)
-{
+                                       fmi3Boolean stopTimeDefined, fmi3Float64 stopTime) {
   if (instance == NULL) return fmi3Error;
   const int status = frot_fmu_setup(instance, __func__, toleranceDefined, tolerance, startTime,
                                     stopTimeDefined, stopTime);
@@ -74,61 +69,55 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolera
   return (fmi3Status)frot_fmu_enter_initialization(instance, __func__);
 }
 
-fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
-{
+fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
   if (instance == NULL) return fmi3Error;
   return (fmi3Status)frot_fmu_exit_initialization(instance, __func__);
 }
 
-fmi3Status fmi3Terminate(fmi3Instance instance)
-{
+fmi3Status fmi3Terminate(fmi3Instance instance) {
   return instance == NULL ? fmi3Error : (fmi3Status)frot_fmu_terminate(instance, __func__);
 }
 
-fmi3Status fmi3Reset(fmi3Instance instance)
-{
+fmi3Status fmi3Reset(fmi3Instance instance) {
   if (instance == NULL) return fmi3Error;
   frot_fmu_reset(instance);
   return fmi3OK;
 }
 
-static int same_count(const frot_fmu *fmu, const char *function, size_t references, size_t values)
-{
+static int same_count(const frot_fmu *fmu, const char *function, size_t references, size_t values) {
   if (references == values) return FROT_FMU_OK;
   return frot_fmu_say(fmu, FROT_FMU_ERROR,
-                      "%s: there are %lu value references and %lu values for scalars.",
-                      function, (unsigned long)references, (unsigned long)values);
+                      "%s: there are %lu value references and %lu values for scalars.", function,
+                      (unsigned long)references, (unsigned long)values);
 }
 
 /* Defines fmi3Get<name> and fmi3Set<name> for values of `type` that stand for the types of `set`;
  * `from` makes a value from a number, `to` the reverse. */
-#define ACCESS(name, type, set, from, to)                                                          \
-  fmi3Status fmi3Get##name(fmi3Instance instance, const fmi3ValueReference valueReferences[],      \
-                           size_t nValueReferences, type values[], size_t nValues)                 \
-  {                                                                                                \
-    if (instance == NULL) return fmi3Error;                                                        \
-    int status = same_count(instance, __func__, nValueReferences, nValues);                        \
-    if (status == FROT_FMU_OK)                                                                     \
-      status = frot_fmu_arrays(instance, __func__, valueReferences, values, nValues);              \
-    for (size_t i = 0; i < nValues && status == FROT_FMU_OK; i++) {                                \
-      double x = 0.0;                                                                              \
-      status = frot_fmu_get(instance, __func__, valueReferences[i], set, &x);                      \
-      if (status == FROT_FMU_OK) values[i] = from(x);                                              \
-    }                                                                                              \
-    return (fmi3Status)status;                                                                     \
-  }                                                                                                \
-  fmi3Status fmi3Set##name(fmi3Instance instance, const fmi3ValueReference valueReferences[],      \
-                           size_t nValueReferences, const type values[], size_t nValues)           \
-  {                                                                                                \
-    if (instance == NULL) return fmi3Error;                                                        \
-    int status = same_count(instance, __func__, nValueReferences, nValues);                        \
-    if (status == FROT_FMU_OK)                                                                     \
-      status = frot_fmu_arrays(instance, __func__, valueReferences, values, nValues);              \
-    for (size_t i = 0; i < nValues && status == FROT_FMU_OK; i++)                                  \
-      status = frot_fmu_settable(instance, __func__, valueReferences[i], set, to(values[i]));      \
-    for (size_t i = 0; i < nValues && status == FROT_FMU_OK; i++)                                  \
-      frot_fmu_set(instance, valueReferences[i], to(values[i]));                                   \
-    return (fmi3Status)status;                                                                     \
+#define ACCESS(name, type, set, from, to)                                                     \
+  fmi3Status fmi3Get##name(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
+                           size_t nValueReferences, type values[], size_t nValues) {          \
+    if (instance == NULL) return fmi3Error;                                                   \
+    int status = same_count(instance, __func__, nValueReferences, nValues);                   \
+    if (status == FROT_FMU_OK)                                                                \
+      status = frot_fmu_arrays(instance, __func__, valueReferences, values, nValues);         \
+    for (size_t i = 0; i < nValues && status == FROT_FMU_OK; i++) {                           \
+      double x = 0.0;                                                                         \
+      status = frot_fmu_get(instance, __func__, valueReferences[i], set, &x);                 \
+      if (status == FROT_FMU_OK) values[i] = from(x);                                         \
+    }                                                                                         \
+    return (fmi3Status)status;                                                                \
+  }                                                                                           \
+  fmi3Status fmi3Set##name(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
+                           size_t nValueReferences, const type values[], size_t nValues) {    \
+    if (instance == NULL) return fmi3Error;                                                   \
+    int status = same_count(instance, __func__, nValueReferences, nValues);                   \
+    if (status == FROT_FMU_OK)                                                                \
+      status = frot_fmu_arrays(instance, __func__, valueReferences, values, nValues);         \
+    for (size_t i = 0; i < nValues && status == FROT_FMU_OK; i++)                             \
+      status = frot_fmu_settable(instance, __func__, valueReferences[i], set, to(values[i])); \
+    for (size_t i = 0; i < nValues && status == FROT_FMU_OK; i++)                             \
+      frot_fmu_set(instance, valueReferences[i], to(values[i]));                              \
+    return (fmi3Status)status;                                                                \
   }
 
 #define SAME(x) (x)
@@ -144,37 +133,31 @@ ACCESS(Int32, fmi3Int32, FROT_FMU_TYPE(FROT_INTEGER), TO_INT32, FROM_INTEGER)
 ACCESS(Int64, fmi3Int64, FROT_FMU_TYPE(FROT_MODE), TO_INT64, FROM_INTEGER)
 ACCESS(Boolean, fmi3Boolean, FROT_FMU_TYPE(FROT_BOOLEAN), TO_BOOLEAN, FROM_BOOLEAN)
 
-fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState)
-{
+fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
   return instance == NULL ? fmi3Error : (fmi3Status)frot_fmu_save(instance, __func__, FMUState);
 }
 
-fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState)
-{
+fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState) {
   return instance == NULL ? fmi3Error : (fmi3Status)frot_fmu_restore(instance, __func__, FMUState);
 }
 
-fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState)
-{
+fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
   return instance == NULL ? fmi3Error : (fmi3Status)frot_fmu_drop(instance, __func__, FMUState);
 }
 
-fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size)
-{
+fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size) {
   if (instance == NULL) return fmi3Error;
   return (fmi3Status)frot_fmu_serialized_size(instance, __func__, FMUState, size);
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState,
-                                 fmi3Byte serializedState[], size_t size)
-{
+                                 fmi3Byte serializedState[], size_t size) {
   if (instance == NULL) return fmi3Error;
   return (fmi3Status)frot_fmu_serialize(instance, __func__, FMUState, serializedState, size);
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[],
-                                   size_t size, fmi3FMUState *FMUState)
-{
+                                   size_t size, fmi3FMUState *FMUState) {
   if (instance == NULL) return fmi3Error;
   return (fmi3Status)frot_fmu_deserialize(instance, __func__, serializedState, size, FMUState);
 }
@@ -183,8 +166,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
                       fmi3Float64 communicationStepSize,
                       fmi3Boolean noSetFMUStatePriorToCurrentPoint,
                       fmi3Boolean *eventHandlingNeeded, fmi3Boolean *terminateSimulation,
-                      fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime)
-{
+                      fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
   frot_fmu *fmu = instance;
   (void)noSetFMUStatePriorToCurrentPoint;
   if (eventHandlingNeeded != NULL) *eventHandlingNeeded = fmi3False;

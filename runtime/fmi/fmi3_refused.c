@@ -8,8 +8,7 @@
 #define NO_DEPENDENCIES "dependencies of elements are not offered; all variables are scalars"
 #define NO_CLOCKS "there are no clocks"
 
-static fmi3Status refuse(const frot_fmu *fmu, const char *function, const char *reason)
-{
+static fmi3Status refuse(const frot_fmu *fmu, const char *function, const char *reason) {
   return fmu == NULL ? fmi3Error : (fmi3Status)frot_fmu_refuse(fmu, function, reason);
 }
 
@@ -17,8 +16,7 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String in
                                           fmi3String resourcePath, fmi3Boolean visible,
                                           fmi3Boolean loggingOn,
                                           fmi3InstanceEnvironment instanceEnvironment,
-                                          fmi3LogMessageCallback logMessage)
-{
+                                          fmi3LogMessageCallback logMessage) {
   frot_fmi3 draft;
   (void)instantiationToken;
   (void)resourcePath;
@@ -33,8 +31,7 @@ fmi3Instance fmi3InstantiateScheduledExecution(
     fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
     fmi3Boolean visible, fmi3Boolean loggingOn, fmi3InstanceEnvironment instanceEnvironment,
     fmi3LogMessageCallback logMessage, fmi3ClockUpdateCallback clockUpdate,
-    fmi3LockPreemptionCallback lockPreemption, fmi3UnlockPreemptionCallback unlockPreemption)
-{
+    fmi3LockPreemptionCallback lockPreemption, fmi3UnlockPreemptionCallback unlockPreemption) {
   frot_fmi3 draft;
   (void)instantiationToken;
   (void)resourcePath;
@@ -48,92 +45,79 @@ fmi3Instance fmi3InstantiateScheduledExecution(
   return NULL;
 }
 
-fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance)
-{
+fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) {
   return refuse(instance, __func__, NOT_EXCHANGE);
 }
 
 fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance,
                                        fmi3Boolean noSetFMUStatePriorToCurrentPoint,
                                        fmi3Boolean *enterEventMode,
-                                       fmi3Boolean *terminateSimulation)
-{
+                                       fmi3Boolean *terminateSimulation) {
   (void)noSetFMUStatePriorToCurrentPoint;
   (void)enterEventMode;
   (void)terminateSimulation;
   return refuse(instance, __func__, NOT_EXCHANGE);
 }
 
-fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time)
-{
+fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
   (void)time;
   return refuse(instance, __func__, NOT_EXCHANGE);
 }
 
 fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 continuousStates[],
-                                   size_t nContinuousStates)
-{
+                                   size_t nContinuousStates) {
   (void)continuousStates;
   (void)nContinuousStates;
   return refuse(instance, __func__, NOT_EXCHANGE);
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 derivatives[],
-                                             size_t nContinuousStates)
-{
+                                             size_t nContinuousStates) {
   (void)derivatives;
   (void)nContinuousStates;
   return refuse(instance, __func__, NOT_EXCHANGE);
 }
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 eventIndicators[],
-                                  size_t nEventIndicators)
-{
+                                  size_t nEventIndicators) {
   (void)eventIndicators;
   (void)nEventIndicators;
   return refuse(instance, __func__, NOT_EXCHANGE);
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 continuousStates[],
-                                   size_t nContinuousStates)
-{
+                                   size_t nContinuousStates) {
   (void)continuousStates;
   (void)nContinuousStates;
   return refuse(instance, __func__, NOT_EXCHANGE);
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[],
-                                             size_t nContinuousStates)
-{
+                                             size_t nContinuousStates) {
   (void)nominals;
   (void)nContinuousStates;
   return refuse(instance, __func__, NOT_EXCHANGE);
 }
 
-fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *nEventIndicators)
-{
+fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *nEventIndicators) {
   (void)nEventIndicators;
   return refuse(instance, __func__, NOT_EXCHANGE);
 }
 
-fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *nContinuousStates)
-{
+fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *nContinuousStates) {
   (void)nContinuousStates;
   return refuse(instance, __func__, NOT_EXCHANGE);
 }
 
-fmi3Status fmi3EnterEventMode(fmi3Instance instance)
-{
+fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
   return refuse(instance, __func__, NO_EVENT_MODE);
 }
 
-fmi3Status fmi3EnterStepMode(fmi3Instance instance)
-{
+fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
   return refuse(instance, __func__, NO_EVENT_MODE);
 }
 
-fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance)
-{
+fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance) {
   return refuse(instance, __func__, NO_EVENT_MODE);
 }
 
@@ -141,8 +125,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discrete
                                     fmi3Boolean *terminateSimulation,
                                     fmi3Boolean *nominalsOfContinuousStatesChanged,
                                     fmi3Boolean *valuesOfContinuousStatesChanged,
-                                    fmi3Boolean *nextEventTimeDefined, fmi3Float64 *nextEventTime)
-{
+                                    fmi3Boolean *nextEventTimeDefined, fmi3Float64 *nextEventTime) {
   (void)discreteStatesNeedUpdate;
   (void)terminateSimulation;
   (void)nominalsOfContinuousStatesChanged;
@@ -152,21 +135,18 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discrete
   return refuse(instance, __func__, NO_EVENT_MODE);
 }
 
-fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance)
-{
+fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) {
   return refuse(instance, __func__, NO_STRUCTURE);
 }
 
-fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance)
-{
+fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance) {
   return refuse(instance, __func__, NO_STRUCTURE);
 }
 
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
                                         size_t nUnknowns, const fmi3ValueReference knowns[],
                                         size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
-                                        fmi3Float64 sensitivity[], size_t nSensitivity)
-{
+                                        fmi3Float64 sensitivity[], size_t nSensitivity) {
   (void)unknowns;
   (void)nUnknowns;
   (void)knowns;
@@ -181,8 +161,7 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueRe
 fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
                                     size_t nUnknowns, const fmi3ValueReference knowns[],
                                     size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
-                                    fmi3Float64 sensitivity[], size_t nSensitivity)
-{
+                                    fmi3Float64 sensitivity[], size_t nSensitivity) {
   (void)unknowns;
   (void)nUnknowns;
   (void)knowns;
@@ -197,8 +176,7 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
 fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance,
                                     const fmi3ValueReference valueReferences[],
                                     size_t nValueReferences, const fmi3Int32 orders[],
-                                    fmi3Float64 values[], size_t nValues)
-{
+                                    fmi3Float64 values[], size_t nValues) {
   (void)valueReferences;
   (void)nValueReferences;
   (void)orders;
@@ -209,8 +187,7 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance,
 
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance,
                                                fmi3ValueReference valueReference,
-                                               size_t *nDependencies)
-{
+                                               size_t *nDependencies) {
   (void)valueReference;
   (void)nDependencies;
   return refuse(instance, __func__, NO_DEPENDENCIES);
@@ -220,8 +197,7 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference
                                        size_t elementIndicesOfDependent[],
                                        fmi3ValueReference independents[],
                                        size_t elementIndicesOfIndependents[],
-                                       fmi3DependencyKind dependencyKinds[], size_t nDependencies)
-{
+                                       fmi3DependencyKind dependencyKinds[], size_t nDependencies) {
   (void)dependent;
   (void)elementIndicesOfDependent;
   (void)independents;
@@ -233,8 +209,7 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference
 
 fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                   size_t nValueReferences, fmi3Float64 intervals[],
-                                  fmi3IntervalQualifier qualifiers[])
-{
+                                  fmi3IntervalQualifier qualifiers[]) {
   (void)valueReferences;
   (void)nValueReferences;
   (void)intervals;
@@ -245,8 +220,7 @@ fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReferenc
 fmi3Status fmi3GetIntervalFraction(fmi3Instance instance,
                                    const fmi3ValueReference valueReferences[],
                                    size_t nValueReferences, fmi3UInt64 counters[],
-                                   fmi3UInt64 resolutions[], fmi3IntervalQualifier qualifiers[])
-{
+                                   fmi3UInt64 resolutions[], fmi3IntervalQualifier qualifiers[]) {
   (void)valueReferences;
   (void)nValueReferences;
   (void)counters;
@@ -256,8 +230,7 @@ fmi3Status fmi3GetIntervalFraction(fmi3Instance instance,
 }
 
 fmi3Status fmi3GetShiftDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                               size_t nValueReferences, fmi3Float64 shifts[])
-{
+                               size_t nValueReferences, fmi3Float64 shifts[]) {
   (void)valueReferences;
   (void)nValueReferences;
   (void)shifts;
@@ -266,8 +239,7 @@ fmi3Status fmi3GetShiftDecimal(fmi3Instance instance, const fmi3ValueReference v
 
 fmi3Status fmi3GetShiftFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                 size_t nValueReferences, fmi3UInt64 counters[],
-                                fmi3UInt64 resolutions[])
-{
+                                fmi3UInt64 resolutions[]) {
   (void)valueReferences;
   (void)nValueReferences;
   (void)counters;
@@ -276,8 +248,7 @@ fmi3Status fmi3GetShiftFraction(fmi3Instance instance, const fmi3ValueReference 
 }
 
 fmi3Status fmi3SetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                                  size_t nValueReferences, const fmi3Float64 intervals[])
-{
+                                  size_t nValueReferences, const fmi3Float64 intervals[]) {
   (void)valueReferences;
   (void)nValueReferences;
   (void)intervals;
@@ -287,8 +258,7 @@ fmi3Status fmi3SetIntervalDecimal(fmi3Instance instance, const fmi3ValueReferenc
 fmi3Status fmi3SetIntervalFraction(fmi3Instance instance,
                                    const fmi3ValueReference valueReferences[],
                                    size_t nValueReferences, const fmi3UInt64 counters[],
-                                   const fmi3UInt64 resolutions[])
-{
+                                   const fmi3UInt64 resolutions[]) {
   (void)valueReferences;
   (void)nValueReferences;
   (void)counters;
@@ -297,8 +267,7 @@ fmi3Status fmi3SetIntervalFraction(fmi3Instance instance,
 }
 
 fmi3Status fmi3SetShiftDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                               size_t nValueReferences, const fmi3Float64 shifts[])
-{
+                               size_t nValueReferences, const fmi3Float64 shifts[]) {
   (void)valueReferences;
   (void)nValueReferences;
   (void)shifts;
@@ -307,8 +276,7 @@ fmi3Status fmi3SetShiftDecimal(fmi3Instance instance, const fmi3ValueReference v
 
 fmi3Status fmi3SetShiftFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                 size_t nValueReferences, const fmi3UInt64 counters[],
-                                const fmi3UInt64 resolutions[])
-{
+                                const fmi3UInt64 resolutions[]) {
   (void)valueReferences;
   (void)nValueReferences;
   (void)counters;
@@ -317,8 +285,7 @@ fmi3Status fmi3SetShiftFraction(fmi3Instance instance, const fmi3ValueReference 
 }
 
 fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clockReference,
-                                      fmi3Float64 activationTime)
-{
+                                      fmi3Float64 activationTime) {
   (void)clockReference;
   (void)activationTime;
   return refuse(instance, __func__, NO_CLOCKS);

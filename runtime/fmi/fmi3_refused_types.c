@@ -1,29 +1,26 @@
 /* FMI 3.0: access to types that no variable of a model has. No values at all is no error. */
 #include "fmi3_instance.h"
 
-static fmi3Status no_such_type(const frot_fmu *fmu, const char *function, size_t count)
-{
+static fmi3Status no_such_type(const frot_fmu *fmu, const char *function, size_t count) {
   if (fmu == NULL) return fmi3Error;
   if (count == 0) return fmi3OK;
   return (fmi3Status)frot_fmu_refuse(fmu, function, "no variable is of this type");
 }
 
-#define REFUSED(name, type)                                                                        \
-  fmi3Status fmi3Get##name(fmi3Instance instance, const fmi3ValueReference valueReferences[],      \
-                           size_t nValueReferences, type values[], size_t nValues)                 \
-  {                                                                                                \
-    (void)valueReferences;                                                                         \
-    (void)values;                                                                                  \
-    (void)nValues;                                                                                 \
-    return no_such_type(instance, __func__, nValueReferences);                                     \
-  }                                                                                                \
-  fmi3Status fmi3Set##name(fmi3Instance instance, const fmi3ValueReference valueReferences[],      \
-                           size_t nValueReferences, const type values[], size_t nValues)           \
-  {                                                                                                \
-    (void)valueReferences;                                                                         \
-    (void)values;                                                                                  \
-    (void)nValues;                                                                                 \
-    return no_such_type(instance, __func__, nValueReferences);                                     \
+#define REFUSED(name, type)                                                                   \
+  fmi3Status fmi3Get##name(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
+                           size_t nValueReferences, type values[], size_t nValues) {          \
+    (void)valueReferences;                                                                    \
+    (void)values;                                                                             \
+    (void)nValues;                                                                            \
+    return no_such_type(instance, __func__, nValueReferences);                                \
+  }                                                                                           \
+  fmi3Status fmi3Set##name(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
+                           size_t nValueReferences, const type values[], size_t nValues) {    \
+    (void)valueReferences;                                                                    \
+    (void)values;                                                                             \
+    (void)nValues;                                                                            \
+    return no_such_type(instance, __func__, nValueReferences);                                \
   }
 
 REFUSED(Float32, fmi3Float32)
@@ -37,8 +34,7 @@ REFUSED(String, fmi3String)
 
 fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                          size_t nValueReferences, size_t valueSizes[], fmi3Binary values[],
-                         size_t nValues)
-{
+                         size_t nValues) {
   (void)valueReferences;
   (void)valueSizes;
   (void)values;
@@ -48,8 +44,7 @@ fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueRe
 
 fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                          size_t nValueReferences, const size_t valueSizes[],
-                         const fmi3Binary values[], size_t nValues)
-{
+                         const fmi3Binary values[], size_t nValues) {
   (void)valueReferences;
   (void)valueSizes;
   (void)values;
@@ -58,16 +53,14 @@ fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueRe
 }
 
 fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                        size_t nValueReferences, fmi3Clock values[])
-{
+                        size_t nValueReferences, fmi3Clock values[]) {
   (void)valueReferences;
   (void)values;
   return no_such_type(instance, __func__, nValueReferences);
 }
 
 fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                        size_t nValueReferences, const fmi3Clock values[])
-{
+                        size_t nValueReferences, const fmi3Clock values[]) {
   (void)valueReferences;
   (void)values;
   return no_such_type(instance, __func__, nValueReferences);

@@ -7,13 +7,11 @@
 
 #define MESSAGE 2048
 
-static const char *category_of(int status)
-{
+static const char *category_of(int status) {
   return status == FROT_FMU_DISCARD ? "logStatusDiscard" : "logStatusError";
 }
 
-static unsigned bit_of(const char *name)
-{
+static unsigned bit_of(const char *name) {
   if (strcmp(name, "logEvents") == 0) return FROT_FMU_LOG_EVENTS;
   if (strcmp(name, "logStatusDiscard") == 0) return FROT_FMU_LOG_DISCARD;
   if (strcmp(name, "logStatusError") == 0) return FROT_FMU_LOG_ERROR;
@@ -22,8 +20,7 @@ static unsigned bit_of(const char *name)
 }
 
 /* A cut inside a character of several bytes is not UTF-8, and environments choke on it. */
-static void trim_partial_character(char *text)
-{
+static void trim_partial_character(char *text) {
   size_t n = strlen(text);
   size_t i = n;
   while (i > 0 && ((unsigned char)text[i - 1] & 0xC0u) == 0x80u) i--;
@@ -33,8 +30,7 @@ static void trim_partial_character(char *text)
   if (n - (i - 1) < width) text[i - 1] = '\0';
 }
 
-int frot_fmu_say(const frot_fmu *fmu, int status, const char *format, ...)
-{
+int frot_fmu_say(const frot_fmu *fmu, int status, const char *format, ...) {
   const unsigned bit = status == FROT_FMU_DISCARD ? FROT_FMU_LOG_DISCARD : FROT_FMU_LOG_ERROR;
   char text[MESSAGE];
   va_list arguments;
@@ -47,27 +43,23 @@ int frot_fmu_say(const frot_fmu *fmu, int status, const char *format, ...)
   return status;
 }
 
-void frot_fmu_say_event(const frot_fmu *fmu, const char *message)
-{
+void frot_fmu_say_event(const frot_fmu *fmu, const char *message) {
   if (fmu->sink != NULL && (fmu->categories & FROT_FMU_LOG_EVENTS))
     fmu->sink(fmu, FROT_FMU_OK, "logEvents", message);
 }
 
-int frot_fmu_refuse(const frot_fmu *fmu, const char *function, const char *reason)
-{
+int frot_fmu_refuse(const frot_fmu *fmu, const char *function, const char *reason) {
   return frot_fmu_say(fmu, FROT_FMU_ERROR, "%s: %s.", function, reason);
 }
 
-void *frot_fmu_memory(const frot_fmu *fmu, size_t size)
-{
+void *frot_fmu_memory(const frot_fmu *fmu, size_t size) {
   void *memory = fmu->allocate(1, size > 0 ? size : 1);
   if (memory != NULL) memset(memory, 0, size > 0 ? size : 1);
   return memory;
 }
 
 static int draft_acceptable(const frot_fmu *draft, const char *function, const char *name,
-                            const char *token)
-{
+                            const char *token) {
   const frot_model *model = &frot_the_model;
   const unsigned expected = 1u + (unsigned)(model->np + model->nu + model->n_variables);
   if (name == NULL || name[strspn(name, " \t\r\n")] == '\0') {
@@ -91,8 +83,7 @@ static int draft_acceptable(const frot_fmu *draft, const char *function, const c
 }
 
 /* Room for the events of several instants; nobody reads the segments. */
-static int make_recorder(frot_fmu *fmu)
-{
+static int make_recorder(frot_fmu *fmu) {
   const frot_model *model = fmu->model;
   const long long events = 4 * frot_events_at_once(model);
   fmu->recorder.events = frot_fmu_memory(fmu, (size_t)events * sizeof(frot_event));
@@ -101,8 +92,7 @@ static int make_recorder(frot_fmu *fmu)
 }
 
 frot_fmu *frot_fmu_open(const frot_fmu *draft, size_t size, const char *function, const char *name,
-                        const char *token, int logging)
-{
+                        const char *token, int logging) {
   const frot_model *model = &frot_the_model;
   if (!draft_acceptable(draft, function, name, token)) return NULL;
   frot_fmu *fmu = frot_fmu_memory(draft, size);
@@ -130,8 +120,7 @@ frot_fmu *frot_fmu_open(const frot_fmu *draft, size_t size, const char *function
   return NULL;
 }
 
-void frot_fmu_close(frot_fmu *fmu)
-{
+void frot_fmu_close(frot_fmu *fmu) {
   if (fmu == NULL) return;
   void *const pieces[] = {fmu->name_memory, fmu->state, fmu->work, fmu->values,
                           fmu->recorder.events};
@@ -144,8 +133,7 @@ void frot_fmu_close(frot_fmu *fmu)
 }
 
 int frot_fmu_set_logging(frot_fmu *fmu, const char *function, int on, size_t count,
-                         const char *const *names)
-{
+                         const char *const *names) {
   unsigned bits = 0;
   if (count > 0 && names == NULL)
     return frot_fmu_say(fmu, FROT_FMU_ERROR, "%s: the categories are NULL.", function);

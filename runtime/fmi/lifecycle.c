@@ -10,26 +10,29 @@
 #define TIGHTEST 1e-14
 #define LOOSEST 1e-1
 
-static const char *phase_name(int phase)
-{
+static const char *phase_name(int phase) {
   switch (phase) {
-    case FROT_FMU_INSTANTIATED: return "before the initialization mode";
-    case FROT_FMU_INITIALIZATION: return "in initialization mode";
-    case FROT_FMU_STEPPING: return "between steps";
-    case FROT_FMU_DISCARDED: return "after a step that ended early";
-    case FROT_FMU_FAILED: return "after an error";
-    default: return "after the end of the simulation";
+    case FROT_FMU_INSTANTIATED:
+      return "before the initialization mode";
+    case FROT_FMU_INITIALIZATION:
+      return "in initialization mode";
+    case FROT_FMU_STEPPING:
+      return "between steps";
+    case FROT_FMU_DISCARDED:
+      return "after a step that ended early";
+    case FROT_FMU_FAILED:
+      return "after an error";
+    default:
+      return "after the end of the simulation";
   }
 }
 
-int frot_fmu_misplaced(const frot_fmu *fmu, const char *function)
-{
+int frot_fmu_misplaced(const frot_fmu *fmu, const char *function) {
   return frot_fmu_say(fmu, FROT_FMU_ERROR, "%s must not be called %s.", function,
                       phase_name(fmu->life.phase));
 }
 
-static int say_fault(const frot_fmu *fmu, int status, const char *function)
-{
+static int say_fault(const frot_fmu *fmu, int status, const char *function) {
   char sentence[SENTENCE];
   frot_fault_text(fmu->model, fmu->state, sentence, sizeof sentence);
   if (sentence[0] == '\0')
@@ -39,22 +42,22 @@ static int say_fault(const frot_fmu *fmu, int status, const char *function)
 }
 
 /* Faults that leave the motion up to their instant right. */
-static int ends_early(int fault)
-{
+static int ends_early(int fault) {
   switch (fault) {
     case FROT_IMPACT:
     case FROT_IMPASSE:
     case FROT_SEVERAL:
     case FROT_CHATTER:
     case FROT_NAN:
-    case FROT_DIVERGE: return 1;
-    default: return 0;
+    case FROT_DIVERGE:
+      return 1;
+    default:
+      return 0;
   }
 }
 
 /* Ends the motion with the kernel's fault. */
-static int stop_at_fault(frot_fmu *fmu, const char *function, int fault)
-{
+static int stop_at_fault(frot_fmu *fmu, const char *function, int fault) {
   /* The fault may lie in a step that was only tried: values end where the kernel stands. */
   const double t = frot_time(fmu->state);
   if (ends_early(fault)) {
@@ -69,8 +72,7 @@ static int stop_at_fault(frot_fmu *fmu, const char *function, int fault)
   return say_fault(fmu, fmu->life.status, function);
 }
 
-void frot_fmu_reset(frot_fmu *fmu)
-{
+void frot_fmu_reset(frot_fmu *fmu) {
   const frot_fmu_life fresh = {FROT_FMU_INSTANTIATED, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0};
   frot_state_clear(fmu->model, fmu->state);
   fmu->life = fresh;
@@ -78,8 +80,7 @@ void frot_fmu_reset(frot_fmu *fmu)
 }
 
 int frot_fmu_setup(frot_fmu *fmu, const char *function, int has_tolerance, double tolerance,
-                   double start, int has_stop, double stop)
-{
+                   double start, int has_stop, double stop) {
   if (fmu->life.phase != FROT_FMU_INSTANTIATED) return frot_fmu_misplaced(fmu, function);
   if (!isfinite(start))
     return frot_fmu_say(fmu, FROT_FMU_ERROR, "%s: the start time is not a number.", function);
@@ -98,8 +99,7 @@ int frot_fmu_setup(frot_fmu *fmu, const char *function, int has_tolerance, doubl
   return FROT_FMU_OK;
 }
 
-int frot_fmu_enter_initialization(frot_fmu *fmu, const char *function)
-{
+int frot_fmu_enter_initialization(frot_fmu *fmu, const char *function) {
   if (fmu->life.phase != FROT_FMU_INSTANTIATED) return frot_fmu_misplaced(fmu, function);
   fmu->life.phase = FROT_FMU_INITIALIZATION;
   fmu->life.started = 0;
@@ -108,8 +108,7 @@ int frot_fmu_enter_initialization(frot_fmu *fmu, const char *function)
 }
 
 /* The parameters that follow from others, and the initial values. */
-static int solve_start(frot_fmu *fmu, const char *function)
-{
+static int solve_start(frot_fmu *fmu, const char *function) {
   const frot_options options = {fmu->life.tolerance, frot_fmu_on_indeterminate, 0};
   if (fmu->life.started) return FROT_FMU_OK;
   if (frot_start(fmu->model, fmu->state, fmu->work, fmu->life.start, &options) != FROT_OK)
@@ -119,22 +118,19 @@ static int solve_start(frot_fmu *fmu, const char *function)
   return FROT_FMU_OK;
 }
 
-int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function)
-{
+int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function) {
   if (fmu->life.phase != FROT_FMU_INITIALIZATION) return frot_fmu_misplaced(fmu, function);
   const int status = solve_start(fmu, function);
   if (status == FROT_FMU_OK) fmu->life.phase = FROT_FMU_STEPPING;
   return status;
 }
 
-static int settle(frot_fmu *fmu, const char *function)
-{
+static int settle(frot_fmu *fmu, const char *function) {
   const int status = frot_settle(fmu->model, fmu->state, fmu->work);
   return status == FROT_OK ? FROT_FMU_OK : stop_at_fault(fmu, function, status);
 }
 
-int frot_fmu_ready(frot_fmu *fmu, const char *function, int role)
-{
+int frot_fmu_ready(frot_fmu *fmu, const char *function, int role) {
   int status = FROT_FMU_OK;
   if (role != FROT_FMU_VARIABLE && role != FROT_FMU_DEPENDENT) return FROT_FMU_OK;
   if (fmu->values_valid) return FROT_FMU_OK;
@@ -153,8 +149,7 @@ int frot_fmu_ready(frot_fmu *fmu, const char *function, int role)
 }
 
 /* Runs the kernel to time t and logs the events on the way. */
-static int advance(frot_fmu *fmu, double t)
-{
+static int advance(frot_fmu *fmu, double t) {
   frot_recorder *recorder = fmu->categories & FROT_FMU_LOG_EVENTS ? &fmu->recorder : NULL;
   char sentence[SENTENCE];
   int status;
@@ -169,8 +164,7 @@ static int advance(frot_fmu *fmu, double t)
   return status;
 }
 
-int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step)
-{
+int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step) {
   frot_fmu_life *life = &fmu->life;
   if (life->phase == FROT_FMU_DISCARDED || life->phase == FROT_FMU_FAILED)
     return say_fault(fmu, life->status, function);
@@ -199,13 +193,14 @@ int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step
   return FROT_FMU_OK;
 }
 
-int frot_fmu_terminate(frot_fmu *fmu, const char *function)
-{
+int frot_fmu_terminate(frot_fmu *fmu, const char *function) {
   switch (fmu->life.phase) {
     case FROT_FMU_STEPPING:
     case FROT_FMU_DISCARDED:
-    case FROT_FMU_FAILED: break;
-    default: return frot_fmu_misplaced(fmu, function);
+    case FROT_FMU_FAILED:
+      break;
+    default:
+      return frot_fmu_misplaced(fmu, function);
   }
   /* Values stay readable after the end, those set since the last step included. */
   if (fmu->life.phase == FROT_FMU_STEPPING && !fmu->values_valid) {

@@ -25,27 +25,21 @@ struct frot_fmu_snapshot {
   frot_fmu_snapshot *next;
 };
 
-static unsigned char *content(frot_fmu_snapshot *snapshot)
-{
+static unsigned char *content(frot_fmu_snapshot *snapshot) {
   return (unsigned char *)snapshot + LINK;
 }
 
-static size_t content_size(const frot_fmu *fmu)
-{
-  return HEAD + fmu->state_size;
-}
+static size_t content_size(const frot_fmu *fmu) { return HEAD + fmu->state_size; }
 
 /* FNV-1a (Fowler, Noll, Vo), 64 bits: finds damage, not malice. */
-static unsigned long long checksum(const unsigned char *bytes, size_t size)
-{
+static unsigned long long checksum(const unsigned char *bytes, size_t size) {
   const size_t first = offsetof(head, life);
   unsigned long long hash = 14695981039346656037ull;
   for (size_t i = first; i < size; i++) hash = (hash ^ bytes[i]) * 1099511628211ull;
   return hash;
 }
 
-static frot_fmu_snapshot *new_snapshot(frot_fmu *fmu)
-{
+static frot_fmu_snapshot *new_snapshot(frot_fmu *fmu) {
   frot_fmu_snapshot *snapshot = frot_fmu_memory(fmu, LINK + content_size(fmu));
   if (snapshot != NULL) {
     snapshot->next = fmu->snapshots;
@@ -55,8 +49,7 @@ static frot_fmu_snapshot *new_snapshot(frot_fmu *fmu)
 }
 
 /* A handle is looked up, never followed: what the environment hands over may be anything. */
-static frot_fmu_snapshot *find(const frot_fmu *fmu, const char *function, const void *handle)
-{
+static frot_fmu_snapshot *find(const frot_fmu *fmu, const char *function, const void *handle) {
   frot_fmu_snapshot *snapshot = fmu->snapshots;
   while (snapshot != NULL && snapshot != handle) snapshot = snapshot->next;
   if (snapshot == NULL)
@@ -67,16 +60,14 @@ static frot_fmu_snapshot *find(const frot_fmu *fmu, const char *function, const 
   return snapshot;
 }
 
-static void unlink_snapshot(frot_fmu *fmu, frot_fmu_snapshot *snapshot)
-{
+static void unlink_snapshot(frot_fmu *fmu, frot_fmu_snapshot *snapshot) {
   frot_fmu_snapshot **link = &fmu->snapshots;
   while (*link != snapshot) link = &(*link)->next;
   *link = snapshot->next;
   fmu->release(snapshot);
 }
 
-int frot_fmu_save(frot_fmu *fmu, const char *function, void **handle)
-{
+int frot_fmu_save(frot_fmu *fmu, const char *function, void **handle) {
   frot_fmu_snapshot *snapshot;
   head top;
   if (handle == NULL) return frot_fmu_refuse(fmu, function, "the pointer to the state is NULL");
@@ -99,8 +90,7 @@ int frot_fmu_save(frot_fmu *fmu, const char *function, void **handle)
   return FROT_FMU_OK;
 }
 
-int frot_fmu_restore(frot_fmu *fmu, const char *function, void *handle)
-{
+int frot_fmu_restore(frot_fmu *fmu, const char *function, void *handle) {
   head top;
   frot_fmu_snapshot *snapshot = find(fmu, function, handle);
   if (snapshot == NULL) return FROT_FMU_ERROR;
@@ -111,8 +101,7 @@ int frot_fmu_restore(frot_fmu *fmu, const char *function, void *handle)
   return FROT_FMU_OK;
 }
 
-int frot_fmu_drop(frot_fmu *fmu, const char *function, void **handle)
-{
+int frot_fmu_drop(frot_fmu *fmu, const char *function, void **handle) {
   if (handle == NULL || *handle == NULL) return FROT_FMU_OK;
   frot_fmu_snapshot *snapshot = find(fmu, function, *handle);
   if (snapshot == NULL) return FROT_FMU_ERROR;
@@ -121,21 +110,19 @@ int frot_fmu_drop(frot_fmu *fmu, const char *function, void **handle)
   return FROT_FMU_OK;
 }
 
-void frot_fmu_drop_all(frot_fmu *fmu)
-{
+void frot_fmu_drop_all(frot_fmu *fmu) {
   while (fmu->snapshots != NULL) unlink_snapshot(fmu, fmu->snapshots);
 }
 
-int frot_fmu_serialized_size(frot_fmu *fmu, const char *function, void *handle, size_t *size)
-{
+int frot_fmu_serialized_size(frot_fmu *fmu, const char *function, void *handle, size_t *size) {
   if (size == NULL) return frot_fmu_refuse(fmu, function, "the pointer to the size is NULL");
   if (find(fmu, function, handle) == NULL) return FROT_FMU_ERROR;
   *size = content_size(fmu);
   return FROT_FMU_OK;
 }
 
-int frot_fmu_serialize(frot_fmu *fmu, const char *function, void *handle, void *bytes, size_t size)
-{
+int frot_fmu_serialize(frot_fmu *fmu, const char *function, void *handle, void *bytes,
+                       size_t size) {
   head top;
   frot_fmu_snapshot *snapshot = find(fmu, function, handle);
   if (snapshot == NULL) return FROT_FMU_ERROR;
@@ -151,8 +138,7 @@ int frot_fmu_serialize(frot_fmu *fmu, const char *function, void *handle, void *
 }
 
 /* NULL, or why the bytes are not a state of this model. */
-static const char *objection(const frot_fmu *fmu, const unsigned char *bytes)
-{
+static const char *objection(const frot_fmu *fmu, const unsigned char *bytes) {
   head top;
   memcpy(&top, bytes, sizeof top);
   if (memcmp(top.magic, MAGIC, sizeof MAGIC) != 0) return "the bytes are not a saved state";
@@ -167,8 +153,7 @@ static const char *objection(const frot_fmu *fmu, const unsigned char *bytes)
 }
 
 int frot_fmu_deserialize(frot_fmu *fmu, const char *function, const void *bytes, size_t size,
-                         void **handle)
-{
+                         void **handle) {
   if (bytes == NULL || handle == NULL)
     return frot_fmu_refuse(fmu, function, "the bytes or the pointer to the state are NULL");
   if (size != content_size(fmu))

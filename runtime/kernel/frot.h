@@ -1,9 +1,10 @@
 /* The kernel's contract: a compiled model, the state of an instance, and what can be done with it.
  *
- * A model is a constant table written by the compiler (frot_model). All that changes in a run is in one
- * flat block without pointers (frot_state): copying the block saves an instance, copying it back
- * restores it. Scratch memory (frot_work) carries nothing from one call to the next. The kernel
- * allocates nothing, has no globals and is re-entrant: one state and one work block an instance.
+ * A model is a constant table written by the compiler (frot_model). All that changes in a run is in
+ * one flat block without pointers (frot_state): copying the block saves an instance, copying it
+ * back restores it. Scratch memory (frot_work) carries nothing from one call to the next. The
+ * kernel allocates nothing, has no globals and is re-entrant: one state and one work block an
+ * instance.
  *
  * The motion is a chain of segments. A segment is one accepted step of the integrator with its
  * dense output, in one mode of every liaison. A segment may end beyond the time asked for: values
@@ -24,19 +25,19 @@ extern "C" {
 /* Status of every call that can fail. Positive: told in state->fault. */
 enum frot_status {
   FROT_OK = 0,
-  FROT_FULL = 1,      /* the recorder is full: drain it and call again */
-  FROT_STOPPED = 2,   /* the monitor asked to stop */
-  FROT_CHECK = 10,    /* a parameter has a value the model cannot have */
-  FROT_INITIAL = 11,  /* contradictory initial values */
-  FROT_IMPACT = 13,   /* two bodies meet: impacts are not computed */
-  FROT_IMPASSE = 14,  /* no admissible motion */
-  FROT_SEVERAL = 15,  /* several admissible motions and on_indeterminate = stop */
-  FROT_CHATTER = 16,  /* events without end at one instant */
-  FROT_NAN = 17,      /* a force or an equation gives no number */
-  FROT_DIVERGE = 18,  /* the step went to zero: jamming or a singular point */
-  FROT_SINGULAR = 19, /* the mass matrix is singular */
-  FROT_TOO_LARGE = 20,/* too many coupled friction elements change at once */
-  FROT_MISUSE = 21    /* a call out of order or with bad arguments */
+  FROT_FULL = 1,       /* the recorder is full: drain it and call again */
+  FROT_STOPPED = 2,    /* the monitor asked to stop */
+  FROT_CHECK = 10,     /* a parameter has a value the model cannot have */
+  FROT_INITIAL = 11,   /* contradictory initial values */
+  FROT_IMPACT = 13,    /* two bodies meet: impacts are not computed */
+  FROT_IMPASSE = 14,   /* no admissible motion */
+  FROT_SEVERAL = 15,   /* several admissible motions and on_indeterminate = stop */
+  FROT_CHATTER = 16,   /* events without end at one instant */
+  FROT_NAN = 17,       /* a force or an equation gives no number */
+  FROT_DIVERGE = 18,   /* the step went to zero: jamming or a singular point */
+  FROT_SINGULAR = 19,  /* the mass matrix is singular */
+  FROT_TOO_LARGE = 20, /* too many coupled friction elements change at once */
+  FROT_MISUSE = 21     /* a call out of order or with bad arguments */
 };
 
 /* Modes of the relative motion a law of friction bounds. */
@@ -46,12 +47,12 @@ enum frot_friction { FROT_NONE = 0, FROT_STICK = 1, FROT_SLIP_FORWARD = 2, FROT_
 enum frot_mode { FROT_MODE_OPEN = 0, FROT_MODE_STICK = 1, FROT_MODE_SLIP = 2 };
 
 enum frot_event_kind {
-  FROT_EVENT_STICK = 0,     /* slip ended: slip -> stick */
-  FROT_EVENT_SLIP = 1,      /* the bound was reached: stick -> slip */
-  FROT_EVENT_REVERSAL = 2,  /* slip -> slip the other way */
-  FROT_EVENT_SEPARATION = 3,/* closed -> open */
-  FROT_EVENT_CONTACT = 4,   /* open -> closed */
-  FROT_EVENT_ROLL_STOP = 5, /* rolling ended (rolling resistance holds) */
+  FROT_EVENT_STICK = 0,      /* slip ended: slip -> stick */
+  FROT_EVENT_SLIP = 1,       /* the bound was reached: stick -> slip */
+  FROT_EVENT_REVERSAL = 2,   /* slip -> slip the other way */
+  FROT_EVENT_SEPARATION = 3, /* closed -> open */
+  FROT_EVENT_CONTACT = 4,    /* open -> closed */
+  FROT_EVENT_ROLL_STOP = 5,  /* rolling ended (rolling resistance holds) */
   FROT_EVENT_ROLL_START = 6,
   FROT_EVENT_ROLL_REVERSAL = 7,
   FROT_EVENT_REACTION = 8,  /* the reaction of a bilateral liaison changes sides */
@@ -69,17 +70,22 @@ typedef struct {
 
 /* A contact: a point or rim on a line, with the rows of its relative velocity. */
 typedef struct {
-  const char *name;   /* the liaison */
-  const char *place;  /* file:line:column */
-  int row_n;          /* row of the normal */
-  int row_t;          /* row of the slip, -1 without dry friction */
-  int row_r;          /* row of the rolling rate, -1 without rolling resistance */
-  int reduced;        /* 1: the relation is built into the coordinates (no gap, no drift) */
-  int fixed_mu;       /* 1: mu and mu_s depend on parameters only */
+  const char *name;  /* the liaison */
+  const char *place; /* file:line:column */
+  int row_n;         /* row of the normal */
+  int row_t;         /* row of the slip, -1 without dry friction */
+  int row_r;         /* row of the rolling rate, -1 without rolling resistance */
+  int reduced;       /* 1: the relation is built into the coordinates (no gap, no drift) */
+  int fixed_mu;      /* 1: mu and mu_s depend on parameters only */
   int fixed_delta;
 } frot_contact;
 
-enum frot_rule { FROT_POSITIVE = 0, FROT_NOT_NEGATIVE = 1, FROT_FINITE = 2, FROT_NOT_BELOW_PREVIOUS = 3 };
+enum frot_rule {
+  FROT_POSITIVE = 0,
+  FROT_NOT_NEGATIVE = 1,
+  FROT_FINITE = 2,
+  FROT_NOT_BELOW_PREVIOUS = 3
+};
 
 /* A value the model must have, with the sentence's subject: "mass of body 'hoop'". */
 typedef struct {
@@ -137,15 +143,16 @@ typedef struct {
   const frot_statement *statements;
   const int *position_statement; /* n_position: statement of each scalar equation */
   const int *velocity_statement; /* n_velocity */
-  const int *p_dependent;        /* np: 1 where the value follows from other parameters unless set */
-  const int *p_type;             /* np: frot_type */
-  /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t */
+  const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
+  const int *p_type;      /* np: frot_type */
+  /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t
+   */
   const unsigned char *row_depends;
   const unsigned char *condition_strict; /* n_conditions: 1 for < and >, 0 for <= and >= */
 } frot_model;
 
 typedef struct {
-  int status; /* frot_status */
+  int status;               /* frot_status */
   int contact, item, other; /* contact; check or statement; second statement: -1 where none */
   double t, value;
 } frot_fault;
@@ -189,8 +196,8 @@ typedef struct {
 /* Called now and then with the time reached; a nonzero answer stops the run. May be NULL. */
 typedef int (*frot_monitor)(void *context, double t);
 
-size_t frot_state_size(const frot_model *model); /* bytes */
-size_t frot_work_size(const frot_model *model);  /* bytes */
+size_t frot_state_size(const frot_model *model);      /* bytes */
+size_t frot_work_size(const frot_model *model);       /* bytes */
 long long frot_segment_size(const frot_model *model); /* doubles */
 
 /* Events that one instant may bring. */
@@ -199,8 +206,8 @@ long long frot_events_at_once(const frot_model *model);
 /* Fill a new state with the defaults of the model. */
 void frot_state_clear(const frot_model *model, frot_state *state);
 
-/* Parameters and inputs, in SI. A value that differs from the one held is noted, and takes effect at
- * frot_start or, in a run, at the time reached (frot_settle). */
+/* Parameters and inputs, in SI. A value that differs from the one held is noted, and takes effect
+ * at frot_start or, in a run, at the time reached (frot_settle). */
 void frot_set_parameter(const frot_model *model, frot_state *state, int index, double value);
 void frot_set_input(const frot_model *model, frot_state *state, int index, double value);
 double frot_get_parameter(const frot_model *model, const frot_state *state, int index);
@@ -215,10 +222,12 @@ int frot_settle_parameters(const frot_model *model, frot_state *state, frot_work
 int frot_start(const frot_model *model, frot_state *state, frot_work *work, double t,
                const frot_options *options);
 
-/* Let values set since the last call take effect at the time reached. Does nothing if none differs. */
+/* Let values set since the last call take effect at the time reached. Does nothing if none differs.
+ */
 int frot_settle(const frot_model *model, frot_state *state, frot_work *work);
 
-/* Run until time t is inside the current segment. The recorder may be NULL. On FROT_FULL call again. */
+/* Run until time t is inside the current segment. The recorder may be NULL. On FROT_FULL call
+ * again. */
 int frot_advance(const frot_model *model, frot_state *state, frot_work *work, double t,
                  frot_recorder *recorder, frot_monitor monitor, void *context);
 
@@ -230,9 +239,8 @@ int frot_segment_values(const frot_model *model, frot_state *state, frot_work *w
                         const double *segment, double t, double *values);
 /* The same at many times in order, over recorded segments in order; values: count rows. A time
  * belongs to the last segment that begins at or before it. */
-int frot_sample(const frot_model *model, frot_state *state, frot_work *work,
-                const double *segments, long long segment_count, const double *times,
-                long long count, double *values);
+int frot_sample(const frot_model *model, frot_state *state, frot_work *work, const double *segments,
+                long long segment_count, const double *times, long long count, double *values);
 
 /* Residual kinetic + potential + dissipated - work in since the start, and the energy scale:
  * balance[0..4] = residual, scale, kinetic + potential, dissipated, work. */

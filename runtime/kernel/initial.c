@@ -139,10 +139,8 @@ static int solve(problem *p) {
 }
 
 static double length_size(const frot_model *m, const frot_work *w, int contact, const double *q) {
-  double sum = fabs(w->distance[contact]) + fabs(w->distance[contact] - w->gap[contact]);
-  int row = m->contacts[contact].row_n;
-  for (int k = 0; k < m->nv; k++) sum += fabs(w->rows[(m->nv + m->na) * row + k] * q[k]);
-  return sum;
+  return fabs(w->distance[contact]) + fabs(w->distance[contact] - w->gap[contact]) +
+         frot_row_size(m, w, m->contacts[contact].row_n, q);
 }
 
 static void set_conditions(const frot_model *m, const frot_work *w, double *d) {
@@ -189,8 +187,8 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
   set_conditions(m, w, d);
 
   for (int i = 0; i < nc; i++) {
-    int touches = unilateral[i] == 0 || use[i] ||
-                  fabs(w->gap[i]) <= TOUCHES * length_size(m, w, i, q);
+    int touches =
+        unilateral[i] == 0 || use[i] || fabs(w->gap[i]) <= TOUCHES * length_size(m, w, i, q);
     modes[i].closed = (signed char)touches;
     modes[i].side = 1;
     use[i] = touches && unilateral[i] == 0 && !m->contacts[i].reduced;
@@ -204,8 +202,7 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
     for (int i = 0; i < nc; i++) {
       int row = m->contacts[i].row_n;
       if (use[i] || m->contacts[i].reduced || !modes[i].closed) continue;
-      double size = 0;
-      for (int k = 0; k < m->nv; k++) size += fabs(w->rows[l.nw * row + k] * v[k]);
+      double size = frot_row_size(m, w, row, v);
       if (w->rate[row] > 0 && w->rate[row] > TOUCHES * size)
         modes[i].closed = 0; /* it leaves */
       else if (w->rate[row] < -DBL_EPSILON * size)

@@ -14,9 +14,9 @@ void frot_backward(const double *l, int n, int m, double *x);
 int frot_lu_solve(double *a, double *b, int n);
 
 /* Least squares of least norm: x (n) for a x = b, a (m x n) by columns, overwritten with b.
- * Rank by Householder QR with column pivoting, then a triangle from the right (G. Golub, C. Van Loan,
- * Matrix Computations, 4th ed., sect. 5.5). `work` takes m + 4*n + n*n doubles and `pivot` n integers.
- * Returns the rank; a and b are lost. */
+ * Rank by Householder QR with column pivoting, then a triangle from the right (G. Golub, C. Van
+ * Loan, Matrix Computations, 4th ed., sect. 5.5). `work` takes m + 4*n + n*n doubles and `pivot` n
+ * integers. Returns the rank; a and b are lost. */
 int frot_least_norm(double *a, double *b, int m, int n, double *x, double *work, int *pivot);
 
 double frot_dot(const double *a, const double *b, int n);

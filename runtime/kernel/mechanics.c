@@ -25,14 +25,15 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
                   const double *v, const double *d, const frot_contact_mode *modes) {
   int nw = m->nv + m->na, nr = m->n_rows;
   inputs(m, s, w, &t, q, v, d);
-  double *res[] = {w->qd,  w->mass, w->h,         w->rows,        w->c,
-                   w->rate, w->gap, w->condition, w->coefficient, w->power};
+  double *res[] = {w->qd,   w->mass, w->h,         w->rows,        w->c,
+                   w->rate, w->gap,  w->condition, w->coefficient, w->power};
   memcpy(w->res, res, sizeof res);
   m->dynamics.call(w->arg, w->res, w->iw, w->w, 0);
   s->statistics.evaluations++;
   w->t = t;
   if (!all_finite(w->mass, nw * nw) || !all_finite(w->h, nw) || !all_finite(w->rows, nw * nr) ||
-      !all_finite(w->c, nr) || !all_finite(w->qd, m->nq) || !all_finite(w->coefficient, 3 * m->n_contacts) ||
+      !all_finite(w->c, nr) || !all_finite(w->qd, m->nq) ||
+      !all_finite(w->coefficient, 3 * m->n_contacts) ||
       !all_finite(w->condition, m->n_conditions) || !all_finite(w->gap, m->n_contacts) ||
       !all_finite(w->power, 1))
     return FROT_NAN;
@@ -188,7 +189,8 @@ void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen)
     if (frozen[k] != 0) w->a[k] = 0;
 }
 
-/* Guards of one bounded relative motion: of friction (bound mu_s N) or of rolling (bound delta N). */
+/* Guards of one bounded relative motion: of friction (bound mu_s N) or of rolling (bound delta N).
+ */
 static void bounded(int mode, double rate, double rate_scale, double lam, double bound,
                     double *guard, double *scale) {
   if (mode == FROT_STICK) {
@@ -200,7 +202,7 @@ static void bounded(int mode, double rate, double rate_scale, double lam, double
   }
 }
 
-static double term_size(const frot_model *m, const frot_work *w, int row, const double *x) {
+double frot_row_size(const frot_model *m, const frot_work *w, int row, const double *x) {
   double sum = 0;
   for (int k = 0; k < m->nv; k++) sum += fabs(w->rows[(m->nv + m->na) * row + k] * x[k]);
   return sum;
@@ -217,7 +219,7 @@ void frot_guards(const frot_model *m, const frot_state *s, frot_work *w, const d
     double g[FROT_GUARDS] = {1, 1, 1, 1, 1}, size[FROT_GUARDS] = {1, 1, 1, 1, 1};
     if (!mode->closed) {
       g[0] = w->gap[i];
-      size[0] = fabs(w->gap[i]) + term_size(m, w, contact->row_n, q);
+      size[0] = fabs(w->gap[i]) + frot_row_size(m, w, contact->row_n, q);
     } else {
       const double *k = w->coefficient + 3 * i;
       double lam_n = w->lam[contact->row_n];
@@ -226,10 +228,10 @@ void frot_guards(const frot_model *m, const frot_state *s, frot_work *w, const d
         size[0] = fabs(lam_n);
       }
       if (mode->friction != FROT_NONE)
-        bounded(mode->friction, w->rate[contact->row_t], term_size(m, w, contact->row_t, v),
+        bounded(mode->friction, w->rate[contact->row_t], frot_row_size(m, w, contact->row_t, v),
                 w->lam[contact->row_t], k[1] * mode->side * lam_n, g + 1, size + 1);
       if (mode->rolling != FROT_NONE)
-        bounded(mode->rolling, w->rate[contact->row_r], term_size(m, w, contact->row_r, v),
+        bounded(mode->rolling, w->rate[contact->row_r], frot_row_size(m, w, contact->row_r, v),
                 w->lam[contact->row_r], k[2] * mode->side * lam_n, g + 3, size + 3);
     }
     memcpy(guard + FROT_GUARDS * i, g, sizeof g);
@@ -319,7 +321,7 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     for (int i = 0; i < m->n_contacts; i++) {
       if (!modes[i].closed || m->contacts[i].reduced) continue;
       w->residual[k++] = w->gap[i];
-      if (fabs(w->gap[i]) > 4 * DBL_EPSILON * term_size(m, w, m->contacts[i].row_n, q)) off = 1;
+      if (fabs(w->gap[i]) > 4 * DBL_EPSILON * frot_row_size(m, w, m->contacts[i].row_n, q)) off = 1;
     }
     if (!off || n == 0) break;
     correct(m, w, n, w->residual, q);
@@ -331,7 +333,7 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     for (int i = 0; i < n; i++) {
       int row = w->row_of[i];
       w->residual[i] = w->rate[row];
-      if (fabs(w->rate[row]) > 2 * DBL_EPSILON * term_size(m, w, row, v)) off = 1;
+      if (fabs(w->rate[row]) > 2 * DBL_EPSILON * frot_row_size(m, w, row, v)) off = 1;
     }
     if (!off) break;
     correct(m, w, n, w->residual, v);

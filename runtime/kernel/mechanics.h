@@ -14,6 +14,9 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
 void frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                      const double *v, const double *d);
 
+/* Size of the terms of J x in a row, for the comparison with zero; after frot_kinematics. */
+double frot_row_size(const frot_model *m, const frot_work *w, int row, const double *x);
+
 /* Reactions w->lam of the rows in `modes`, after frot_dynamics. Where at_rest (n_contacts, may be
  * NULL) is nonzero, slip is resisted by the coefficient of rest mu_s. Reactions of least friction
  * are taken where they are not unique. Returns 1 when no finite reactions exist. */
@@ -25,7 +28,8 @@ void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen)
 
 /* Guards (ng) of the modes after frot_reactions: positive while the mode lasts. For contact i, from
  * FROT_GUARDS*i: normal (gap when open, reaction when closed), friction (2), rolling (2); then the
- * conditions. Guards that cannot end a mode are 1. `scale` (may be NULL): the size of their terms. */
+ * conditions. Guards that cannot end a mode are 1. `scale` (may be NULL): the size of their terms.
+ */
 void frot_guards(const frot_model *m, const frot_state *s, frot_work *w, const double *q,
                  const double *v, const double *d, const frot_contact_mode *modes, double *guard,
                  double *scale);
@@ -37,7 +41,8 @@ int frot_derivatives(const frot_model *m, frot_state *s, frot_work *w, double t,
 
 /* Move speeds (and, with `position`, coordinates first) onto the relations that hold in `modes`,
  * by the least change in the metric of the mass. `stuck` (n_contacts, may be NULL): contacts whose
- * slip (bit 0) or rolling (bit 1) is to be zero whatever their mode. Returns 1 if anything moved. */
+ * slip (bit 0) or rolling (bit 1) is to be zero whatever their mode. Returns 1 if anything moved.
+ */
 int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  const double *d, const frot_contact_mode *modes, const unsigned char *stuck,
                  int position);

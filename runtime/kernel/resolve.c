@@ -6,7 +6,7 @@
 #include "linear.h"
 #include "mechanics.h"
 
-#define ENOUGH 200000    /* combinations of modes examined one by one */
+#define ENOUGH 200000 /* combinations of modes examined one by one */
 #define CONTACT_OPTIONS 24
 
 typedef struct {
@@ -20,19 +20,15 @@ typedef struct {
   double push;            /* size of the forces in the metric of the mass */
 } instant;
 
-long long frot_events_at_once(const frot_model *m) { return 4 * m->n_contacts + m->n_conditions + 4; }
-
-static double row_speed_size(const frot_model *m, const frot_work *w, int row, const double *v) {
-  double sum = 0;
-  for (int k = 0; k < m->nv; k++) sum += fabs(w->rows[(m->nv + m->na) * row + k] * v[k]);
-  return sum;
+long long frot_events_at_once(const frot_model *m) {
+  return 4 * m->n_contacts + m->n_conditions + 4;
 }
 
-/* Whether a slip or rolling rate is zero: its guard (of index `guard`) fired at zero, or it is zero to
- * rounding against its terms and the sizes it had. */
+/* Whether a slip or rolling rate is zero: its guard (of index `guard`) fired at zero, or it is zero
+ * to rounding against its terms and the sizes it had. */
 static int is_zero_rate(const instant *in, int row, const double *v, int guard, int moved) {
   if (moved && in->fired[guard] != 0) return 1;
-  double size = fmax(row_speed_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
+  double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
   return fabs(in->w->rate[row]) <= FROT_ZERO * size;
 }
 
@@ -57,8 +53,7 @@ static int friction_options(int active, double rate, int zero, int left, signed 
 /* A reaction that reached its upper bound (first guard) lets the body go backward. */
 static int left_by(const double *fired) { return fired[0] != 0 ? -1 : (fired[1] != 0 ? 1 : 0); }
 
-static int contact_options(const instant *in, int i, int forced,
-                           frot_contact_mode *list) {
+static int contact_options(const instant *in, int i, int forced, frot_contact_mode *list) {
   const frot_contact *contact = &in->m->contacts[i];
   const double *fired = in->fired + FROT_GUARDS * i;
   frot_contact_mode before = in->w->before[i];
@@ -69,7 +64,8 @@ static int contact_options(const instant *in, int i, int forced,
   int turns = forced && before.closed && !can_open && fired[0] != 0;
   if (!leaves) {
     signed char friction[3], rolling[3];
-    int act_t = bounds_something(in->w, contact, i, 0), act_r = bounds_something(in->w, contact, i, 1);
+    int act_t = bounds_something(in->w, contact, i, 0),
+        act_r = bounds_something(in->w, contact, i, 1);
     int zero_t = in->zero[i] & 1, zero_r = in->zero[i] & 2;
     int n_t = friction_options(act_t, act_t ? in->w->rate[contact->row_t] : 0, zero_t,
                                forced && was_stuck ? left_by(fired + 1) : 0, friction);
@@ -134,15 +130,14 @@ static int is_admissible(const instant *in, const int *chosen, int count) {
       mode->side = w->lam[contact->row_n] < 0 ? -1 : 1;
     double normal = mode->side * w->lam[contact->row_n];
     const double *k = w->coefficient + 3 * i;
-    int matters = in->unilateral[i] != 0 || mode->friction != FROT_NONE || mode->rolling != FROT_NONE;
+    int matters =
+        in->unilateral[i] != 0 || mode->friction != FROT_NONE || mode->rolling != FROT_NONE;
     if (matters && normal < -1e-10 * largest) return 0;
-    if (contact->row_t >= 0 &&
-        !motion_is_admissible(in, mode->friction, contact->row_t, in->zero[i] & 1,
-                              k[1] * fabs(normal)))
+    if (contact->row_t >= 0 && !motion_is_admissible(in, mode->friction, contact->row_t,
+                                                     in->zero[i] & 1, k[1] * fabs(normal)))
       return 0;
-    if (contact->row_r >= 0 &&
-        !motion_is_admissible(in, mode->rolling, contact->row_r, in->zero[i] & 2,
-                              k[2] * fabs(normal)))
+    if (contact->row_r >= 0 && !motion_is_admissible(in, mode->rolling, contact->row_r,
+                                                     in->zero[i] & 2, k[2] * fabs(normal)))
       return 0;
   }
   return 1;
@@ -253,24 +248,19 @@ static void find_components(const instant *in) {
     }
 }
 
-static void note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact, int before,
-                 int after, int solutions) {
+static void note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact,
+                 int before, int after, int solutions) {
   s->statistics.events++;
   if (!recorder || recorder->event_count >= recorder->event_capacity) return;
   recorder->events[recorder->event_count++] =
       (frot_event){t, kind, contact, before, after, solutions, 0};
 }
 
-static int mode_value(const frot_contact_mode *mode) {
-  if (!mode->closed) return FROT_MODE_OPEN;
-  return mode->friction == FROT_STICK ? FROT_MODE_STICK : FROT_MODE_SLIP;
-}
-
 static void note_changes(const instant *in, double t, const frot_contact_mode *after,
                          frot_recorder *recorder) {
   for (int i = 0; i < in->m->n_contacts; i++) {
     const frot_contact_mode *a = &in->w->before[i], *b = &after[i];
-    int from = mode_value(a), to = mode_value(b);
+    int from = frot_mode_value(a), to = frot_mode_value(b);
     if (from != to) {
       int kind = to == FROT_MODE_OPEN     ? FROT_EVENT_SEPARATION
                  : from == FROT_MODE_OPEN ? FROT_EVENT_CONTACT
@@ -304,7 +294,7 @@ static int closable(const instant *in, double t, const double *v, int first) {
     if (mode.closed || first) continue;
     if (in->fired[FROT_GUARDS * i] == 0) continue;
     double rate = in->w->rate[contact->row_n];
-    if (rate < -1e-9 * (row_speed_size(m, in->w, contact->row_n, v)))
+    if (rate < -1e-9 * (frot_row_size(m, in->w, contact->row_n, v)))
       return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
     in->w->best[i].closed = 1;
   }
@@ -314,7 +304,7 @@ static int closable(const instant *in, double t, const double *v, int first) {
 void frot_tell_start(const frot_model *m, frot_state *s, frot_recorder *recorder) {
   if (!s->several) return;
   frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
-  int mode = mode_value(&g.modes[s->several_at]);
+  int mode = frot_mode_value(&g.modes[s->several_at]);
   note(recorder, s, *g.t0, FROT_EVENT_SEVERAL, s->several_at, mode, mode, s->several);
   s->several = 0;
 }
@@ -380,8 +370,8 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     if (first)
       s->several = several, s->several_at = several_at; /* told by the first frot_advance */
     else
-      note(recorder, s, t, FROT_EVENT_SEVERAL, several_at, mode_value(&w->before[several_at]),
-           mode_value(&w->best[several_at]), several);
+      note(recorder, s, t, FROT_EVENT_SEVERAL, several_at, frot_mode_value(&w->before[several_at]),
+           frot_mode_value(&w->best[several_at]), several);
     if (s->options.on_indeterminate == FROT_HALT)
       return frot_fail(s, FROT_SEVERAL, t, several_at, -1, -1, several);
   }

@@ -29,8 +29,7 @@ int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, dou
                : rule == FROT_NOT_NEGATIVE ? x >= 0
                : rule == FROT_FINITE       ? isfinite(x)
                                            : x >= checks[i - 1];
-    if (!good || !isfinite(x))
-      return frot_fail(s, FROT_CHECK, s->t, -1, i, -1, x);
+    if (!good || !isfinite(x)) return frot_fail(s, FROT_CHECK, s->t, -1, i, -1, x);
   }
   if (experiment) memcpy(experiment, s->data + l.experiment, 4 * sizeof(double));
   return FROT_OK;
@@ -119,12 +118,10 @@ static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
   return FROT_OK;
 }
 
-int frot_settle(const frot_model *m, frot_state *s, frot_work *w) {
-  return settle(m, s, w, NULL);
-}
+int frot_settle(const frot_model *m, frot_state *s, frot_work *w) { return settle(m, s, w, NULL); }
 
-int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t, frot_recorder *recorder,
-                 frot_monitor monitor, void *context) {
+int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
+                 frot_recorder *recorder, frot_monitor monitor, void *context) {
   if (s->phase == FROT_FAULTED) return s->fault.status;
   if (s->phase != FROT_RUNNING || !(t >= s->t)) return FROT_MISUSE;
   frot_bind_work(m, w);
@@ -179,8 +176,8 @@ int frot_energy(const frot_model *m, frot_state *s, frot_work *w, double balance
   double mechanical = energy_now(m, s, w, w->z1);
   double dissipated = w->z1[m->nq + m->nv], work = w->z1[m->nq + m->nv + 1];
   balance[0] = mechanical - s->energy + dissipated - work;
-  balance[1] = fmax(fmax(s->energy_scale, fabs(mechanical - s->energy)),
-                    fmax(fabs(dissipated), fabs(work)));
+  balance[1] =
+      fmax(fmax(s->energy_scale, fabs(mechanical - s->energy)), fmax(fabs(dissipated), fabs(work)));
   balance[2] = mechanical;
   balance[3] = dissipated;
   balance[4] = work;

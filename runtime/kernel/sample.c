@@ -5,11 +5,6 @@
 #include "state.h"
 #include "step.h"
 
-static int mode_value(const frot_contact_mode *mode) {
-  if (!mode->closed) return FROT_MODE_OPEN;
-  return mode->friction == FROT_STICK ? FROT_MODE_STICK : FROT_MODE_SLIP;
-}
-
 static int values_in(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g,
                      double t, double *values) {
   double *x = w->z1;
@@ -22,11 +17,12 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   if (status != FROT_OK) return status;
   frot_accelerations(m, w, g->frozen);
   frot_layout l = frot_layout_of(m);
-  w->arg[0] = &t, w->arg[1] = q, w->arg[2] = v, w->arg[3] = s->data + l.u, w->arg[4] = s->data + l.p;
+  w->arg[0] = &t, w->arg[1] = q, w->arg[2] = v, w->arg[3] = s->data + l.u,
+  w->arg[4] = s->data + l.p;
   w->arg[5] = g->d, w->arg[6] = w->a, w->arg[7] = w->lam, w->arg[8] = x + m->nq + m->nv;
   w->res[0] = values;
   m->variables.call(w->arg, w->res, w->iw, w->w, 0);
-  for (int i = 0; i < m->n_contacts; i++) values[i] = mode_value(&g->modes[i]);
+  for (int i = 0; i < m->n_contacts; i++) values[i] = frot_mode_value(&g->modes[i]);
   return FROT_OK;
 }
 

@@ -110,6 +110,11 @@ size_t frot_work_size(const frot_model *model) {
   return bind(model, &counted, NULL);
 }
 
+int frot_mode_value(const frot_contact_mode *mode) {
+  if (!mode->closed) return FROT_MODE_OPEN;
+  return mode->friction == FROT_STICK ? FROT_MODE_STICK : FROT_MODE_SLIP;
+}
+
 int frot_fail(frot_state *s, int status, double t, int contact, int item, int other, double value) {
   s->fault = (frot_fault){status, contact, item, other, t, value};
   s->phase = FROT_FAULTED;
@@ -135,7 +140,8 @@ int frot_state_valid(const frot_model *m, const void *block, size_t size) {
       s->size != size || strncmp(s->key, m->key, FROT_KEY - 1) != 0)
     return 0;
   if (s->phase < FROT_CLEARED || s->phase > FROT_FAULTED) return 0;
-  if (!isfinite(s->t) || !isfinite(s->h) || !isfinite(s->h_max) || !isfinite(s->tolerance)) return 0;
+  if (!isfinite(s->t) || !isfinite(s->h) || !isfinite(s->h_max) || !isfinite(s->tolerance))
+    return 0;
   if (s->fault.contact < -1 || s->fault.contact >= m->n_contacts) return 0;
   const frot_contact_mode *modes = (const void *)(s->data + l.modes);
   frot_segment g = frot_segment_at(m, (double *)(s->data + l.segment));

@@ -8,7 +8,7 @@
 #define FROT_MAGIC 0x46524f54u
 #define FROT_LAYOUT_VERSION 1
 #define FROT_KEY 72
-#define FROT_GUARDS 5 /* guards of a contact: see guards.c */
+#define FROT_GUARDS 5      /* guards of a contact: see guards.c */
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
 enum frot_phase { FROT_CLEARED = 0, FROT_RUNNING = 1, FROT_FAULTED = 2 };
@@ -42,8 +42,8 @@ struct frot_state {
   int several_at;
   int reserved;
   double crowded_since;
-  double t;      /* time reached */
-  double h;      /* next step */
+  double t; /* time reached */
+  double h; /* next step */
   double h_max;
   double tolerance;
   double energy; /* kinetic + potential at the start, corrected for changes from outside */
@@ -73,13 +73,13 @@ struct frot_work {
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power, *distance;
   /* factor of the mass matrix, L^-1 h, L^-1 J', W and the rows' free accelerations */
   double *factor, *force, *half_rows, *delassus, *free;
-  double *lam, *a; /* reactions (n_rows), accelerations (nw) */
-  double *active, *right, *lstsq; /* the active rows' system */
-  int *row_of;                    /* rows of the active system */
-  double *guard;                  /* ng */
-  double *k;                      /* DP_ALL x nz */
-  double *z0, *z1, *ztry;         /* nz */
-  double *f;                      /* DP_DENSE x nz */
+  double *lam, *a;                                    /* reactions (n_rows), accelerations (nw) */
+  double *active, *right, *lstsq;                     /* the active rows' system */
+  int *row_of;                                        /* rows of the active system */
+  double *guard;                                      /* ng */
+  double *k;                                          /* DP_ALL x nz */
+  double *z0, *z1, *ztry;                             /* nz */
+  double *f;                                          /* DP_DENSE x nz */
   double *values, *jacobian, *residual, *size, *step; /* initial values and projection */
   frot_contact_mode *trial, *best, *before;
   double *best_acceleration;
@@ -92,12 +92,11 @@ frot_layout frot_layout_of(const frot_model *model);
 void frot_bind_work(const frot_model *model, frot_work *work);
 frot_segment frot_segment_at(const frot_model *model, double *data);
 
-static inline double *frot_set_flags(frot_state *s, const frot_layout *l) { return s->data + l->set; }
-static inline frot_contact_mode *frot_modes(frot_state *s, const frot_layout *l) {
-  return (frot_contact_mode *)(void *)(s->data + l->modes);
-}
+/* Value of a liaison's variable `mode`. */
+int frot_mode_value(const frot_contact_mode *mode);
 
 /* Record a fault and return its status. */
-int frot_fail(frot_state *state, int status, double t, int contact, int item, int other, double value);
+int frot_fail(frot_state *state, int status, double t, int contact, int item, int other,
+              double value);
 
 #endif

@@ -1,8 +1,8 @@
 /* Explicit Runge-Kutta step of order 8 with dense output of order 7 and location of events.
  *
- * Beside coordinates, speeds and the energies, the integrals of the guards are integrated. Their dense
- * output, differentiated, follows every guard inside the step at no cost in evaluations, and their
- * error estimate makes the step resolve what the guards do even while nothing moves. */
+ * Beside coordinates, speeds and the energies, the integrals of the guards are integrated. Their
+ * dense output, differentiated, follows every guard inside the step at no cost in evaluations, and
+ * their error estimate makes the step resolve what the guards do even while nothing moves. */
 #include "step.h"
 
 #include <float.h>
@@ -29,12 +29,14 @@ static const frot_contact_mode *modes_of(frot_state *s, const frot_layout *l) {
   return (const frot_contact_mode *)(const void *)(s->data + l->modes);
 }
 
-static int slope_at(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l, double t,
-                    const double *z, double *slope) {
-  return frot_derivatives(m, s, w, t, z, s->data + l->d, modes_of(s, l), s->data + l->frozen, slope);
+static int slope_at(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                    double t, const double *z, double *slope) {
+  return frot_derivatives(m, s, w, t, z, s->data + l->d, modes_of(s, l), s->data + l->frozen,
+                          slope);
 }
 
-/* Stages 1..12 of a step h from z0, stage 0 being there; w->z1 is the end, stage 12 its derivative. */
+/* Stages 1..12 of a step h from z0, stage 0 being there; w->z1 is the end, stage 12 its derivative.
+ */
 static int run_stages(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                       double t, double h) {
   for (int i = 1; i <= DP_STAGES; i++) {
@@ -132,15 +134,15 @@ static int first_guard(const frot_state *s, const frot_work *w, const frot_layou
   return found;
 }
 
-/* Shorten the step so that it ends where guard j is zero, by the secant on steps made anew: the event
- * is as exact as the steps are. Returns a status; *h is the length and *falls whether it does fall. */
+/* Shorten the step so that it ends where guard j is zero, by the secant on steps made anew: the
+ * event is as exact as the steps are. Returns a status; *h is the length and *falls whether it does
+ * fall. */
 static int locate(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l, double t,
                   int j, double theta, double *h, int *falls) {
   double longest = *h, g[7];
   guard_polynomial(w, l, j, *h, g);
   double span = 1e-4, left = fmax(theta - span, 0), right = fmin(theta + span, 1);
-  double slope =
-      (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * longest);
+  double slope = (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * longest);
   double at = theta * longest, last_at = 0, last = 0, value = 0;
   for (int pass = 0;; pass++) {
     int status = run_stages(m, s, w, l, t, at);
@@ -203,8 +205,7 @@ static void note_sizes(const frot_model *m, frot_state *s, frot_work *w, const f
     s->data[l->scale_x + j] = fmax(s->data[l->scale_x + j], fabs(z[j]));
   double *scale = w->guard;
   frot_guards(m, s, w, z, z + m->nq, s->data + l->d, modes_of(s, l), w->ztry, scale);
-  for (int j = 0; j < l->ng; j++)
-    s->data[l->scale_g + j] = fmax(s->data[l->scale_g + j], scale[j]);
+  for (int j = 0; j < l->ng; j++) s->data[l->scale_g + j] = fmax(s->data[l->scale_g + j], scale[j]);
 }
 
 /* Derivative at the start of the step into stage 0. */
@@ -269,8 +270,8 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   if (status != FROT_OK) return frot_fail(s, status, t, loaded_contact(m, w), -1, -1, 0);
   for (;;) {
     if (!(h > LEAST_STEP * fmax(fabs(t), 1e-3 * s->h_max)))
-      return frot_fail(s, status == FROT_OK ? FROT_DIVERGE : status, t, loaded_contact(m, w), -1, -1,
-                       h);
+      return frot_fail(s, status == FROT_OK ? FROT_DIVERGE : status, t, loaded_contact(m, w), -1,
+                       -1, h);
     status = run_stages(m, s, w, &l, t, h);
     double ratio = status == FROT_OK ? error_ratio(m, s, w, &l, h) : NAN;
     if (ratio <= 1) {

@@ -4,10 +4,10 @@
 
 #include "state.h"
 
-/* Advance from the end of the current segment by one step in the current modes, to the next event at
- * most. Replaces the current segment; s->pending says that an event waits at its end (or, when no
- * progress was possible, at its start: then the segment is left as it is). Returns FROT_OK or the
- * status of the fault recorded. */
+/* Advance from the end of the current segment by one step in the current modes, to the next event
+ * at most. Replaces the current segment; s->pending says that an event waits at its end (or, when
+ * no progress was possible, at its start: then the segment is left as it is). Returns FROT_OK or
+ * the status of the fault recorded. */
 int frot_step(const frot_model *m, frot_state *s, frot_work *w);
 
 /* Coordinates, speeds and quadratures (nx) of a segment at time t. */

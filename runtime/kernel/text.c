@@ -58,8 +58,9 @@ static void initial_text(const frot_model *m, const frot_fault *f, char *text, s
     snprintf(text, size, "the initial values contradict each other: `%s` and `%s` (by %.3g in SI)",
              one, m->statements[f->other].text, f->value);
   else
-    snprintf(text, size, "the initial statement `%s` cannot hold together with the liaisons (by %.3g in SI)", one,
-             f->value);
+    snprintf(text, size,
+             "the initial statement `%s` cannot hold together with the liaisons (by %.3g in SI)",
+             one, f->value);
 }
 
 void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_t size) {
@@ -72,8 +73,8 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       return;
     case FROT_CHECK: {
       const frot_check *check = &m->checks[f->item];
-      const char *rule = check->rule == FROT_POSITIVE           ? "it must be positive"
-                         : check->rule == FROT_NOT_NEGATIVE     ? "it must not be negative"
+      const char *rule = check->rule == FROT_POSITIVE       ? "it must be positive"
+                         : check->rule == FROT_NOT_NEGATIVE ? "it must not be negative"
                          : check->rule == FROT_NOT_BELOW_PREVIOUS
                              ? "it must not be below the coefficient of motion"
                              : "it must be a finite number";
@@ -84,10 +85,11 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       initial_text(m, f, text, size);
       return;
     case FROT_IMPACT:
-      snprintf(text, size,
-               "liaison '%s': the bodies meet at t = %.17g with a normal speed of %.6g m/s; impacts "
-               "are not supported yet, so the run ends here",
-               name, f->t, -f->value);
+      snprintf(
+          text, size,
+          "liaison '%s': the bodies meet at t = %.17g with a normal speed of %.6g m/s; impacts "
+          "are not supported yet, so the run ends here",
+          name, f->t, -f->value);
       return;
     case FROT_IMPASSE:
       snprintf(text, size,
@@ -107,10 +109,11 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                f->t, (int)f->value);
       return;
     case FROT_NAN:
-      snprintf(text, size,
-               "a force, a coefficient or an output gives no finite number at t = %.17g: look for a "
-               "division by zero, a root or a logarithm of a negative value",
-               f->t);
+      snprintf(
+          text, size,
+          "a force, a coefficient or an output gives no finite number at t = %.17g: look for a "
+          "division by zero, a root or a logarithm of a negative value",
+          f->t);
       return;
     case FROT_DIVERGE:
       snprintf(text, size,

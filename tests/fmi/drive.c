@@ -38,31 +38,28 @@ typedef fmi3Int64 whole;
 enum { OK = 0, DISCARD = 2, ERROR = 3 };
 enum { MU = 1, STIFFNESS = 2, MASS = 4, PUSH = 8, MODE = 9, X = 10 };
 
-#define EXPECT(status, call)                                                                       \
-  do {                                                                                             \
-    const int got = (int)(call);                                                                   \
-    if (got != (status)) {                                                                         \
-      fprintf(stderr, "line %d: status %d instead of %d: %s\n", __LINE__, got, status, #call);     \
-      exit(1);                                                                                     \
-    }                                                                                              \
+#define EXPECT(status, call)                                                                   \
+  do {                                                                                         \
+    const int got = (int)(call);                                                               \
+    if (got != (status)) {                                                                     \
+      fprintf(stderr, "line %d: status %d instead of %d: %s\n", __LINE__, got, status, #call); \
+      exit(1);                                                                                 \
+    }                                                                                          \
   } while (0)
 
 #if DRIVE == 2
 static void log_message(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status,
-                        fmi2String category, fmi2String message, ...)
-{
+                        fmi2String category, fmi2String message, ...) {
   (void)environment, (void)name, (void)status;
   if (strlen(category) + strlen(message) == 0) exit(2);
 }
 
-static instance make(const char *token)
-{
+static instance make(const char *token) {
   const fmi2CallbackFunctions functions = {log_message, calloc, free, NULL, NULL};
   return fmi2Instantiate("one", fmi2CoSimulation, token, "", &functions, 0, 1);
 }
 
-static int begin(instance c, double t)
-{
+static int begin(instance c, double t) {
   const int status = (int)fmi2SetupExperiment(c, 0, 0.0, t, 0, 0.0);
   return status != OK ? status : (int)fmi2EnterInitializationMode(c);
 }
@@ -70,45 +67,38 @@ static int begin(instance c, double t)
 static int step(instance c, double t, double h) { return (int)fmi2DoStep(c, t, h, 1); }
 #else
 static void log_message(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
-                        fmi3String message)
-{
+                        fmi3String message) {
   (void)environment, (void)status;
   if (strlen(category) + strlen(message) == 0) exit(2);
 }
 
-static instance make(const char *token)
-{
+static instance make(const char *token) {
   return fmi3InstantiateCoSimulation("one", token, NULL, 0, 1, 0, 0, NULL, 0, NULL, log_message,
                                      NULL);
 }
 
-static int begin(instance c, double t)
-{
+static int begin(instance c, double t) {
   return (int)fmi3EnterInitializationMode(c, 0, 0.0, t, 0, 0.0);
 }
 
-static int step(instance c, double t, double h)
-{
+static int step(instance c, double t, double h) {
   fmi3Boolean event, end, early;
   fmi3Float64 reached;
   return (int)fmi3DoStep(c, t, h, 1, &event, &end, &early, &reached);
 }
 #endif
 
-static int set(instance c, reference r, double value)
-{
+static int set(instance c, reference r, double value) {
   return (int)REAL(Set)(c, &r, 1, &value COUNT(1));
 }
 
-static double get(instance c, reference r)
-{
+static double get(instance c, reference r) {
   double value = NAN;
   EXPECT(OK, REAL(Get)(c, &r, 1, &value COUNT(1)));
   return value;
 }
 
-static void damage(instance c, const byte *bytes, size_t size)
-{
+static void damage(instance c, const byte *bytes, size_t size) {
   byte *copy = malloc(size);
   if (copy == NULL) exit(3);
   for (size_t i = 0; i < size; i += 1 + size / 200) {
@@ -120,8 +110,7 @@ static void damage(instance c, const byte *bytes, size_t size)
   free(copy);
 }
 
-static void one_life(int number)
-{
+static void one_life(int number) {
   instance c = make("hand-model-key");
   saved state = NULL, other = NULL;
   size_t size = 0;
@@ -167,8 +156,7 @@ static void one_life(int number)
   FMI(FreeInstance)(c); /* with a saved state left over */
 }
 
-int main(void)
-{
+int main(void) {
   for (int i = 0; i < 20; i++) one_life(i % 4);
   FMI(FreeInstance)(NULL);
   return 0;

@@ -1,7 +1,7 @@
 /* Coulomb's oscillator written by hand: a block on a rough horizontal table, a spring and a push.
  *
- * One coordinate x; the normal direction is an auxiliary speed. It has what the worked examples lack:
- * parameters of every type, one that follows from another, and an input.
+ * One coordinate x; the normal direction is an auxiliary speed. It has what the worked examples
+ * lack: parameters of every type, one that follows from another, and an input.
  *
  *   p = mu, stiffness, x0, mass, count (integer), pulled (boolean), weight (= 9.81 mass)
  *   u = push
@@ -13,8 +13,7 @@
 
 #define NP 7
 
-static int parameters(const double **arg, double **res, long long *iw, double *w, int mem)
-{
+static int parameters(const double **arg, double **res, long long *iw, double *w, int mem) {
   const double *p = arg[0], *set = arg[1];
   (void)iw, (void)w, (void)mem;
   for (int i = 0; i < NP; i++) res[0][i] = p[i];
@@ -26,38 +25,33 @@ static int parameters(const double **arg, double **res, long long *iw, double *w
   return 0;
 }
 
-static int start(const double **arg, double **res, long long *iw, double *w, int mem)
-{
+static int start(const double **arg, double **res, long long *iw, double *w, int mem) {
   (void)iw, (void)w, (void)mem;
   res[0][0] = arg[2][2];
   res[1][0] = 0.0;
   return 0;
 }
 
-static int initial_position(const double **arg, double **res, long long *iw, double *w, int mem)
-{
+static int initial_position(const double **arg, double **res, long long *iw, double *w, int mem) {
   (void)iw, (void)w, (void)mem;
   res[0][0] = arg[1][0] - arg[4][2];
   if (res[1]) res[1][0] = 1.0;
   return 0;
 }
 
-static int initial_velocity(const double **arg, double **res, long long *iw, double *w, int mem)
-{
+static int initial_velocity(const double **arg, double **res, long long *iw, double *w, int mem) {
   (void)iw, (void)w, (void)mem;
   res[0][0] = arg[2][0];
   if (res[1]) res[1][0] = 1.0;
   return 0;
 }
 
-static void rows(double *jacobian)
-{
+static void rows(double *jacobian) {
   jacobian[0] = 0.0, jacobian[1] = 1.0; /* normal */
   jacobian[2] = 1.0, jacobian[3] = 0.0; /* slip */
 }
 
-static int kinematics(const double **arg, double **res, long long *iw, double *w, int mem)
-{
+static int kinematics(const double **arg, double **res, long long *iw, double *w, int mem) {
   (void)iw, (void)w, (void)mem;
   if (res[0]) res[0][0] = 0.0;
   if (res[1]) rows(res[1]);
@@ -66,8 +60,7 @@ static int kinematics(const double **arg, double **res, long long *iw, double *w
   return 0;
 }
 
-static int dynamics(const double **arg, double **res, long long *iw, double *w, int mem)
-{
+static int dynamics(const double **arg, double **res, long long *iw, double *w, int mem) {
   const double x = arg[1][0], v = arg[2][0], *u = arg[3], *p = arg[4];
   (void)iw, (void)w, (void)mem;
   if (res[0]) res[0][0] = v;
@@ -82,8 +75,7 @@ static int dynamics(const double **arg, double **res, long long *iw, double *w, 
   return 0;
 }
 
-static int variables(const double **arg, double **res, long long *iw, double *w, int mem)
-{
+static int variables(const double **arg, double **res, long long *iw, double *w, int mem) {
   const double *p = arg[4], *lam = arg[7];
   (void)iw, (void)w, (void)mem;
   res[0][1] = arg[1][0];
@@ -94,8 +86,7 @@ static int variables(const double **arg, double **res, long long *iw, double *w,
   return 0;
 }
 
-static int energy(const double **arg, double **res, long long *iw, double *w, int mem)
-{
+static int energy(const double **arg, double **res, long long *iw, double *w, int mem) {
   const double x = arg[1][0], v = arg[2][0], *p = arg[4];
   (void)iw, (void)w, (void)mem;
   res[0][0] = 0.5 * p[3] * v * v;
@@ -106,8 +97,9 @@ static int energy(const double **arg, double **res, long long *iw, double *w, in
 static const double p_default[NP] = {0.1, 9.0, 2.0, 1.0, 3.0, 1.0, 0.0};
 static const double u_default[1] = {0.0};
 static const frot_contact contacts[1] = {{"guide", "hand_model.c:1:1", 0, 1, -1, 1, 1, 1}};
-static const frot_check checks[2] = {{FROT_POSITIVE, "mass of body 'block'", "hand_model.c:2:1"},
-                                     {FROT_NOT_NEGATIVE, "friction of 'guide'", "hand_model.c:3:1"}};
+static const frot_check checks[2] = {
+    {FROT_POSITIVE, "mass of body 'block'", "hand_model.c:2:1"},
+    {FROT_NOT_NEGATIVE, "friction of 'guide'", "hand_model.c:3:1"}};
 static const frot_statement statements[2] = {{"x = x0", "hand_model.c:4:1"},
                                              {"v = 0", "hand_model.c:5:1"}};
 static const int position_statement[1] = {0};
