@@ -75,6 +75,9 @@ class Conditions:
 
     def add(self, value: ca.SX, strict: bool) -> ca.SX:
         """A flag, 0 or 1, that follows the sign of `value` by located events."""
+        for flag, known, kind in zip(self.flags, self.values, self.strict, strict=True):
+            if kind == strict and ca.is_equal(known, value, 20):
+                return flag  # the same switch, written or read twice
         flag = ca.SX.sym(f"condition_{len(self.flags)}")
         self.flags.append(flag)
         self.values.append(value)

@@ -15,12 +15,11 @@ from frot.dsl.scope import Scope, did_you_mean
 
 
 def liaison(node: tree.Liaison, scope: Scope, defined: frozenset[str]) -> checked.Liaison | None:
-    """The checked liaison with its laws; None after a message."""
+    """The checked liaison, its laws still to be given by `give_laws`; None after a message."""
     if node.subscripts:
         scope.log.report("E0701", "arrays of liaisons are not supported yet", node.span)
         return None
     call = called(node.kind, "liaison", scope)
-    laws = _laws(node, scope, defined)
     if node.driven is not None:
         scope.log.report("E0701", "'driven' is not supported yet", node.driven_span)
         return None
@@ -42,14 +41,14 @@ def liaison(node: tree.Liaison, scope: Scope, defined: frozenset[str]) -> checke
         )
         return None
     found = bind(arguments, kind.arguments, name, node.kind.span, scope)
-    if not found.complete or laws is None:
+    if not found.complete:
         return None
     a = cast(checked.Place, found.values.pop("a"))
     b = cast(checked.Place, found.values.pop("b"))
     if not _parts_agree(node, kind.name, a, b, scope):
         return None
     options = cast("dict[str, checked.Expression]", found.values)
-    return checked.Liaison(node.name.text, kind, a, b, options, laws, node.span, node.doc)
+    return checked.Liaison(node.name.text, kind, a, b, options, (), node.span, node.doc)
 
 
 def _parts_agree(
@@ -85,15 +84,18 @@ def _root(place: checked.Place) -> checked.Body:
     return owner
 
 
-def _laws(
-    node: tree.Liaison, scope: Scope, defined: frozenset[str]
-) -> tuple[checked.Law, ...] | None:
+def give_laws(
+    node: tree.Liaison, to: checked.Liaison | None, scope: Scope, defined: frozenset[str]
+) -> None:
+    """Check the laws of a liaison once every name has its meaning.
+
+    They may read any coordinate, that of their own liaison among them. `to` is None where the
+    liaison itself was refused.
+    """
     found: list[checked.Law] = []
-    failed = False
     for written in node.laws:
         law = _law(written, scope, defined)
         if law is None:
-            failed = True
             continue
         same = next((other for other in found if other.kind is law.kind), None)
         if same is not None:
@@ -101,7 +103,8 @@ def _laws(
             first = Label(same.span, "first here")
             scope.log.report("E0502", message, law.span, labels=(first,))
         found.append(law)
-    return None if failed else tuple(found)
+    if to is not None:
+        object.__setattr__(to, "laws", tuple(found))
 
 
 def _law(written: tree.Expression, scope: Scope, defined: frozenset[str]) -> checked.Law | None:

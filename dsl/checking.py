@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from frot.dsl import checked, tree
 from frot.dsl.check_components import component, refused
 from frot.dsl.check_geometry import body, curve, frame
-from frot.dsl.check_mechanism import force, liaison
+from frot.dsl.check_mechanism import force, give_laws, liaison
 from frot.dsl.check_sections import (
     default_experiment,
     default_world,
@@ -96,6 +96,11 @@ def _model(file: tree.Tree, definition: tree.Definition, log: Log) -> checked.Mo
     )
     sections = _sort(definition, scope, defined)
     entities = _declare(sections.declarations, scope)
+    for element in definition.elements:
+        if isinstance(element, tree.Liaison):
+            declared = scope.names.get(element.name.text)
+            known = declared if isinstance(declared, checked.Liaison) else None
+            give_laws(element, known, scope, defined)
 
     def of(kind: type) -> tuple[Entity, ...]:
         return tuple(e for e in entities if isinstance(e, kind))
@@ -237,7 +242,7 @@ def _declaration(
             used = [element.owner, element.kind]
             _add(element.name, used, lambda: curve(element, scope), result, scope)
         case tree.Liaison():
-            used = [element.kind, *element.laws]
+            used = [element.kind]
             _add(element.name, used, lambda: liaison(element, scope, defined), result, scope)
         case tree.Force():
             _add(element.name, [element.kind], lambda: force(element, scope), result, scope)
