@@ -1,0 +1,1 @@
+"""One adapter a code: each builds the scenes of `work_precision` with that code's public API."""
