@@ -7,6 +7,7 @@ from pathlib import Path
 
 import casadi as ca
 from frot.compiler.lower import Lowered
+from frot.compiler.reduce import Reduced
 from frot.compiler.walk import is_fixed
 from frot.dsl.checked import Expression
 from frot.dsl.source import Span
@@ -78,6 +79,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_rows": symbols.lam.numel(),
         "n_contacts": len(contacts),
         "n_conditions": len(reduced.conditions.flags),
+        "time_dependent": int(_depends_on_time(reduced)),
         "n_checks": len(lowered.checks),
         "n_position": len(lowered.position_statement),
         "n_velocity": len(lowered.velocity_statement),
@@ -109,6 +111,14 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         f"{_functions(lowered)}\n" + "\n".join(tables) + "\nconst frot_model frot_the_model = {\n"
         f"  .name = {_text(model.name)},\n  .key = {_text(key)},\n"
         f"{numbers}\n{callables}\n{pointers}\n}};\n"
+    )
+
+
+def _depends_on_time(reduced: Reduced) -> bool:
+    moved = (reduced.force, reduced.rows, reduced.bias, reduced.coefficients, reduced.gap)
+    return any(
+        x.numel() and ca.depends_on(x, reduced.symbols.t)
+        for x in (*moved, *reduced.conditions.values)
     )
 
 

@@ -31,6 +31,7 @@ KINDS = (
     "several",
 )
 MODES = ("open", "stick", "slip")
+MOST_EVENTS = 40
 ROLLING = ("free", "held", "rolling", "rolling")
 
 
@@ -200,10 +201,17 @@ class Result(Mapping[str, Floats]):
         return buffer.getvalue()
 
     def summary(self) -> str:
-        """Events, steps, evaluations, wall time and energy balance, in a few lines."""
+        """Events, steps, evaluations, wall time and energy balance, in a few lines.
+
+        Of many events the first and the last are shown; `events` holds them all.
+        """
         figures, balance = self.figures, self.balance
         lines = [f"{self.program.name}: {self.time[0]:.6g} s to {self.time[-1]:.6g} s"]
-        lines += [f"  {event.text}" for event in self.events]
+        told = [f"  {event.text}" for event in self.events]
+        if len(told) > MOST_EVENTS:
+            half = MOST_EVENTS // 2
+            told[half:-half] = [f"  ... {len(told) - 2 * half} more events ..."]
+        lines += told
         if not self.events:
             lines.append("  no events")
         lines.append(

@@ -109,6 +109,7 @@ typedef struct {
   const char *name;
   const char *key; /* identity of the compiled model; kept in saved states */
   int nq, nv, na, nu, np, n_rows, n_contacts, n_conditions;
+  int time_dependent; /* forces, coefficients or conditions depend on time */
   int n_checks, n_position, n_velocity, n_statements, n_variables;
   /* variables [0, n_contacts) are the modes of the contacts (frot_mode), the others are real */
 

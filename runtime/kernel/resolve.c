@@ -8,6 +8,7 @@
 
 #define ENOUGH 200000 /* combinations of modes examined one by one */
 #define CONTACT_OPTIONS 24
+#define TOUCH 1e-9 /* part of the usual speed below which an approach is no impact */
 
 typedef struct {
   const frot_model *m;
@@ -283,9 +284,18 @@ static void note_changes(const instant *in, double t, const frot_contact_mode *a
   }
 }
 
+/* The speed of a row with the largest speeds met so far. */
+static double typical_speed(const instant *in, int row) {
+  const frot_model *m = in->m;
+  double sum = 0;
+  for (int k = 0; k < m->nv; k++)
+    sum += fabs(in->w->rows[in->l.nw * row + k]) * in->s->data[in->l.scale_x + m->nq + k];
+  return sum;
+}
+
 /* Contacts that may be closed after the instant, into w->best: those that were, and open ones whose
  * gap has closed. A gap that closes with speed is an impact. */
-static int closable(const instant *in, double t, const double *v, int first) {
+static int closable(const instant *in, double t, int first) {
   const frot_model *m = in->m;
   for (int i = 0; i < m->n_contacts; i++) {
     const frot_contact *contact = &m->contacts[i];
@@ -294,7 +304,7 @@ static int closable(const instant *in, double t, const double *v, int first) {
     if (mode.closed || first) continue;
     if (in->fired[FROT_GUARDS * i] == 0) continue;
     double rate = in->w->rate[contact->row_n];
-    if (rate < -1e-9 * (frot_row_size(m, in->w, contact->row_n, v)))
+    if (rate < -TOUCH * typical_speed(in, contact->row_n))
       return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
     in->w->best[i].closed = 1;
   }
@@ -326,7 +336,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     if (!first) note(recorder, s, t, FROT_EVENT_CONDITION, j, (int)(1 - d[j]), (int)d[j], 1);
   }
   frot_kinematics(m, s, w, t, q, v, d);
-  int status = closable(&in, t, v, first);
+  int status = closable(&in, t, first);
   if (status != FROT_OK) return status;
 
   /* Speeds: a slip that has come to zero is zero exactly. */

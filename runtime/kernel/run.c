@@ -12,6 +12,8 @@
 /* Events at one instant after which the modes will not settle. */
 #define CROWD 100
 #define MONITOR_EVERY 64
+/* Longest step where forces depend on time, so that none is passed over while nothing moves. */
+#define PART_OF_RUN 0.01
 
 int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, double experiment[4]) {
   frot_bind_work(m, w);
@@ -63,6 +65,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
                  : isnan(experiment[2])   ? 1e-8
                                           : experiment[2];
   s->h_max = experiment[1] > start ? experiment[1] - start : 1;
+  if (m->time_dependent) s->h_max *= PART_OF_RUN;
   s->pending = s->has_slope = s->changed = s->crowded = s->several = 0;
   s->crowded_since = t;
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "linear.h"
 #include "mechanics.h"
 #include "resolve.h"
 #include "roots.h"
@@ -16,6 +17,8 @@
 /* Part of the tolerance given to one step, so that the whole run keeps it. */
 #define LOCAL_SHARE 0.1
 #define LEAST_TOLERANCE 2e-15
+/* Rounding of an acceleration, in units of what the forces could do to it. */
+#define NOISE (8 * DBL_EPSILON)
 /* A guard need only be followed well enough to see where it goes. */
 #define GUARD_LOOSEST 1e-3
 #define GUARD_TIGHTEST 1e-6
@@ -57,6 +60,7 @@ static double error_ratio(const frot_model *m, const frot_state *s, const frot_w
                           const frot_layout *l, double h) {
   double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
   double guard_tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
+  double push = sqrt(frot_dot(w->force, w->force, l->nw));
   for (int j = 0; j < l->nz; j++) {
     if (j >= m->nq + m->nv && j < l->nx) continue; /* energies follow */
     double e5 = 0, e3 = 0, largest = 0;
@@ -71,7 +75,9 @@ static double error_ratio(const frot_model *m, const frot_state *s, const frot_w
     double bound;
     if (j < l->nx) {
       double size = fmax(s->data[l->scale_x + j], fmax(fabs(w->z0[j]), fabs(w->z1[j])));
-      bound = tolerance * fmax(size, h * largest);
+      /* a coordinate that only rounding moves is not followed */
+      double rounding = NOISE * h * push / w->factor[(j % m->nq) * (l->nw + 1)];
+      bound = fmax(tolerance * fmax(size, h * largest), j < m->nq ? h * rounding : rounding);
     } else {
       double size = s->data[l->scale_g + j - l->nx];
       bound = guard_tolerance * h * fmax(largest, GUARD_LOOSEST * size);
@@ -226,7 +232,8 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   int status = start_slope(m, s, w, &l, s->t);
   if (status != FROT_OK) return frot_fail(s, status, s->t, -1, -1, -1, 0);
-  double h = s->h_max;
+  /* What depends on time must be met before it is over. */
+  double h = m->time_dependent ? 1e-3 * s->h_max : s->h_max;
   for (int j = 0; j < m->nq + m->nv; j++) {
     double slope = fabs(stage(&l, w, 0)[j]), size = fabs(w->z0[j]);
     if (slope > 0 && size > 0) h = fmin(h, 0.01 * size / slope);
