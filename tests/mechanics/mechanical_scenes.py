@@ -337,6 +337,20 @@ initial
 end Groove;
 """
 
+SWUNG_ROD = """
+planar model SwungRod "Homogeneous rod hung from a point of a line, let go at rest"
+  parameter Length length = 1 m;
+  parameter Angle th = -30 deg;
+  parameter Real mu = 0;
+  body rod: rod(mass = 1 kg, length = length);
+  liaison guide: point_courbe(rod.start, ground.line) with coulomb(mu);
+initial
+  rod.start.position = (0, 0) m;
+  rod.angle = th;
+  experiment(stop = 2 s, tolerance = 1e-10);
+end SwungRod;
+"""
+
 LIFTED = """
 planar model Lifted "Ring on the ground, drawn up by a force that grows with time"
   parameter Mass m = 1 kg;

@@ -425,7 +425,7 @@ def test_a_hoop_slides_down_an_almost_level_or_upright_line_without_leaving_it(
     assert np.max(np.abs(values["floor.gap"])) < 1e-14
     assert np.max(np.abs(values["energy.work"])) < 1e-14
     assert near(along(result, {"slope": slope}, "hoop", 3.0)[0], 0.5 / 9.81)
-    assert rests_from(result, result.events[0].time, "hoop")
+    assert abs(float(result["hoop.angular_velocity"][-1])) < 1e-14
 
 
 @pytest.mark.parametrize("sense", (1, -1))

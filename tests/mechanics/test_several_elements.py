@@ -16,6 +16,7 @@ from mechanical_scenes import (
     PAINLEVE_ROD,
     PARALLEL,
     SLOPES,
+    SWUNG_ROD,
     TURNED_REACTION,
     TWO_BLOCKS,
     WEDGE_AND_BEAD,
@@ -453,3 +454,36 @@ def test_two_blocks_on_different_slopes_without_coupling_do_not_disturb_each_oth
             float(result[f"l{i}.abscissa"][-1]) - s0, motion.at(2.0)[0], scale=10, rel=1e-13
         )
         assert near(float(result[f"l{i}.slip"][-1]), motion.at(2.0)[1], scale=10, rel=1e-13)
+
+
+@pytest.mark.parametrize("length", [0.01, 0.1, 1.0, 10.0])
+@pytest.mark.parametrize("degrees", [-30.0, 30.0, 80.0, -100.0])
+def test_a_rod_let_go_at_rest_on_a_smooth_line_keeps_its_energy_and_its_centre(
+    scenes: Scenes, length: float, degrees: float
+) -> None:
+    """(1/12 + cos^2/4) l^2 w^2 + g l sin = const; G moves on a vertical: a whole run from rest."""
+    th = math.radians(degrees)
+    result = scenes.run(SWUNG_ROD, length=length, th=th, tolerance=1e-12)
+    angle, w = result["rod.angle"], result["rod.angular_velocity"]
+    square = 9.81 / length * (math.sin(th) - np.sin(angle)) / (1 / 12 + np.cos(angle) ** 2 / 4)
+    assert np.max(np.abs(w**2 - square)) < 1e-9 * 9.81 / length
+    assert np.max(np.abs(result["rod.position.x"] - length / 2 * math.cos(th))) < 1e-10 * length
+    assert np.max(np.abs(w)) > 1 / math.sqrt(length)  # it has swung
+    assert result.balance.relative < 1e-9
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.3, 0.6])
+@pytest.mark.parametrize("degrees", [-30.0, 30.0, 80.0, -80.0])
+def test_a_rod_let_go_at_rest_on_a_rough_line_keeps_the_balance_of_energy(
+    scenes: Scenes, mu: float, degrees: float
+) -> None:
+    result = scenes.run(SWUNG_ROD, mu=mu, th=math.radians(degrees), stop=1.0)
+    assert result.balance.relative < 1e-9
+    assert np.all(result["guide.power"] <= 1e-12)
+
+
+def test_balance_is_told_against_the_largest_energy_of_the_run(scenes: Scenes) -> None:
+    """A smooth oscillator stopped at a turning point: 15 J swing, the scale keeps them."""
+    result = scenes.run(TWO_BLOCKS, mu=0.0, stop=20 * math.pi / math.sqrt(60))
+    assert result.balance.scale > 1.0
+    assert result.balance.relative < 1e-9
