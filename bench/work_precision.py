@@ -100,18 +100,8 @@ def scene_table(scene: str, found: dict[str, list[Entry]]) -> list[str]:
                  seconds(entry["fastest"]), kernel,
                  f"{entry['work']} {entry['unit']}", entry["repeats"])
             )  # fmt: skip
-    head = (
-        "code",
-        "method",
-        "setting",
-        "error (m)",
-        "end speed",
-        "wall",
-        "fastest",
-        "kernel",
-        "work",
-        "runs",
-    )
+    times = ("wall", "fastest", "kernel")
+    head = ("code", "method", "setting", "error (m)", "end speed", *times, "work", "runs")
     return table(head, rows)
 
 
@@ -208,9 +198,9 @@ def main() -> int:
     lines = ["# Work and precision", "", *card, f"- codes: {', '.join(versions)}", ""]
     lines += [
         "Error of the end position against the exact value (hoop: the larger of x and radius times "
-        "angle), largest speed left at the end (0 is exact rest), median and smallest "
-        "wall time of solving the ready-built model (one thread), and the work it took. Frot's wall time is that of the whole Python "
-        "call `simulate`; `kernel` is the part in C.",
+        "angle), largest speed left at the end (0 is exact rest), median and smallest wall "
+        "time of solving the ready-built model (one thread), and the work it took. Frot's wall "
+        "time is that of the whole Python call `simulate`; `kernel` is the part in C.",
         "",
         f"![error against wall time]({options.output.with_suffix('.png').name})",
     ]
