@@ -1,0 +1,230 @@
+"""Faults in a model's text and in its values: place, cause and remedy, status 1, no file left."""
+
+import pytest
+from front_door import BLOCK, HOOP, OSCILLATOR, Door
+
+WITH_NUMBERS = """planar model Numbers
+  parameter Real dx = 1;
+  parameter Mass m = 1 kg;
+  parameter Integer n = 3;
+  parameter Boolean windy = false;
+  parameter Length x = 1 m;
+  input Force push(start = 0 N);
+  body b: disc(mass = m, radius = 0.1 m);
+  curve c on ground: line(through = (0, 0) m, direction = (dx, 0));
+  liaison guide: point_courbe(b, c) with coulomb(0.1, mu_s = 0.2);
+  force f: spring(b, (2, 0) m, k = n*(1 N/m), length = x);
+  force wind: on(b, value = (if windy then push else 0 N, 0 N));
+  experiment(stop = 1 s);
+end Numbers;
+"""
+
+FAULTS = {
+    "an unknown name": ("radius = r)", "radius = rr)", "E0201", "'rr'", "7:41"),
+    "a wrong unit": ("mass = 1 kg", "mass = 1 m", "E0301", "expected a mass (kg)", "7:26"),
+    "an unknown unit": ("mass = 1 kg", "mass = 1 kgg", "E0302", "did you mean 'kg'", "7:28"),
+    "a missing end": ("end BackspinHoop;\n", "", "E0104", "end BackspinHoop", "15:43"),
+    "a negative mass": ("1 kg", "-1 kg", "E0401", "mass must be positive; it is -1 kg", "7:26"),
+    "a zero radius": ("= 0.5 m ", "= 0 m ", "E0401", "radius must be positive; it is 0 m", "7:41"),
+    "an unsupported liaison": (
+        "contact_ponctuel(ground.line, hoop.rim)",
+        "rotoide(ground, hoop)",
+        "E0701",
+        "the liaison 'rotoide' is not supported yet",
+        "8:3",
+    ),
+    "an unsupported law": (
+        "coulomb(mu)",
+        "restitution(0.5)",
+        "E0701",
+        "the law 'restitution' is not supported yet",
+        "8:63",
+    ),
+    "an unknown variable": (
+        "hoop.velocity",
+        "hoop.speed",
+        "E0203",
+        "no variable 'speed' on body 'hoop'",
+        "12:8",
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("command", ["check", "simulate", "fmu"])
+def test_a_fault_in_the_text_is_told_by_every_command(fault: str, command: str, door: Door) -> None:
+    old, new, code, cause, place = FAULTS[fault]
+    name = door.hoop_with(old, new)
+    door(command, name).refuses(code, cause, place=f"{name}:{place}")
+
+
+def test_initial_values_that_contradict_each_other_are_both_named(door: Door) -> None:
+    name = door.hoop_with("(1, 0) m/s;", "(1, 0) m/s;\n  hoop.velocity.x = 2 m/s;")
+    answer = door("simulate", name)
+    answer.refuses(
+        "E0601",
+        "`hoop.velocity = (1, 0) m/s`",
+        "`hoop.velocity.x = 2 m/s`",
+        place=f"{name}:12:3",
+    )
+    assert f"at {name}:13:3" in answer.err
+
+
+def test_initial_values_that_contradict_a_liaison_name_it(door: Door) -> None:
+    name = door.hoop_with("(0 m, r)", "(0 m, 0.2*r)")
+    answer = door("simulate", name)
+    answer.refuses("E0601", "liaison 'floor'", "`hoop.position = (0 m, 0.2*r)`")
+
+
+def test_a_contradiction_is_as_large_as_the_values_differ(door: Door) -> None:
+    # Two statements, 1 m/s and 2 m/s: they are at odds by 1 m/s.
+    name = door.hoop_with("(1, 0) m/s;", "(1, 0) m/s;\n  hoop.velocity.x = 2 m/s;")
+    assert "by 1 m/s" in door("simulate", name).err
+
+
+@pytest.mark.parametrize(
+    ("value", "cause"),
+    [
+        ("r=0", "the radius of body 'hoop' is 0: it must be positive"),
+        ("r=-1 m", "the radius of body 'hoop' is -1: it must be positive"),
+        ("mu=-0.5", "the mu of liaison 'floor' is -0.5: it must not be negative"),
+        ("delta=-1", "the delta of liaison 'floor' is -1: it must not be negative"),
+    ],
+)
+def test_a_parameter_the_model_cannot_have_is_refused_at_run_time(
+    value: str, cause: str, door: Door
+) -> None:
+    answer = door("simulate", HOOP, "--set", value, "-o", "out.csv")
+    answer.refuses("E0401", cause)
+    assert f"at {HOOP}:" in answer.err
+
+
+@pytest.mark.parametrize(
+    ("value", "cause"),
+    [
+        ("m=0", "the mass of body 'b' is 0: it must be positive"),
+        ("dx=0", "the length of the direction of curve 'c' is 0: it must be positive"),
+        ("n=-1", "the k of force 'f' is -1: it must not be negative"),
+        ("x=-1", "the length of force 'f' is -1: it must not be negative"),
+    ],
+)
+def test_a_parameter_that_makes_the_problem_singular_is_refused(
+    value: str, cause: str, door: Door
+) -> None:
+    answer = door("simulate", door.write(WITH_NUMBERS), "--set", value, "-o", "out.csv")
+    answer.refuses("E0401", cause)
+
+
+def test_a_radius_too_small_for_numbers_has_place_and_remedy(door: Door) -> None:
+    # Its moment of inertia is below the smallest number: the mass matrix is singular.
+    answer = door("simulate", HOOP, "--set", "r=1e-300")
+    answer.refuses("E0901", "singular")
+
+
+def test_a_force_without_a_value_names_its_own_line(door: Door) -> None:
+    name = door.write(
+        "planar model Root\n"
+        "  body b: particle(mass = 1 kg);\n"
+        "  liaison floor: contact_ponctuel(b, ground.line) with coulomb(0.1);\n"
+        "  force f: on(b, value = (sqrt(0.5 - time/(1 s))*1 N, 0 N));\n"
+        "  experiment(stop = 1 s);\n"
+        "end Root;\n"
+    )
+    answer = door("simulate", name)
+    assert answer.status == 1 and "error[E0904]" in answer.err and "Traceback" not in answer.err
+    assert f"at {name}:3:" not in answer.err, "the liaison is not to blame"
+    assert f"{name}:4:" in answer.err
+
+
+def test_a_run_that_cannot_go_on_keeps_the_motion_up_to_there(door: Door) -> None:
+    name = door.write(
+        "planar model Drop\n"
+        "  body b: particle(mass = 1 kg);\n"
+        "  liaison floor: contact_ponctuel(b, ground.line);\n"
+        "initial\n"
+        "  b.position = (0, 1) m;\n"
+        "  experiment(stop = 1 s);\n"
+        "end Drop;\n"
+    )
+    answer = door("simulate", name, "-o", "drop.csv")
+    assert answer.status == 1 and "error[E0905]" in answer.err
+    assert "Drop: 0 s to 0.451" in answer.out
+    assert answer.new == ("drop.csv",)
+
+
+def test_a_bead_whose_reaction_changes_sides_goes_on(door: Door) -> None:
+    # The only friction element of the model: its bound is zero where the reaction is.
+    name = door.write(
+        "planar model Bead\n"
+        "  parameter Real mu = 0.2;\n"
+        "  body arm:  rod(mass = 1 kg, length = 2 m);\n"
+        "  body bead: particle(mass = 0.2 kg);\n"
+        "  curve shaft on arm: line(through = (0, 0) m, direction = (1, 0));\n"
+        "  liaison hinge: point_courbe(arm.start, ground.line);\n"
+        "  liaison slide: point_courbe(bead, shaft) with coulomb(mu);\n"
+        "initial\n"
+        "  arm.angle = 60 deg;\n"
+        "  slide.abscissa = 0.5 m;\n"
+        "  experiment(stop = 2 s);\n"
+        "end Bead;\n"
+    )
+    for mu in (0.05, 0.1, 0.2, 0.3, 0.5):
+        answer = door("simulate", name, "--set", f"mu={mu}").succeeds()
+        assert "slide: the reaction changes sides at t = 0.12" in answer.out
+
+
+@pytest.mark.parametrize(
+    ("value", "code", "cause"),
+    [
+        ("radius=1", "E0805", "model 'BackspinHoop' has no parameter 'radius'"),
+        ("mu=nan", "E0806", "not a finite number"),
+        ("mu=1e400", "E0806", "not a finite number"),
+        ("mu=many", "E0806", "expected a number"),
+        ("mu=3 m", "E0806", "expected a number, found a length (m)"),
+        ("r=3 kg", "E0806", "expected a length (m), found a mass (kg)"),
+        ("r=3 parsec", "E0806", "parsec"),
+        ("r=(1", "E0806", "bad value of 'r'"),
+        ("r=time", "E0806", "bad value of 'r'"),
+    ],
+)
+def test_a_bad_value_of_a_parameter_is_told(value: str, code: str, cause: str, door: Door) -> None:
+    door("simulate", HOOP, "--set", value, "-o", "out.csv").refuses(code, cause)
+
+
+def test_an_unknown_parameter_gets_a_suggestion(door: Door) -> None:
+    answer = door("simulate", BLOCK, "--set", "slop=20 deg")
+    answer.refuses("E0805", "no parameter 'slop'", "did you mean 'slope'?")
+
+
+def test_whole_numbers_and_truth_values_are_asked_for_by_name(door: Door) -> None:
+    name = door.write(WITH_NUMBERS)
+    door("simulate", name, "--set", "windy=2").refuses("E0806", "write true or false")
+    door("simulate", name, "--set", "n=2.5").refuses("E0806", "'2.5' is not an integer")
+    door("simulate", name, "--set", "windy=true", "--set", "n=4").succeeds()
+
+
+def test_an_input_is_held_at_a_value_and_is_no_parameter(door: Door) -> None:
+    name = door.write(WITH_NUMBERS)
+    door("simulate", name, "--input", "push=2 kN").succeeds()
+    door("simulate", name, "--input", "push=2 m").refuses("E0806", "expected a force")
+    door("simulate", name, "--set", "push=2").refuses("E0805", "has no parameter 'push'")
+    door("simulate", name, "--input", "pull=2").refuses("E0805", "has no input 'pull'")
+
+
+@pytest.mark.parametrize(
+    ("words", "cause"),
+    [
+        (("--stop", "-1"), "the run cannot go from 0 s to -1 s"),
+        (("--stop", "0"), "the run cannot go from 0 s to 0 s"),
+        (("--start", "99"), "the run cannot go from 99 s to 12 s"),
+        (("--tolerance", "1"), "the tolerance 1 is out of range"),
+        (("--tolerance", "0"), "the tolerance 0 is out of range"),
+        (("--interval", "0"), "the interval 0 s is not positive"),
+        (("--interval", "-1"), "the interval -1 s is not positive"),
+        (("--interval", "1e-12"), "output times"),
+    ],
+)
+def test_options_of_the_run_out_of_range_are_told(
+    words: tuple[str, str], cause: str, door: Door
+) -> None:
+    door("simulate", OSCILLATOR, *words, "-o", "out.csv").refuses("E0806", cause)
