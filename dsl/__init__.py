@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from frot.dsl.codes import CODES
     from frot.dsl.dumping import dump
     from frot.dsl.evaluation import NotConstant, evaluate
+    from frot.dsl.formatting import format_text
     from frot.dsl.parsing import parse
     from frot.dsl.rendering import render, render_log
     from frot.dsl.values import default_values, parse_value
@@ -35,6 +36,7 @@ __all__ = [
     "default_values",
     "dump",
     "evaluate",
+    "format_text",
     "load",
     "parse",
     "parse_value",
@@ -50,6 +52,7 @@ _HOMES = {
     "default_values": "values",
     "dump": "dumping",
     "evaluate": "evaluation",
+    "format_text": "formatting",
     "parse": "parsing",
     "parse_value": "values",
     "render": "rendering",

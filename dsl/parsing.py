@@ -31,11 +31,14 @@ _BLOCKS = {"WHEN": "WHEN", "IF": "IF", "FOR": "FOR"}
 _HEADERS = frozenset(["MODEL", "CONNECTOR", "RECORD", "FUNCTION", "PACKAGE", "SHAPE"])
 
 
-def parse(source: Source, log: Log) -> Tree:
-    """The tree of a text; every fault of the text is reported to `log`, none is raised."""
+def parse(source: Source, log: Log, tokens: list[Lexeme] | None = None) -> Tree:
+    """The tree of a text; every fault of the text is reported to `log`, none is raised.
+
+    `tokens`, if given, is filled with the tokens read: all of them if nothing was reported.
+    """
     from frot.dsl.build import build
 
-    reader = _Reader(source, log)
+    reader = _Reader(source, log, tokens)
     root = reader.read()
     if root is None:
         return Tree(source, (), frozenset(reader.lost))
@@ -55,6 +58,7 @@ class Lexeme:
 class _Reader:
     source: Source
     log: Log
+    tokens: list[Lexeme] | None = None
     lost: set[str] = field(default_factory=set)
     state: ParserState[int] = field(init=False)
     states: dict[int, dict[str, Any]] = field(init=False)
@@ -127,6 +131,8 @@ class _Reader:
             if token.type in _HEADERS or token.type in ("PLANAR", "PARTIAL"):
                 self.kept = None
         self.statement.append(token)
+        if self.tokens is not None:
+            self.tokens.append(token)
         self.previous = token
         if token.type in ("LPAR", "LSQB"):
             self.depth += 1

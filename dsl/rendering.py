@@ -109,6 +109,11 @@ def _clean(text: str) -> str:
     return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
+def columns(text: str) -> int:
+    """The number of columns of a terminal a text takes."""
+    return len(text) if text.isascii() else sum(map(_width, text))
+
+
 def _width(cell: str) -> int:
     """The number of columns of a terminal a cell takes."""
     if len(cell) > 1:
