@@ -19,6 +19,7 @@ ORDER = (
     "initial_velocity",
     "kinematics",
     "dynamics",
+    "sizes",
     "variables",
     "energy",
 )

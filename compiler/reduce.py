@@ -28,9 +28,10 @@ STANDARD_GRAVITY = 9.81
 class Reduced:
     """Equations of the motion in CasADi expressions, auxiliary speeds at zero.
 
-    `mass` (nw x nw), `force` (nw), `rows` (n_rows x nw), `bias` (n_rows: J a + bias is the rows'
-    acceleration), `rate` (n_rows), `gap` and `distance` (n_contacts), `coefficients` (mu, mu_s,
-    delta of each contact), `power` of the loads without potential, `kinetic`, `potential`.
+    `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes of its terms, `rows`
+    (n_rows x nw), `bias` (n_rows: J a + bias is the rows' acceleration), `rate` (n_rows), `gap` and
+    `distance` (n_contacts), `coefficients` (mu, mu_s, delta of each contact), `power` of the loads
+    without potential, `kinetic`, `potential`.
     """
 
     mechanism: Mechanism
@@ -41,6 +42,7 @@ class Reduced:
     conditions: Conditions
     mass: ca.SX
     force: ca.SX
+    force_size: ca.SX
     rows: ca.SX
     bias: ca.SX
     rate: ca.SX
@@ -83,6 +85,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         conditions=conditions,
         mass=settled(motion.mass),
         force=settled(motion.force + loads.force),
+        force_size=settled(motion.size + loads.size),
         rows=settled(ca.jacobian(rates, speeds)),
         bias=settled(ca.jtimes(rates, places, speeds)),
         rate=settled(rates),
@@ -124,10 +127,11 @@ def _variables(mechanism: Mechanism, kinematics: Kinematics, symbols: Symbols) -
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Masses:
-    """Mass matrix, weight less inertial bias, and energies of the bodies."""
+    """Mass matrix, weight less inertial bias with the size of its terms, energies of the bodies."""
 
     mass: ca.SX
     force: ca.SX
+    size: ca.SX
     kinetic: ca.SX
     potential: ca.SX
 
@@ -138,27 +142,30 @@ def _masses(mechanism: Mechanism, variables: Variables) -> _Masses:
     speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
     gravity = STANDARD_GRAVITY if world.gravity is None else kinematics.fixed.lower(world.gravity)
     mass, force = ca.SX.zeros(speeds.numel(), speeds.numel()), ca.SX.zeros(speeds.numel())
-    kinetic, potential = ca.SX(0), ca.SX(0)
+    size, kinetic, potential = ca.SX.zeros(speeds.numel()), ca.SX(0), ca.SX(0)
     for body in mechanism.model.bodies:
         pose = kinematics.poses[body]
         weight = variables.mass(body) * gravity * down(world)
         for velocity, inertia, push in (
             (kinematics.velocity(pose.origin), variables.mass(body), weight),
-            (kinematics.velocity(pose.angle), variables.inertia(body), ca.SX(0)),
+            (kinematics.velocity(pose.angle), variables.inertia(body), ca.SX.zeros(1)),
         ):
             jacobian = ca.jacobian(velocity, speeds)
             mass += inertia * (jacobian.T @ jacobian)
-            force += jacobian.T @ (push - inertia * ca.jtimes(velocity, places, speeds))
+            bias = jacobian.T @ (inertia * ca.jtimes(velocity, places, speeds))
+            force += jacobian.T @ push - bias
+            size += ca.fabs(jacobian.T) @ ca.fabs(push) + ca.fabs(bias)
         kinetic += variables.of_body(body, "kinetic_energy")
         potential -= ca.dot(weight, pose.origin)
-    return _Masses(mass, force, kinetic, potential)
+    return _Masses(mass, force, size, kinetic, potential)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Loads:
-    """Generalized applied forces, the potential of some and the power of the others."""
+    """Generalized applied forces, their sizes, the potential of some, the power of the others."""
 
     force: ca.SX
+    size: ca.SX
     potential: ca.SX
     power: ca.SX
 
@@ -166,7 +173,8 @@ class _Loads:
 def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering, log: Log) -> _Loads:
     kinematics, symbols = variables.kinematics, variables.symbols
     speeds = ca.vertcat(symbols.v, symbols.sw)
-    force, potential, power = ca.SX.zeros(speeds.numel()), ca.SX(0), ca.SX(0)
+    force, size = ca.SX.zeros(speeds.numel()), ca.SX.zeros(speeds.numel())
+    potential, power = ca.SX(0), ca.SX(0)
     for applied in mechanism.forces:
         result = load(applied, kinematics, moving, mechanism.model.ground)
         for action in result.actions:
@@ -180,12 +188,13 @@ def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering, log: Lo
                 )
                 break
             velocity = kinematics.velocity_at(action.body, action.place)
-            force += ca.jacobian(velocity, speeds).T @ action.force
+            push = ca.jacobian(velocity, speeds).T @ action.force
+            force, size = force + push, size + ca.fabs(push)
             if result.potential is None:
                 power += ca.dot(velocity, action.force)
         if result.potential is not None:
             potential += result.potential
-    return _Loads(force, potential, power)
+    return _Loads(force, size, potential, power)
 
 
 def _reads_solution(value: ca.SX, symbols: Symbols) -> bool:

@@ -131,6 +131,8 @@ typedef struct {
    *   rate (n_rows), gap (n_contacts), conditions (n_conditions), coefficients mu mu_s delta
    *   (3 x n_contacts), power of the forces that have no potential (1) */
   frot_callable dynamics;
+  /* sizes(t, q, v, u, p, d) -> sum of the sizes of the terms of h (nw), which may cancel in h */
+  frot_callable sizes;
   /* variables(t, q, v, u, p, d, a (nv), lam (n_rows), energy (dissipated, work)) ->
    *   values (n_variables) without the modes, which the kernel fills */
   frot_callable variables;

@@ -10,6 +10,7 @@
 #define PASSES 60
 #define AGREES 1e-9 /* largest residual, relative to the terms, of statements that agree */
 #define TOUCHES 1e-9
+#define ROUNDING 1e-14
 
 /* One system to solve: statements, then contact rows. */
 typedef struct {
@@ -202,10 +203,11 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
     for (int i = 0; i < nc; i++) {
       int row = m->contacts[i].row_n;
       if (use[i] || m->contacts[i].reduced || !modes[i].closed) continue;
-      double size = frot_row_size(m, w, row, v);
-      if (w->rate[row] > 0 && w->rate[row] > TOUCHES * size)
+      double size =
+          DBL_EPSILON * frot_row_size(m, w, row, v) + ROUNDING * frot_row_speed(m, w, row, v);
+      if (w->rate[row] > size)
         modes[i].closed = 0; /* it leaves */
-      else if (w->rate[row] < -DBL_EPSILON * size)
+      else if (w->rate[row] < -size)
         use[i] = 1, added = 1;
     }
     if (!added) break;

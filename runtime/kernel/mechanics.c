@@ -7,6 +7,7 @@
 #include "linear.h"
 
 #define FRICTION_WEIGHT 1e-5
+#define HELD 1e-13 /* part of a unit speed outside the span of the rows that hold it */
 
 static void inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t,
                    const double *q, const double *v, const double *d) {
@@ -178,6 +179,41 @@ int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *m
   return !all_finite(w->lam, nr);
 }
 
+void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                    const double *v, const double *d, const frot_contact_mode *modes) {
+  int nw = m->nv + m->na;
+  double *load = w->step;
+  inputs(m, s, w, &t, q, v, d);
+  w->res[0] = load;
+  m->sizes.call(w->arg, w->res, w->iw, w->w, 0);
+  for (int i = 0; i < nw; i++) { /* |L^-1| load */
+    for (int k = 0; k < i; k++) load[i] += fabs(w->factor[k * nw + i]) * load[k];
+    load[i] /= w->factor[i * nw + i];
+  }
+  s->push = fmax(s->push, sqrt(frot_dot(load, load, nw)));
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!modes[i].closed) continue;
+    const frot_contact *contact = &m->contacts[i];
+    int rows[3] = {contact->row_n, contact->row_t, contact->row_r};
+    for (int r = 0; r < 3; r++) {
+      if (rows[r] < 0) continue;
+      double sum = fabs(w->c[rows[r]]);
+      for (int k = 0; k < nw; k++) sum += fabs(w->half_rows[nw * rows[r] + k]) * load[k];
+      w->row_load[rows[r]] = sum;
+    }
+  }
+}
+
+double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v) {
+  int nv = m->nv, nw = m->nv + m->na;
+  double energy = 0, *half = w->step;
+  for (int i = 0; i < nv; i++)
+    for (int k = 0; k < nv; k++) energy += v[i] * w->mass[k * nw + i] * v[k];
+  memcpy(half, w->rows + nw * row, sizeof(double) * (size_t)nv);
+  frot_forward(w->factor, nw, nv, half);
+  return sqrt(fmax(energy, 0) * frot_dot(half, half, nv));
+}
+
 void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen) {
   int nw = m->nv + m->na;
   memcpy(w->a, w->force, sizeof(double) * (size_t)nw);
@@ -342,12 +378,26 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   return moved;
 }
 
-/* Marks the speeds whose unit vector lies in the span of the rows that depend on frozen
- * coordinates alone. */
+/* Takes from x (n) its part in the span of the orthonormal columns and scales the rest to length 1.
+ * Returns that rest's length over the length x had. */
+static double normalized_outside(double *x, const double *basis, int columns, int n) {
+  double before = sqrt(frot_dot(x, x, n));
+  for (int pass = 0; pass < 2; pass++)
+    for (int c = 0; c < columns; c++) {
+      double f = frot_dot(x, basis + n * c, n);
+      for (int k = 0; k < n; k++) x[k] -= f * basis[n * c + k];
+    }
+  double after = sqrt(frot_dot(x, x, n));
+  for (int k = 0; k < n && after > 0; k++) x[k] /= after;
+  return before > 0 ? after / before : 0;
+}
+
+/* Marks the speeds that the rows which depend on frozen coordinates alone hold: the unit vector of
+ * such a speed lies in their span. Both are taken over L, so that units do not matter. */
 static int frozen_by_rows(const frot_model *m, frot_work *w, int n, const double *known,
                           double *frozen) {
   int nv = m->nv, nw = m->nv + m->na, count = 0, columns = 0;
-  double *basis = w->jacobian;
+  double *basis = w->jacobian, *unit = w->residual;
   for (int i = 0; i < n; i++) {
     int row = w->row_of[i], usable = !m->row_depends[row * (m->nq + 1) + m->nq];
     for (int k = 0; k < m->nq; k++)
@@ -355,21 +405,13 @@ static int frozen_by_rows(const frot_model *m, frot_work *w, int n, const double
     if (!usable) continue;
     double *x = basis + nv * columns;
     memcpy(x, w->rows + nw * row, sizeof(double) * (size_t)nv);
-    double before = sqrt(frot_dot(x, x, nv));
-    for (int pass = 0; pass < 2; pass++)
-      for (int c = 0; c < columns; c++) {
-        double f = frot_dot(x, basis + nv * c, nv);
-        for (int k = 0; k < nv; k++) x[k] -= f * basis[nv * c + k];
-      }
-    double after = sqrt(frot_dot(x, x, nv));
-    if (!(after > 1e-10 * before)) continue;
-    for (int k = 0; k < nv; k++) x[k] /= after;
-    columns++;
+    frot_forward(w->factor, nw, nv, x);
+    if (normalized_outside(x, basis, columns, nv) > 1e-10) columns++;
   }
   for (int k = 0; k < nv; k++) {
-    double inside = 0;
-    for (int c = 0; c < columns; c++) inside += basis[nv * c + k] * basis[nv * c + k];
-    frozen[k] = inside > 1 - 1e-12 && known[k] != 0;
+    for (int i = 0; i < nv; i++) unit[i] = i == k;
+    frot_forward(w->factor, nw, nv, unit);
+    frozen[k] = known[k] != 0 && normalized_outside(unit, basis, columns, nv) < HELD;
     count += frozen[k] != 0;
   }
   return count;

@@ -23,6 +23,15 @@ double frot_row_size(const frot_model *m, const frot_work *w, int row, const dou
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                    const unsigned char *at_rest);
 
+/* What all loads could do to the rows of closed contacts (w->row_load), after frot_dynamics at the
+ * same place: accelerations that their sum is compared with, for it may cancel. */
+void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                    const double *v, const double *d, const frot_contact_mode *modes);
+
+/* Speed of a row if all motion went into it: for the comparison of a speed with zero. Uses w->rows
+ * and the mass matrix of the last frot_dynamics. */
+double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v);
+
 /* Accelerations w->a from w->lam; those of frozen speeds are exactly zero. */
 void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen);
 

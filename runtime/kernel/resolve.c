@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "linear.h"
 #include "mechanics.h"
 
 #define ENOUGH 200000 /* combinations of modes examined one by one */
 #define CONTACT_OPTIONS 24
+#define ROUNDING 1e-14
 #define TOUCH 1e-9 /* part of the usual speed below which an approach is no impact */
 
 typedef struct {
@@ -18,7 +18,6 @@ typedef struct {
   const double *fired, *unilateral;
   unsigned char *zero;    /* per contact: bit 0 no slip, bit 1 no rolling */
   unsigned char *at_rest; /* per contact: no slip, so that mu_s bounds it */
-  double push;            /* size of the forces in the metric of the mass */
 } instant;
 
 long long frot_events_at_once(const frot_model *m) {
@@ -26,11 +25,12 @@ long long frot_events_at_once(const frot_model *m) {
 }
 
 /* Whether a slip or rolling rate is zero: its guard (of index `guard`) fired at zero, or it is zero
- * to rounding against its terms and the sizes it had. */
+ * to rounding against its terms, the sizes it had and the motion as a whole. */
 static int is_zero_rate(const instant *in, int row, const double *v, int guard, int moved) {
   if (moved && in->fired[guard] != 0) return 1;
   double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
-  return fabs(in->w->rate[row]) <= FROT_ZERO * size;
+  return fabs(in->w->rate[row]) <=
+         FROT_ZERO * size + ROUNDING * frot_row_speed(in->m, in->w, row, v);
 }
 
 /* Whether a law's coefficient can ever bound anything: a constant zero is skipped. */
@@ -86,11 +86,10 @@ static int contact_options(const instant *in, int i, int forced, frot_contact_mo
   return n;
 }
 
-/* Size of the terms of a row's acceleration, for the comparison with zero. Forces may cancel along
- * the row, so what they could do to it at most counts too. */
+/* Size of the terms of a row's acceleration, for the comparison with zero. */
 static double acceleration_size(const instant *in, int row) {
   int nr = in->m->n_rows;
-  double sum = fabs(in->w->c[row]) + in->push * sqrt(in->w->delassus[row * nr + row]);
+  double sum = in->w->row_load[row];
   for (int k = 0; k < nr; k++)
     if (in->w->lam[k] != 0) sum += fabs(in->w->delassus[row * nr + k] * in->w->lam[k]);
   return sum;
@@ -116,8 +115,6 @@ static int motion_is_admissible(const instant *in, int mode, int row, int depart
 static int is_admissible(const instant *in, const int *chosen, int count) {
   frot_work *w = in->w;
   if (frot_reactions(in->m, w, w->trial, in->at_rest)) return 0;
-  double largest = 0;
-  for (int r = 0; r < in->m->n_rows; r++) largest = fmax(largest, fabs(w->lam[r]));
   for (int c = 0; c < count; c++) {
     int i = chosen[c];
     const frot_contact *contact = &in->m->contacts[i];
@@ -133,7 +130,9 @@ static int is_admissible(const instant *in, const int *chosen, int count) {
     const double *k = w->coefficient + 3 * i;
     int matters =
         in->unilateral[i] != 0 || mode->friction != FROT_NONE || mode->rolling != FROT_NONE;
-    if (matters && normal < -1e-10 * largest) return 0;
+    double load = acceleration_size(in, contact->row_n) /
+                  in->w->delassus[contact->row_n * (in->m->n_rows + 1)];
+    if (matters && normal < -1e-10 * load) return 0;
     if (contact->row_t >= 0 && !motion_is_admissible(in, mode->friction, contact->row_t,
                                                      in->zero[i] & 1, k[1] * fabs(normal)))
       return 0;
@@ -326,7 +325,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   double *d = s->data + l.d, *fired = s->data + l.fired, *frozen = s->data + l.frozen;
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + l.modes);
   unsigned char *flags = (unsigned char *)(w->choice + 2 * nc);
-  instant in = {m, s, w, l, fired, s->data + l.unilateral, flags, flags + nc, 0};
+  instant in = {m, s, w, l, fired, s->data + l.unilateral, flags, flags + nc};
   memcpy(w->before, modes, sizeof *modes * (size_t)nc);
   memset(flags, 0, 2 * (size_t)nc);
 
@@ -339,6 +338,8 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   int status = closable(&in, t, first);
   if (status != FROT_OK) return status;
 
+  status = frot_dynamics(m, s, w, t, q, v, d, w->best);
+  if (status != FROT_OK) return frot_fail(s, status, t, -1, -1, -1, 0);
   /* Speeds: a slip that has come to zero is zero exactly. */
   for (int i = 0; i < nc; i++) {
     if (!w->best[i].closed) continue;
@@ -349,8 +350,6 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     if (contact->row_r >= 0 && is_zero_rate(&in, contact->row_r, v, FROT_GUARDS * i + 3, rolled))
       flags[i] |= 2;
   }
-  status = frot_dynamics(m, s, w, t, q, v, d, w->best);
-  if (status != FROT_OK) return frot_fail(s, status, t, -1, -1, -1, 0);
   for (int i = 0; i < nc; i++) { /* a law that bounds nothing holds nothing */
     if (!bounds_something(w, &m->contacts[i], i, 0)) flags[i] &= (unsigned char)~1;
     if (!bounds_something(w, &m->contacts[i], i, 1)) flags[i] &= (unsigned char)~2;
@@ -362,7 +361,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   status = frot_dynamics(m, s, w, t, q, v, d, w->best);
   if (status != FROT_OK) return frot_fail(s, status, t, -1, -1, -1, 0);
 
-  in.push = sqrt(frot_dot(w->force, w->force, l.nw));
+  frot_row_loads(m, s, w, t, q, v, d, w->best);
   find_components(&in);
   int several = 0, several_at = -1;
   for (int root = 0; root < nc; root++) {

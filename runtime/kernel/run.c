@@ -68,6 +68,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   if (m->time_dependent) s->h_max *= PART_OF_RUN;
   s->pending = s->has_slope = s->changed = s->crowded = s->several = 0;
   s->crowded_since = t;
+  s->push = 0;
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
@@ -155,7 +156,6 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
       return status;
     }
     if (s->statistics.steps == steps) continue;
-    s->energy_scale = fmax(s->energy_scale, fabs(s->data[l.x + m->nq + m->nv]));
     if (recorder && recorder->segments) {
       memcpy(recorder->segments + recorder->segment_count * l.ns, s->data + l.segment,
              sizeof(double) * (size_t)l.ns);

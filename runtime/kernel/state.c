@@ -72,7 +72,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   frot_layout l = frot_layout_of(m);
   const frot_callable *calls[] = {&m->parameters,       &m->start,      &m->initial_position,
                                   &m->initial_velocity, &m->kinematics, &m->dynamics,
-                                  &m->variables,        &m->energy};
+                                  &m->variables,        &m->energy,     &m->sizes};
   int n_arg = 0, n_res = 0, n_iw = 0, n_w = 0;
   for (size_t i = 0; i < sizeof calls / sizeof *calls; i++) {
     if (calls[i]->n_arg > n_arg) n_arg = calls[i]->n_arg;
@@ -91,13 +91,13 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(rate, nr), TAKE(gap, nc), TAKE(condition, m->n_conditions), TAKE(coefficient, 3 * nc);
   TAKE(power, 1), TAKE(distance, nc);
   TAKE(factor, l.nw * l.nw), TAKE(force, l.nw), TAKE(half_rows, l.nw * nr);
-  TAKE(delassus, nr * nr), TAKE(free, nr), TAKE(lam, nr), TAKE(a, l.nw);
+  TAKE(delassus, nr * nr), TAKE(free, nr), TAKE(row_load, nr), TAKE(lam, nr), TAKE(a, l.nw);
   TAKE(active, big * big), TAKE(right, big), TAKE(lstsq, 2 * big * big + 6 * big);
   TAKE(row_of, nr + nc), TAKE(guard, l.ng), TAKE(k, DP_ALL * l.nz);
   TAKE(z0, l.nz), TAKE(z1, l.nz), TAKE(ztry, l.nz), TAKE(f, DP_DENSE * l.nz);
   int nvar = m->np > l.nw ? m->np : l.nw;
   TAKE(values, nvar + m->n_checks + m->nq + m->nv + 4);
-  TAKE(jacobian, l.nw * ne), TAKE(residual, ne), TAKE(size, ne), TAKE(step, l.nw + ne);
+  TAKE(jacobian, l.nw * ne), TAKE(residual, ne + l.nw), TAKE(size, ne), TAKE(step, l.nw + ne);
   TAKE(trial, nc), TAKE(best, nc), TAKE(before, nc);
   TAKE(best_acceleration, nr), TAKE(choice, 4 * nc), TAKE(component, nc);
   return a.used;

@@ -47,6 +47,7 @@ struct frot_state {
   double h_max;
   double tolerance;
   double energy; /* kinetic + potential at the start, corrected for changes from outside */
+  double push;   /* largest size of all loads so far, in the metric of the mass */
   double energy_scale;
   frot_options options;
   frot_fault fault;
@@ -73,13 +74,14 @@ struct frot_work {
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power, *distance;
   /* factor of the mass matrix, L^-1 h, L^-1 J', W and the rows' free accelerations */
   double *factor, *force, *half_rows, *delassus, *free;
-  double *lam, *a;                                    /* reactions (n_rows), accelerations (nw) */
-  double *active, *right, *lstsq;                     /* the active rows' system */
-  int *row_of;                                        /* rows of the active system */
-  double *guard;                                      /* ng */
-  double *k;                                          /* DP_ALL x nz */
-  double *z0, *z1, *ztry;                             /* nz */
-  double *f;                                          /* DP_DENSE x nz */
+  double *row_load;               /* n_rows: acceleration of a row by the sizes of all loads */
+  double *lam, *a;                /* reactions (n_rows), accelerations (nw) */
+  double *active, *right, *lstsq; /* the active rows' system */
+  int *row_of;                    /* rows of the active system */
+  double *guard;                  /* ng */
+  double *k;                      /* DP_ALL x nz */
+  double *z0, *z1, *ztry;         /* nz */
+  double *f;                      /* DP_DENSE x nz */
   double *values, *jacobian, *residual, *size, *step; /* initial values and projection */
   frot_contact_mode *trial, *best, *before;
   double *best_acceleration;

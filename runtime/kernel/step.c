@@ -25,6 +25,10 @@
 #define GUARD_FLOOR 1e-12
 #define LEAST_STEP (16 * DBL_EPSILON)
 #define LOCATE_PASSES 12
+/* The first step, in longest steps: what starts from rest shows its size only as it moves. */
+#define FIRST_PART 1e-3
+/* Length of a step in which nothing moves and nothing depends on time, in longest steps. */
+#define LONG_REST 1e9
 
 static double *stage(const frot_layout *l, frot_work *w, int i) { return w->k + i * l->nz; }
 
@@ -55,12 +59,20 @@ static int run_stages(const frot_model *m, frot_state *s, frot_work *w, const fr
   return FROT_OK;
 }
 
-/* Estimate of the local error over its bound: at most 1 for a good step. */
+/* Size against which the error of coordinate or speed j is measured: the largest it has had, or
+ * what the step brings it by what is known at its start. The step's own result is no witness. */
+static double size_at_start(const frot_model *m, const frot_state *s, const frot_work *w,
+                            const frot_layout *l, int j, double h) {
+  double size = fmax(s->data[l->scale_x + j], fabs(w->z0[j])), change = h * fabs(w->k[j]);
+  if (j < m->nq) change += h * h * fabs(w->k[m->nq + j % m->nv]);
+  return fmax(size, change);
+}
+
+/* Estimate of the local error over its bound: at most 1 for a good step, NaN for no number. */
 static double error_ratio(const frot_model *m, const frot_state *s, const frot_work *w,
                           const frot_layout *l, double h) {
   double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
   double guard_tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
-  double push = sqrt(frot_dot(w->force, w->force, l->nw));
   for (int j = 0; j < l->nz; j++) {
     if (j >= m->nq + m->nv && j < l->nx) continue; /* energies follow */
     double e5 = 0, e3 = 0, largest = 0;
@@ -74,16 +86,18 @@ static double error_ratio(const frot_model *m, const frot_state *s, const frot_w
     e5 *= h, e3 *= h;
     double bound;
     if (j < l->nx) {
-      double size = fmax(s->data[l->scale_x + j], fmax(fabs(w->z0[j]), fabs(w->z1[j])));
       /* a coordinate that only rounding moves is not followed */
-      double rounding = NOISE * h * push / w->factor[(j % m->nq) * (l->nw + 1)];
-      bound = fmax(tolerance * fmax(size, h * largest), j < m->nq ? h * rounding : rounding);
+      double rounding = NOISE * h * s->push / w->factor[(j % m->nq) * (l->nw + 1)];
+      bound =
+          fmax(tolerance * size_at_start(m, s, w, l, j, h), j < m->nq ? h * rounding : rounding);
     } else {
       double size = s->data[l->scale_g + j - l->nx];
       bound = guard_tolerance * h * fmax(largest, GUARD_LOOSEST * size);
     }
     double joint = sqrt(e5 * e5 + 0.01 * e3 * e3);
-    if (joint > 0) worst = fmax(worst, e5 * e5 / joint / bound);
+    double ratio = joint > 0 ? e5 * e5 / joint / bound : joint;
+    if (!(ratio <= worst)) worst = ratio;
+    if (isnan(worst)) break;
   }
   return worst;
 }
@@ -204,14 +218,25 @@ void frot_make_instant(const frot_model *m, frot_state *s, double t, const doubl
   s->has_slope = 0;
 }
 
-/* Note how large values and guards have been; w->z1 and the last evaluation are at hand. */
-static void note_sizes(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+/* Sizes of the guards' terms at z into w->guard; the last evaluation was there. */
+static void measure(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                    const double *z) {
+  frot_guards(m, s, w, z, z + m->nq, s->data + l->d, modes_of(s, l), w->ztry, w->guard);
+}
+
+/* Note how large values and guards have been, after `measure` at z. */
+static void note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const frot_layout *l,
                        const double *z) {
   for (int j = 0; j < m->nq + m->nv; j++)
     s->data[l->scale_x + j] = fmax(s->data[l->scale_x + j], fabs(z[j]));
-  double *scale = w->guard;
-  frot_guards(m, s, w, z, z + m->nq, s->data + l->d, modes_of(s, l), w->ztry, scale);
-  for (int j = 0; j < l->ng; j++) s->data[l->scale_g + j] = fmax(s->data[l->scale_g + j], scale[j]);
+  for (int j = 0; j < l->ng; j++)
+    s->data[l->scale_g + j] = fmax(s->data[l->scale_g + j], w->guard[j]);
+  s->push = fmax(s->push, sqrt(frot_dot(w->force, w->force, l->nw)));
+  double kinetic = 0;
+  for (int i = 0; i < m->nv; i++)
+    for (int k = 0; k < m->nv; k++)
+      kinetic += 0.5 * z[m->nq + i] * w->mass[k * l->nw + i] * z[m->nq + k];
+  s->energy_scale = fmax(s->energy_scale, kinetic);
 }
 
 /* Derivative at the start of the step into stage 0. */
@@ -224,7 +249,10 @@ static int start_slope(const frot_model *m, frot_state *s, frot_work *w, const f
     return FROT_OK;
   }
   int status = slope_at(m, s, w, l, t, w->z0, stage(l, w, 0));
-  if (status == FROT_OK) note_sizes(m, s, w, l, w->z0);
+  if (status == FROT_OK) {
+    measure(m, s, w, l, w->z0);
+    note_sizes(m, s, w, l, w->z0);
+  }
   return status;
 }
 
@@ -232,8 +260,7 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   int status = start_slope(m, s, w, &l, s->t);
   if (status != FROT_OK) return frot_fail(s, status, s->t, -1, -1, -1, 0);
-  /* What depends on time must be met before it is over. */
-  double h = m->time_dependent ? 1e-3 * s->h_max : s->h_max;
+  double h = FIRST_PART * s->h_max;
   for (int j = 0; j < m->nq + m->nv; j++) {
     double slope = fabs(stage(&l, w, 0)[j]), size = fabs(w->z0[j]);
     if (slope > 0 && size > 0) h = fmin(h, 0.01 * size / slope);
@@ -242,15 +269,26 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   return FROT_OK;
 }
 
-/* The contact with the largest reaction, to name in a fault. */
-static int loaded_contact(const frot_model *m, const frot_work *w) {
-  int worst = -1;
+/* Whether nothing moves, nor starts to. */
+static int is_still(const frot_model *m, const frot_work *w) {
+  for (int j = 0; j < m->nq + m->nv; j++)
+    if (w->k[j] != 0) return 0;
+  return 1;
+}
+
+/* Record a fault with the contact to blame: that of a coefficient that is no number or, when the
+ * step goes to zero, that with the largest reaction. */
+static int fail_at(const frot_model *m, frot_state *s, const frot_work *w, int status, double t,
+                   double h) {
+  int blamed = -1;
   double largest = 0;
   for (int i = 0; i < m->n_contacts; i++) {
+    const double *k = w->coefficient + 3 * i;
     double size = fabs(w->lam[m->contacts[i].row_n]);
-    if (size > largest || size != size) largest = size, worst = i;
+    int wrong = status == FROT_NAN ? isnan(k[0] + k[1] + k[2]) : size > largest;
+    if (wrong) largest = size, blamed = i;
   }
-  return worst;
+  return frot_fail(s, status, t, blamed, -1, -1, h);
 }
 
 static int fire_at_start(frot_state *s, const frot_layout *l, int guard) {
@@ -274,15 +312,15 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   double t = *g.t1, h = fmin(s->h, s->h_max);
   int status = start_slope(m, s, w, &l, t), rejections = 0;
-  if (status != FROT_OK) return frot_fail(s, status, t, loaded_contact(m, w), -1, -1, 0);
+  if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
+  if (!m->time_dependent && is_still(m, w)) h = LONG_REST * s->h_max;
   for (;;) {
     if (!(h > LEAST_STEP * fmax(fabs(t), 1e-3 * s->h_max)))
-      return frot_fail(s, status == FROT_OK ? FROT_DIVERGE : status, t, loaded_contact(m, w), -1,
-                       -1, h);
+      return fail_at(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, t, h);
     status = run_stages(m, s, w, &l, t, h);
     double ratio = status == FROT_OK ? error_ratio(m, s, w, &l, h) : NAN;
     if (ratio <= 1) {
-      note_sizes(m, s, w, &l, w->z1);
+      measure(m, s, w, &l, w->z1);
       status = make_dense(m, s, w, &l, t, h);
       if (status == FROT_OK) {
         double factor = ratio > 0 ? 0.9 * pow(ratio, -1.0 / 8) : 6;
@@ -301,10 +339,14 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   if (guard >= 0) {
     if (theta * h <= LEAST_STEP * fmax(fabs(t), h)) return fire_at_start(s, &l, guard);
     status = locate(m, s, w, &l, t, guard, theta, &h, &falls);
-    if (status == FROT_OK) status = make_dense(m, s, w, &l, t, h);
-    if (status != FROT_OK) return frot_fail(s, status, t, loaded_contact(m, w), -1, -1, h);
+    if (status == FROT_OK) {
+      measure(m, s, w, &l, w->z1);
+      status = make_dense(m, s, w, &l, t, h);
+    }
+    if (status != FROT_OK) return fail_at(m, s, w, status, t, h);
   }
   s->statistics.steps++;
+  note_sizes(m, s, w, &l, w->z1);
   if (falls) fire(s, w, &l, guard);
 
   *g.t0 = t, *g.t1 = t + h, *g.h = h;

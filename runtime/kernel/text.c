@@ -109,6 +109,13 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                f->t, (int)f->value);
       return;
     case FROT_NAN:
+      if (f->contact >= 0) {
+        snprintf(text, size,
+                 "liaison '%s': a coefficient is negative or no number at t = %.17g: give it an "
+                 "expression that stays positive",
+                 name, f->t);
+        return;
+      }
       snprintf(
           text, size,
           "a force, a coefficient or an output gives no finite number at t = %.17g: look for a "

@@ -60,6 +60,12 @@ static int kinematics(const double **arg, double **res, long long *iw, double *w
   return 0;
 }
 
+static int sizes(const double **arg, double **res, long long *iw, double *w, int mem) {
+  (void)arg, (void)iw, (void)w, (void)mem;
+  if (res[0]) res[0][0] = 100, res[0][1] = 100;
+  return 0;
+}
+
 static int dynamics(const double **arg, double **res, long long *iw, double *w, int mem) {
   const double x = arg[1][0], v = arg[2][0], *u = arg[3], *p = arg[4];
   (void)iw, (void)w, (void)mem;
@@ -133,6 +139,7 @@ const frot_model frot_the_model = {
     .initial_velocity = CALL(initial_velocity),
     .kinematics = CALL(kinematics),
     .dynamics = CALL(dynamics),
+    .sizes = CALL(sizes),
     .variables = CALL(variables),
     .energy = CALL(energy),
     .p_default = p_default,

@@ -422,7 +422,9 @@ def test_a_hoop_slides_down_an_almost_level_or_upright_line_without_leaving_it(
     assert [e.kind for e in result.events] == ["stick"]
     assert near(result.events[0].time, 1 / 9.81)
     values = result.at(np.linspace(0, 3, 500))
-    assert np.max(np.abs(values["floor.gap"])) < 1e-14
+    # one step spans the rest: the normal acceleration is zero to the rounding of its two terms g
+    rounding = 4 * np.finfo(float).eps * 9.81 * 3**2
+    assert np.max(np.abs(values["floor.gap"])) < rounding
     assert np.max(np.abs(values["energy.work"])) < 1e-14
     assert near(along(result, {"slope": slope}, "hoop", 3.0)[0], 0.5 / 9.81)
     assert abs(float(result["hoop.angular_velocity"][-1])) < 1e-14
