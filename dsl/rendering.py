@@ -45,11 +45,16 @@ def render(diagnostic: Diagnostic, colour: bool = False) -> str:
 
 def render_log(log: Log, colour: bool = False) -> str:
     """All diagnostics of a log, at most 20, in the order of their places."""
-    every = sorted(log.diagnostics, key=_place)
+    every = by_place(log)
     parts = [render(d, colour) for d in every[:LIMIT]]
     if len(every) > LIMIT:
         parts.append(f"... and {len(every) - LIMIT} more")
     return "\n\n".join(parts)
+
+
+def by_place(log: Log) -> list[Diagnostic]:
+    """The diagnostics in the order of their places."""
+    return sorted(log.diagnostics, key=_place)
 
 
 def _place(diagnostic: Diagnostic) -> tuple[bool, str, int]:

@@ -1,10 +1,10 @@
-"""The command line: `frot check | simulate | fmu`."""
+"""The command line: `frot check | simulate | fmu | fmt | explain`."""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -51,14 +51,22 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
 
-    check = _command(commands, "check", "check a model; print its mobility and liaisons", _check)
-    check.add_argument(
+    check = _command(commands, "check", "check models; print their mobility and liaisons", _check)
+    _files(check)
+    _model(check)
+    instead = check.add_mutually_exclusive_group()
+    instead.add_argument(
+        "--json", action="store_true", help="print all messages and reports as one JSON document"
+    )
+    instead.add_argument(
         "--emit",
         choices=STAGES,
         help="print what one stage of the compiler makes instead of the report",
     )
 
     simulate = _command(commands, "simulate", "run a model", _simulate)
+    _file(simulate)
+    _model(simulate)
     _settings(simulate)
     simulate.add_argument("--start", type=_number, metavar="T", help="start time in s")
     simulate.add_argument("--stop", type=_number, metavar="T", help="stop time in s")
@@ -75,8 +83,20 @@ def _parser() -> argparse.ArgumentParser:
     simulate.add_argument("--quiet", action="store_true", help="print no summary")
 
     fmu = _command(commands, "fmu", "export a model as a co-simulation FMU", _fmu)
+    _file(fmu)
+    _model(fmu)
     fmu.add_argument("-o", "--output", metavar="FILE", help="the .fmu (default: MODEL.fmu)")
     fmu.add_argument("--fmi", choices=("2.0", "3.0"), default="2.0", help="version (default: 2.0)")
+
+    fmt = _command(commands, "fmt", "bring files into their usual form", _fmt)
+    _files(fmt, "a .frot file, or - for standard input to standard output")
+    fmt.add_argument(
+        "--check", action="store_true", help="write nothing; status 1 and the names of what changes"
+    )
+    fmt.add_argument("--diff", action="store_true", help="write nothing; print what would change")
+
+    explain = _command(commands, "explain", "tell what a message's code means", _explain)
+    explain.add_argument("code", metavar="CODE", nargs="?", help="as E0203; without: all codes")
     return parser
 
 
@@ -87,10 +107,20 @@ def _command(
     run: object,
 ) -> argparse.ArgumentParser:
     parser = commands.add_parser(name, help=summary, description=f"frot {name}: {summary}.")
-    parser.add_argument("file", metavar="FILE", help="a .frot file")
-    parser.add_argument("--model", metavar="NAME", help="which model, if the file holds several")
     parser.set_defaults(run=run)
     return parser
+
+
+def _file(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("file", metavar="FILE", help="a .frot file")
+
+
+def _files(parser: argparse.ArgumentParser, text: str = "a .frot file") -> None:
+    parser.add_argument("files", metavar="FILE", nargs="+", help=text)
+
+
+def _model(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--model", metavar="NAME", help="which model, if the file holds several")
 
 
 def _settings(parser: argparse.ArgumentParser) -> None:
@@ -148,13 +178,54 @@ def _load(options: argparse.Namespace) -> Model:
 
 
 def _check(options: argparse.Namespace) -> int:
-    from frot.stages import emit_stage, report_file
+    from frot.stages import check_data, emit_stage, report_file
 
-    if options.emit:
-        print(emit_stage(options.file, options.model, options.emit))
-    else:
-        print(report_file(options.file, options.model))
+    if options.json:
+        import json
+
+        checked = [check_data(file, options.model) for file in options.files]
+        print(json.dumps({"files": checked}, indent=2))
+        return EXIT_ERROR if any(c["report"] is None for c in checked) else 0
+
+    def check(file: str) -> int:
+        if options.emit:
+            print(emit_stage(file, options.model, options.emit))
+        else:
+            print(report_file(file, options.model))
+        return 0
+
+    return _each(options.files, check)
+
+
+def _fmt(options: argparse.Namespace) -> int:
+    from frot.format_files import format_file
+
+    def form(file: str) -> int:
+        changes = format_file(file, options.check, options.diff)
+        return EXIT_ERROR if changes and options.check else 0
+
+    return _each(options.files, form)
+
+
+def _explain(options: argparse.Namespace) -> int:
+    from frot.dsl.explaining import explain, list_codes
+
+    print(explain(options.code) if options.code else list_codes())
     return 0
+
+
+def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
+    """Run a command on each file; the error of one does not keep it from the others."""
+    from frot.dsl.diagnostics import FrotError
+
+    status = 0
+    for file in files:
+        try:
+            status = max(status, run(file))
+        except FrotError as error:
+            _complain(error)
+            status = EXIT_ERROR
+    return status
 
 
 def _simulate(options: argparse.Namespace) -> int:

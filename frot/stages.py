@@ -1,9 +1,12 @@
-"""What `frot check` prints: the report, or what one stage of the compiler makes."""
+"""What `frot check` prints: the report, the same as data, or what a stage of the compiler makes."""
 
 from __future__ import annotations
 
-from frot.compiler import make_report, print_stage
+from dataclasses import asdict
+
+from frot.compiler import Report, make_report, print_stage
 from frot.dsl import Log, Source, dump, load, parse, render_log
+from frot.dsl.diagnostic_data import log_data
 from frot.dsl.diagnostics import FrotError
 from frot.dsl.reading import read_text
 
@@ -11,11 +14,42 @@ from frot.dsl.reading import read_text
 def report_file(path: str, name: str | None) -> str:
     """The report of a file and its warnings. Needs no C compiler and no CasADi."""
     log = Log()
-    model = load(path, log, name)
-    report = make_report(model, log) if model is not None else None
-    if report is None or log.failed:
+    report = _report(path, name, log)
+    if report is None:
         raise FrotError(log)
     return "\n".join(filter(None, (str(report), render_log(log))))
+
+
+def check_data(path: str, name: str | None) -> dict[str, object]:
+    """The file, its diagnostics and its report (None after an error), for JSON."""
+    log = Log()
+    report = _report(path, name, log)
+    return {
+        "file": path,
+        "diagnostics": log_data(log, path),
+        "report": None if report is None else _report_data(report),
+    }
+
+
+def _report(path: str, name: str | None, log: Log) -> Report | None:
+    model = load(path, log, name)
+    report = make_report(model, log) if model is not None else None
+    return None if log.failed else report
+
+
+def _report_data(report: Report) -> dict[str, object]:
+    mobility = report.mobility
+    return {
+        "model": report.model,
+        "bodies": [
+            {"name": name, "shape": shape, "freedoms": freedoms}
+            for name, shape, freedoms in report.bodies
+        ],
+        "liaisons": [asdict(liaison) for liaison in report.liaisons],
+        "freedoms": mobility.freedoms,
+        "relations": {"bilateral": mobility.bilateral, "unilateral": mobility.unilateral},
+        "degrees_of_freedom": mobility.degrees_of_freedom,
+    }
 
 
 def emit_stage(path: str, name: str | None, stage: str) -> str:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from frot.dsl.diagnostics import fail
-from frot.runtime.result import MODES, Result, write_whole
+from frot.dsl.writing import write_whole
+from frot.runtime.result import MODES, Result
 
 if TYPE_CHECKING:
     from frot.runtime.engine import Floats

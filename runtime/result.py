@@ -5,8 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import os
-import tempfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -14,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from frot.dsl.diagnostics import fail
+from frot.dsl.writing import write_whole
 from frot.runtime.engine import Engine, Floats
 from frot.runtime.program import Program
 
@@ -223,35 +222,3 @@ class Result(Mapping[str, Floats]):
             f"{balance.scale:.6g} J (dissipated {balance.dissipated:.6g} J)"
         )
         return "\n".join(lines)
-
-
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file so that it is there whole or not at all; FrotError (E0803) if it cannot be."""
-    try:
-        handle, name = tempfile.mkstemp(prefix=f".{path.name}-", dir=path.parent or Path())
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(content)
-            mask = os.umask(0)
-            os.umask(mask)
-            os.chmod(name, 0o666 & ~mask)
-            os.replace(name, path)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
-    except OSError as error:
-        raise fail(
-            "E0803",
-            f"'{path}' cannot be written: {error.strerror or error}",
-            help=_remedy(path, error),
-        ) from None
-
-
-def _remedy(path: Path, error: OSError) -> str:
-    import errno
-
-    if not path.parent.is_dir():
-        return f"make the folder '{path.parent}' first"
-    if error.errno == errno.ENOSPC:
-        return "free some space, or write to another disk"
-    return "choose a file that can be written"

@@ -310,7 +310,8 @@ end M;
 
 def test_the_spelling_is_the_authors() -> None:
     formed(
-        "corps é: particle(mass=1 kg);\nrepe\u0300re f on é;\njoint j: libre(é, f) avec viscous(1);",
+        "corps é: particle(mass=1 kg);\nrepe\u0300re f on é;\n"
+        "joint j: libre(é, f) avec viscous(1);",
         "  corps é: particle(mass = 1 kg);\n  repe\u0300re f on é;\n"
         "  joint j: libre(é, f) avec viscous(1);",
     )
