@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import json
 import os
 import shutil
 import tempfile
@@ -16,6 +17,7 @@ from frot.dsl.diagnostics import fail
 from frot.runtime.program import MANIFEST, Program, read_program
 
 _ROOMS = ("frot.dsl", "frot.dsl.catalogue", "frot.compiler", "frot.runtime", "frot.runtime.kernel")
+SEAL = "seal.json"
 _KINDS = (".py", ".c", ".h", ".lark")
 
 
@@ -70,12 +72,12 @@ def program_key(text: str, model: str | None, toolchain: Toolchain) -> str:
 
 def find_program(key: str) -> Program | None:
     """The cached program, or None. A damaged one is removed."""
-    folder = cache_folder() / "programs" / key
-    if not folder.exists():
+    folder = stored("programs", key)
+    if folder is None:
         return None
     try:
         program = read_program(folder)
-        if program.key == key and program.library.stat().st_size > 0 and program.source.is_file():
+        if program.key == key:
             return program
     except (OSError, ValueError, KeyError, TypeError):
         pass
@@ -84,7 +86,7 @@ def find_program(key: str) -> Program | None:
 
 
 def store(kind: str, key: str, fill: Callable[[Path], None]) -> Path:
-    """Fill a new folder and put it in place whole; another process may have been faster."""
+    """Fill a new folder, seal it and put it in place whole, unless another was faster."""
     parent = cache_folder() / kind
     target = parent / key
     try:
@@ -93,6 +95,7 @@ def store(kind: str, key: str, fill: Callable[[Path], None]) -> Path:
             folder = Path(made) / "content"
             folder.mkdir()
             fill(folder)
+            (folder / SEAL).write_text(json.dumps(_digests(folder)), encoding="utf-8")
             try:
                 os.rename(folder, target)
             except OSError:
@@ -108,9 +111,26 @@ def store(kind: str, key: str, fill: Callable[[Path], None]) -> Path:
 
 
 def stored(kind: str, key: str) -> Path | None:
-    """The folder put in place under this key, or None."""
+    """The folder put in place under this key, or None. A damaged one is removed."""
     folder = cache_folder() / kind / key
-    return folder if folder.is_dir() else None
+    if not folder.is_dir():
+        return None
+    try:
+        if json.loads((folder / SEAL).read_text(encoding="utf-8")) == _digests(folder):
+            return folder
+    except (OSError, ValueError):
+        pass
+    shutil.rmtree(folder, ignore_errors=True)
+    return None
+
+
+def _digests(folder: Path) -> dict[str, str]:
+    """The digest of every file but the seal."""
+    return {
+        path.name: hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(folder.iterdir())
+        if path.name != SEAL
+    }
 
 
 def write_manifest(program: Program, folder: Path) -> None:

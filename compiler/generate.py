@@ -8,6 +8,7 @@ from pathlib import Path
 import casadi as ca
 from frot.compiler.lower import Lowered
 from frot.compiler.reduce import Reduced
+from frot.compiler.units import unit_of
 from frot.compiler.walk import is_fixed
 from frot.dsl.checked import Expression
 from frot.dsl.source import Span
@@ -55,7 +56,19 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         _array(
             "frot_statement",
             "statements",
-            [_record(_text(_words(s.span)), _text(_place(s.span))) for s in lowered.statements],
+            [
+                _record(
+                    _text(_words(s.span)),
+                    _text(_place(s.span)),
+                    _text(unit_of(s.left.type.dimension).name),
+                )
+                for s in lowered.statements
+            ],
+        ),
+        _array(
+            "frot_load",
+            "loads",
+            [_record(_text(f.name), _text(_place(f.span))) for f in reduced.mechanism.forces],
         ),
         _array("int", "position_statement", [str(i) for i in lowered.position_statement]),
         _array("int", "velocity_statement", [str(i) for i in lowered.velocity_statement]),
@@ -86,6 +99,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_velocity": len(lowered.velocity_statement),
         "n_statements": len(lowered.statements),
         "n_variables": len(lowered.variables),
+        "n_loads": len(reduced.mechanism.forces),
     }
     numbers = "\n".join(f"  .{name} = {value}," for name, value in fields.items())
     pointers = "\n".join(
@@ -96,6 +110,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "contacts",
             "checks",
             "statements",
+            "loads",
             "position_statement",
             "velocity_statement",
             "p_dependent",

@@ -81,7 +81,9 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
                 ]
             ),
         ),
-        "sizes": ca.Function("frot_sizes_at", state, _clean([reduced.force_size])),
+        "sizes": ca.Function(
+            "frot_sizes_at", state, _clean([reduced.force_size, reduced.load_sizes])
+        ),
         "variables": ca.Function(
             "frot_variables_at",
             [*state, s.a, s.lam, s.energy],

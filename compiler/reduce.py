@@ -28,10 +28,10 @@ STANDARD_GRAVITY = 9.81
 class Reduced:
     """Equations of the motion in CasADi expressions, auxiliary speeds at zero.
 
-    `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes of its terms, `rows`
-    (n_rows x nw), `bias` (n_rows: J a + bias is the rows' acceleration), `rate` (n_rows), `gap` and
-    `distance` (n_contacts), `coefficients` (mu, mu_s, delta of each contact), `power` of the loads
-    without potential, `kinetic`, `potential`.
+    `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes of its terms,
+    `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a + bias is the
+    rows' acceleration), `rate` (n_rows), `gap` and `distance` (n_contacts), `coefficients` (mu,
+    mu_s, delta of each contact), `power` of the loads without potential, `kinetic`, `potential`.
     """
 
     mechanism: Mechanism
@@ -43,6 +43,7 @@ class Reduced:
     mass: ca.SX
     force: ca.SX
     force_size: ca.SX
+    load_sizes: ca.SX
     rows: ca.SX
     bias: ca.SX
     rate: ca.SX
@@ -86,6 +87,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         mass=settled(motion.mass),
         force=settled(motion.force + loads.force),
         force_size=settled(motion.size + loads.size),
+        load_sizes=settled(_column(loads.sizes)),
         rows=settled(ca.jacobian(rates, speeds)),
         bias=settled(ca.jtimes(rates, places, speeds)),
         rate=settled(rates),
@@ -162,10 +164,11 @@ def _masses(mechanism: Mechanism, variables: Variables) -> _Masses:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Loads:
-    """Generalized applied forces, their sizes, the potential of some, the power of the others."""
+    """Generalized applied forces, the sizes of their terms and of each, potential and power."""
 
     force: ca.SX
     size: ca.SX
+    sizes: list[ca.SX]
     potential: ca.SX
     power: ca.SX
 
@@ -175,6 +178,7 @@ def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering, log: Lo
     speeds = ca.vertcat(symbols.v, symbols.sw)
     force, size = ca.SX.zeros(speeds.numel()), ca.SX.zeros(speeds.numel())
     potential, power = ca.SX(0), ca.SX(0)
+    sizes: list[ca.SX] = []
     for applied in mechanism.forces:
         result = load(applied, kinematics, moving, mechanism.model.ground)
         for action in result.actions:
@@ -192,9 +196,10 @@ def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering, log: Lo
             force, size = force + push, size + ca.fabs(push)
             if result.potential is None:
                 power += ca.dot(velocity, action.force)
+        sizes.append(sum((ca.sum1(ca.fabs(a.force)) for a in result.actions), ca.SX(0)))
         if result.potential is not None:
             potential += result.potential
-    return _Loads(force, size, potential, power)
+    return _Loads(force, size, sizes, potential, power)
 
 
 def _reads_solution(value: ca.SX, symbols: Symbols) -> bool:

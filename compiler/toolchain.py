@@ -18,6 +18,7 @@ FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off")
 LINK_FLAGS = ("-shared", "-lm")
 HIDDEN = "-fvisibility=hidden"
 TIMEOUT = 600.0
+_OTHER = "set FROT_CC to another compiler, or report this with the model"
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +36,14 @@ def find_toolchain() -> Toolchain:
     """
     wanted = os.environ.get("FROT_CC", "").strip()
     if wanted:
-        words = shlex.split(wanted)
+        try:
+            words = shlex.split(wanted)
+        except ValueError as error:
+            raise fail(
+                "E0801",
+                f"FROT_CC is not a command: {wanted} ({error})",
+                help="set FROT_CC to a C compiler's command, or unset it",
+            ) from None
         if shutil.which(words[0]) is None:
             raise fail(
                 "E0801",
@@ -65,9 +73,9 @@ def _toolchain(command: tuple[str, ...]) -> Toolchain:
     return Toolchain(command, " ".join((*command, seal)))
 
 
-def run_compiler(toolchain: Toolchain, arguments: Sequence[str | Path]) -> None:
-    """Run the compiler; FrotError (E0802) with the first lines of its output when it fails."""
-    command = [*toolchain.command, *(str(a) for a in arguments)]
+def run_compiler(toolchain: Toolchain, arguments: Sequence[str | Path], target: Path) -> None:
+    """Make `target`; FrotError (E0802) with the first lines of the output if it fails."""
+    command = [*toolchain.command, *(str(a) for a in arguments), "-o", str(target)]
     try:
         done = subprocess.run(
             command,
@@ -81,45 +89,59 @@ def run_compiler(toolchain: Toolchain, arguments: Sequence[str | Path]) -> None:
     except FileNotFoundError:
         raise fail("E0801", f"no C compiler: {command[0]} does not exist") from None
     except subprocess.TimeoutExpired:
-        raise fail("E0802", f"the C compiler took more than {TIMEOUT:.0f} s") from None
+        raise fail("E0802", f"the C compiler took more than {TIMEOUT:.0f} s", help=_OTHER) from None
     except OSError as error:
-        raise fail("E0802", f"the C compiler could not be run: {error}") from None
+        raise fail("E0802", f"the C compiler could not be run: {error}", help=_OTHER) from None
     if done.returncode != 0:
         lines = (done.stderr or done.stdout).strip().splitlines()[:8]
         raise fail(
             "E0802",
-            f"the C compiler failed: {shlex.join(toolchain.command)}",
+            f"the C compiler failed with status {done.returncode}: {shlex.join(toolchain.command)}",
             notes=tuple(lines),
-            help="set FROT_CC to another compiler, or report this with the model",
+            help=_OTHER,
+        )
+    if not target.is_file():
+        raise fail(
+            "E0802",
+            f"the C compiler wrote nothing: {shlex.join(toolchain.command)}",
+            help=_OTHER,
         )
 
 
 def compile_objects(
-    toolchain: Toolchain, sources: Sequence[Path], include: Sequence[Path], folder: Path
+    toolchain: Toolchain,
+    sources: Sequence[Path],
+    include: Sequence[Path],
+    folder: Path,
+    flags: Sequence[str] = FLAGS,
 ) -> list[Path]:
-    """Compile each source to an object in `folder`, two at a time."""
+    """Compile each source to an object in `folder`, as many at a time as there are cores."""
     from concurrent.futures import ThreadPoolExecutor
 
-    flags = [*FLAGS, *(f"-I{path}" for path in include)]
+    options = [*flags, *(f"-I{path}" for path in include), "-c"]
     objects = [folder / f"{source.stem}.o" for source in sources]
     with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
         list(
             pool.map(
-                lambda pair: run_compiler(toolchain, [*flags, "-c", pair[0], "-o", pair[1]]),
-                zip(sources, objects, strict=True),
+                lambda source, target: run_compiler(toolchain, [*options, source], target),
+                sources,
+                objects,
             )
         )
     return objects
 
 
-def link_library(toolchain: Toolchain, inputs: Sequence[Path], target: Path) -> None:
+def link_library(toolchain: Toolchain, objects: Sequence[Path], target: Path) -> None:
     """Link objects to a shared library."""
-    run_compiler(toolchain, [*inputs, "-o", target, *LINK_FLAGS])
+    run_compiler(toolchain, [*objects, *LINK_FLAGS], target)
 
 
 def compile_library(
     toolchain: Toolchain, sources: Sequence[Path], include: Sequence[Path], target: Path
 ) -> None:
     """Compile sources to a shared library of which only marked functions are seen."""
-    flags = [*FLAGS, HIDDEN, *(f"-I{path}" for path in include)]
-    run_compiler(toolchain, [*flags, *sources, "-o", target, *LINK_FLAGS])
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        objects = compile_objects(toolchain, sources, include, Path(folder), (*FLAGS, HIDDEN))
+        link_library(toolchain, objects, target)

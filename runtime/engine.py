@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes as ct
 import functools
-from collections.abc import Callable
+import signal
+import threading
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+from frot.dsl.diagnostics import fail
 from frot.runtime.program import Program
 from numpy.typing import NDArray
 
@@ -16,6 +21,8 @@ Floats = NDArray[np.float64]
 OK, FULL, STOPPED = 0, 1, 2
 INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
 _TEXT = 1024
+# Bytes of recorded steps after which a run is told to be too long.
+MOST_MEMORY = 2**30
 
 
 class Options(ct.Structure):
@@ -108,7 +115,14 @@ _SIGNATURES: dict[str, tuple[object, tuple[object, ...]]] = {
 
 @functools.lru_cache(maxsize=64)
 def _load(path: str) -> ct.CDLL:
-    library = ct.CDLL(path)
+    try:
+        library = ct.CDLL(path)
+    except OSError as error:
+        raise fail(
+            "E0804",
+            f"the compiled model cannot be loaded: {error}",
+            help=f"remove the folder '{Path(path).parent}' and run again",
+        ) from None
     for name, (result, arguments) in _SIGNATURES.items():
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments
@@ -117,11 +131,27 @@ def _load(path: str) -> ct.CDLL:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Run:
-    """What a call of `Engine.advance` gave: the kernel's status, the segments and the events."""
+    """What a call of `Engine.advance` gave: the kernel's status, the segments and the events.
+
+    Status FULL: the steps take more than MOST_MEMORY; the run has not come to its end.
+    """
 
     status: int
     segments: Floats
     events: list[RawEvent]
+
+
+@contextlib.contextmanager
+def _interrupts_noted(noted: list[BaseException]) -> Iterator[None]:
+    """Ctrl-C is noted instead of raised, for an exception cannot pass through C."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, lambda *_: noted.append(KeyboardInterrupt()))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _address(array: Floats) -> int:
@@ -194,12 +224,23 @@ class Engine:
 
         def monitor(_: int, time: float) -> int:
             try:
-                return int(watch(time)) if watch is not None else 0
+                return int(bool(interrupted) or (watch is not None and watch(time)))
             except BaseException as error:  # nothing may pass through C
                 interrupted.append(error)
                 return 1
 
         callback = _Monitor(monitor)
+        with _interrupts_noted(interrupted):
+            return self._advance(t, callback, chunks, events, interrupted)
+
+    def _advance(
+        self,
+        t: float,
+        callback: object,
+        chunks: list[Floats],
+        events: list[RawEvent],
+        interrupted: list[BaseException],
+    ) -> Run:
         capacity = 64
         while True:
             buffer = np.empty((capacity, self.segment_size))
@@ -214,7 +255,8 @@ class Engine:
             events.extend(RawEvent.from_buffer_copy(raw[i]) for i in range(recorder.event_count))
             if interrupted:
                 raise interrupted[0]
-            if status != FULL:
+            taken = 8 * self.segment_size * sum(len(chunk) for chunk in chunks)
+            if status != FULL or taken > MOST_MEMORY:
                 return Run(status, np.concatenate(chunks), events)
             capacity = min(2 * capacity, 65536)
 
@@ -232,7 +274,11 @@ class Engine:
             _address(values),
         )
         if status != OK:
-            raise ArithmeticError(f"status {status} at a time inside the run")
+            raise fail(
+                "E0904",
+                f"the variables have no value at a time inside the run (status {status})",
+                help="run with a smaller tolerance, and look for a division by zero",
+            )
         return values
 
     def energy(self) -> Floats:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 from frot.dsl.diagnostics import FrotError, Log, fail
-from frot.runtime.engine import OK, STOPPED, Engine, Floats, RawEvent
+from frot.runtime.engine import FULL, MOST_MEMORY, OK, STOPPED, Engine, Floats, RawEvent
 from frot.runtime.program import ParameterInfo, Program
 from frot.runtime.result import KINDS, MODES, ROLLING, Event, Figures, Result
 
@@ -92,7 +92,9 @@ def simulate(
         raise _fault(engine, None)
     run = engine.advance(end, watch)
     wall = clock.perf_counter() - begun
-    if run.status not in (OK, STOPPED):
+    if run.status == FULL:
+        end = float(run.segments[-1][0])
+    elif run.status not in (OK, STOPPED):
         end = min(engine.fault.t, engine.time)
     elif run.status == STOPPED:
         end = engine.time
@@ -104,9 +106,22 @@ def simulate(
     result = (
         Result(program, engine, grid, run.segments, events, figures) if len(run.segments) else None
     )
+    if run.status == FULL:
+        raise _too_long(result, end)
     if run.status not in (OK, STOPPED) or result is None:
         raise _fault(engine, result)
     return result
+
+
+def _too_long(result: Result | None, reached: float) -> SimulationError:
+    log = Log()
+    log.report(
+        "E0901",
+        f"the steps up to t = {reached:.6g} s take more than {MOST_MEMORY / 2**30:g} GiB",
+        None,
+        help="choose an earlier stop time or a larger tolerance",
+    )
+    return SimulationError(log, result)
 
 
 def _choose(given: float | None, modelled: float, default: float) -> float:
@@ -118,7 +133,11 @@ def _choose(given: float | None, modelled: float, default: float) -> float:
 def _grid(begin: float, end: float, interval: float) -> Floats:
     """Times begin + k interval below `end`, and `end`."""
     if not (math.isfinite(interval) and interval > 0):
-        raise fail("E0806", f"the interval {interval:g} s is not positive")
+        raise fail(
+            "E0806",
+            f"the interval {interval:g} s is not positive",
+            help="leave it out, or choose the distance of the output times in s",
+        )
     count = (end - begin) / interval
     if count > MOST_POINTS:
         raise fail(
@@ -178,7 +197,9 @@ def parameter_value(info: ParameterInfo, value: object) -> float:
 def _expected(info: ParameterInfo) -> str:
     if info.type == "boolean":
         return "write true or false"
-    if info.type == "integer" or info.unit.name == "1":
+    if info.type == "integer":
+        return "write a whole number"
+    if info.unit.name == "1":
         return "write a number"
     return f"write a number in {info.unit.name}, or one with its unit"
 
@@ -217,14 +238,17 @@ def _fault(engine: Engine, result: Result | None) -> SimulationError:
         engine.fault_text,
         None,
         notes=tuple(f"at {place}" for place in places),
-        help=_fault_help(engine.fault.status),
+        help=_HELP.get(engine.fault.status, ""),
     )
     return SimulationError(log, result)
 
 
-def _fault_help(status: int) -> str:
-    if status == 11:
-        return "leave one of the statements out, or make them agree"
-    if status == 10:
-        return "give the parameter another value"
-    return ""
+_HELP = {
+    10: "give the parameter it comes from another value",
+    11: "leave one of the statements out, or make them agree",
+    13: "state the gap and the normal speed of a contact in `initial`, if it should be closed",
+    16: "look at what switches at that time; change a coefficient or the starting values a little",
+    17: "correct the expression, or keep the motion away from there",
+    18: "look at the liaison or force named; a softer or smaller load may avoid it",
+    19: "give every body a mass and an inertia of a usual size",
+}

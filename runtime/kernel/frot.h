@@ -95,8 +95,13 @@ typedef struct {
 
 /* A statement of the section `initial`. */
 typedef struct {
-  const char *text, *place;
+  const char *text, *place, *unit; /* unit of its two sides */
 } frot_statement;
+
+/* An applied force. */
+typedef struct {
+  const char *name, *place;
+} frot_load;
 
 /* One scalar variable. */
 enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 3 };
@@ -110,7 +115,7 @@ typedef struct {
   const char *key; /* identity of the compiled model; kept in saved states */
   int nq, nv, na, nu, np, n_rows, n_contacts, n_conditions;
   int time_dependent; /* forces, coefficients or conditions depend on time */
-  int n_checks, n_position, n_velocity, n_statements, n_variables;
+  int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
   /* variables [0, n_contacts) are the modes of the contacts (frot_mode), the others are real */
 
   /* parameters(p, set, u) -> p complete (np), checks (n_checks), unilateral (n_contacts),
@@ -131,7 +136,8 @@ typedef struct {
    *   rate (n_rows), gap (n_contacts), conditions (n_conditions), coefficients mu mu_s delta
    *   (3 x n_contacts), power of the forces that have no potential (1) */
   frot_callable dynamics;
-  /* sizes(t, q, v, u, p, d) -> sum of the sizes of the terms of h (nw), which may cancel in h */
+  /* sizes(t, q, v, u, p, d) -> sum of the sizes of the terms of h (nw), which may cancel in h;
+   *   size of each applied force (n_loads) */
   frot_callable sizes;
   /* variables(t, q, v, u, p, d, a (nv), lam (n_rows), energy (dissipated, work)) ->
    *   values (n_variables) without the modes, which the kernel fills */
@@ -144,6 +150,7 @@ typedef struct {
   const frot_contact *contacts;
   const frot_check *checks;
   const frot_statement *statements;
+  const frot_load *loads;
   const int *position_statement; /* n_position: statement of each scalar equation */
   const int *velocity_statement; /* n_velocity */
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */

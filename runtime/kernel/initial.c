@@ -88,7 +88,9 @@ static int contradiction(const problem *p) {
       if (p->use[i] && at++ == rows[k]) contact = i;
   }
   if (items[0] < 0) items[0] = items[1], items[1] = -1;
-  return frot_fail(p->s, FROT_INITIAL, p->t, contact, items[0], items[1], p->w->residual[worst]);
+  /* the least-squares solution shares the contradiction out among the equations */
+  double apart = fabs(p->w->residual[worst]) + (other < 0 ? 0 : fabs(p->w->residual[other]));
+  return frot_fail(p->s, FROT_INITIAL, p->t, contact, items[0], items[1], apart);
 }
 
 /* Gauss-Newton to the nearest values in the metric of the mass. */

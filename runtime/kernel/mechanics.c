@@ -184,7 +184,7 @@ void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, 
   int nw = m->nv + m->na;
   double *load = w->step;
   inputs(m, s, w, &t, q, v, d);
-  w->res[0] = load;
+  w->res[0] = load, w->res[1] = w->values;
   m->sizes.call(w->arg, w->res, w->iw, w->w, 0);
   for (int i = 0; i < nw; i++) { /* |L^-1| load */
     for (int k = 0; k < i; k++) load[i] += fabs(w->factor[k * nw + i]) * load[k];

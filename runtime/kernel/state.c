@@ -96,7 +96,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(row_of, nr + nc), TAKE(guard, l.ng), TAKE(k, DP_ALL * l.nz);
   TAKE(z0, l.nz), TAKE(z1, l.nz), TAKE(ztry, l.nz), TAKE(f, DP_DENSE * l.nz);
   int nvar = m->np > l.nw ? m->np : l.nw;
-  TAKE(values, nvar + m->n_checks + m->nq + m->nv + 4);
+  TAKE(values, nvar + m->n_checks + m->nq + m->nv + m->n_loads + 4);
   TAKE(jacobian, l.nw * ne), TAKE(residual, ne + l.nw), TAKE(size, ne), TAKE(step, l.nw + ne);
   TAKE(trial, nc), TAKE(best, nc), TAKE(before, nc);
   TAKE(best_acceleration, nr), TAKE(choice, 4 * nc), TAKE(component, nc);

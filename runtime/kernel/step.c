@@ -54,7 +54,10 @@ static int run_stages(const frot_model *m, frot_state *s, frot_work *w, const fr
       z[j] = w->z0[j] + h * sum;
     }
     int status = slope_at(m, s, w, l, i == DP_STAGES ? t + h : t + dp_c[i] * h, z, stage(l, w, i));
-    if (status != FROT_OK) return status;
+    if (status != FROT_OK) {
+      memmove(w->z1, z, sizeof(double) * (size_t)l->nx); /* where it happened */
+      return status;
+    }
   }
   return FROT_OK;
 }
@@ -248,6 +251,7 @@ static int start_slope(const frot_model *m, frot_state *s, frot_work *w, const f
     memcpy(stage(l, w, 0), s->data + l->slope, sizeof(double) * (size_t)l->nz);
     return FROT_OK;
   }
+  memcpy(w->z1, w->z0, sizeof(double) * (size_t)l->nx);
   int status = slope_at(m, s, w, l, t, w->z0, stage(l, w, 0));
   if (status == FROT_OK) {
     measure(m, s, w, l, w->z0);
@@ -256,10 +260,39 @@ static int start_slope(const frot_model *m, frot_state *s, frot_work *w, const f
   return status;
 }
 
+/* The applied force that is no number at the last evaluation (values w->z1), or -1. */
+static int wrong_load(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l) {
+  double *sizes = w->ztry, *loads = w->values;
+  w->arg[0] = &w->t, w->arg[1] = w->z1, w->arg[2] = w->z1 + m->nq;
+  w->arg[3] = s->data + l->u, w->arg[4] = s->data + l->p, w->arg[5] = s->data + l->d;
+  w->res[0] = sizes, w->res[1] = loads;
+  m->sizes.call(w->arg, w->res, w->iw, w->w, 0);
+  for (int i = 0; i < m->n_loads; i++)
+    if (!isfinite(loads[i])) return i;
+  return -1;
+}
+
+/* Record a fault with what is to blame: the contact of a coefficient or the force that is no number
+ * or, when the step goes to zero, the contact with the largest reaction. */
+static int fail_at(const frot_model *m, frot_state *s, frot_work *w, int status, double t,
+                   double h) {
+  int blamed = -1;
+  double largest = 0;
+  for (int i = 0; i < m->n_contacts; i++) {
+    const double *k = w->coefficient + 3 * i;
+    double size = fabs(w->lam[m->contacts[i].row_n]);
+    int wrong = status == FROT_NAN ? isnan(k[0] + k[1] + k[2]) : size > largest;
+    if (wrong) largest = size, blamed = i;
+  }
+  frot_layout l = frot_layout_of(m);
+  int load = status == FROT_NAN && blamed < 0 ? wrong_load(m, s, w, &l) : -1;
+  return frot_fail(s, status, t, blamed, load, -1, h);
+}
+
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   int status = start_slope(m, s, w, &l, s->t);
-  if (status != FROT_OK) return frot_fail(s, status, s->t, -1, -1, -1, 0);
+  if (status != FROT_OK) return fail_at(m, s, w, status, s->t, 0);
   double h = FIRST_PART * s->h_max;
   for (int j = 0; j < m->nq + m->nv; j++) {
     double slope = fabs(stage(&l, w, 0)[j]), size = fabs(w->z0[j]);
@@ -274,21 +307,6 @@ static int is_still(const frot_model *m, const frot_work *w) {
   for (int j = 0; j < m->nq + m->nv; j++)
     if (w->k[j] != 0) return 0;
   return 1;
-}
-
-/* Record a fault with the contact to blame: that of a coefficient that is no number or, when the
- * step goes to zero, that with the largest reaction. */
-static int fail_at(const frot_model *m, frot_state *s, const frot_work *w, int status, double t,
-                   double h) {
-  int blamed = -1;
-  double largest = 0;
-  for (int i = 0; i < m->n_contacts; i++) {
-    const double *k = w->coefficient + 3 * i;
-    double size = fabs(w->lam[m->contacts[i].row_n]);
-    int wrong = status == FROT_NAN ? isnan(k[0] + k[1] + k[2]) : size > largest;
-    if (wrong) largest = size, blamed = i;
-  }
-  return frot_fail(s, status, t, blamed, -1, -1, h);
 }
 
 static int fire_at_start(frot_state *s, const frot_layout *l, int guard) {

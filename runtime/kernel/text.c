@@ -49,18 +49,19 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
 
 static void initial_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
   const char *one = f->item >= 0 ? m->statements[f->item].text : "the statements";
+  const char *unit = f->item >= 0 ? m->statements[f->item].unit : "in SI";
   if (f->contact >= 0)
     snprintf(text, size,
              "the initial values contradict liaison '%s': `%s` puts the bodies into each other or "
-             "off the liaison (by %.3g in SI)",
-             contact_name(m, f->contact), one, f->value);
+             "off the liaison (by %.3g %s)",
+             contact_name(m, f->contact), one, f->value, unit);
   else if (f->other >= 0)
-    snprintf(text, size, "the initial values contradict each other: `%s` and `%s` (by %.3g in SI)",
-             one, m->statements[f->other].text, f->value);
+    snprintf(text, size, "the initial values contradict each other: `%s` and `%s` (by %.3g %s)",
+             one, m->statements[f->other].text, f->value, unit);
   else
     snprintf(text, size,
-             "the initial statement `%s` cannot hold together with the liaisons (by %.3g in SI)",
-             one, f->value);
+             "the initial statement `%s` cannot hold together with the liaisons (by %.3g %s)", one,
+             f->value, unit);
 }
 
 void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_t size) {
@@ -109,6 +110,11 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                f->t, (int)f->value);
       return;
     case FROT_NAN:
+      if (f->item >= 0) {
+        snprintf(text, size, "force '%s' gives no finite number at t = %.17g",
+                 m->loads[f->item].name, f->t);
+        return;
+      }
       if (f->contact >= 0) {
         snprintf(text, size,
                  "liaison '%s': a coefficient is negative or no number at t = %.17g: give it an "
@@ -148,6 +154,7 @@ void frot_fault_places(const frot_model *m, const frot_state *s, char *text, siz
   const frot_fault *f = &s->fault;
   const char *places[3] = {"", "", ""};
   if (f->status == FROT_CHECK && f->item >= 0) places[0] = m->checks[f->item].place;
+  if (f->status == FROT_NAN && f->item >= 0) places[0] = m->loads[f->item].place;
   if (f->status == FROT_INITIAL) {
     if (f->item >= 0) places[0] = m->statements[f->item].place;
     if (f->other >= 0) places[1] = m->statements[f->other].place;

@@ -106,8 +106,8 @@ static const frot_contact contacts[1] = {{"guide", "hand_model.c:1:1", 0, 1, -1,
 static const frot_check checks[2] = {
     {FROT_POSITIVE, "mass of body 'block'", "hand_model.c:2:1"},
     {FROT_NOT_NEGATIVE, "friction of 'guide'", "hand_model.c:3:1"}};
-static const frot_statement statements[2] = {{"x = x0", "hand_model.c:4:1"},
-                                             {"v = 0", "hand_model.c:5:1"}};
+static const frot_statement statements[2] = {{"x = x0", "hand_model.c:4:1", "m"},
+                                             {"v = 0", "hand_model.c:5:1", "m/s"}};
 static const int position_statement[1] = {0};
 static const int velocity_statement[1] = {1};
 static const int p_dependent[NP] = {0, 0, 0, 0, 0, 0, 1};
