@@ -42,7 +42,7 @@ def choose(file: tree.Tree, name: str | None, log: Log) -> tree.Definition | Non
         f"the text holds several models: {names}",
         candidates[-1].header,
         labels=tuple(Label(d.header, "one") for d in candidates[:-1]),
-        help=f"name the one to use, as model={candidates[-1].name.text!r}",
+        help=f"name the one to use: --model {candidates[-1].name.text}, or model= in Python",
     )
     return None
 

@@ -10,6 +10,30 @@ from pathlib import Path
 
 from frot.dsl.diagnostics import fail
 
+DATA, PICTURES = (".csv", ".json", ".npz"), (".png", ".svg", ".pdf")
+
+
+def check_target(path: str | Path, formats: tuple[str, ...]) -> Path:
+    """The path of a file to be written in one of `formats`.
+
+    Called before long work, so that none is lost: FrotError for an unknown format (E0806) and for a
+    folder that is not there (E0803).
+    """
+    path = Path(path)
+    if path.suffix.lower() not in formats:
+        raise fail(
+            "E0806",
+            f"the format of '{path}' is not known",
+            help=f"name a file that ends in {', '.join(formats)}",
+        )
+    if not path.parent.is_dir():
+        raise fail(
+            "E0803",
+            f"'{path}' cannot be written: the folder '{path.parent}' does not exist",
+            help=f"make the folder '{path.parent}' first",
+        )
+    return path
+
 
 def write_whole(path: Path, content: bytes) -> None:
     """Write a file so that it is there whole or not at all; FrotError (E0803) if it cannot be.

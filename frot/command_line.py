@@ -23,7 +23,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.print_help()
         return 0
     try:
-        return int(options.run(options))
+        status = int(options.run(options))
+        sys.stdout.flush()
+        return status
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return EXIT_INTERRUPTED
@@ -31,6 +33,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The reader of our output has gone (`frot ... | head`): nobody is left to be told.
         sys.stderr.close()
         return 0
+    except OSError as error:
+        # Files tell their own faults: this is the standard output (a full disk behind it).
+        print(f"error[E0803]: the output cannot be written: {error.strerror}", file=sys.stderr)
+        print("  = help: free some space, or send the output elsewhere", file=sys.stderr)
+        _discard_output()
+        return EXIT_ERROR
     except Exception as error:
         from frot.dsl.diagnostics import FrotError
 
@@ -38,6 +46,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
             raise
         _complain(error)
         return EXIT_ERROR
+
+
+def _discard_output() -> None:
+    """Keep the interpreter from writing what is left once more when it ends."""
+    import os
+
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -229,9 +244,13 @@ def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
 
 
 def _simulate(options: argparse.Namespace) -> int:
+    from frot.dsl.writing import DATA, PICTURES, check_target
     from frot.progress import Progress
     from frot.runtime import SimulationError
 
+    for target, formats in ((options.output, DATA), (options.plot, PICTURES)):
+        if target is not None:
+            check_target(target, formats)
     model = _load(options)
     program = model.program()
     result: Result | None
@@ -250,14 +269,16 @@ def _simulate(options: argparse.Namespace) -> int:
         except SimulationError as error:
             result, failure = error.result, error
     if result is not None:
-        if options.output:
+        if options.output is not None:
             result.save(options.output)
-        if options.plot:
+        if options.plot is not None:
             from frot.runtime import plot
 
             plot(result, options.plot)
         if not options.quiet:
             print(result.summary())
+            for target in filter(None, (options.output, options.plot)):
+                print(f"  written: {target}")
     if failure is not None:
         raise failure
     return 0

@@ -7,14 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from frot.dsl.diagnostics import fail
-from frot.dsl.writing import write_whole
+from frot.dsl.writing import PICTURES, check_target, write_whole
 from frot.runtime.result import MODES, Result
 
 if TYPE_CHECKING:
     from frot.runtime.engine import Floats
 
-FORMATS = (".png", ".svg", ".pdf")
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 MODE_COLOURS = {"open": "#e8eef4", "stick": "#3a5a78", "slip": "#e9b44c"}
 MOST_CURVES = 7
@@ -28,13 +26,7 @@ PANELS = (
 
 def plot(result: Result, path: str | Path) -> None:
     """Draw the run to a `.png`, `.svg` or `.pdf`; FrotError (E0803, E0806) if it cannot be."""
-    path = Path(path)
-    if path.suffix.lower() not in FORMATS:
-        raise fail(
-            "E0806",
-            f"the format of '{path}' is not known",
-            help=f"name a file that ends in {', '.join(FORMATS)}",
-        )
+    path = check_target(path, PICTURES)
     figure = draw(result)
     buffer = io.BytesIO()
     figure.savefig(buffer, format=path.suffix[1:].lower(), dpi=130)
@@ -85,13 +77,16 @@ def draw(result: Result) -> Any:
 
 
 def _curves(result: Result, values: Any, suffixes: tuple[str, ...]) -> list[str]:
-    """Variables with these endings that are not zero throughout."""
-    return [
-        v.name
-        for suffix in suffixes
-        for v in result.program.variables
-        if v.name.endswith(suffix) and v.causality == "local" and np.any(values[v.name] != 0)
-    ]
+    """Variables with these endings that are not zero throughout, each curve once."""
+    chosen: list[str] = []
+    for suffix in suffixes:
+        for v in result.program.variables:
+            curve = values[v.name]
+            if v.name.endswith(suffix) and v.causality == "local" and np.any(curve != 0):
+                known = (values[name] for name in chosen)
+                if not any(np.array_equal(curve, other) for other in known):
+                    chosen.append(v.name)
+    return chosen
 
 
 def _draw_modes(axis: Any, result: Result, names: list[str], times: Floats) -> None:

@@ -11,8 +11,7 @@ from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
-from frot.dsl.diagnostics import fail
-from frot.dsl.writing import write_whole
+from frot.dsl.writing import DATA, check_target, write_whole
 from frot.runtime.engine import Engine, Floats
 from frot.runtime.program import Program
 
@@ -31,6 +30,8 @@ KINDS = (
 )
 MODES = ("open", "stick", "slip")
 MOST_EVENTS = 40
+# Relative residual of the energy balance from which a run is not to be trusted.
+SUSPICIOUS = 1e-4
 ROLLING = ("free", "held", "rolling", "rolling")
 
 
@@ -149,14 +150,8 @@ class Result(Mapping[str, Floats]):
 
     def save(self, path: str | Path) -> None:
         """Write all variables on the grid to `.csv`, `.json` or `.npz`, whole or not at all."""
-        path = Path(path)
-        writers = {".csv": self._csv, ".json": self._json, ".npz": self._npz}
-        if path.suffix.lower() not in writers:
-            raise fail(
-                "E0806",
-                f"the format of '{path}' is not known",
-                help="name a file that ends in .csv, .json or .npz",
-            )
+        path = check_target(path, DATA)
+        writers = dict(zip(DATA, (self._csv, self._json, self._npz), strict=True))
         write_whole(path, writers[path.suffix.lower()]())
 
     def _csv(self) -> bytes:
@@ -221,4 +216,8 @@ class Result(Mapping[str, Floats]):
             f"  energy balance: {balance.residual:.2e} J, {balance.relative:.1e} of "
             f"{balance.scale:.6g} J (dissipated {balance.dissipated:.6g} J)"
         )
+        if balance.relative > SUSPICIOUS:
+            lines.append(
+                "  warning: energy is not kept, do not trust this run; try a smaller tolerance"
+            )
         return "\n".join(lines)

@@ -425,7 +425,7 @@ def test_a_hoop_slides_down_an_almost_level_or_upright_line_without_leaving_it(
     # one step spans the rest: the normal acceleration is zero to the rounding of its two terms g
     rounding = 4 * np.finfo(float).eps * 9.81 * 3**2
     assert np.max(np.abs(values["floor.gap"])) < rounding
-    assert np.max(np.abs(values["energy.work"])) < 1e-14
+    assert np.max(np.abs(values["energy.work"])) < 9.81 * rounding
     assert near(along(result, {"slope": slope}, "hoop", 3.0)[0], 0.5 / 9.81)
     assert abs(float(result["hoop.angular_velocity"][-1])) < 1e-14
 
