@@ -22,7 +22,8 @@ def blanks(before: Piece, piece: Piece) -> int:
         return 0
     if kind in _OPENING:
         return 0 if last in _CALLED else 1
-    return 0 if kind == "DOT_STAR" else 1
+    # After a blank a name would be the unit of what is in the parentheses.
+    return 0 if kind == "DOT_STAR" or (last == "RPAR" and kind == "IDENT") else 1
 
 
 def column_kind(before: Piece, piece: Piece, is_last: bool) -> str:

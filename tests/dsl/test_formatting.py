@@ -150,6 +150,7 @@ def test_the_examples_of_the_codes_keep_their_tree(code: str) -> None:
         ("x = 3 m ^ 2", "x = 3 m ^ 2"),
         ("x = (1, 2) m / s", "x = (1, 2) m / s"),
         ("x = 3 m * s", "x = 3 m*s"),
+        ("(0, 0)kg = 1", "(0, 0)kg = 1"),
         ("x = f ( a , b = 2 ) . c [ 1 , 2 : n ]", "x = f(a, b = 2).c[1, 2:n]"),
         ("x = a//* not a quotient */ b".replace("//*", "/ /*"), "x = a/ /* not a quotient */ b"),
         ("x = if a then b else(c)", "x = if a then b else (c)"),
