@@ -160,8 +160,9 @@ def test_any_block_on_any_slope_follows_the_closed_form(
         y0=place[1],
         stop=stop,
     )
-    assert len(result.events) == len(motion.phases) - 1
-    for event, phase in zip(result.events, motion.phases[1:], strict=True):
+    # where nothing holds (mu = 0) nothing switches when the block turns back
+    switches = motion.phases[1:] if mu > 0 else []
+    for event, phase in zip(result.events, switches, strict=True):
         assert event.kind == ("reversal" if phase.slip else "stick")
         assert near(event.time, phase.t)
     s, v, _, _ = motion.at(stop)
