@@ -246,7 +246,7 @@ def _fault(engine: Engine, result: Result | None) -> SimulationError:
 _HELP = {
     10: "give the parameter it comes from another value",
     11: "leave one of the statements out, or make them agree",
-    13: "state the gap and the normal speed of a contact in `initial`, if it should be closed",
+    13: "stop before that time, or write `unilateral = false` if the liaison cannot part",
     16: "look at what switches at that time; change a coefficient or the starting values a little",
     17: "correct the expression, or keep the motion away from there",
     18: "look at the liaison or force named; a softer or smaller load may avoid it",

@@ -8,6 +8,7 @@
 #define ENOUGH 200000 /* combinations of modes examined one by one */
 #define CONTACT_OPTIONS 24
 #define ROUNDING 1e-14
+#define SAME_INSTANT 1e-13
 #define TOUCH 1e-9 /* part of the usual speed below which an approach is no impact */
 
 typedef struct {
@@ -16,7 +17,8 @@ typedef struct {
   frot_work *w;
   frot_layout l;
   const double *fired, *unilateral;
-  unsigned char *zero;    /* per contact: bit 0 no slip, bit 1 no rolling */
+  const double *left;  /* 2 per contact: direction in which rest of friction, of rolling was left */
+  unsigned char *zero; /* per contact: bit 0 no slip, bit 1 no rolling */
   unsigned char *at_rest; /* per contact: no slip, so that mu_s bounds it */
 } instant;
 
@@ -59,8 +61,6 @@ static int contact_options(const instant *in, int i, int forced, frot_contact_mo
   const double *fired = in->fired + FROT_GUARDS * i;
   frot_contact_mode before = in->w->before[i];
   int n = 0, can_open = in->unilateral[i] != 0;
-  int was_stuck = before.closed && before.friction == FROT_STICK;
-  int was_locked = before.closed && before.rolling == FROT_STICK;
   int leaves = forced && before.closed && can_open && fired[0] != 0;
   int turns = forced && before.closed && !can_open && fired[0] != 0;
   if (!leaves) {
@@ -69,9 +69,9 @@ static int contact_options(const instant *in, int i, int forced, frot_contact_mo
         act_r = bounds_something(in->w, contact, i, 1);
     int zero_t = in->zero[i] & 1, zero_r = in->zero[i] & 2;
     int n_t = friction_options(act_t, act_t ? in->w->rate[contact->row_t] : 0, zero_t,
-                               forced && was_stuck ? left_by(fired + 1) : 0, friction);
+                               forced ? (int)in->left[2 * i] : 0, friction);
     int n_r = friction_options(act_r, act_r ? in->w->rate[contact->row_r] : 0, zero_r,
-                               forced && was_locked ? left_by(fired + 3) : 0, rolling);
+                               forced ? (int)in->left[2 * i + 1] : 0, rolling);
     for (int a = 0; a < n_t; a++)
       for (int b = 0; b < n_r; b++)
         for (int side = 1; side >= -1; side -= 2) {
@@ -310,6 +310,22 @@ static int closable(const instant *in, double t, int first) {
   return FROT_OK;
 }
 
+/* Note which rests end now, and in which direction. What was left at this very instant stays left:
+ * where two rests hold each other at their bounds, both end. */
+static void note_left(const frot_model *m, frot_state *s, double t) {
+  frot_layout l = frot_layout_of(m);
+  double *left = s->data + l.left;
+  const frot_contact_mode *modes = (const void *)(s->data + l.modes);
+  if (!(fabs(t - s->left_at) <= SAME_INSTANT * fmax(fabs(t), 1e-3 * s->h_max)))
+    memset(left, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
+  for (int i = 0; i < m->n_contacts; i++) {
+    const double *fired = s->data + l.fired + FROT_GUARDS * i;
+    if (modes[i].friction == FROT_STICK && left_by(fired + 1)) left[2 * i] = left_by(fired + 1);
+    if (modes[i].rolling == FROT_STICK && left_by(fired + 3)) left[2 * i + 1] = left_by(fired + 3);
+  }
+  s->left_at = t;
+}
+
 void frot_tell_start(const frot_model *m, frot_state *s, frot_recorder *recorder) {
   if (!s->several) return;
   frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
@@ -325,7 +341,8 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   double *d = s->data + l.d, *fired = s->data + l.fired, *frozen = s->data + l.frozen;
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + l.modes);
   unsigned char *flags = (unsigned char *)(w->choice + 2 * nc);
-  instant in = {m, s, w, l, fired, s->data + l.unilateral, flags, flags + nc};
+  note_left(m, s, t);
+  instant in = {m, s, w, l, fired, s->data + l.unilateral, s->data + l.left, flags, flags + nc};
   memcpy(w->before, modes, sizeof *modes * (size_t)nc);
   memset(flags, 0, 2 * (size_t)nc);
 

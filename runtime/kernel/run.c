@@ -67,11 +67,12 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->h_max = experiment[1] > start ? experiment[1] - start : 1;
   if (m->time_dependent) s->h_max *= PART_OF_RUN;
   s->pending = s->has_slope = s->changed = s->crowded = s->several = 0;
-  s->crowded_since = t;
+  s->crowded_since = s->left_at = t;
   s->push = 0;
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
+  memset(s->data + l.left, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
   memset(s->data + l.frozen, 0, sizeof(double) * (size_t)m->nv);
   double *x = s->data + l.x;
   memset(x, 0, sizeof(double) * (size_t)l.nx);

@@ -27,6 +27,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.scale_x = at, at += l.nx;
   l.scale_g = at, at += l.ng;
   l.fired = at, at += l.ng;
+  l.left = at, at += 2 * m->n_contacts;
   l.modes = at, at += m->n_contacts;
   l.d = at, at += l.nd;
   l.frozen = at, at += m->nv;

@@ -25,8 +25,8 @@ typedef struct {
 /* Offsets in doubles from the head of state->data, and sizes. Computed from the model. */
 typedef struct {
   int nw, nx, nz, ng, nd, ns; /* ns: doubles of a segment */
-  int set, given, p, u, experiment, unilateral, x, slope, scale_x, scale_g, fired, modes, d, frozen,
-      segment, size;
+  int set, given, p, u, experiment, unilateral, x, slope, scale_x, scale_g, fired, left, modes, d,
+      frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -42,8 +42,9 @@ struct frot_state {
   int several_at;
   int reserved;
   double crowded_since;
-  double t; /* time reached */
-  double h; /* next step */
+  double left_at; /* instant at which rest was left last: see `left` */
+  double t;       /* time reached */
+  double h;       /* next step */
   double h_max;
   double tolerance;
   double energy; /* kinetic + potential at the start, corrected for changes from outside */
