@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "mechanics.h"
+#include "projection.h"
+#include "record.h"
 
 #define ENOUGH 200000 /* combinations of modes examined one by one */
 #define CONTACT_OPTIONS 24
@@ -21,10 +23,6 @@ typedef struct {
   unsigned char *zero; /* per contact: bit 0 no slip, bit 1 no rolling */
   unsigned char *at_rest; /* per contact: no slip, so that mu_s bounds it */
 } instant;
-
-long long frot_events_at_once(const frot_model *m) {
-  return 4 * m->n_contacts + m->n_conditions + 4;
-}
 
 /* Whether a slip or rolling rate is zero: its guard (of index `guard`) fired at zero, or it is zero
  * to rounding against its terms, the sizes it had and the motion as a whole. */
@@ -248,41 +246,6 @@ static void find_components(const instant *in) {
     }
 }
 
-static void note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact,
-                 int before, int after, int solutions) {
-  s->statistics.events++;
-  if (!recorder || recorder->event_count >= recorder->event_capacity) return;
-  recorder->events[recorder->event_count++] =
-      (frot_event){t, kind, contact, before, after, solutions, 0};
-}
-
-static void note_changes(const instant *in, double t, const frot_contact_mode *after,
-                         frot_recorder *recorder) {
-  for (int i = 0; i < in->m->n_contacts; i++) {
-    const frot_contact_mode *a = &in->w->before[i], *b = &after[i];
-    int from = frot_mode_value(a), to = frot_mode_value(b);
-    if (from != to) {
-      int kind = to == FROT_MODE_OPEN     ? FROT_EVENT_SEPARATION
-                 : from == FROT_MODE_OPEN ? FROT_EVENT_CONTACT
-                 : to == FROT_MODE_STICK  ? FROT_EVENT_STICK
-                                          : FROT_EVENT_SLIP;
-      note(recorder, in->s, t, kind, i, from, to, 1);
-    } else if (a->closed && a->friction != b->friction && a->friction > FROT_STICK &&
-               b->friction > FROT_STICK) {
-      note(recorder, in->s, t, FROT_EVENT_REVERSAL, i, from, to, 1);
-    }
-    if (!a->closed || !b->closed) continue;
-    if (a->rolling != b->rolling && a->rolling != FROT_NONE && b->rolling != FROT_NONE) {
-      int kind = b->rolling == FROT_STICK   ? FROT_EVENT_ROLL_STOP
-                 : a->rolling == FROT_STICK ? FROT_EVENT_ROLL_START
-                                            : FROT_EVENT_ROLL_REVERSAL;
-      note(recorder, in->s, t, kind, i, a->rolling, b->rolling, 1);
-    }
-    if (a->side != b->side && in->unilateral[i] == 0)
-      note(recorder, in->s, t, FROT_EVENT_REACTION, i, from, to, 1);
-  }
-}
-
 /* The speed of a row with the largest speeds met so far. */
 static double typical_speed(const instant *in, int row) {
   const frot_model *m = in->m;
@@ -326,14 +289,6 @@ static void note_left(const frot_model *m, frot_state *s, double t) {
   s->left_at = t;
 }
 
-void frot_tell_start(const frot_model *m, frot_state *s, frot_recorder *recorder) {
-  if (!s->several) return;
-  frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
-  int mode = frot_mode_value(&g.modes[s->several_at]);
-  note(recorder, s, *g.t0, FROT_EVENT_SEVERAL, s->several_at, mode, mode, s->several);
-  s->several = 0;
-}
-
 int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  int first, frot_recorder *recorder) {
   frot_layout l = frot_layout_of(m);
@@ -349,7 +304,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   for (int j = 0; j < m->n_conditions; j++) {
     if (fired[FROT_GUARDS * nc + j] == 0) continue;
     d[j] = 1 - d[j];
-    if (!first) note(recorder, s, t, FROT_EVENT_CONDITION, j, (int)(1 - d[j]), (int)d[j], 1);
+    if (!first) frot_note(recorder, s, t, FROT_EVENT_CONDITION, j, (int)(1 - d[j]), (int)d[j], 1);
   }
   frot_kinematics(m, s, w, t, q, v, d);
   int status = closable(&in, t, first);
@@ -396,13 +351,14 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     if (first)
       s->several = several, s->several_at = several_at; /* told by the first frot_advance */
     else
-      note(recorder, s, t, FROT_EVENT_SEVERAL, several_at, frot_mode_value(&w->before[several_at]),
-           frot_mode_value(&w->best[several_at]), several);
+      frot_note(recorder, s, t, FROT_EVENT_SEVERAL, several_at,
+                frot_mode_value(&w->before[several_at]), frot_mode_value(&w->best[several_at]),
+                several);
     if (s->options.on_indeterminate == FROT_HALT)
       return frot_fail(s, FROT_SEVERAL, t, several_at, -1, -1, several);
   }
   memcpy(modes, w->best, sizeof *modes * (size_t)nc);
-  if (!first) note_changes(&in, t, modes, recorder);
+  if (!first) frot_note_changes(m, s, t, w->before, modes, recorder);
   frot_find_frozen(m, w, modes, frozen);
   for (int k = 0; k < m->nv; k++)
     if (frozen[k] != 0) v[k] = 0;

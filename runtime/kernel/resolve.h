@@ -20,7 +20,4 @@
 int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  int first, frot_recorder *recorder);
 
-/* Record that several motions were admissible at the start, if they were and it is still untold. */
-void frot_tell_start(const frot_model *m, frot_state *s, frot_recorder *recorder);
-
 #endif

@@ -5,6 +5,7 @@
 
 #include "initial.h"
 #include "mechanics.h"
+#include "record.h"
 #include "resolve.h"
 #include "state.h"
 #include "step.h"

@@ -11,6 +11,7 @@
 
 #include "linear.h"
 #include "mechanics.h"
+#include "projection.h"
 #include "resolve.h"
 #include "roots.h"
 

@@ -1,0 +1,50 @@
+#include "record.h"
+
+long long frot_events_at_once(const frot_model *m) {
+  return 4 * m->n_contacts + m->n_conditions + 4;
+}
+
+void frot_note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact, int before,
+               int after, int solutions) {
+  s->statistics.events++;
+  if (!recorder || recorder->event_count >= recorder->event_capacity) return;
+  recorder->events[recorder->event_count++] =
+      (frot_event){t, kind, contact, before, after, solutions, 0};
+}
+
+void frot_note_changes(const frot_model *m, frot_state *s, double t,
+                       const frot_contact_mode *before, const frot_contact_mode *after,
+                       frot_recorder *recorder) {
+  const double *unilateral = s->data + frot_layout_of(m).unilateral;
+  for (int i = 0; i < m->n_contacts; i++) {
+    const frot_contact_mode *a = &before[i], *b = &after[i];
+    int from = frot_mode_value(a), to = frot_mode_value(b);
+    if (from != to) {
+      int kind = to == FROT_MODE_OPEN     ? FROT_EVENT_SEPARATION
+                 : from == FROT_MODE_OPEN ? FROT_EVENT_CONTACT
+                 : to == FROT_MODE_STICK  ? FROT_EVENT_STICK
+                                          : FROT_EVENT_SLIP;
+      frot_note(recorder, s, t, kind, i, from, to, 1);
+    } else if (a->closed && a->friction != b->friction && a->friction > FROT_STICK &&
+               b->friction > FROT_STICK) {
+      frot_note(recorder, s, t, FROT_EVENT_REVERSAL, i, from, to, 1);
+    }
+    if (!a->closed || !b->closed) continue;
+    if (a->rolling != b->rolling && a->rolling != FROT_NONE && b->rolling != FROT_NONE) {
+      int kind = b->rolling == FROT_STICK   ? FROT_EVENT_ROLL_STOP
+                 : a->rolling == FROT_STICK ? FROT_EVENT_ROLL_START
+                                            : FROT_EVENT_ROLL_REVERSAL;
+      frot_note(recorder, s, t, kind, i, a->rolling, b->rolling, 1);
+    }
+    if (a->side != b->side && unilateral[i] == 0)
+      frot_note(recorder, s, t, FROT_EVENT_REACTION, i, from, to, 1);
+  }
+}
+
+void frot_tell_start(const frot_model *m, frot_state *s, frot_recorder *recorder) {
+  if (!s->several) return;
+  frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
+  int mode = frot_mode_value(&g.modes[s->several_at]);
+  frot_note(recorder, s, *g.t0, FROT_EVENT_SEVERAL, s->several_at, mode, mode, s->several);
+  s->several = 0;
+}

@@ -1,0 +1,19 @@
+/* Events into the caller's recorder. */
+#ifndef FROT_RECORD_H
+#define FROT_RECORD_H
+
+#include "state.h"
+
+/* Count an event and, if there is a recorder with room, record it. */
+void frot_note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact, int before,
+               int after, int solutions);
+
+/* Note what differs between the modes before and after an instant. */
+void frot_note_changes(const frot_model *m, frot_state *s, double t,
+                       const frot_contact_mode *before, const frot_contact_mode *after,
+                       frot_recorder *recorder);
+
+/* Record that several motions were admissible at the start, if they were and it is still untold. */
+void frot_tell_start(const frot_model *m, frot_state *s, frot_recorder *recorder);
+
+#endif
