@@ -94,6 +94,13 @@ def run_compiler(toolchain: Toolchain, arguments: Sequence[str | Path], target: 
         raise fail("E0802", f"the C compiler could not be run: {error}", help=_OTHER) from None
     if done.returncode != 0:
         lines = (done.stderr or done.stdout).strip().splitlines()[:8]
+        if any("No space left" in line for line in lines):
+            raise fail(
+                "E0803",
+                "the disk is full: the C compiler could not write its result",
+                notes=tuple(lines),
+                help="free some space, or set FROT_CACHE and TMPDIR to another disk",
+            )
         raise fail(
             "E0802",
             f"the C compiler failed with status {done.returncode}: {shlex.join(toolchain.command)}",

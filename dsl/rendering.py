@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 
+from frot.dsl.codes import CODES
 from frot.dsl.diagnostics import LIMIT, Diagnostic, Log
 from frot.dsl.source import Span
 
@@ -38,8 +39,9 @@ def render(diagnostic: Diagnostic, colour: bool = False) -> str:
                 lines.append(f"{' ' * width} {rule} {paint(under.rstrip(), style)}")
     equals = f"{' ' * width} {paint('=', 'rule')}"
     lines.extend(f"{equals} note: {_clean(note)}" for note in diagnostic.notes)
-    if diagnostic.help:
-        lines.append(f"{equals} help: {_clean(diagnostic.help)}")
+    # Every message has a remedy: its own, or that of its code.
+    remedy = diagnostic.help or CODES[diagnostic.code].remedy
+    lines.append(f"{equals} help: {_clean(remedy)}")
     return "\n".join(lines)
 
 

@@ -42,6 +42,11 @@ def write_whole(path: Path, content: bytes) -> None:
     """
     target = Path(os.path.realpath(path))
     try:
+        if target.exists() and not target.is_file():
+            # a device or a pipe is written to, never replaced
+            with open(target, "wb") as device:
+                device.write(content)
+            return
         mode = _permissions(target)
         handle, name = tempfile.mkstemp(prefix=f".{target.name}-", dir=target.parent)
         try:
@@ -56,7 +61,7 @@ def write_whole(path: Path, content: bytes) -> None:
         raise fail(
             "E0803",
             f"'{path}' cannot be written: {error.strerror or error}",
-            help=_remedy(path, error),
+            help=remedy(path, error),
         ) from None
 
 
@@ -71,7 +76,8 @@ def _permissions(target: Path) -> int:
     return 0o666 & ~mask
 
 
-def _remedy(path: Path, error: OSError) -> str:
+def remedy(path: Path, error: OSError) -> str:
+    """What to do when `path` could not be written."""
     if not path.parent.is_dir():
         return f"make the folder '{path.parent}' first"
     if error.errno == errno.ENOSPC:

@@ -117,16 +117,19 @@ class Model:
         from functools import partial
 
         from frot.compiler import compile_library
+        from frot.dsl.writing import remedy
         from frot.runtime.fmi import InvalidFmuError, export, platform_folder
 
         own = platform_folder("3.0").removeprefix("binaries/")
-        if platforms is not None and list(platforms) != [own]:
+        others = [p for p in platforms or (own,) if p != own]
+        if others:
             raise fail(
                 "E0701",
-                f"an FMU for {', '.join(platforms)} is not supported yet",
+                f"an FMU for {', '.join(others)} is not supported yet",
                 help=f"this machine makes FMUs for {own}",
             )
 
+        fmi = str(fmi)
         if fmi not in ("2.0", "3.0"):
             raise fail("E0806", f"FMI version '{fmi}' is not known", help="choose 2.0 or 3.0")
         target = Path(path)
@@ -136,7 +139,7 @@ class Model:
             raise fail(
                 "E0803",
                 f"'{target}' cannot be written: {error.strerror or error}",
-                help=f"is '{target.parent}' a folder that can be written?",
+                help=remedy(target, error),
             ) from None
         except (ValueError, RuntimeError, InvalidFmuError) as error:
             raise fail("E0807", f"no FMU can be made: {error}") from None

@@ -93,6 +93,17 @@ static int contradiction(const problem *p) {
   return frot_fail(p->s, FROT_INITIAL, p->t, contact, items[0], items[1], apart);
 }
 
+/* Record that an initial statement, or a load at the start, is no number. */
+static int no_number(const problem *p, int status) {
+  const frot_model *m = p->m;
+  const int *statement = p->velocity ? m->velocity_statement : m->position_statement;
+  int own = p->velocity ? m->n_velocity : m->n_position;
+  for (int i = 0; i < own && p->n > 0; i++)
+    if (!isfinite(p->w->residual[i]))
+      return frot_fail(p->s, FROT_INITIAL, p->t, -1, statement[i], -1, NAN);
+  return frot_fail(p->s, status, p->t, -1, -1, -1, 0);
+}
+
 /* Gauss-Newton to the nearest values in the metric of the mass. */
 static int solve(problem *p) {
   const frot_model *m = p->m;
@@ -105,7 +116,7 @@ static int solve(problem *p) {
   for (int pass = 0; pass < PASSES; pass++) {
     int status = frot_dynamics(m, p->s, w, p->t, p->q, p->v, p->d, modes);
     if (status == FROT_OK) status = evaluate(p);
-    if (status != FROT_OK) return frot_fail(p->s, status, p->t, -1, -1, -1, 0);
+    if (status != FROT_OK) return no_number(p, status);
     int good = 1;
     double largest = 0;
     for (int i = 0; i < p->n; i++) {

@@ -50,7 +50,9 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
 static void initial_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
   const char *one = f->item >= 0 ? m->statements[f->item].text : "the statements";
   const char *unit = f->item >= 0 ? m->statements[f->item].unit : "in SI";
-  if (f->contact >= 0)
+  if (f->value != f->value)
+    snprintf(text, size, "the initial statement `%s` gives no finite number", one);
+  else if (f->contact >= 0)
     snprintf(text, size,
              "the initial values contradict liaison '%s': `%s` puts the bodies into each other or "
              "off the liaison (by %.3g %s)",

@@ -2,7 +2,7 @@
 
 import re
 
-from frot.dsl import Diagnostic, Label, Log, Source, Span, render, render_log
+from frot.dsl import CODES, Diagnostic, Label, Log, Source, Span, render, render_log
 
 
 def at(text: str, part: str, name: str = "a.frot") -> Span:
@@ -52,7 +52,12 @@ def test_a_span_of_several_lines_shows_its_first_and_last() -> None:
     text = "aa bb\ncc\n  dd ee\n"
     span = Span(Source("a.frot", text), 3, text.index(" ee"))
     lines = render(Diagnostic("E0101", "m", span, "whole")).splitlines()
-    assert lines[3:] == ["1 | aa bb", "  |    ^^", "3 |   dd ee", "  |   ^^ whole"]
+    assert lines[3:7] == ["1 | aa bb", "  |    ^^", "3 |   dd ee", "  |   ^^ whole"]
+
+
+def test_a_message_without_its_own_help_has_that_of_its_code() -> None:
+    lines = render(Diagnostic("E0401", "m", None)).splitlines()
+    assert lines[-1] == f"  = help: {CODES['E0401'].remedy}"
 
 
 def test_without_a_place() -> None:
