@@ -10,13 +10,13 @@ import numpy as np
 from frot.compiler.lower import Lowered, lower
 from frot.compiler.mechanize import mechanize
 from frot.compiler.reduce import Reduced, reduce
-from frot.compiler.symbols import coordinate_names
+from frot.compiler.symbols import column, coordinate_names
 from frot.compiler.walk import as_number
 from frot.dsl import Log
 from frot.dsl.checked import Model
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)
-NONE, STICK, FORWARD, BACKWARD = range(4)
+STICK, FORWARD, BACKWARD = range(1, 4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +87,7 @@ def _assemble(lowered: Lowered) -> Dae:
 
     reduced = lowered.reduced
     s, contacts = reduced.symbols, reduced.mechanism.contacts
-    flags = ca.vertcat(*reduced.conditions.flags) if reduced.conditions.flags else ca.SX.zeros(0)
+    flags = column(reduced.conditions.flags)
     contact_modes = ca.SX.sym("m", 4 * len(contacts))
     mode = ca.vertcat(contact_modes, flags, s.sides)
     x, z = ca.vertcat(s.q, s.v), ca.vertcat(s.a, s.lam)

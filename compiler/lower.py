@@ -9,6 +9,7 @@ from frot.compiler.checks import Check, parameter_checks
 from frot.compiler.expressions import Lowering
 from frot.compiler.listing import Listed, list_variables
 from frot.compiler.reduce import Reduced
+from frot.compiler.symbols import column
 from frot.compiler.walk import is_fixed, subexpressions
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation, Parameter, Reference
@@ -36,7 +37,7 @@ class Lowered:
 def lower(reduced: Reduced, log: Log) -> Lowered | None:
     """Build every function; what cannot be built is reported."""
     s = reduced.symbols
-    flags = ca.vertcat(*reduced.conditions.flags) if reduced.conditions.flags else ca.SX.zeros(0)
+    flags = column(reduced.conditions.flags)
     d = ca.vertcat(flags, s.sides)
     state = [s.t, s.q, s.v, s.u, s.p, d]
     looking = Lowering(s, reduced.variables.quantity, reduced.variables.rate, log)
@@ -47,7 +48,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     if log.failed:
         return None
     settled = reduced.variables.settled
-    conditions = _column(reduced.conditions.values)
+    conditions = column(reduced.conditions.values)
     rows = reduced.rows.T
     functions = {
         "parameters": ca.Function(
@@ -87,7 +88,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         "variables": ca.Function(
             "frot_variables_at",
             [*state, s.a, s.lam, s.energy],
-            _clean([settled(_column([v.value for v in variables]))]),
+            _clean([settled(column([v.value for v in variables]))]),
         ),
         "energy": ca.Function(
             "frot_energy_at", state, _clean([reduced.kinetic, reduced.potential])
@@ -104,10 +105,6 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         _row_depends(reduced),
         tuple(_depends_on_parameters(parameter) for parameter in s.parameters),
     )
-
-
-def _column(values: list[ca.SX]) -> ca.SX:
-    return ca.vertcat(*values) if values else ca.SX.zeros(0)
 
 
 def _clean(outputs: list[ca.SX]) -> list[ca.SX]:
@@ -129,9 +126,6 @@ def _parameters(
 ) -> list[ca.SX]:
     """Parameters in the order in which they depend on each other, then all that depends on them."""
     s = reduced.symbols
-    values = {
-        parameter: given[i] for i, parameter in enumerate(s.parameters)
-    }  # until they are replaced
     resolved: dict[Parameter, ca.SX] = {}
 
     def resolve(parameter: Parameter) -> ca.SX:
@@ -139,20 +133,20 @@ def _parameters(
             return resolved[parameter]
         i = s.parameters.index(parameter)
         if not _depends_on_parameters(parameter):
-            resolved[parameter] = values[parameter]
-            return values[parameter]
+            resolved[parameter] = given[i]
+            return given[i]
         for node in subexpressions(parameter.value):
             if isinstance(node, Reference) and node.target in s.parameters:
                 resolve(node.target)
         value = complete(looking.lower(parameter.value))
-        resolved[parameter] = ca.if_else(is_set[i] != 0, values[parameter], value)
+        resolved[parameter] = ca.if_else(is_set[i] != 0, given[i], value)
         return resolved[parameter]
 
     def complete(value: ca.SX) -> ca.SX:
         """The value with every parameter in it replaced by what it is."""
         known = list(resolved)
-        symbols = _column([s.p[s.parameters.index(p)] for p in known])
-        return ca.substitute(value, symbols, _column([resolved[p] for p in known]))
+        symbols = column([s.p[s.parameters.index(p)] for p in known])
+        return ca.substitute(value, symbols, column([resolved[p] for p in known]))
 
     for parameter in s.parameters:
         resolve(parameter)
@@ -162,12 +156,12 @@ def _parameters(
         for e in (experiment.start, experiment.stop, experiment.tolerance, experiment.interval)
     ]
     outputs = [
-        _column([looking.lower(check.value) for check in checks]),
-        _column([looking.lower(c.unilateral) for c in reduced.mechanism.contacts]),
-        _column(times),
+        column([looking.lower(check.value) for check in checks]),
+        column([looking.lower(c.unilateral) for c in reduced.mechanism.contacts]),
+        column(times),
     ]
     return [
-        _column([resolved[p] for p in s.parameters]),
+        column([resolved[p] for p in s.parameters]),
         *(complete(output) for output in outputs),
     ]
 
@@ -214,11 +208,11 @@ def _initial(reduced: Reduced, looking: Lowering, log: Log) -> _Initial:
             residuals[moving].append(difference[i])
             sizes[moving].append(ca.fabs(left[i]) + ca.fabs(right[i]))
             statements[moving].append(index)
-    position, velocity = _column(residuals[False]), _column(residuals[True])
+    position, velocity = column(residuals[False]), column(residuals[True])
     return _Initial(
         [_guess(reduced, looking, s.q, log), _guess(reduced, looking, s.v, log)],
-        [position, ca.jacobian(position, s.q).T, _column(sizes[False])],
-        [velocity, ca.jacobian(velocity, s.v).T, _column(sizes[True])],
+        [position, ca.jacobian(position, s.q).T, column(sizes[False])],
+        [velocity, ca.jacobian(velocity, s.v).T, column(sizes[True])],
         tuple(statements[False]),
         tuple(statements[True]),
     )

@@ -7,7 +7,6 @@ zero, and so are their accelerations, in every motion.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import casadi as ca
@@ -16,7 +15,7 @@ from frot.compiler.expressions import Conditions, Lowering
 from frot.compiler.forces import load
 from frot.compiler.kinematics import Kinematics
 from frot.compiler.mechanism import Contact, Mechanism
-from frot.compiler.symbols import Rows, Symbols, contact_rows, make_symbols
+from frot.compiler.symbols import Rows, Symbols, column, contact_rows, make_symbols
 from frot.compiler.variables import Variables
 from frot.dsl import Log
 from frot.dsl.checked import Liaison, Quantity
@@ -87,22 +86,17 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         mass=settled(motion.mass),
         force=settled(motion.force + loads.force),
         force_size=settled(motion.size + loads.size),
-        load_sizes=settled(_column(loads.sizes)),
+        load_sizes=settled(column(loads.sizes)),
         rows=settled(ca.jacobian(rates, speeds)),
         bias=settled(ca.jtimes(rates, places, speeds)),
         rate=settled(rates),
-        gap=settled(_column(g.gap for g in geometry)),
-        distance=settled(_column(g.distance for g in geometry)),
+        gap=settled(column(g.gap for g in geometry)),
+        distance=settled(column(g.distance for g in geometry)),
         coefficients=settled(coefficients),
         power=settled(loads.power),
         kinetic=settled(motion.kinetic),
         potential=settled(motion.potential + loads.potential),
     )
-
-
-def _column(values: Iterable[ca.SX]) -> ca.SX:
-    items = list(values)
-    return ca.vertcat(*items) if items else ca.SX.zeros(0)
 
 
 def _variables(mechanism: Mechanism, kinematics: Kinematics, symbols: Symbols) -> Variables:
@@ -217,7 +211,7 @@ def _rates(contacts: tuple[Contact, ...], variables: Variables, kinematics: Kine
             rates.append(geometry.slip)
         if contact.delta is not None:
             rates.append(geometry.roll)
-    return _column(rates)
+    return column(rates)
 
 
 def _coefficients(
@@ -239,7 +233,7 @@ def _coefficients(
                     expression.span,
                 )
             values.append(ca.if_else(value >= 0, value, ca.SX.nan()))
-    return _column(values)
+    return column(values)
 
 
 def _reads_speed(value: ca.SX, symbols: Symbols) -> bool:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.mechanism import Contact, Coordinates, LineCoordinates, Mechanism
-from frot.dsl.checked import Body, Input, Parameter
+from frot.dsl.checked import Input, Parameter
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,9 +49,10 @@ class Rows:
     rolling: int
 
 
-def body_of(coordinates: Coordinates) -> Body:
-    """The body that has these coordinates."""
-    return coordinates.body
+def column(values: Iterable[ca.SX]) -> ca.SX:
+    """The values below one another; an empty column for none."""
+    items = list(values)
+    return ca.vertcat(*items) if items else ca.SX.zeros(0)
 
 
 def coordinate_names(coordinates: Coordinates) -> tuple[str, ...]:

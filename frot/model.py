@@ -25,7 +25,9 @@ class Model:
         """`name` is the file's, for messages; `model` chooses one of several in the text."""
         self._text, self._file, self._chosen = text, name, model
         self._checked: checked.Model | None = None
-        self._program: Program | None = None
+        self._toolchain = find_toolchain()
+        self._key = program_key(f"{name}\n{text}", model, self._toolchain)
+        self._program: Program | None = find_program(self._key)
 
     @property
     def name(self) -> str:
@@ -49,16 +51,12 @@ class Model:
     def program(self) -> Program:
         """The compiled program, from the cache if it is there."""
         if self._program is None:
-            toolchain = find_toolchain()
-            key = program_key(f"{self._file}\n{self._text}", self._chosen, toolchain)
-            self._program = find_program(key)
-            if self._program is None:
-                from frot.compiler import build
+            from frot.compiler import build
 
-                log = Log()
-                self._program = build(self.checked(), key, toolchain, log)
-                if self._program is None:
-                    raise FrotError(log)
+            log = Log()
+            self._program = build(self.checked(), self._key, self._toolchain, log)
+            if self._program is None:
+                raise FrotError(log)
         return self._program
 
     def simulate(
@@ -134,7 +132,7 @@ class Model:
             raise fail("E0806", f"FMI version '{fmi}' is not known", help="choose 2.0 or 3.0")
         target = Path(path)
         try:
-            export(self.program(), target, fmi, partial(compile_library, find_toolchain()))
+            export(self.program(), target, fmi, partial(compile_library, self._toolchain))
         except OSError as error:
             raise fail(
                 "E0803",
@@ -169,8 +167,6 @@ def compile(text: str, model: str | None = None) -> Model:
 
 def _make(text: str, name: str, chosen: str | None) -> Model:
     model = Model(text, name, chosen)
-    toolchain = find_toolchain()
-    model._program = find_program(program_key(f"{name}\n{text}", chosen, toolchain))
     if model._program is None:
         model.checked()
     return model

@@ -1,5 +1,4 @@
 /* The life of an instance: parameters, start, changes from outside, the run. */
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
