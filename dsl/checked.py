@@ -27,9 +27,9 @@ class Literal:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reference:
-    """A parameter, constant, input or declared output, named."""
+    """A parameter, constant, input, declared output or variable of the equations, named."""
 
-    target: Parameter | Input | Output
+    target: Parameter | Input | Output | Variable
     type: Type
     span: Span
 
@@ -107,7 +107,15 @@ class Binary:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Call:
-    """A usual function by its name (`sin sqrt atan2 dot norm min max abs sign exp log ...`)."""
+    """A function of the language by its name.
+
+    The usual ones (`sin sqrt atan2 dot norm min max abs sign exp log ...`), and those of events:
+    `pre(x)` and `change(x)` of a discrete variable, `edge(b)` of a condition, `sample(start,
+    interval)`, `initial()`; `friction(slip, bound, bound_s)` is set-valued dry friction: the force
+    or couple opposed to `slip`, of size `bound` while it slips and at most `bound_s` at rest.
+    Functions of the user are expanded: their expressions stand where they are called, and one
+    object may then stand at several places of a tree.
+    """
 
     function: str
     arguments: tuple[Expression, ...]
@@ -185,6 +193,116 @@ class Output:
     doc: str = ""
     unit: str = ""
     quantity: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Variable:
+    """An unknown of the equations, a scalar or an array; `name` is dotted, as `r[2].p.i`.
+
+    `discrete`: it changes at events only, by a `when` (or it is an integer, a condition or an
+    enumeration that a `when` sets). `start` is `(start = ...)`, a guess for what `initial` leaves
+    open and the first value of a discrete variable. `output`: declared so in the model itself.
+    """
+
+    name: str
+    type: Type
+    span: Span
+    doc: str = ""
+    unit: str = ""
+    quantity: str = ""
+    start: Expression | None = None
+    discrete: bool = False
+    output: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Flange:
+    """The flange of a liaison of one coordinate, where something is connected to it.
+
+    `effort` is its flow variable, the force or couple that flows into the liaison: it drives the
+    coordinate `Quantity(liaison, coordinate)` upwards.
+    """
+
+    liaison: Liaison
+    coordinate: str
+    effort: Variable
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Equation:
+    """`left = right`, scalars or arrays of one shape (or conditions, for a Boolean variable).
+
+    `span` is where it is written, in the class of the component; `owner` is the component's dotted
+    name, empty in the model itself. A connection gives equations with the span of its `connect`;
+    `connection` is then its text for messages (`connect(r.n, l.p)`, or `flows of r.n, l.p`).
+    """
+
+    left: Expression
+    right: Expression
+    span: Span
+    owner: str = ""
+    connection: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class IfEquations:
+    """`if` equations whose condition can change: every branch has as many scalar equations.
+
+    `branches` are conditions with their equations; the last condition is None (`else`). Where the
+    conditions are parameters of the structure the checker has chosen the branch already.
+    """
+
+    branches: tuple[tuple[Expression | None, tuple[Equation | IfEquations, ...]], ...]
+    span: Span
+    owner: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Assign:
+    """`variable = value;` inside `when`: the discrete variable's new value."""
+
+    variable: Variable
+    value: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reinit:
+    """`reinit(target, value);` inside `when`; `target` is a variable or a coordinate or speed."""
+
+    target: Expression
+    value: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Terminate:
+    """`terminate("why");` inside `when`: the run ends well."""
+
+    message: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Assertion:
+    """`assert(condition, "message", level = error | warning)`, anywhere among the equations."""
+
+    condition: Expression
+    message: str
+    level: str
+    span: Span
+    owner: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class When:
+    """`when` with its `elsewhen`s: the first branch one of whose conditions comes to hold fires."""
+
+    branches: tuple[
+        tuple[tuple[Expression, ...], tuple[Assign | Reinit | Terminate | Assertion, ...]], ...
+    ]
+    span: Span
+    owner: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -349,3 +467,8 @@ class Model:
     files: tuple[Source, ...]
     span: Span
     doc: str = ""
+    variables: tuple[Variable, ...] = ()
+    equations: tuple[Equation | IfEquations, ...] = ()
+    flanges: tuple[Flange, ...] = ()
+    whens: tuple[When, ...] = ()
+    assertions: tuple[Assertion, ...] = ()

@@ -27,6 +27,7 @@ enum frot_status {
   FROT_OK = 0,
   FROT_FULL = 1,       /* the recorder is full: drain it and call again */
   FROT_STOPPED = 2,    /* the monitor asked to stop */
+  FROT_TERMINATED = 3, /* the model's own `terminate`: the run is over and good */
   FROT_CHECK = 10,     /* a parameter has a value the model cannot have */
   FROT_INITIAL = 11,   /* contradictory initial values */
   FROT_IMPACT = 13,    /* two bodies meet: impacts are not computed */
@@ -37,7 +38,9 @@ enum frot_status {
   FROT_DIVERGE = 18,   /* the step went to zero: jamming or a singular point */
   FROT_SINGULAR = 19,  /* the mass matrix is singular */
   FROT_TOO_LARGE = 20, /* too many coupled friction elements change at once */
-  FROT_MISUSE = 21     /* a call out of order or with bad arguments */
+  FROT_MISUSE = 21,    /* a call out of order or with bad arguments */
+  FROT_ALGEBRAIC = 22, /* a block of equations has no solution, or a singular one */
+  FROT_ASSERT = 23     /* an `assert` of the text does not hold */
 };
 
 /* Modes of the relative motion a law of friction bounds. */
@@ -68,11 +71,22 @@ typedef struct {
   int n_arg, n_res, n_iw, n_w;
 } frot_callable;
 
-/* A contact: a point or rim on a line, with the rows of its relative velocity. */
+/* What bounds the friction of an element: the size of one normal reaction, that of a reaction of
+ * two components (a pin), or a value of the text (a brake, a clutch). */
+enum frot_bound { FROT_BY_NORMAL = 0, FROT_BY_PIN = 1, FROT_BY_VALUE = 2 };
+
+/* A friction element: a point or rim on a line, a pin, or an element of the text's equations, with
+ * the rows of its relative velocity.
+ * FROT_BY_NORMAL: coefficients mu, mu_s bound the row row_t by mu |lam[row_n]|, delta row_r.
+ * FROT_BY_PIN: row_n and row_n2 are the components of the reaction (never open, `reduced`); mu is
+ * the coefficient times the radius and bounds row_t by mu sqrt(lam[row_n]^2 + lam[row_n2]^2).
+ * FROT_BY_VALUE: row_n = -1; mu and mu_s are the bounds of row_t themselves. Never open. */
 typedef struct {
-  const char *name;  /* the liaison */
+  const char *name;  /* the liaison, or the element */
   const char *place; /* file:line:column */
-  int row_n;         /* row of the normal */
+  int bound;         /* frot_bound */
+  int row_n;         /* row of the normal, -1 for FROT_BY_VALUE */
+  int row_n2;        /* second row of a pin's reaction, else -1 */
   int row_t;         /* row of the slip, -1 without dry friction */
   int row_r;         /* row of the rolling rate, -1 without rolling resistance */
   int reduced;       /* 1: the relation is built into the coordinates (no gap, no drift) */
@@ -103,17 +117,45 @@ typedef struct {
   const char *name, *place;
 } frot_load;
 
+/* A strong component of the text's equations that no explicit formula solves. Its unknowns are
+ * y[first .. first + count). residual(t, q, v, u, p, d, y [, z, lam]) -> r (count), dr/dy by
+ * columns (count x count), size of the terms of r (count). `linear`: r is linear in its own
+ * unknowns. `late`: it reads z, the accelerations, or the reactions, and is solved after them; it
+ * then takes the two arguments more. Blocks are solved in order, the late ones last in the list. */
+typedef struct {
+  frot_callable residual;
+  int first, count, linear, late;
+  const char *name, *place; /* the unknowns, and the place of its first equation */
+} frot_block;
+
+/* What `update` may ask for beside new values. */
+enum frot_outcome_kind { FROT_OUTCOME_TERMINATE = 0, FROT_OUTCOME_FAIL = 1, FROT_OUTCOME_WARN = 2 };
+typedef struct {
+  int kind;
+  const char *text, *place;
+} frot_outcome;
+
 /* One scalar variable. */
 enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 3 };
 
 /* Inputs of the generated functions, in this order:
- *   t, q (nq), v (nv), u (nu), p (np), d (nd: conditions 0/1, then the sides +1/-1 of the contacts)
- * nw = nv + na: speeds, then auxiliary speeds (zero in the motion) that bring reactions to light.
- * Rows: J (nw + constant) velocities and accelerations J a + c. Matrices are dense, by columns. */
+ *   t, q (nq), v (nv), u (nu), p (np), d (nd: conditions 0/1, then the sides +1/-1 of the contacts,
+ *   then the discrete variables), y (ny: unknowns of the blocks)
+ *
+ * The states are q and v. The speeds v are those whose rates are unknowns of the core system
+ *   A z = h + E lam,   z (nw) = v' (nv), auxiliary accelerations (na, zero in the motion: they
+ * bring reactions to light), algebraic unknowns of the core (nc), where the rows accelerate by J z
+ * + c. The rates q' are explicit; q_speed[k] is the speed that is the rate of q[k], or -1 where
+ * q[k] is another state. In a model without equations in its core
+ * (`general` = 0) A is the mass matrix, symmetric positive definite, nc = 0 and E = J'.
+ * Matrices are dense, by columns. */
 typedef struct {
   const char *name;
   const char *key; /* identity of the compiled model; kept in saved states */
-  int nq, nv, na, nu, np, n_rows, n_contacts, n_conditions;
+  int nq, nv, na, nc, nu, np, ny, n_rows, n_contacts, n_conditions, n_discrete;
+  int n_blocks, n_invariants, n_whens, n_outcomes;
+  int general;        /* A is any matrix and `spread` gives E and the metric */
+  int late_rates;     /* q' or the power depend on y of late blocks, z or lam: `rates` gives them */
   int time_dependent; /* forces, coefficients or conditions depend on time */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
   /* variables [0, n_contacts) are the modes of the contacts (frot_mode), the others are real */
@@ -121,28 +163,44 @@ typedef struct {
   /* parameters(p, set, u) -> p complete (np), checks (n_checks), unilateral (n_contacts),
    *   experiment (start stop tolerance interval) */
   frot_callable parameters;
-  /* start(t, u, p) -> q guess, v guess */
+  /* start(t, u, p) -> q guess, v guess, y guess, discrete variables at the start */
   frot_callable start;
-  /* initial_position(t, q, v, u, p, d) -> residual (n_position), its transposed Jacobian in q,
-   *   size of its terms (n_position) */
+  /* The functions of the state take (t, q, v, u, p, d, y).
+   * initial_position -> residual (n_position), its transposed Jacobian in q (nq x n_position), size
+   *   of its terms (n_position), its transposed Jacobian in y (ny x n_position) */
   frot_callable initial_position;
-  /* initial_velocity(t, q, v, u, p, d) -> residual (n_velocity), its transposed Jacobian in v,
-   *   size of its terms (n_velocity) */
+  /* initial_velocity -> the same in v: (nv x n_velocity), (ny x n_velocity) */
   frot_callable initial_velocity;
-  /* kinematics(t, q, v, u, p, d) -> gap (n_contacts), rows J' (nw x n_rows), rate (n_rows),
-   *   conditions (n_conditions), distance with sign by which the side is chosen (n_contacts) */
+  /* kinematics -> gap (n_contacts), rows J' (nw x n_rows), rate (n_rows), conditions
+   * (n_conditions), distance with sign by which the side is chosen (n_contacts) */
   frot_callable kinematics;
-  /* dynamics(t, q, v, u, p, d) -> q' (nq), M (nw x nw), h (nw), J' (nw x n_rows), c (n_rows),
-   *   rate (n_rows), gap (n_contacts), conditions (n_conditions), coefficients mu mu_s delta
-   *   (3 x n_contacts), power of the forces that have no potential (1) */
+  /* dynamics -> q' (nq), A (nw x nw), h (nw), J' (nw x n_rows), c (n_rows), rate (n_rows), gap
+   *   (n_contacts), conditions (n_conditions), coefficients mu mu_s delta (3 x n_contacts), power
+   * of the forces that have no potential (1) */
   frot_callable dynamics;
-  /* sizes(t, q, v, u, p, d) -> sum of the sizes of the terms of h (nw), which may cancel in h;
-   *   size of each applied force (n_loads) */
+  /* spread -> E (nw x n_rows), metric ((nv + na) x (nv + na), symmetric positive definite: what
+   *   `least change` of speeds means). Called where `general`. */
+  frot_callable spread;
+  /* rates(..., y, z (nw), lam (n_rows)) -> q' (nq), power (1). Called where `late_rates`. */
+  frot_callable rates;
+  /* invariants -> residual (n_invariants), its transposed Jacobian in (q, v) ((nq + nv) x
+   *   n_invariants), size of its terms (n_invariants): relations between states that index
+   *   reduction brought to light and that every accepted step is projected onto */
+  frot_callable invariants;
+  /* block_slopes -> residual of the blocks that are not late (ny_early), its transposed Jacobians
+   * in q (nq x ny_early), in v (nv x ny_early), in y (ny_early x ny_early): for initial values */
+  frot_callable block_slopes;
+  /* update(..., y, z (nw), lam (n_rows), fired (n_whens: 1 for each `when` that fires)) -> q (nq)
+   * and v (nv) after reinit, discrete variables (n_discrete), outcomes (n_outcomes: 1 where asked)
+   */
+  frot_callable update;
+  /* sizes -> sum of the sizes of the terms of h (nw), which may cancel in h; size of each applied
+   *   force (n_loads) */
   frot_callable sizes;
-  /* variables(t, q, v, u, p, d, a (nv), lam (n_rows), energy (dissipated, work)) ->
-   *   values (n_variables) without the modes, which the kernel fills */
+  /* variables(..., y, z (nw), lam (n_rows), energy (dissipated, work)) -> values (n_variables)
+   *   without the modes, which the kernel fills */
   frot_callable variables;
-  /* energy(t, q, v, u, p, d) -> kinetic, potential */
+  /* energy -> kinetic, potential */
   frot_callable energy;
 
   const double *p_default; /* np */
@@ -155,10 +213,16 @@ typedef struct {
   const int *velocity_statement; /* n_velocity */
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;      /* np: frot_type */
-  /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t
-   */
+  /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t,
+   * an input, a discrete variable or y */
   const unsigned char *row_depends;
   const unsigned char *condition_strict; /* n_conditions: 1 for < and >, 0 for <= and >= */
+  const int *q_speed;                    /* nq: the speed that is the rate of q[k], or -1 */
+  const frot_block *blocks;              /* n_blocks */
+  const int *when_condition;             /* n_whens: it fires when this condition comes to hold */
+  const unsigned char
+      *when_at_start;           /* n_whens: 1 where it also fires if that holds at the start */
+  const frot_outcome *outcomes; /* n_outcomes */
 } frot_model;
 
 typedef struct {
