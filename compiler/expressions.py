@@ -23,6 +23,7 @@ from frot.dsl.checked import (
     Reference,
     Time,
     Unary,
+    Variable,
     Vector,
 )
 
@@ -56,10 +57,13 @@ FUNCTIONS: dict[str, Callable[..., ca.SX]] = {
     "hypot": lambda x, y: ca.sqrt(x * x + y * y),
     "dot": ca.dot,
     "norm": lambda x: ca.sqrt(ca.sumsqr(x)),
-    "cross": lambda x, y: x[0] * y[1] - x[1] * y[0],
+    "cross": lambda x, y: x[0] * y[1] - x[1] * y[0] if x.numel() == 2 else ca.cross(x, y),
+    "sum": lambda x: ca.sum1(ca.sum2(x)),
+    "transpose": lambda x: x.T,
 }
 
 STEPPING = ("floor", "ceil", "mod")
+OF_EVENTS = ("pre", "edge", "change", "sample", "initial", "friction")
 
 
 @dataclass(slots=True)
@@ -89,6 +93,9 @@ class Conditions:
 class Lowering:
     """Lowers expressions; `quantity` gives the variables of bodies and liaisons, `rate` d/dt.
 
+    `variable` gives the variables of the text, `before` the discrete ones before an event;
+    `friction` makes a friction element of its call, in the component named by `owner`.
+
     With `conditions`, every switch that depends on time, inputs or motion becomes a located event;
     without, it is taken as it stands (for what is only looked at: outputs, initial statements).
     """
@@ -98,9 +105,21 @@ class Lowering:
     rate: Callable[[ca.SX], ca.SX]
     log: Log
     conditions: Conditions | None = None
+    variable: Callable[[Variable], ca.SX] | None = None
+    before: Callable[[Variable], ca.SX] | None = None
+    friction: Callable[[Call, list[ca.SX], str], ca.SX] | None = None
+    owner: str = ""
+    _done: dict[int, tuple[Expression, ca.SX]] = field(default_factory=dict)
 
     def lower(self, expression: Expression) -> ca.SX:
-        """The CasADi value: a scalar or a column."""
+        """The CasADi value: a scalar, a column or a matrix. Shared parts are lowered once."""
+        known = self._done.get(id(expression))
+        if known is None:
+            known = (expression, self._lower(expression))
+            self._done[id(expression)] = known
+        return known[1]
+
+    def _lower(self, expression: Expression) -> ca.SX:
         match expression:
             case Literal():
                 return ca.SX(float(expression.value))
@@ -113,9 +132,14 @@ class Lowering:
             case Derivative():
                 return self.rate(self.lower(expression.operand))
             case Element():
-                return self.lower(expression.operand)[expression.index]
+                whole = self.lower(expression.operand)
+                if len(expression.operand.type.shape) == 2:
+                    return whole[expression.index, :].T
+                return whole[expression.index]
             case Vector():
-                return ca.vertcat(*(self.lower(item) for item in expression.items))
+                items = [self.lower(item) for item in expression.items]
+                rows = [i.T for i in items] if len(expression.type.shape) == 2 else items
+                return ca.vertcat(*rows) if rows else ca.SX.zeros(0)
             case Unary():
                 value = self.lower(expression.operand)
                 return 1 - value if expression.op == "not" else -value
@@ -133,9 +157,12 @@ class Lowering:
         if isinstance(target, Parameter):
             if target.constant:
                 return self.lower(target.value)
-            return self.symbols.p[self.symbols.parameters.index(target)]
+            return self.symbols.parameter(target)
         if isinstance(target, Input):
             return self.symbols.u[self.symbols.inputs.index(target)]
+        if isinstance(target, Variable):
+            assert self.variable is not None
+            return self.variable(target)
         return self.lower(target.value)
 
     def _located(self, expression: Expression) -> Conditions | None:
@@ -150,7 +177,8 @@ class Lowering:
             case "-":
                 return left - right
             case "*":
-                return left * right
+                shapes = node.left.type.shape, node.right.type.shape
+                return left @ right if (2 in map(len, shapes) and all(shapes)) else left * right
             case "/":
                 return left / right
             case "^":
@@ -174,6 +202,8 @@ class Lowering:
         arguments = [self.lower(argument) for argument in node.arguments]
         conditions = self._located(node)
         name = node.function
+        if name in OF_EVENTS:
+            return self._of_events(node, arguments)
         if name in ("min", "max"):
             value = arguments[0]
             for other in arguments[1:]:
@@ -185,6 +215,24 @@ class Lowering:
         if conditions is not None and name in STEPPING:
             self._refuse(f"`{name}` of a value that changes, in a force or coefficient", node)
         return FUNCTIONS[name](*arguments)
+
+    def _of_events(self, node: Call, arguments: list[ca.SX]) -> ca.SX:
+        """Functions that only equations and `when` may hold."""
+        name, operand = node.function, node.arguments[0] if node.arguments else None
+        if name == "pre" and isinstance(operand, Reference):
+            target = operand.target
+            if isinstance(target, Variable) and target.discrete and self.before is not None:
+                return self.before(target)
+            return arguments[0]
+        if name == "pre":
+            return arguments[0]
+        if name == "friction" and self.friction is not None:
+            return self.friction(node, arguments, self.owner)
+        if name == "friction":
+            self._refuse("`friction` outside of the equations", node)
+        else:
+            self._refuse(f"`{name}` other than as the condition of a 'when'", node)
+        return arguments[0] if arguments else ca.SX(0)
 
     @staticmethod
     def _least(x: ca.SX, y: ca.SX, conditions: Conditions | None, sign: int) -> ca.SX:

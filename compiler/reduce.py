@@ -7,18 +7,31 @@ zero, and so are their accelerations, in every motion.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import casadi as ca
+from frot.compiler.chains import Chains
 from frot.compiler.contacts import Geometry, contact_geometry, down
+from frot.compiler.eliminate import Residuals
+from frot.compiler.events import Events, gather_events
 from frot.compiler.expressions import Conditions, Lowering
 from frot.compiler.forces import load
+from frot.compiler.gather import gather
 from frot.compiler.kinematics import Kinematics
 from frot.compiler.mechanism import Contact, Mechanism
-from frot.compiler.symbols import Rows, Symbols, column, contact_rows, make_symbols
+from frot.compiler.symbols import (
+    Rows,
+    Symbols,
+    column,
+    contact_rows,
+    coordinate_names,
+    make_symbols,
+)
+from frot.compiler.text_symbols import Element, TextSymbols, make_text_symbols
 from frot.compiler.variables import Variables
 from frot.dsl import Log
-from frot.dsl.checked import Liaison, Quantity
+from frot.dsl.checked import Call, Liaison, Quantity
 
 STANDARD_GRAVITY = 9.81
 
@@ -27,14 +40,18 @@ STANDARD_GRAVITY = 9.81
 class Reduced:
     """Equations of the motion in CasADi expressions, auxiliary speeds at zero.
 
-    `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes of its terms,
-    `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a + bias is the
+    `text`, `equations` and `events` are what the text adds with its variables, which `force` and
+    the others may hold too. `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes
+    of its terms, `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a + bias is the
     rows' acceleration), `rate` (n_rows), `gap` and `distance` (n_contacts), `coefficients` (mu,
     mu_s, delta of each contact), `power` of the loads without potential, `kinetic`, `potential`.
     """
 
     mechanism: Mechanism
     symbols: Symbols
+    text: TextSymbols
+    equations: Residuals
+    events: Events
     contact_rows: tuple[Rows, ...]
     variables: Variables
     fixed: Lowering
@@ -63,22 +80,41 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
 
     fixed = Lowering(symbols, nothing, lambda value: value * 0, log)
     kinematics = Kinematics(mechanism, symbols, fixed)
-    variables = _variables(mechanism, kinematics, symbols)
+    text = _text(mechanism, symbols)
+    variables = _variables(mechanism, kinematics, symbols, text)
     conditions = Conditions()
-    moving = Lowering(symbols, variables.quantity, variables.rate, log, conditions)
+    moving, looking = (
+        Lowering(
+            symbols,
+            variables.quantity,
+            variables.rate,
+            log,
+            located,
+            variable=text.values.__getitem__,
+            before=text.values.__getitem__,
+        )
+        for located in (conditions, None)
+    )
+    moving.friction = _friction_maker(text)
     rates = _rates(mechanism.contacts, variables, kinematics)
     speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
     motion = _masses(mechanism, variables)
-    loads = _loads(mechanism, variables, moving, log)
+    loads = _loads(mechanism, variables, moving)
     coefficients = _coefficients(mechanism.contacts, moving, symbols, log)
     geometry = [variables.geometry[contact.liaison] for contact in mechanism.contacts]
+    equations = gather(mechanism.model.equations, moving, log)
+    events = gather_events(mechanism.model, text, conditions, moving, looking, log)
     if log.failed:
         return None
     settled = variables.settled
     conditions.values = [settled(value) for value in conditions.values]
+    equations.values[:] = [settled(value) for value in equations.values]
     return Reduced(
         mechanism=mechanism,
         symbols=symbols,
+        text=text,
+        equations=equations,
+        events=events,
         contact_rows=contact_rows(mechanism.contacts),
         variables=variables,
         fixed=fixed,
@@ -99,7 +135,44 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     )
 
 
-def _variables(mechanism: Mechanism, kinematics: Kinematics, symbols: Symbols) -> Variables:
+def _text(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
+    """Chains of the coordinates, then symbols for the variables of the text."""
+    chains = Chains(symbols.t)
+    names = [n for c in mechanism.coordinates for n in coordinate_names(c)]
+    for name, *chain in zip(
+        names,
+        *(ca.vertsplit(x) if names else () for x in (symbols.q, symbols.v, symbols.a)),
+        strict=True,
+    ):
+        chains.add(name, None, None, chain)
+    chains.forbid_rate(symbols.u, "the input")
+    chains.forbid_rate(symbols.lam, "the reaction")
+    return make_text_symbols(mechanism.model.variables, chains)
+
+
+def _friction_maker(text: TextSymbols) -> Callable[[Call, list[ca.SX], str], ca.SX]:
+    """Makes an element of every `friction(slip, bound, bound_s)` of the equations."""
+    taken: set[str] = set()
+
+    def make(call: Call, arguments: list[ca.SX], owner: str) -> ca.SX:
+        slip, bound = arguments[:2]
+        at_rest = arguments[2] if len(arguments) > 2 else bound
+        name, count = owner or "friction", 1
+        while name in taken:
+            count += 1
+            name = f"{owner}.friction_{count}" if owner else f"friction_{count}"
+        taken.add(name)
+        force = ca.SX.sym(f"{name}.friction")
+        text.elements.append(Element(name, call.span, force, slip, bound, at_rest))
+        text.chains.forbid_rate(force, "the friction")
+        return force
+
+    return make
+
+
+def _variables(
+    mechanism: Mechanism, kinematics: Kinematics, symbols: Symbols, text: TextSymbols
+) -> Variables:
     world = mechanism.model.world
     geometry: dict[Liaison, Geometry] = {}
     for index, contact in enumerate(mechanism.contacts):
@@ -109,6 +182,7 @@ def _variables(mechanism: Mechanism, kinematics: Kinematics, symbols: Symbols) -
         geometry[contact.liaison] = contact_geometry(contact, kinematics, ca.SX(1), world)
     return Variables(
         symbols,
+        text.chains,
         kinematics,
         geometry,
         {contact.liaison: contact for contact in mechanism.contacts},
@@ -167,7 +241,7 @@ class _Loads:
     power: ca.SX
 
 
-def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering, log: Log) -> _Loads:
+def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> _Loads:
     kinematics, symbols = variables.kinematics, variables.symbols
     speeds = ca.vertcat(symbols.v, symbols.sw)
     force, size = ca.SX.zeros(speeds.numel()), ca.SX.zeros(speeds.numel())
@@ -176,15 +250,6 @@ def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering, log: Lo
     for applied in mechanism.forces:
         result = load(applied, kinematics, moving, mechanism.model.ground)
         for action in result.actions:
-            if _reads_solution(action.force, symbols):
-                log.report(
-                    "E0701",
-                    f"force '{applied.name}' reads an acceleration or a reaction: this is not "
-                    "supported yet",
-                    applied.span,
-                    help="write it in terms of time, positions and velocities",
-                )
-                break
             velocity = kinematics.velocity_at(action.body, action.place)
             push = ca.jacobian(velocity, speeds).T @ action.force
             force, size = force + push, size + ca.fabs(push)
@@ -193,6 +258,13 @@ def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering, log: Lo
         sizes.append(sum((ca.sum1(ca.fabs(a.force)) for a in result.actions), ca.SX(0)))
         if result.potential is not None:
             potential += result.potential
+    for flange in mechanism.model.flanges:
+        assert moving.variable is not None
+        effort = moving.variable(flange.effort)
+        rate = kinematics.velocity(variables.of_liaison(flange.liaison, flange.coordinate))
+        push = ca.jacobian(rate, speeds).T * effort
+        force, size = force + push, size + ca.fabs(push)
+        power += effort * rate
     return _Loads(force, size, sizes, potential, power)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.mechanism import Contact, Coordinates, LineCoordinates, Mechanism
@@ -33,6 +33,14 @@ class Symbols:
     energy: ca.SX
     parameters: tuple[Parameter, ...]
     inputs: tuple[Input, ...]
+    _place: dict[Parameter, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._place.update({p: i for i, p in enumerate(self.parameters)})
+
+    def parameter(self, parameter: Parameter) -> ca.SX:
+        """The symbol of a parameter."""
+        return self.p[self._place[parameter]]
 
     @property
     def auxiliary(self) -> ca.SX:

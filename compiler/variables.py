@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
+from frot.compiler.chains import Chains
 from frot.compiler.contacts import Geometry
 from frot.compiler.kinematics import Kinematics
 from frot.compiler.mechanism import Contact
@@ -21,6 +22,7 @@ class Variables:
     """
 
     symbols: Symbols
+    chains: Chains
     kinematics: Kinematics
     geometry: dict[Liaison, Geometry]
     contacts: dict[Liaison, Contact]
@@ -33,14 +35,8 @@ class Variables:
         return self.of_body(node.owner, node.name)
 
     def rate(self, value: ca.SX) -> ca.SX:
-        """d/dt of a function of time, coordinates and speeds."""
-        s = self.symbols
-        value = self.settled(value)
-        return (
-            ca.jtimes(value, s.t, ca.SX(1))
-            + ca.jtimes(value, s.q, s.v)
-            + ca.jtimes(value, s.v, s.a)
-        )
+        """d/dt of a function of time, coordinates, speeds and variables of the text."""
+        return self.chains.rate(self.settled(value))
 
     def settled(self, value: ca.SX) -> ca.SX:
         """The value with auxiliary coordinates and speeds at zero."""

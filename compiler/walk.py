@@ -22,12 +22,16 @@ from frot.dsl.checked import (
 
 
 def subexpressions(expression: Expression) -> Iterator[Expression]:
-    """The expression and everything in it, through declared outputs it names."""
+    """The expression and everything in it once, through declared outputs it names."""
     from frot.dsl.checked import Output
 
     stack = [expression]
+    seen: set[int] = set()
     while stack:
         node = stack.pop()
+        if id(node) in seen:
+            continue
+        seen.add(id(node))
         yield node
         match node:
             case Derivative() | Element() | Unary():

@@ -1,0 +1,227 @@
+"""The core system: accelerations of the mechanism with all that friction reaches at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+from frot.compiler.chains import replace_known
+from frot.compiler.differentiate import Differentiated
+from frot.compiler.eliminate import Eliminated, resolve_all
+from frot.compiler.reduce import Reduced
+from frot.compiler.symbols import column
+from frot.dsl import Log
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Core:
+    """States (q, v) with the rates of q, and the system of z: see `Assembled`."""
+
+    q: ca.SX
+    v: ca.SX
+    z: ca.SX
+    lam: ca.SX
+    names: tuple[str, ...]
+    q_speed: tuple[int, ...]
+    rates: ca.SX
+    nc: int
+    general: bool
+    matrix: ca.SX
+    force: ca.SX
+    force_size: ca.SX
+    spread: ca.SX
+    metric: ca.SX
+    rows: ca.SX
+    bias: ca.SX
+    rate: ca.SX
+    coefficients: ca.SX
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _States:
+    q: list[ca.SX]
+    rates: list[ca.SX]
+    v: list[ca.SX]
+    accelerations: list[ca.SX]
+    algebraic: list[ca.SX]
+
+
+def make_core(
+    reduced: Reduced,
+    left: Eliminated,
+    found: Differentiated,
+    core: set[int],
+    newton: ca.SX,
+    known: dict[int, ca.SX],
+    log: Log,
+) -> Core | None:
+    """Form the core of the components `core`; a fault is reported.
+
+    `newton` are the mechanism's equations resolved, auxiliary rows last; `known` is what earlier
+    components gave.
+    """
+    s, chains, elements = reduced.symbols, reduced.text.chains, reduced.text.elements
+    states = _sort_states(found, core)
+    nv, na, nc = len(states.v), s.w.numel(), len(states.algebraic)
+    auxiliary = ca.SX.sym("auxiliary", na)
+    z = ca.vertcat(column(states.accelerations), auxiliary, column(states.algebraic))
+    lam = ca.vertcat(s.lam, column(e.force for e in elements))
+    count = s.v.numel()
+    user = [
+        found.values[i]
+        for k in sorted(core)
+        for i in found.components[k].equations
+        if i >= found.newton
+    ]
+    coupling = reduced.mass[:, count:] @ auxiliary
+    equations = ca.vertcat(
+        column(found.values[: found.newton]) + coupling[:count],
+        column(user),
+        newton[count:] + coupling[count:],
+    )
+    equations = replace_known(equations, known)
+    order = [*range(count), *range(count + len(user), count + len(user) + na)]
+    order += list(range(count, count + len(user)))
+    equations = equations[order] if order else equations
+    matrix, spread = ca.jacobian(equations, z), -ca.jacobian(equations, lam)
+    both = ca.vertcat(z, lam)
+    if both.numel() and (ca.depends_on(matrix, both) or ca.depends_on(spread, both)):
+        log.report(
+            "E0607",
+            "equations that are not linear in accelerations, reactions and friction forces cannot "
+            "be solved together with friction or the mechanism",
+            _place(found, core, reduced),
+            help="let such a quantity act through a state, as a filter or a spring",
+        )
+        return None
+    zero = ca.SX.zeros(both.shape)
+    force = -ca.substitute(equations, both, zero) if both.numel() else -equations
+    rows, bias, rate = _rows(reduced, left, z, known, na, nv)
+    sizes = replace_known(resolve_all(reduced.force_size, chains, left.resolver), known)
+    sizes = ca.substitute(sizes, both, zero) if both.numel() else sizes
+    size = ca.vertcat(sizes, ca.fabs(force[count + na :]))
+    # z is ordered: accelerations of the mechanism, of the text, auxiliary, algebraic
+    general = bool(user) or not _is_symmetric(matrix, spread, rows)
+    return Core(
+        q=ca.vertcat(s.q, column(states.q)),
+        v=column(states.v),
+        z=z,
+        lam=lam,
+        names=tuple(str(x.name()) for x in (*ca.vertsplit(s.q), *states.q, *states.v)),
+        q_speed=_speeds(s.q, states),
+        rates=ca.vertcat(s.v, column(states.rates)),
+        nc=nc,
+        general=general,
+        matrix=matrix,
+        force=force,
+        force_size=size,
+        spread=spread,
+        metric=_metric(reduced, nv, na),
+        rows=rows,
+        bias=bias,
+        rate=rate,
+        coefficients=_coefficients(reduced, left, known),
+    )
+
+
+def _sort_states(found: Differentiated, core: set[int]) -> _States:
+    """States of the text: those whose rates the core gives are speeds."""
+    states = _States([], [], [], [], [])
+    chains = found.chains
+    in_core = {j for k in core for j in found.components[k].unknowns}
+    ordered = [*range(found.newton), *range(found.newton, len(found.chains_left))]
+    for j in ordered:
+        chain, order = found.chains_left[j], found.orders[j]
+        symbols = [chains.symbol(chain, k) for k in range(order + 1)]
+        mechanical = j < found.newton
+        if j in in_core and order:
+            states.v.append(symbols[order - 1])
+            states.accelerations.append(symbols[order])
+            below = order - 1
+        else:
+            below = order
+            if j in in_core:
+                states.algebraic.append(symbols[0])
+        if not mechanical:
+            for k in range(below):
+                states.q.append(symbols[k])
+                states.rates.append(symbols[k + 1])
+    return states
+
+
+def _speeds(q: ca.SX, states: _States) -> tuple[int, ...]:
+    """For each coordinate the speed that is its rate, or -1."""
+    place = {v.element_hash(): k for k, v in enumerate(states.v)}
+    own = [place.get(r.element_hash(), -1) for r in states.rates]
+    return (*range(q.numel()), *own)
+
+
+def _rows(
+    reduced: Reduced,
+    left: Eliminated,
+    z: ca.SX,
+    known: dict[int, ca.SX],
+    na: int,
+    nv: int,
+) -> tuple[ca.SX, ca.SX, ca.SX]:
+    """Rows over z, what their accelerations have beside, and their speeds."""
+    s, chains, elements = reduced.symbols, reduced.text.chains, reduced.text.elements
+    count, n = s.v.numel(), reduced.rows.size1()
+    mechanical = ca.SX.zeros(n, z.numel())
+    if n:
+        mechanical[:, :count] = reduced.rows[:, :count]
+        mechanical[:, nv : nv + na] = reduced.rows[:, count:]
+    slips = resolve_all(column(e.slip for e in elements), chains, left.resolver)
+    rate = resolve_all(chains.rate(slips), chains, left.resolver)
+    slips, rate = replace_known(slips, known), replace_known(rate, known)
+    own = ca.jacobian(rate, z)
+    free = ca.substitute(rate, z, ca.SX.zeros(z.shape)) if z.numel() else rate
+    return (
+        ca.vertcat(mechanical, own),
+        ca.vertcat(reduced.bias, free),
+        ca.vertcat(reduced.rate, slips),
+    )
+
+
+def _coefficients(reduced: Reduced, left: Eliminated, known: dict[int, ca.SX]) -> ca.SX:
+    bounds = column(x for e in reduced.text.elements for x in (e.bound, e.bound_at_rest, ca.SX(0)))
+    whole = ca.vertcat(reduced.coefficients, bounds)
+    resolved = replace_known(resolve_all(whole, reduced.text.chains, left.resolver), known)
+    return column(ca.if_else(x >= 0, x, ca.SX.nan()) for x in ca.vertsplit(resolved))
+
+
+def _metric(reduced: Reduced, nv: int, na: int) -> ca.SX:
+    """The mass matrix for the mechanism, one for the other speeds."""
+    count = reduced.symbols.v.numel()
+    metric = ca.SX.eye(nv + na)
+    order = [*range(count), *range(nv, nv + na)]
+    for a, i in enumerate(order):
+        for b, j in enumerate(order):
+            metric[i, j] = reduced.mass[a, b]
+    return metric
+
+
+def _is_symmetric(matrix: ca.SX, spread: ca.SX, rows: ca.SX) -> bool:
+    """Whether the core is a mass matrix with reactions along the rows: at a few random places."""
+    if matrix.size1() != matrix.size2():
+        return False
+    symbols = ca.symvar(ca.veccat(matrix, spread, rows))
+    both = ca.Function("core", symbols, [matrix, spread, rows.T])
+    random = np.random.default_rng(1)
+    for _ in range(3):
+        a, e, j = (
+            x.full() for x in both.call([ca.DM(x) for x in random.uniform(0.1, 2, len(symbols))])
+        )
+        scale = np.abs(a).max(initial=0)
+        if not np.all(np.abs(a - a.T) <= 1e-12 * scale) or not np.allclose(e, j, 1e-12, 0):
+            return False
+    return True
+
+
+def _place(found: Differentiated, core: set[int], reduced: Reduced) -> object:
+    for k in core:
+        for i in found.components[k].equations:
+            if i >= found.newton:
+                return found.origins[i].span
+    return reduced.mechanism.model.span

@@ -1,0 +1,149 @@
+"""Which equations must be differentiated, and how often; a matching with highest derivatives.
+
+The algorithm is that of C. Pantelides (SIAM J. Sci. Stat. Comput. 9, 1988).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import maximum_bipartite_matching
+
+
+@dataclass(frozen=True, slots=True)
+class Index:
+    """Equation i is differentiated `equations[i]` times.
+
+    Unknown j is determined by its derivative of order `unknowns[j]`, from equation `solver[j]`.
+    """
+
+    equations: tuple[int, ...]
+    unknowns: tuple[int, ...]
+    solver: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Unbalanced:
+    """Unknowns that nothing determines, and equations that are too many, by index."""
+
+    unknowns: tuple[int, ...]
+    equations: tuple[int, ...]
+
+
+def find_unbalanced(incidence: Sequence[Sequence[int]], count: int) -> Unbalanced | None:
+    """None where every unknown can have an equation of its own (derivatives stand for unknowns).
+
+    `incidence[i]` are the unknowns of equation i, `count` the number of unknowns. The parts named
+    are those of A. Dulmage, N. Mendelsohn (1958): all that shares the lack or the excess.
+    """
+    rows = len(incidence)
+    if rows == 0 and count == 0:
+        return None
+    matrix = _matrix(incidence, count)
+    of_row = maximum_bipartite_matching(matrix, perm_type="column") if rows and count else []
+    row_of = [-1] * count
+    for i, j in enumerate(of_row):
+        if j >= 0:
+            row_of[int(j)] = i
+    free_rows = [i for i in range(rows) if not len(of_row) or of_row[i] < 0]
+    free_columns = [j for j in range(count) if row_of[j] < 0]
+    if not free_rows and not free_columns:
+        return None
+    by_column = matrix.tocsc()
+    too_many: set[int] = set(free_rows)
+    pending = list(free_rows)
+    while pending:
+        for j in incidence[pending.pop()]:
+            i = row_of[j]
+            if i >= 0 and i not in too_many:
+                too_many.add(i)
+                pending.append(i)
+    lacking: set[int] = set(free_columns)
+    pending = list(free_columns)
+    while pending:
+        at = pending.pop()
+        for i in by_column.indices[by_column.indptr[at] : by_column.indptr[at + 1]]:
+            j = int(of_row[i])
+            if j >= 0 and j not in lacking:
+                lacking.add(j)
+                pending.append(j)
+    return Unbalanced(tuple(sorted(lacking)), tuple(sorted(too_many)))
+
+
+def _matrix(incidence: Sequence[Sequence[int]], count: int) -> csr_matrix:
+    pointers = np.cumsum([0, *(len(row) for row in incidence)])
+    indices = np.array([j for row in incidence for j in row], dtype=np.int32)
+    ones = np.ones(len(indices), dtype=np.int8)
+    return csr_matrix((ones, indices, pointers), shape=(len(incidence), count))
+
+
+def reduce_index(incidence: Sequence[dict[int, int]], count: int) -> Index:
+    """The differentiations of a system that `find_unbalanced` found nothing against.
+
+    `incidence[i]` maps each unknown of equation i to the highest order it has there.
+    """
+    differentiated = [0] * len(incidence)
+    highest = [0] * count
+    for row in incidence:
+        for j, order in row.items():
+            highest[j] = max(highest[j], order)
+    solver = [-1] * count
+    solves = [-1] * len(incidence)
+    for equation in range(len(incidence)):
+        while True:
+            path, equations, unknowns = _augment(
+                equation, incidence, differentiated, highest, solver, solves
+            )
+            if path:
+                break
+            for j in unknowns:
+                highest[j] += 1
+            for i in equations:
+                differentiated[i] += 1
+    return Index(tuple(differentiated), tuple(highest), tuple(solver))
+
+
+def _augment(
+    start: int,
+    incidence: Sequence[dict[int, int]],
+    differentiated: list[int],
+    highest: list[int],
+    solver: list[int],
+    solves: list[int],
+) -> tuple[bool, set[int], set[int]]:
+    """Give `start` a highest derivative of its own, moving others if need be (`solver` changes).
+
+    Where there is none: False, with the equations and unknowns that were reached.
+    """
+    seen_equations, seen_unknowns = {start}, set()
+    reached_from: dict[int, int] = {}
+    pending = [start]
+    while pending:
+        i = pending.pop()
+        for j, order in incidence[i].items():
+            if order + differentiated[i] != highest[j] or j in seen_unknowns:
+                continue
+            seen_unknowns.add(j)
+            reached_from[j] = i
+            if solver[j] < 0:
+                _shift(j, start, reached_from, solver, solves)
+                return True, seen_equations, seen_unknowns
+            seen_equations.add(solver[j])
+            pending.append(solver[j])
+    return False, seen_equations, seen_unknowns
+
+
+def _shift(
+    j: int, start: int, reached_from: dict[int, int], solver: list[int], solves: list[int]
+) -> None:
+    """Hand the unknowns along the path over, from its end to its start."""
+    while True:
+        i = reached_from[j]
+        before = solves[i]
+        solver[j], solves[i] = i, j
+        if i == start:
+            return
+        j = before

@@ -1,0 +1,82 @@
+"""Symbols for the variables that a text declares, and the friction elements of its equations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import casadi as ca
+from frot.compiler.chains import Chains
+from frot.dsl.checked import Variable
+from frot.dsl.source import Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Element:
+    """Set-valued dry friction of the equations: `force` opposes `slip` and is bounded.
+
+    `bound` holds while it slips, `bound_at_rest` at rest. `force` is a symbol.
+    """
+
+    name: str
+    span: Span
+    force: ca.SX
+    slip: ca.SX
+    bound: ca.SX
+    bound_at_rest: ca.SX
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Discrete:
+    """A value that changes at events only: its symbol and its value at the start."""
+
+    name: str
+    symbol: ca.SX
+    start: ca.SX
+
+
+@dataclass(slots=True, eq=False)
+class TextSymbols:
+    """`values` gives the symbols of each variable, in the shape of its type."""
+
+    chains: Chains
+    values: dict[Variable, ca.SX] = field(default_factory=dict)
+    discrete: list[Discrete] = field(default_factory=list)
+    elements: list[Element] = field(default_factory=list)
+
+    def add_discrete(self, name: str, symbol: ca.SX, start: ca.SX) -> None:
+        """A discrete value, one of the text or one the compiler counts with."""
+        self.discrete.append(Discrete(name, symbol, start))
+
+
+def make_text_symbols(variables: tuple[Variable, ...], chains: Chains) -> TextSymbols:
+    """A chain for every scalar of every continuous variable; symbols for the discrete ones."""
+    text = TextSymbols(chains)
+    for variable in variables:
+        names = component_names(variable.name, variable.type.shape)
+        symbols = [ca.SX.sym(name) for name in names]
+        if not variable.discrete:
+            for name, symbol in zip(names, symbols, strict=True):
+                chains.add(name, variable.span, variable, (symbol,))
+        text.values[variable] = shaped(symbols, variable.type.shape)
+    return text
+
+
+def component_names(name: str, shape: tuple[int, ...]) -> list[str]:
+    """`x`, or `x[1]`, `x[2]`, or `x[1,1]`, `x[1,2]`: by rows."""
+    names = [""]
+    for size in shape:
+        names = [f"{n},{k + 1}" if n else f"{k + 1}" for n in names for k in range(size)]
+    return [f"{name}[{n}]" if n else name for n in names]
+
+
+def shaped(items: list[ca.SX], shape: tuple[int, ...]) -> ca.SX:
+    """A scalar, a column, or a matrix from its items by rows."""
+    if not shape:
+        return items[0]
+    whole = ca.vertcat(*items) if items else ca.SX.zeros(0)
+    return ca.reshape(whole, shape[1], shape[0]).T if len(shape) == 2 else whole
+
+
+def scalars(value: ca.SX) -> list[ca.SX]:
+    """The items of a scalar, a column or a matrix, by rows."""
+    return list(ca.vertsplit(ca.vec(value.T))) if value.numel() else []
