@@ -41,7 +41,8 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
                 _record(
                     _text(c.liaison.name),
                     _text(_place(c.liaison.span)),
-                    *(r.normal, r.tangent, r.rolling, int(c.reduced)),
+                    "FROT_BY_NORMAL",
+                    *(r.normal, -1, r.tangent, r.rolling, int(c.reduced)),
                     int(_fixed(c.mu) and _fixed(c.mu_s)),
                     int(_fixed(c.delta)),
                 )
@@ -82,6 +83,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         _array(
             "unsigned char", "condition_strict", [str(int(x)) for x in reduced.conditions.strict]
         ),
+        _array("int", "q_speed", [str(k) for k in range(symbols.q.numel())]),
     ]
     callables = "\n".join(f"  .{name} = {_callable(lowered.functions[name])}," for name in ORDER)
     fields = {
@@ -117,6 +119,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "p_type",
             "row_depends",
             "condition_strict",
+            "q_speed",
         ]
     )
     return (

@@ -39,7 +39,9 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     s = reduced.symbols
     flags = column(reduced.conditions.flags)
     d = ca.vertcat(flags, s.sides)
-    state = [s.t, s.q, s.v, s.u, s.p, d]
+    y = ca.SX.sym("y", 0)
+    state = [s.t, s.q, s.v, s.u, s.p, d, y]
+    z = ca.SX.sym("z", s.v.numel() + s.w.numel())
     looking = Lowering(s, reduced.variables.quantity, reduced.variables.rate, log)
     initial = _initial(reduced, looking, log)
     variables = list_variables(reduced, looking)
@@ -87,8 +89,8 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         ),
         "variables": ca.Function(
             "frot_variables_at",
-            [*state, s.a, s.lam, s.energy],
-            _clean([settled(column([v.value for v in variables]))]),
+            [*state, z, s.lam, s.energy],
+            _clean([_of_solution(settled(column([v.value for v in variables])), s.a, z)]),
         ),
         "energy": ca.Function(
             "frot_energy_at", state, _clean([reduced.kinetic, reduced.potential])
@@ -105,6 +107,11 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         _row_depends(reduced),
         tuple(_depends_on_parameters(parameter) for parameter in s.parameters),
     )
+
+
+def _of_solution(values: ca.SX, accelerations: ca.SX, z: ca.SX) -> ca.SX:
+    """Values of the accelerations as values of z, which begins with them."""
+    return ca.substitute(values, accelerations, z[: accelerations.numel()])
 
 
 def _clean(outputs: list[ca.SX]) -> list[ca.SX]:
@@ -210,9 +217,14 @@ def _initial(reduced: Reduced, looking: Lowering, log: Log) -> _Initial:
             statements[moving].append(index)
     position, velocity = column(residuals[False]), column(residuals[True])
     return _Initial(
-        [_guess(reduced, looking, s.q, log), _guess(reduced, looking, s.v, log)],
-        [position, ca.jacobian(position, s.q).T, column(sizes[False])],
-        [velocity, ca.jacobian(velocity, s.v).T, column(sizes[True])],
+        [
+            _guess(reduced, looking, s.q, log),
+            _guess(reduced, looking, s.v, log),
+            ca.SX(0, 1),
+            ca.SX(0, 1),
+        ],
+        [position, ca.jacobian(position, s.q).T, column(sizes[False]), ca.SX(0, len(sizes[False]))],
+        [velocity, ca.jacobian(velocity, s.v).T, column(sizes[True]), ca.SX(0, len(sizes[True]))],
         tuple(statements[False]),
         tuple(statements[True]),
     )

@@ -29,12 +29,11 @@ static double *unknown(const problem *p) { return p->velocity ? p->v : p->q; }
 static int evaluate(problem *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
-  int nv = m->nv, nw = m->nv + m->na, n = p->velocity ? m->n_velocity : m->n_position;
-  frot_layout l = frot_layout_of(m);
+  int nv = m->nv, nw = m->nv + m->na + m->nc, n = p->velocity ? m->n_velocity : m->n_position;
   const frot_callable *call = p->velocity ? &m->initial_velocity : &m->initial_position;
-  w->arg[0] = &p->t, w->arg[1] = p->q, w->arg[2] = p->v, w->arg[3] = p->s->data + l.u;
-  w->arg[4] = p->s->data + l.p, w->arg[5] = p->d;
+  frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
   w->res[0] = w->residual, w->res[1] = w->jacobian, w->res[2] = w->size;
+  w->res[3] = w->residual_y;
   call->call(w->arg, w->res, w->iw, w->w, 0);
   frot_kinematics(m, p->s, w, p->t, p->q, p->v, p->d);
   for (int i = 0; i < m->n_contacts; i++) {
@@ -110,7 +109,7 @@ static int solve(problem *p) {
   frot_work *w = p->w;
   frot_layout l = frot_layout_of(m);
   const frot_contact_mode *modes = (const void *)(p->s->data + l.modes);
-  int nv = m->nv, nw = m->nv + m->na;
+  int nv = m->nv, nw = m->nv + m->na + m->nc;
   double start = -1, last = INFINITY;
   double *x = unknown(p);
   for (int pass = 0; pass < PASSES; pass++) {
@@ -176,7 +175,7 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
   memset(d, 0, sizeof(double) * (size_t)l.nd);
   for (int i = 0; i < nc; i++) side[i] = 1;
   w->arg[0] = &t, w->arg[1] = s->data + l.u, w->arg[2] = s->data + l.p;
-  w->res[0] = q, w->res[1] = v;
+  w->res[0] = q, w->res[1] = v, w->res[2] = w->y, w->res[3] = side + nc;
   m->start.call(w->arg, w->res, w->iw, w->w, 0);
 
   /* Positions by the statements alone show on which side of its line each body is meant to be. */

@@ -8,11 +8,11 @@
 
 #define FRICTION_WEIGHT 1e-5
 
-static void inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t,
-                   const double *q, const double *v, const double *d) {
+void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
+                 const double *v, const double *d) {
   frot_layout l = frot_layout_of(m);
   w->arg[0] = t, w->arg[1] = q, w->arg[2] = v;
-  w->arg[3] = s->data + l.u, w->arg[4] = s->data + l.p, w->arg[5] = d;
+  w->arg[3] = s->data + l.u, w->arg[4] = s->data + l.p, w->arg[5] = d, w->arg[6] = w->y;
 }
 
 static int all_finite(const double *x, int n) {
@@ -23,8 +23,8 @@ static int all_finite(const double *x, int n) {
 
 int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes) {
-  int nw = m->nv + m->na, nr = m->n_rows;
-  inputs(m, s, w, &t, q, v, d);
+  int nw = m->nv + m->na + m->nc, nr = m->n_rows;
+  frot_inputs(m, s, w, &t, q, v, d);
   double *res[] = {w->qd,   w->mass, w->h,         w->rows,        w->c,
                    w->rate, w->gap,  w->condition, w->coefficient, w->power};
   memcpy(w->res, res, sizeof res);
@@ -73,7 +73,7 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
 
 void frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                      const double *v, const double *d) {
-  inputs(m, s, w, &t, q, v, d);
+  frot_inputs(m, s, w, &t, q, v, d);
   double *res[] = {w->gap, w->rows, w->rate, w->condition, w->distance};
   memcpy(w->res, res, sizeof res);
   m->kinematics.call(w->arg, w->res, w->iw, w->w, 0);
@@ -105,7 +105,7 @@ static int is_normal(const frot_model *m, int row) {
 
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                    const unsigned char *at_rest) {
-  int nr = m->n_rows, nw = m->nv + m->na, n = 0;
+  int nr = m->n_rows, nw = m->nv + m->na + m->nc, n = 0;
   memset(w->lam, 0, sizeof(double) * (size_t)nr);
   for (int i = 0; i < m->n_contacts; i++) {
     if (!modes[i].closed) continue;
@@ -180,9 +180,9 @@ int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *m
 
 void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d, const frot_contact_mode *modes) {
-  int nw = m->nv + m->na;
+  int nw = m->nv + m->na + m->nc;
   double *load = w->step;
-  inputs(m, s, w, &t, q, v, d);
+  frot_inputs(m, s, w, &t, q, v, d);
   w->res[0] = load, w->res[1] = w->values;
   m->sizes.call(w->arg, w->res, w->iw, w->w, 0);
   for (int i = 0; i < nw; i++) { /* |L^-1| load */
@@ -204,7 +204,7 @@ void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, 
 }
 
 double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v) {
-  int nv = m->nv, nw = m->nv + m->na;
+  int nv = m->nv, nw = m->nv + m->na + m->nc;
   double energy = 0, *half = w->step;
   for (int i = 0; i < nv; i++)
     for (int k = 0; k < nv; k++) energy += v[i] * w->mass[k * nw + i] * v[k];
@@ -214,7 +214,7 @@ double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *
 }
 
 void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen) {
-  int nw = m->nv + m->na;
+  int nw = m->nv + m->na + m->nc;
   memcpy(w->a, w->force, sizeof(double) * (size_t)nw);
   for (int r = 0; r < m->n_rows; r++)
     if (w->lam[r] != 0)
@@ -239,7 +239,7 @@ static void bounded(int mode, double rate, double rate_scale, double lam, double
 
 double frot_row_size(const frot_model *m, const frot_work *w, int row, const double *x) {
   double sum = 0;
-  for (int k = 0; k < m->nv; k++) sum += fabs(w->rows[(m->nv + m->na) * row + k] * x[k]);
+  for (int k = 0; k < m->nv; k++) sum += fabs(w->rows[(m->nv + m->na + m->nc) * row + k] * x[k]);
   return sum;
 }
 

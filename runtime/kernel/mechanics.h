@@ -4,6 +4,10 @@
 
 #include "state.h"
 
+/* Point w->arg at the arguments that all functions of the state begin with. */
+void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
+                 const double *v, const double *d);
+
 /* Evaluate the generated `dynamics` at (t, q, v, d), factor the mass matrix and form the Delassus
  * matrix W = J M^-1 J' and the free accelerations J M^-1 h + c of the rows of the contacts that are
  * closed in `modes`. FROT_OK, FROT_NAN or FROT_SINGULAR (not recorded as a fault). */

@@ -29,7 +29,7 @@ static int holding_rows(const frot_model *m, frot_work *w, const frot_contact_mo
 
 /* x <- x - M^-1 J' (J M^-1 J')^+ error, over the n rows of w->row_of. */
 static void correct(const frot_model *m, frot_work *w, int n, const double *error, double *x) {
-  int nv = m->nv, nw = m->nv + m->na;
+  int nv = m->nv, nw = m->nv + m->na + m->nc;
   for (int i = 0; i < n; i++) {
     double *half = w->jacobian + nv * i;
     memcpy(half, w->rows + nw * w->row_of[i], sizeof(double) * (size_t)nv);
@@ -98,7 +98,7 @@ static double normalized_outside(double *x, const double *basis, int columns, in
  * such a speed lies in their span. Both are taken over L, so that units do not matter. */
 static int frozen_by_rows(const frot_model *m, frot_work *w, int n, const double *known,
                           double *frozen) {
-  int nv = m->nv, nw = m->nv + m->na, count = 0, columns = 0;
+  int nv = m->nv, nw = m->nv + m->na + m->nc, count = 0, columns = 0;
   double *basis = w->jacobian, *unit = w->residual;
   for (int i = 0; i < n; i++) {
     int row = w->row_of[i], usable = !m->row_depends[row * (m->nq + 1) + m->nq];

@@ -40,8 +40,7 @@ int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, dou
 static double energy_now(const frot_model *m, frot_state *s, frot_work *w, const double *x) {
   frot_layout l = frot_layout_of(m);
   double kinetic = 0, potential = 0;
-  w->arg[0] = &s->t, w->arg[1] = x, w->arg[2] = x + m->nq;
-  w->arg[3] = s->data + l.u, w->arg[4] = s->data + l.p, w->arg[5] = s->data + l.d;
+  frot_inputs(m, s, w, &s->t, x, x + m->nq, s->data + l.d);
   w->res[0] = &kinetic, w->res[1] = &potential;
   m->energy.call(w->arg, w->res, w->iw, w->w, 0);
   s->energy_scale = fmax(s->energy_scale, fabs(kinetic));

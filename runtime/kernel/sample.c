@@ -16,10 +16,8 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
   if (status != FROT_OK) return status;
   frot_accelerations(m, w, g->frozen);
-  frot_layout l = frot_layout_of(m);
-  w->arg[0] = &t, w->arg[1] = q, w->arg[2] = v, w->arg[3] = s->data + l.u,
-  w->arg[4] = s->data + l.p;
-  w->arg[5] = g->d, w->arg[6] = w->a, w->arg[7] = w->lam, w->arg[8] = x + m->nq + m->nv;
+  frot_inputs(m, s, w, &t, q, v, g->d);
+  w->arg[7] = w->a, w->arg[8] = w->lam, w->arg[9] = x + m->nq + m->nv;
   w->res[0] = values;
   m->variables.call(w->arg, w->res, w->iw, w->w, 0);
   for (int i = 0; i < m->n_contacts; i++) values[i] = frot_mode_value(&g->modes[i]);

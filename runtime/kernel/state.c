@@ -9,11 +9,11 @@ typedef char frot_mode_fills_double[sizeof(frot_contact_mode) == sizeof(double) 
 
 frot_layout frot_layout_of(const frot_model *m) {
   frot_layout l;
-  l.nw = m->nv + m->na;
+  l.nw = m->nv + m->na + m->nc;
   l.nx = m->nq + m->nv + FROT_QUADRATURES;
   l.ng = FROT_GUARDS * m->n_contacts + m->n_conditions;
   l.nz = l.nx + l.ng;
-  l.nd = m->n_conditions + m->n_contacts;
+  l.nd = m->n_conditions + m->n_contacts + m->n_discrete;
   l.ns = 3 + m->n_contacts + l.nd + m->nv + l.nx + DP_DENSE * l.nx;
   int at = 0;
   l.set = at, at += m->np;
@@ -69,25 +69,36 @@ static void *take(arena *a, size_t count, size_t size) {
 
 #define TAKE(field, count) (w->field = take(&a, (size_t)(count), sizeof *w->field))
 
-static size_t bind(const frot_model *m, frot_work *w, char *base) {
-  frot_layout l = frot_layout_of(m);
+/* The scratch that any of the generated functions needs. */
+static frot_callable scratch_of_all(const frot_model *m) {
   const frot_callable *calls[] = {&m->parameters,       &m->start,      &m->initial_position,
                                   &m->initial_velocity, &m->kinematics, &m->dynamics,
-                                  &m->variables,        &m->energy,     &m->sizes};
-  int n_arg = 0, n_res = 0, n_iw = 0, n_w = 0;
-  for (size_t i = 0; i < sizeof calls / sizeof *calls; i++) {
-    if (calls[i]->n_arg > n_arg) n_arg = calls[i]->n_arg;
-    if (calls[i]->n_res > n_res) n_res = calls[i]->n_res;
-    if (calls[i]->n_iw > n_iw) n_iw = calls[i]->n_iw;
-    if (calls[i]->n_w > n_w) n_w = calls[i]->n_w;
+                                  &m->spread,           &m->rates,      &m->invariants,
+                                  &m->block_slopes,     &m->update,     &m->sizes,
+                                  &m->variables,        &m->energy};
+  int count = (int)(sizeof calls / sizeof *calls);
+  frot_callable most = {NULL, 11, 11, 0, 0};
+  for (int i = 0; i < count + m->n_blocks; i++) {
+    const frot_callable *call = i < count ? calls[i] : &m->blocks[i - count].residual;
+    if (call->n_arg > most.n_arg) most.n_arg = call->n_arg;
+    if (call->n_res > most.n_res) most.n_res = call->n_res;
+    if (call->n_iw > most.n_iw) most.n_iw = call->n_iw;
+    if (call->n_w > most.n_w) most.n_w = call->n_w;
   }
+  return most;
+}
+
+static size_t bind(const frot_model *m, frot_work *w, char *base) {
+  frot_layout l = frot_layout_of(m);
+  frot_callable most = scratch_of_all(m);
   int nr = m->n_rows, nc = m->n_contacts;
   int ne = (m->n_position > m->n_velocity ? m->n_position : m->n_velocity) + nr + nc;
   int big = ne > l.nw ? ne : l.nw;
   if (nr > big) big = nr;
   arena a = {base, sizeof(frot_work)};
-  TAKE(arg, n_arg), TAKE(res, n_res), TAKE(iw, n_iw), TAKE(w, n_w);
+  TAKE(arg, most.n_arg), TAKE(res, most.n_res), TAKE(iw, most.n_iw), TAKE(w, most.n_w);
   TAKE(pivot, big);
+  TAKE(y, m->ny), TAKE(residual_y, m->ny * ne);
   TAKE(qd, m->nq), TAKE(mass, l.nw * l.nw), TAKE(h, l.nw), TAKE(rows, l.nw * nr), TAKE(c, nr);
   TAKE(rate, nr), TAKE(gap, nc), TAKE(condition, m->n_conditions), TAKE(coefficient, 3 * nc);
   TAKE(power, 1), TAKE(distance, nc);

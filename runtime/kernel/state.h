@@ -71,6 +71,8 @@ struct frot_work {
   long long *iw;
   double *w;
   int *pivot;
+  double *y;          /* unknowns of the blocks */
+  double *residual_y; /* ny x equations: transposed Jacobian in y of initial values */
   /* results of `dynamics` and `kinematics` */
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power, *distance;
   /* factor of the mass matrix, L^-1 h, L^-1 J', W and the rows' free accelerations */

@@ -264,8 +264,7 @@ static int start_slope(const frot_model *m, frot_state *s, frot_work *w, const f
 /* The applied force that is no number at the last evaluation (values w->z1), or -1. */
 static int wrong_load(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l) {
   double *sizes = w->ztry, *loads = w->values;
-  w->arg[0] = &w->t, w->arg[1] = w->z1, w->arg[2] = w->z1 + m->nq;
-  w->arg[3] = s->data + l->u, w->arg[4] = s->data + l->p, w->arg[5] = s->data + l->d;
+  frot_inputs(m, s, w, &w->t, w->z1, w->z1 + m->nq, s->data + l->d);
   w->res[0] = sizes, w->res[1] = loads;
   m->sizes.call(w->arg, w->res, w->iw, w->w, 0);
   for (int i = 0; i < m->n_loads; i++)

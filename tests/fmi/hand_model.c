@@ -82,7 +82,7 @@ static int dynamics(const double **arg, double **res, long long *iw, double *w, 
 }
 
 static int variables(const double **arg, double **res, long long *iw, double *w, int mem) {
-  const double *p = arg[4], *lam = arg[7];
+  const double *p = arg[4], *lam = arg[8];
   (void)iw, (void)w, (void)mem;
   res[0][1] = arg[1][0];
   res[0][2] = arg[2][0];
@@ -102,7 +102,8 @@ static int energy(const double **arg, double **res, long long *iw, double *w, in
 
 static const double p_default[NP] = {0.1, 9.0, 2.0, 1.0, 3.0, 1.0, 0.0};
 static const double u_default[1] = {0.0};
-static const frot_contact contacts[1] = {{"guide", "hand_model.c:1:1", 0, 1, -1, 1, 1, 1}};
+static const frot_contact contacts[1] = {
+    {"guide", "hand_model.c:1:1", FROT_BY_NORMAL, 0, -1, 1, -1, 1, 1, 1}};
 static const frot_check checks[2] = {
     {FROT_POSITIVE, "mass of body 'block'", "hand_model.c:2:1"},
     {FROT_NOT_NEGATIVE, "friction of 'guide'", "hand_model.c:3:1"}};
@@ -114,6 +115,7 @@ static const int p_dependent[NP] = {0, 0, 0, 0, 0, 0, 1};
 static const int p_type[NP] = {FROT_REAL,    FROT_REAL,    FROT_REAL, FROT_REAL,
                                FROT_INTEGER, FROT_BOOLEAN, FROT_REAL};
 static const unsigned char row_depends[4] = {0, 0, 0, 0};
+static const int q_speed[1] = {0};
 
 #define CALL(f) {f, 16, 16, 1, 1}
 
@@ -152,4 +154,5 @@ const frot_model frot_the_model = {
     .p_dependent = p_dependent,
     .p_type = p_type,
     .row_depends = row_depends,
+    .q_speed = q_speed,
 };
