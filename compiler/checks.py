@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+import casadi as ca
+from frot.compiler.eliminate import Pivot
 from frot.compiler.mechanism import Mechanism
 from frot.compiler.walk import is_fixed
 from frot.dsl.catalogue import Argument
@@ -12,7 +14,7 @@ from frot.dsl.checked import Call, Expression, Liaison, Place, Reference
 from frot.dsl.dimensions import REAL
 from frot.dsl.source import Span
 
-POSITIVE, NOT_NEGATIVE, FINITE, NOT_BELOW_PREVIOUS = range(4)
+POSITIVE, NOT_NEGATIVE, FINITE, NOT_BELOW_PREVIOUS, NOT_ZERO = range(5)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -21,13 +23,26 @@ class Check:
 
     rule: int
     subject: str
-    value: Expression
+    value: Expression | ca.SX
     span: Span | None
 
 
-def parameter_checks(mechanism: Mechanism) -> tuple[Check, ...]:
-    """Every check that depends on parameters alone, in the order of the text."""
-    return tuple(_checks(mechanism))
+def parameter_checks(mechanism: Mechanism, pivots: Sequence[Pivot] = ()) -> tuple[Check, ...]:
+    """Every check that depends on parameters alone, in the order of the text.
+
+    `pivots` are divisors that came from solving equations for an unknown.
+    """
+    divisors = (
+        Check(
+            NOT_ZERO,
+            f"factor of '{p.unknown}' in `{p.origin.text}`"
+            + (f" of {p.origin.owner}" if p.origin.owner else ""),
+            p.value,
+            p.origin.span,
+        )
+        for p in pivots
+    )
+    return (*_checks(mechanism), *divisors)
 
 
 def _checks(mechanism: Mechanism) -> Iterator[Check]:

@@ -93,7 +93,10 @@ def build(model: Model, key: str, toolchain: Toolchain, log: Log) -> Program | N
                     )
                     for v in lowered.variables
                 ),
-                contacts=tuple(c.liaison.name for c in mechanism.contacts),
+                contacts=(
+                    *(c.liaison.name for c in mechanism.contacts),
+                    *(e.name for e in lowered.system.elements),
+                ),
                 experiment=_experiment(model),
                 compiler=toolchain.command,
                 flags=FLAGS,

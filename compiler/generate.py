@@ -7,30 +7,18 @@ from pathlib import Path
 
 import casadi as ca
 from frot.compiler.lower import Lowered
-from frot.compiler.reduce import Reduced
-from frot.compiler.units import unit_of
+from frot.compiler.symbols import column
 from frot.compiler.walk import is_fixed
 from frot.dsl.checked import Expression
 from frot.dsl.source import Span
-
-ORDER = (
-    "parameters",
-    "start",
-    "initial_position",
-    "initial_velocity",
-    "kinematics",
-    "dynamics",
-    "sizes",
-    "variables",
-    "energy",
-)
 
 
 def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[float]) -> str:
     """The C text. `key` identifies it; `defaults` and `inputs` are start values in SI."""
     reduced = lowered.reduced
     symbols, model = reduced.symbols, reduced.mechanism.model
-    contacts = reduced.mechanism.contacts
+    system, contacts = lowered.system, reduced.mechanism.contacts
+    first_row = symbols.lam.numel()
     tables = [
         _array("double", "p_default", [_number(x) for x in defaults]),
         _array("double", "u_default", [_number(x) for x in inputs]),
@@ -47,6 +35,15 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
                     int(_fixed(c.delta)),
                 )
                 for c, r in zip(contacts, reduced.contact_rows, strict=True)
+            ]
+            + [
+                _record(
+                    _text(e.name),
+                    _text(_place(e.span)),
+                    "FROT_BY_VALUE",
+                    *(-1, -1, first_row + k, -1, 1, 0, 0),
+                )
+                for k, e in enumerate(system.elements)
             ],
         ),
         _array(
@@ -58,11 +55,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "frot_statement",
             "statements",
             [
-                _record(
-                    _text(_words(s.span)),
-                    _text(_place(s.span)),
-                    _text(unit_of(s.left.type.dimension).name),
-                )
+                _record(_text(s.text), _text(_place(s.span)), _text(s.unit))
                 for s in lowered.statements
             ],
         ),
@@ -83,19 +76,51 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         _array(
             "unsigned char", "condition_strict", [str(int(x)) for x in reduced.conditions.strict]
         ),
-        _array("int", "q_speed", [str(k) for k in range(symbols.q.numel())]),
+        _array("int", "q_speed", [str(k) for k in system.q_speed]),
+        _array(
+            "frot_block",
+            "blocks",
+            [
+                _record(
+                    _callable(f),
+                    *(b.first, b.residual.numel(), int(b.linear), int(b.late)),
+                    _text(b.name),
+                    _text(_place(b.span)),
+                )
+                for b, f in zip(system.blocks, lowered.blocks, strict=True)
+            ],
+        ),
+        _array("int", "when_condition", [str(k) for k in reduced.events.conditions]),
+        _array("unsigned char", "when_at_start", [str(int(x)) for x in reduced.events.at_start]),
+        _array(
+            "frot_outcome",
+            "outcomes",
+            [
+                _record(o.kind, _text(o.text), _text(_place(o.span)))
+                for o in reduced.events.outcomes
+            ],
+        ),
     ]
-    callables = "\n".join(f"  .{name} = {_callable(lowered.functions[name])}," for name in ORDER)
+    callables = "\n".join(f"  .{n} = {_callable(f)}," for n, f in lowered.functions.items())
     fields = {
-        "nq": symbols.q.numel(),
-        "nv": symbols.v.numel(),
-        "na": symbols.w.numel(),
+        "nq": system.q.numel(),
+        "nv": system.nv,
+        "na": system.na,
+        "nc": system.nc,
         "nu": symbols.u.numel(),
         "np": symbols.p.numel(),
-        "n_rows": symbols.lam.numel(),
-        "n_contacts": len(contacts),
+        "ny": system.y.numel(),
+        "n_rows": system.lam.numel(),
+        "n_contacts": len(contacts) + len(system.elements),
+        "n_discrete": system.discrete.numel(),
+        "n_blocks": len(system.blocks),
+        "n_invariants": len(system.invariants.origins),
+        "n_whens": len(reduced.events.fired),
+        "n_outcomes": len(reduced.events.outcomes),
+        "general": int(system.general),
+        "late_rates": int(system.late),
         "n_conditions": len(reduced.conditions.flags),
-        "time_dependent": int(_depends_on_time(reduced)),
+        "time_dependent": int(_depends_on_time(lowered)),
         "n_checks": len(lowered.checks),
         "n_position": len(lowered.position_statement),
         "n_velocity": len(lowered.velocity_statement),
@@ -120,6 +145,10 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "row_depends",
             "condition_strict",
             "q_speed",
+            "blocks",
+            "when_condition",
+            "when_at_start",
+            "outcomes",
         ]
     )
     return (
@@ -133,18 +162,22 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
     )
 
 
-def _depends_on_time(reduced: Reduced) -> bool:
-    moved = (reduced.force, reduced.rows, reduced.bias, reduced.coefficients, reduced.gap)
-    return any(
-        x.numel() and ca.depends_on(x, reduced.symbols.t)
-        for x in (*moved, *reduced.conditions.values)
+def _depends_on_time(lowered: Lowered) -> bool:
+    """Whether anything moves or switches by time alone."""
+    time = lowered.reduced.symbols.t
+    system = lowered.system
+    moved = (
+        *(system.force, system.matrix, system.rows, system.bias, system.coefficients, system.gap),
+        *(system.rates, system.resolve(column(lowered.reduced.conditions.values))),
+        *(b.residual for b in system.blocks),
     )
+    return any(x.numel() and ca.depends_on(x, time) for x in moved)
 
 
 def _functions(lowered: Lowered) -> str:
     generator = ca.CodeGenerator("frot_functions.c", {"casadi_int": "long long int"})
-    for name in ORDER:
-        generator.add(lowered.functions[name])
+    for function in (*lowered.functions.values(), *lowered.blocks):
+        generator.add(function)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(generator.generate(folder + "/"))
         text = path.read_text(encoding="utf-8")
@@ -182,11 +215,6 @@ def _text(value: str) -> str:
 
 def _place(span: Span | None) -> str:
     return span.place if span is not None else ""
-
-
-def _words(span: Span) -> str:
-    """The statement as written, on one line."""
-    return " ".join(span.text.split()).rstrip("; ")
 
 
 def _fixed(expression: Expression | None) -> bool:

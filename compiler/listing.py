@@ -6,12 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import casadi as ca
+from frot.compiler.assembled import Assembled
 from frot.compiler.expressions import Lowering
 from frot.compiler.reduce import Reduced
-from frot.dsl.checked import Body, Liaison
+from frot.compiler.text_symbols import component_names, scalars
+from frot.dsl.checked import Body, Liaison, Variable
 from frot.dsl.dimensions import Dimension, dimension
 
-AXES = ("x", "y")
+AXES = ("x", "y", "z")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,25 +35,28 @@ RATE, RATE_OF_RATE, NUMBER = dimension(s=-1), dimension(s=-2), dimension()
 FORCE, ENERGY, POWER = dimension(m=1, kg=1, s=-2), dimension(2, 1, -2), dimension(2, 1, -3)
 
 
-def list_variables(reduced: Reduced, looking: Lowering) -> tuple[Listed, ...]:
-    """Modes of the contacts first, in their order; then outputs, bodies, liaisons, energies.
+def list_variables(system: Assembled, looking: Lowering) -> tuple[Listed, ...]:
+    """Modes first, in the kernel's order; then outputs, variables, bodies, liaisons, energies.
 
     A name that occurs twice (an output called as a body's variable) keeps its first meaning.
     """
     seen: set[str] = set()
     variables: list[Listed] = []
-    for variable in _all(reduced, looking):
+    for variable in _all(system, looking):
         if variable.name not in seen:
             seen.add(variable.name)
             variables.append(variable)
     return tuple(variables)
 
 
-def _all(reduced: Reduced, looking: Lowering) -> Iterator[Listed]:
+def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
+    reduced = system.reduced
     mechanism = reduced.mechanism
     for contact in mechanism.contacts:
         name = f"{contact.liaison.name}.mode"
         yield Listed(name, ca.SX(0), NUMBER, "open, stick or slip", mode=True)
+    for element in system.elements:
+        yield Listed(f"{element.name}.mode", ca.SX(0), NUMBER, "stick or slip", mode=True)
     for output in mechanism.model.outputs:
         value = looking.lower(output.value)
         for suffix, part in _components(output.name, value):
@@ -64,10 +69,14 @@ def _all(reduced: Reduced, looking: Lowering) -> Iterator[Listed]:
                 output=True,
                 unit=output.unit,
             )
+    for variable in mechanism.model.variables:
+        yield from _of_text(reduced, variable)
     for body in mechanism.model.bodies:
         yield from _of_body(reduced, body)
     for contact in (*mechanism.contacts, *mechanism.ideal):
         yield from _of_liaison(reduced, contact.liaison)
+    if not mechanism.model.bodies:
+        return
     dissipated, work = reduced.symbols.energy[0], reduced.symbols.energy[1]
     yield Listed("energy.kinetic", reduced.kinetic, ENERGY, "kinetic energy of all bodies")
     yield Listed("energy.potential", reduced.potential, ENERGY, "gravity, springs, attractions")
@@ -78,9 +87,26 @@ def _all(reduced: Reduced, looking: Lowering) -> Iterator[Listed]:
 def _components(name: str, value: ca.SX) -> Iterator[tuple[str, ca.SX]]:
     if value.numel() == 1:
         yield name, value
-    else:
-        for axis, k in zip(AXES, range(value.numel()), strict=True):
+    elif value.numel() <= len(AXES):
+        for axis, k in zip(AXES, range(value.numel()), strict=False):
             yield f"{name}.{axis}", value[k]
+    else:
+        for k in range(value.numel()):
+            yield f"{name}[{k + 1}]", value[k]
+
+
+def _of_text(reduced: Reduced, variable: Variable) -> Iterator[Listed]:
+    names = component_names(variable.name, variable.type.shape)
+    for name, value in zip(names, scalars(reduced.text.values[variable]), strict=True):
+        yield Listed(
+            name,
+            value,
+            variable.type.dimension,
+            variable.doc,
+            quantity=variable.quantity,
+            output=variable.output,
+            unit=variable.unit,
+        )
 
 
 def _of_body(reduced: Reduced, body: Body) -> Iterator[Listed]:

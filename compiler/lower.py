@@ -1,18 +1,21 @@
-"""Reduced equations to the CasADi functions of the kernel's contract (runtime/kernel/frot.h)."""
+"""Assembled equations to the CasADi functions of the kernel's contract (runtime/kernel/frot.h)."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import casadi as ca
+from frot.compiler.assemble import assemble
+from frot.compiler.assembled import Assembled, Block
 from frot.compiler.checks import Check, parameter_checks
 from frot.compiler.expressions import Lowering
+from frot.compiler.initial_values import Statement, lower_initial
 from frot.compiler.listing import Listed, list_variables
+from frot.compiler.lower_events import lower_update
+from frot.compiler.lower_parameters import lower_parameters, parameters_needed
 from frot.compiler.reduce import Reduced
 from frot.compiler.symbols import column
-from frot.compiler.walk import is_fixed, subexpressions
 from frot.dsl import Log
-from frot.dsl.checked import InitialEquation, Parameter, Reference
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -20,14 +23,16 @@ class Lowered:
     """The functions by their names in the contract, and their tables.
 
     `position_statement` and `velocity_statement` give, for each scalar initial equation, the index
-    of its statement in `statements`.
+    of its statement in `statements`. `blocks` are the functions of the blocks of `system`.
     """
 
     reduced: Reduced
+    system: Assembled
     functions: dict[str, ca.Function]
+    blocks: tuple[ca.Function, ...]
     checks: tuple[Check, ...]
     variables: tuple[Listed, ...]
-    statements: tuple[InitialEquation, ...]
+    statements: tuple[Statement, ...]
     position_statement: tuple[int, ...]
     velocity_statement: tuple[int, ...]
     row_depends: tuple[tuple[bool, ...], ...]
@@ -36,82 +41,95 @@ class Lowered:
 
 def lower(reduced: Reduced, log: Log) -> Lowered | None:
     """Build every function; what cannot be built is reported."""
-    s = reduced.symbols
-    flags = column(reduced.conditions.flags)
-    d = ca.vertcat(flags, s.sides)
-    y = ca.SX.sym("y", 0)
-    state = [s.t, s.q, s.v, s.u, s.p, d, y]
-    z = ca.SX.sym("z", s.v.numel() + s.w.numel())
-    looking = Lowering(s, reduced.variables.quantity, reduced.variables.rate, log)
-    initial = _initial(reduced, looking, log)
-    variables = list_variables(reduced, looking)
-    checks = parameter_checks(reduced.mechanism)
-    given, is_set = ca.SX.sym("given", s.p.numel()), ca.SX.sym("set", s.p.numel())
-    if log.failed:
+    system = assemble(reduced, log)
+    if system is None:
         return None
-    settled = reduced.variables.settled
-    conditions = column(reduced.conditions.values)
-    rows = reduced.rows.T
-    functions = {
-        "parameters": ca.Function(
-            "frot_parameters",
+    s, resolve = reduced.symbols, system.resolve
+    looking = Lowering(
+        s,
+        reduced.variables.quantity,
+        reduced.variables.rate,
+        log,
+        variable=reduced.text.values.__getitem__,
+        before=reduced.text.values.__getitem__,
+    )
+    initial = lower_initial(system, looking, log)
+    variables = list_variables(system, looking)
+    conditions = _conditions(system, log)
+    checks = parameter_checks(reduced.mechanism, system.pivots)
+    update = lower_update(system, log)
+    values = resolve(reduced.variables.settled(column(v.value for v in variables)))
+    if log.failed or not _is_known(values, system, variables, log):
+        return None
+    given, is_set = ca.SX.sym("given", s.p.numel()), ca.SX.sym("set", s.p.numel())
+    state = state_arguments(system)
+    solution = [*state, system.z, system.lam]
+    rows = system.rows.T
+    no_rates = ca.SX.zeros(system.rates.shape)
+    outputs: dict[str, tuple[list[ca.SX], list[ca.SX]]] = {
+        "parameters": (
             [given, is_set, s.u],
-            _clean(_parameters(reduced, looking, checks, given, is_set)),
+            lower_parameters(reduced, looking, checks, len(system.elements), given, is_set),
         ),
-        "start": ca.Function("frot_start_guess", [s.t, s.u, s.p], _clean(initial.guess)),
-        "initial_position": ca.Function("frot_initial_position", state, _clean(initial.position)),
-        "initial_velocity": ca.Function("frot_initial_velocity", state, _clean(initial.velocity)),
-        "kinematics": ca.Function(
-            "frot_kinematics_at",
+        "start": ([s.t, s.u, s.p], initial.start),
+        "initial_position": (state, initial.position),
+        "initial_velocity": (state, initial.velocity),
+        "kinematics": (state, [system.gap, rows, system.rate, conditions, system.distance]),
+        "dynamics": (
             state,
-            _clean([reduced.gap, rows, reduced.rate, conditions, reduced.distance]),
+            [
+                no_rates if system.late else system.rates,
+                system.matrix,
+                system.force,
+                rows,
+                system.bias,
+                system.rate,
+                system.gap,
+                conditions,
+                system.coefficients,
+                ca.SX(0) if system.late else system.power,
+            ],
         ),
-        "dynamics": ca.Function(
-            "frot_dynamics_at",
-            state,
-            _clean(
-                [
-                    s.v,
-                    reduced.mass,
-                    reduced.force,
-                    rows,
-                    reduced.bias,
-                    reduced.rate,
-                    reduced.gap,
-                    conditions,
-                    reduced.coefficients,
-                    reduced.power,
-                ]
-            ),
-        ),
-        "sizes": ca.Function(
-            "frot_sizes_at", state, _clean([reduced.force_size, reduced.load_sizes])
-        ),
-        "variables": ca.Function(
-            "frot_variables_at",
-            [*state, z, s.lam, s.energy],
-            _clean([_of_solution(settled(column([v.value for v in variables])), s.a, z)]),
-        ),
-        "energy": ca.Function(
-            "frot_energy_at", state, _clean([reduced.kinetic, reduced.potential])
-        ),
+        "sizes": (state, [system.force_size, resolve(reduced.load_sizes)]),
+        "variables": ([*solution, s.energy], [values]),
+        "energy": (state, [resolve(reduced.kinetic), resolve(reduced.potential)]),
+    }
+    if system.general:
+        outputs["spread"] = (state, [system.spread, system.metric])
+    if system.late:
+        outputs["rates"] = (solution, [system.rates, system.power])
+    if system.invariants.origins:
+        outputs["invariants"] = (state, _invariants(system))
+    if system.early:
+        outputs["block_slopes"] = (state, _block_slopes(system))
+    if update is not None:
+        outputs["update"] = ([*solution, column(reduced.events.fired)], update)
+    functions = {
+        name: ca.Function(f"frot_{name}_at", arguments, _clean(results))
+        for name, (arguments, results) in outputs.items()
     }
     return Lowered(
         reduced,
+        system,
         functions,
+        tuple(_block(k, b, system) for k, b in enumerate(system.blocks)),
         checks,
         variables,
-        reduced.mechanism.model.initial,
+        initial.statements,
         initial.position_statement,
         initial.velocity_statement,
-        _row_depends(reduced),
-        tuple(_depends_on_parameters(parameter) for parameter in s.parameters),
+        _row_depends(system),
+        tuple(bool(parameters_needed(parameter)) for parameter in s.parameters),
     )
 
 
-def _of_solution(values: ca.SX, accelerations: ca.SX, z: ca.SX) -> ca.SX:
-    """Values of the accelerations as values of z, which begins with them."""
-    return ca.substitute(values, accelerations, z[: accelerations.numel()])
+def state_arguments(system: Assembled) -> list[ca.SX]:
+    """t, q, v, u, p, d, y."""
+    s = system.reduced.symbols
+    no_sides = ca.SX.sym("no_side", len(system.elements))
+    flags = column(system.reduced.conditions.flags)
+    d = ca.vertcat(flags, s.sides, no_sides, system.discrete)
+    return [s.t, system.q, system.v, s.u, s.p, d, system.y]
 
 
 def _clean(outputs: list[ca.SX]) -> list[ca.SX]:
@@ -119,147 +137,82 @@ def _clean(outputs: list[ca.SX]) -> list[ca.SX]:
     return [ca.densify(x) for x in ca.cse([ca.SX(x) for x in outputs])]
 
 
-def _depends_on_parameters(parameter: Parameter) -> bool:
-    return any(
-        isinstance(node, Reference)
-        and isinstance(node.target, Parameter)
-        and not node.target.constant
-        for node in subexpressions(parameter.value)
-    )
+def _conditions(system: Assembled, log: Log) -> ca.SX:
+    """The located conditions; one that reads what is solved with or after the core is refused."""
+    values = system.resolve(column(system.reduced.conditions.values))
+    later = ca.vertcat(system.z, system.lam, system.y[system.early :])
+    if values.numel() and later.numel() and ca.depends_on(values, later):
+        log.report(
+            "E0701",
+            "a condition that reads an acceleration, a reaction or a friction force is not "
+            "supported yet",
+            system.reduced.mechanism.model.span,
+            help="write it in terms of time, positions and velocities",
+        )
+    return values
 
 
-def _parameters(
-    reduced: Reduced, looking: Lowering, checks: tuple[Check, ...], given: ca.SX, is_set: ca.SX
-) -> list[ca.SX]:
-    """Parameters in the order in which they depend on each other, then all that depends on them."""
-    s = reduced.symbols
-    resolved: dict[Parameter, ca.SX] = {}
-
-    def resolve(parameter: Parameter) -> ca.SX:
-        if parameter in resolved:
-            return resolved[parameter]
-        i = s.parameters.index(parameter)
-        if not _depends_on_parameters(parameter):
-            resolved[parameter] = given[i]
-            return given[i]
-        for node in subexpressions(parameter.value):
-            if isinstance(node, Reference) and node.target in s.parameters:
-                resolve(node.target)
-        value = complete(looking.lower(parameter.value))
-        resolved[parameter] = ca.if_else(is_set[i] != 0, given[i], value)
-        return resolved[parameter]
-
-    def complete(value: ca.SX) -> ca.SX:
-        """The value with every parameter in it replaced by what it is."""
-        known = list(resolved)
-        symbols = column([s.p[s.parameters.index(p)] for p in known])
-        return ca.substitute(value, symbols, column([resolved[p] for p in known]))
-
-    for parameter in s.parameters:
-        resolve(parameter)
-    experiment = reduced.mechanism.model.experiment
-    times = [
-        ca.SX.nan() if e is None else looking.lower(e)
-        for e in (experiment.start, experiment.stop, experiment.tolerance, experiment.interval)
-    ]
-    outputs = [
-        column([looking.lower(check.value) for check in checks]),
-        column([looking.lower(c.unilateral) for c in reduced.mechanism.contacts]),
-        column(times),
-    ]
-    return [
-        column([resolved[p] for p in s.parameters]),
-        *(complete(output) for output in outputs),
-    ]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Initial:
-    guess: list[ca.SX]
-    position: list[ca.SX]
-    velocity: list[ca.SX]
-    position_statement: tuple[int, ...]
-    velocity_statement: tuple[int, ...]
-
-
-def _initial(reduced: Reduced, looking: Lowering, log: Log) -> _Initial:
-    """Initial equations sorted into those of positions and those of velocities."""
-    s = reduced.symbols
-    residuals: dict[bool, list[ca.SX]] = {False: [], True: []}
-    sizes: dict[bool, list[ca.SX]] = {False: [], True: []}
-    statements: dict[bool, list[int]] = {False: [], True: []}
-    for index, equation in enumerate(reduced.mechanism.model.initial):
-        if equation.guess:
-            continue
-        if is_fixed(equation.left) and is_fixed(equation.right):
-            log.report(
-                "E0602",
-                "this initial statement depends on nothing that can change",
-                equation.span,
-                help="state a coordinate or a velocity of a body or liaison, or leave it out",
-            )
-            continue
-        left = reduced.variables.settled(looking.lower(equation.left))
-        right = reduced.variables.settled(looking.lower(equation.right))
-        difference = left - right
-        if any(x.numel() and ca.depends_on(difference, x) for x in (s.a, s.lam)):
+def _is_known(values: ca.SX, system: Assembled, variables: tuple[Listed, ...], log: Log) -> bool:
+    """Whether the variables hold nothing but what the kernel knows: no third derivatives."""
+    known = {
+        x.element_hash()
+        for part in (*state_arguments(system), system.z, system.lam, system.reduced.symbols.energy)
+        for x in (ca.vertsplit(part) if part.numel() else ())
+    }
+    if all(x.element_hash() in known for x in ca.symvar(values)):
+        return True
+    for variable, value in zip(variables, ca.vertsplit(values), strict=True):
+        unknown = [x.name() for x in ca.symvar(value) if x.element_hash() not in known]
+        if unknown:
             log.report(
                 "E0701",
-                "an initial statement on an acceleration or a reaction is not supported yet",
-                equation.span,
-                help="state positions and velocities",
+                f"'{variable.name}' needs {unknown[0]}, a derivative of an acceleration: it is not "
+                "supported yet",
+                system.reduced.mechanism.model.span,
+                help="leave it out",
             )
-            continue
-        for i in range(difference.numel()):
-            moving = bool(s.v.numel() and ca.depends_on(difference[i], s.v))
-            residuals[moving].append(difference[i])
-            sizes[moving].append(ca.fabs(left[i]) + ca.fabs(right[i]))
-            statements[moving].append(index)
-    position, velocity = column(residuals[False]), column(residuals[True])
-    return _Initial(
-        [
-            _guess(reduced, looking, s.q, log),
-            _guess(reduced, looking, s.v, log),
-            ca.SX(0, 1),
-            ca.SX(0, 1),
-        ],
-        [position, ca.jacobian(position, s.q).T, column(sizes[False]), ca.SX(0, len(sizes[False]))],
-        [velocity, ca.jacobian(velocity, s.v).T, column(sizes[True]), ca.SX(0, len(sizes[True]))],
-        tuple(statements[False]),
-        tuple(statements[True]),
-    )
+            break
+    return False
 
 
-def _guess(reduced: Reduced, looking: Lowering, unknown: ca.SX, log: Log) -> ca.SX:
-    """Where the search for the nearest values starts: zero, moved by the `guess` statements."""
-    s = reduced.symbols
-    value = ca.SX.zeros(unknown.numel())
-    for equation in reduced.mechanism.model.initial:
-        if not equation.guess or not is_fixed(equation.right):
-            continue
-        left = reduced.variables.settled(looking.lower(equation.left))
-        right = looking.lower(equation.right)
-        for i in range(left.numel()):
-            if not unknown.numel() or not ca.depends_on(left[i], unknown):
-                continue
-            if unknown is s.q and s.v.numel() and ca.depends_on(left[i], s.v):
-                continue
-            zero = [ca.SX.zeros(s.q.shape), ca.SX.zeros(s.v.shape)]
-            here, slope = ca.substitute([left[i], ca.jacobian(left[i], unknown)], [s.q, s.v], zero)
-            value += slope.T * (right[i] - here) / ca.sumsqr(slope)
-    return value
+def _block(index: int, block: Block, system: Assembled) -> ca.Function:
+    """Residual, its Jacobian in the block's own unknowns, the size of its terms."""
+    own = system.y[block.first : block.first + block.residual.numel()]
+    slope = ca.jacobian(block.residual, own)
+    size = ca.fabs(slope) @ ca.fabs(own) + ca.fabs(block.residual)
+    arguments = state_arguments(system)
+    if block.late:
+        arguments += [system.z, system.lam]
+    return ca.Function(f"frot_block_{index}", arguments, _clean([block.residual, slope, size]))
 
 
-def _row_depends(reduced: Reduced) -> tuple[tuple[bool, ...], ...]:
-    """For each row: on which coordinates, and last whether on time, its Jacobian depends."""
-    s = reduced.symbols
+def _block_slopes(system: Assembled) -> list[ca.SX]:
+    residual = column(b.residual for b in system.blocks if not b.late)
+    y = system.y[: system.early]
+    return [residual, *(ca.jacobian(residual, x).T for x in (system.q, system.v, y))]
+
+
+def _invariants(system: Assembled) -> list[ca.SX]:
+    values = system.invariants.values
+    states = ca.vertcat(system.q, system.v)
+    slope = ca.jacobian(values, states)
+    return [values, slope.T, ca.fabs(slope) @ ca.fabs(states)]
+
+
+def _row_depends(system: Assembled) -> tuple[tuple[bool, ...], ...]:
+    """For each row: on which coordinates, and last whether on anything else, its Jacobian depends.
+
+    Of the coordinates those count whose rates are speeds; any other state counts as anything else.
+    """
+    s = system.reduced.symbols
+    others = ca.vertcat(s.t, s.u, system.discrete, system.y)
     table: list[tuple[bool, ...]] = []
-    for r in range(reduced.rows.size1()):
-        row = reduced.rows[r, :]
+    for r in range(system.rows.size1()):
+        row = system.rows[r, :]
         table.append(
             (
-                *(bool(ca.depends_on(row, s.q[k])) for k in range(s.q.numel())),
-                bool(ca.depends_on(ca.horzcat(row, reduced.rate[r]), s.t)),
+                *(bool(ca.depends_on(row, system.q[k])) for k in range(system.q.numel())),
+                bool(ca.depends_on(ca.horzcat(row, system.rate[r]), others)),
             )
         )
     return tuple(table)

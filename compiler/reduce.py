@@ -28,10 +28,10 @@ from frot.compiler.symbols import (
     coordinate_names,
     make_symbols,
 )
-from frot.compiler.text_symbols import Element, TextSymbols, make_text_symbols
+from frot.compiler.text_symbols import Element, TextSymbols, make_text_symbols, scalars
 from frot.compiler.variables import Variables
 from frot.dsl import Log
-from frot.dsl.checked import Call, Liaison, Quantity
+from frot.dsl.checked import Call, Liaison, Model, Quantity, Reference, Variable
 
 STANDARD_GRAVITY = 9.81
 
@@ -42,9 +42,10 @@ class Reduced:
 
     `text`, `equations` and `events` are what the text adds with its variables, which `force` and
     the others may hold too. `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes
-    of its terms, `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a + bias is the
-    rows' acceleration), `rate` (n_rows), `gap` and `distance` (n_contacts), `coefficients` (mu,
-    mu_s, delta of each contact), `power` of the loads without potential, `kinetic`, `potential`.
+    of its terms, `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a +
+    bias is the rows' acceleration), `rate` (n_rows), `gap` and `distance` (n_contacts),
+    `coefficients` (mu, mu_s, delta of each contact), `power` of the loads without potential,
+    `kinetic`, `potential`.
     """
 
     mechanism: Mechanism
@@ -96,6 +97,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         for located in (conditions, None)
     )
     moving.friction = _friction_maker(text)
+    _add_discrete(mechanism.model, text, looking)
     rates = _rates(mechanism.contacts, variables, kinematics)
     speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
     motion = _masses(mechanism, variables)
@@ -148,6 +150,24 @@ def _text(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
     chains.forbid_rate(symbols.u, "the input")
     chains.forbid_rate(symbols.lam, "the reaction")
     return make_text_symbols(mechanism.model.variables, chains)
+
+
+def _add_discrete(model: Model, text: TextSymbols, looking: Lowering) -> None:
+    """The discrete variables with their first values: those of `initial`, of `start`, or zero."""
+    given = {
+        e.left.target: e.right
+        for e in model.initial
+        if isinstance(e.left, Reference) and isinstance(e.left.target, Variable)
+    }
+    for variable in model.variables:
+        if not variable.discrete:
+            continue
+        first = given.get(variable, variable.start)
+        symbols = scalars(text.values[variable])
+        starts = [ca.SX(0)] if first is None else scalars(looking.lower(first))
+        starts = starts * len(symbols) if len(starts) == 1 else starts
+        for symbol, start in zip(symbols, starts, strict=True):
+            text.add_discrete(symbol.name(), symbol, start)
 
 
 def _friction_maker(text: TextSymbols) -> Callable[[Call, list[ca.SX], str], ca.SX]:

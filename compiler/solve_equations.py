@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import casadi as ca
 import numpy as np
 from frot.compiler.assembled import Assembled, Block, Invariants
-from frot.compiler.chains import replace_known
+from frot.compiler.chains import Chains, replace_known
 from frot.compiler.core import Core, make_core
 from frot.compiler.differentiate import Differentiated, differentiate
 from frot.compiler.eliminate import Eliminated, Origin, Residuals, eliminate, resolve_all
@@ -40,7 +40,7 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
     defaults = ca.DM(np.array([as_number(values[p]) for p in s.parameters]))
     newton = _newton(reduced)
     left = eliminate(reduced.equations, chains, s.p, defaults)
-    if not _are_equations(left, log):
+    if not _are_equations(left, chains, log):
         return None
     own = [Origin(reduced.mechanism.model.span, "", "")] * s.v.numel()
     forces = resolve_all(newton, chains, left.resolver)
@@ -76,9 +76,19 @@ def _newton(reduced: Reduced) -> ca.SX:
     return reduced.mass @ accelerations - reduced.force - reduced.rows.T @ s.lam
 
 
-def _are_equations(left: Eliminated, log: Log) -> bool:
-    """Whether every equation left still holds an unknown; one that does not is told."""
+def _are_equations(left: Eliminated, chains: Chains, log: Log) -> bool:
+    """Whether every equation left still holds an unknown, and every condition is defined."""
     good = True
+    for j, chain in enumerate(chains.items):
+        variable = chain.variable
+        if j not in left.removed and variable is not None and variable.type.base != "real":
+            log.report(
+                "E0610",
+                f"'{chain.name}' is neither set by a 'when' nor given by an equation of its own",
+                variable.span,
+                help=f"write '{chain.name} = ...' in the equations, or in a 'when'",
+            )
+            good = False
     for value, origin in zip(left.residuals.values, left.residuals.origins, strict=True):
         if not ca.symvar(value):
             zero = value.is_zero()

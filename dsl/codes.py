@@ -1,7 +1,7 @@
 """The registry of diagnostics: each code once, with its explanation and a text that triggers it.
 
-E01 syntax, E02 names, E03 units and types, E04 values, E05 structure, E06 equations and initial values, E07 not
-supported yet, E08 tools, E09 run time; W warnings.
+E01 syntax, E02 names, E03 units and types, E04 values, E05 structure, E06 equations and initial
+values, E07 not supported yet, E08 tools, E09 run time; W warnings.
 """
 
 from __future__ import annotations

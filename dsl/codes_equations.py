@@ -44,8 +44,8 @@ EQUATIONS: Mapping[str, Code] = {
     ),
     "E0607": Code(
         "not linear in accelerations",
-        "Accelerations, reactions and friction forces that determine each other are solved together "
-        "as one linear system; this equation is not linear in them.",
+        "Accelerations, reactions and friction forces that determine each other are solved "
+        "together as one linear system; this equation is not linear in them.",
         "Let the quantity act through a state, as a filter or a spring does.",
         _equations(
             "Real w;\nReal f;",

@@ -1,0 +1,234 @@
+"""What `initial` says, sorted for the kernel: positions, then velocities, and guesses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.assembled import Assembled
+from frot.compiler.chains import replace_known
+from frot.compiler.expressions import Lowering
+from frot.compiler.symbols import column
+from frot.compiler.text_symbols import scalars
+from frot.compiler.walk import is_fixed
+from frot.dsl import Log
+from frot.dsl.checked import InitialEquation, Reference, Variable
+from frot.dsl.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """A statement that the kernel can blame: its text, its place and the unit of its sides."""
+
+    text: str
+    span: Span
+    unit: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Initial:
+    """Outputs of `start`, `initial_position` and `initial_velocity`, and the statements behind."""
+
+    start: list[ca.SX]
+    position: list[ca.SX]
+    velocity: list[ca.SX]
+    statements: tuple[Statement, ...]
+    position_statement: tuple[int, ...]
+    velocity_statement: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Residual:
+    value: ca.SX
+    size: ca.SX
+    statement: int
+
+
+def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
+    """Lower the statements; one that cannot hold for positions and velocities is reported."""
+    model = system.reduced.mechanism.model
+    statements = [_statement(e) for e in model.initial]
+    found: list[_Residual] = []
+    for index, equation in enumerate(model.initial):
+        if not equation.guess and not _sets_discrete(equation):
+            found += _residuals(index, equation, system, looking, log)
+    guess = {
+        "q": _guess(system, looking, system.q, ca.SX.zeros(system.q.shape)),
+        "v": _guess(system, looking, system.v, ca.SX.zeros(system.v.shape)),
+    }
+    direct = None if system.reduced.mechanism.contacts else _direct(found, system)
+    if direct is not None:
+        found = []
+        guess = {
+            k: replace_known(_with(x, direct), {})
+            for k, x in (("q", (system.q, guess["q"])), ("v", (system.v, guess["v"])))
+        }
+    for value, origin in zip(
+        ca.vertsplit(system.invariants.values) if system.invariants.origins else (),
+        system.invariants.origins,
+        strict=True,
+    ):
+        found.append(_Residual(value, _size(value, system), len(statements)))
+        statements.append(Statement(origin.text, origin.span, "1"))
+    moving = [_depends(r.value, system, system.v) for r in found]
+    position = [r for r, m in zip(found, moving, strict=True) if not m]
+    velocity = [r for r, m in zip(found, moving, strict=True) if m]
+    y_start = _guess(system, looking, system.y, ca.SX.zeros(system.y.shape))
+    discrete = column(d.start for d in system.reduced.text.discrete)
+    return Initial(
+        [guess["q"], guess["v"], y_start, discrete],
+        _outputs(position, system.q, system.y),
+        _outputs(velocity, system.v, system.y),
+        tuple(statements),
+        tuple(r.statement for r in position),
+        tuple(r.statement for r in velocity),
+    )
+
+
+def _statement(equation: InitialEquation) -> Statement:
+    from frot.compiler.units import unit_of
+
+    text = " ".join(equation.span.text.split()).rstrip("; ")
+    return Statement(text, equation.span, unit_of(equation.left.type.dimension).name)
+
+
+def _sets_discrete(equation: InitialEquation) -> bool:
+    left = equation.left
+    return (
+        isinstance(left, Reference) and isinstance(left.target, Variable) and left.target.discrete
+    )
+
+
+def _residuals(
+    index: int, equation: InitialEquation, system: Assembled, looking: Lowering, log: Log
+) -> list[_Residual]:
+    if is_fixed(equation.left) and is_fixed(equation.right):
+        log.report(
+            "E0602",
+            "this initial statement depends on nothing that can change",
+            equation.span,
+            help="state a coordinate or a velocity of a body or liaison, or leave it out",
+        )
+        return []
+    settled = system.reduced.variables.settled
+    left = system.resolve(settled(looking.lower(equation.left)))
+    right = system.resolve(settled(looking.lower(equation.right)))
+    difference = left - right
+    later = ca.vertcat(system.z, system.lam, system.y[system.early :])
+    if difference.numel() and later.numel() and ca.depends_on(difference, later):
+        log.report(
+            "E0701",
+            "an initial statement on an acceleration or a reaction is not supported yet",
+            equation.span,
+            help="state positions and velocities",
+        )
+        return []
+    sizes = ca.fabs(left) + ca.fabs(right)
+    return [
+        _Residual(value, size, index)
+        for value, size in zip(
+            scalars(difference), scalars(ca.SX.zeros(difference.shape) + sizes), strict=True
+        )
+    ]
+
+
+def _direct(found: list[_Residual], system: Assembled) -> dict[int, ca.SX] | None:
+    """The values of states that the statements give one by one; None where they must be solved.
+
+    With such statements alone nothing is searched, however many states there are.
+    """
+    if system.invariants.origins:
+        return None
+    states = {s.element_hash() for s in (*_items(system.q), *_items(system.v))}
+    moving = states | {s.element_hash() for s in _items(system.y)}
+    values: dict[int, ca.SX] = {}
+    for residual in found:
+        inside = [s for s in ca.symvar(residual.value) if s.element_hash() in moving]
+        if len(inside) != 1 or inside[0].element_hash() not in states:
+            return None
+        symbol = inside[0]
+        slope = ca.jacobian(residual.value, symbol)
+        if not slope.is_constant() or symbol.element_hash() in values:
+            return None
+        rest = ca.substitute(residual.value, symbol, ca.SX(0))
+        values[symbol.element_hash()] = -rest / slope
+    return values
+
+
+def _items(symbols: ca.SX) -> list[ca.SX]:
+    return list(ca.vertsplit(symbols)) if symbols.numel() else []
+
+
+def _with(pair: tuple[ca.SX, ca.SX], direct: dict[int, ca.SX]) -> ca.SX:
+    symbols, guess = pair
+    return column(
+        direct.get(s.element_hash(), g) for s, g in zip(_items(symbols), _items(guess), strict=True)
+    )
+
+
+def _size(value: ca.SX, system: Assembled) -> ca.SX:
+    """Size of the terms of a relation: what each state could change in it."""
+    states = ca.vertcat(system.q, system.v)
+    slope = ca.jacobian(value, states)
+    return ca.fabs(slope) @ ca.fabs(states)
+
+
+def _depends(value: ca.SX, system: Assembled, on: ca.SX) -> bool:
+    """Whether a value depends on speeds, itself or through the blocks."""
+    if not on.numel():
+        return False
+    if ca.depends_on(value, on):
+        return True
+    early = [b for b in system.blocks if not b.late]
+    if not early or not ca.depends_on(value, system.y[: system.early]):
+        return False
+    return any(bool(ca.depends_on(b.residual, on)) for b in early)
+
+
+def _outputs(residuals: list[_Residual], unknown: ca.SX, y: ca.SX) -> list[ca.SX]:
+    values = column(r.value for r in residuals)
+    return [
+        values,
+        ca.jacobian(values, unknown).T,
+        column(r.size for r in residuals),
+        ca.jacobian(values, y).T,
+    ]
+
+
+def _guess(system: Assembled, looking: Lowering, unknown: ca.SX, value: ca.SX) -> ca.SX:
+    """Where the search for the nearest values starts, moved by what the text guesses."""
+    if not unknown.numel():
+        return value
+    zeros = {s.element_hash(): ca.SX(0) for x in (system.q, system.v, system.y) for s in _items(x)}
+    place = {s.element_hash(): k for k, s in enumerate(_items(unknown))}
+    values = _items(value)
+    for left, right in _guesses(system, looking):
+        inside = [s for s in ca.symvar(left) if s.element_hash() in zeros]
+        own = [s for s in inside if s.element_hash() in place]
+        if not own or (unknown is system.q and len(own) < len(inside)):
+            continue
+        slopes = [replace_known(ca.jacobian(left, s), zeros) for s in own]
+        here = replace_known(left, zeros)
+        length = sum((x * x for x in slopes), ca.SX(0))
+        for s, slope in zip(own, slopes, strict=True):
+            move = slope * (right - here) / length
+            values[place[s.element_hash()]] += ca.if_else(length > 0, move, ca.SX(0))
+    return column(values)
+
+
+def _guesses(system: Assembled, looking: Lowering) -> list[tuple[ca.SX, ca.SX]]:
+    """Pairs of a scalar of the states and the value it is guessed to have."""
+    model, settled = system.reduced.mechanism.model, system.reduced.variables.settled
+    pairs: list[tuple[ca.SX, ca.SX]] = []
+    for equation in model.initial:
+        if equation.guess and is_fixed(equation.right):
+            left = system.resolve(settled(looking.lower(equation.left)))
+            pairs += list(zip(scalars(left), scalars(looking.lower(equation.right)), strict=True))
+    for variable in model.variables:
+        if variable.start is not None and not variable.discrete and is_fixed(variable.start):
+            left = system.resolve(system.reduced.text.values[variable])
+            right = scalars(looking.lower(variable.start))
+            items = scalars(left)
+            right = right * len(items) if len(right) == 1 else right
+            pairs += list(zip(items, right, strict=True))
+    return pairs

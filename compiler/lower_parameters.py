@@ -1,0 +1,59 @@
+"""Parameters in the order in which they depend on each other, and all that follows from them."""
+
+from __future__ import annotations
+
+import casadi as ca
+from frot.compiler.chains import replace_known
+from frot.compiler.checks import Check
+from frot.compiler.expressions import Lowering
+from frot.compiler.reduce import Reduced
+from frot.compiler.symbols import column
+from frot.compiler.walk import subexpressions
+from frot.dsl.checked import Parameter, Reference
+from frot.dsl.order import in_order
+
+
+def parameters_needed(parameter: Parameter) -> list[Parameter]:
+    """The parameters, constants apart, that a parameter's value names."""
+    return [
+        node.target
+        for node in subexpressions(parameter.value)
+        if isinstance(node, Reference)
+        and isinstance(node.target, Parameter)
+        and not node.target.constant
+    ]
+
+
+def lower_parameters(
+    reduced: Reduced,
+    looking: Lowering,
+    checks: tuple[Check, ...],
+    elements: int,
+    given: ca.SX,
+    is_set: ca.SX,
+) -> list[ca.SX]:
+    """The outputs of the kernel's `parameters`; friction elements are never unilateral."""
+    s = reduced.symbols
+    place = {p.name: i for i, p in enumerate(s.parameters)}
+    needs = {p.name: [q.name for q in parameters_needed(p)] for p in s.parameters}
+    order, _ = in_order(needs)
+    known: dict[int, ca.SX] = {}
+    for name in order:
+        i = place[name]
+        value = given[i]
+        if needs[name]:
+            dependent = replace_known(looking.lower(s.parameters[i].value), known)
+            value = ca.if_else(is_set[i] != 0, given[i], dependent)
+        known[s.p[i].element_hash()] = value
+    experiment = reduced.mechanism.model.experiment
+    times = [
+        ca.SX.nan() if e is None else looking.lower(e)
+        for e in (experiment.start, experiment.stop, experiment.tolerance, experiment.interval)
+    ]
+    values = [c.value if isinstance(c.value, ca.SX) else looking.lower(c.value) for c in checks]
+    unilateral = [looking.lower(c.unilateral) for c in reduced.mechanism.contacts]
+    outputs = [column(values), column([*unilateral, *[ca.SX(0)] * elements]), column(times)]
+    return [
+        column(known[s.p[i].element_hash()] for i in range(s.p.numel())),
+        *(replace_known(output, known) for output in outputs),
+    ]
