@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.eliminate import Origin, Pivot
+from frot.compiler.eliminate import Pivot
+from frot.compiler.origins import Origin
 from frot.compiler.reduce import Reduced
 from frot.compiler.text_symbols import Element
 from frot.dsl.source import Span

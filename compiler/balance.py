@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from frot.compiler.chains import Chain
-from frot.compiler.eliminate import Origin
 from frot.compiler.index import Unbalanced
+from frot.compiler.origins import Origin, Unknown
 from frot.dsl import Label, Log
 
 MOST_NAMED = 8
@@ -14,7 +13,7 @@ MOST_NAMED = 8
 
 def report_unbalanced(
     found: Unbalanced,
-    unknowns: Sequence[Chain],
+    unknowns: Sequence[Unknown],
     origins: Sequence[Origin],
     log: Log,
 ) -> None:

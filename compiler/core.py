@@ -68,12 +68,7 @@ def make_core(
     z = ca.vertcat(column(states.accelerations), auxiliary, column(states.algebraic))
     lam = ca.vertcat(s.lam, column(e.force for e in elements))
     count = s.v.numel()
-    user = [
-        found.values[i]
-        for k in sorted(core)
-        for i in found.components[k].equations
-        if i >= found.newton
-    ]
+    user = _in_order_of(ca.vertcat(z[count:nv], z[nv + na :]), found, core)
     coupling = reduced.mass[:, count:] @ auxiliary
     equations = ca.vertcat(
         column(found.values[: found.newton]) + coupling[:count],
@@ -85,6 +80,7 @@ def make_core(
     order += list(range(count, count + len(user)))
     equations = equations[order] if order else equations
     matrix, spread = ca.jacobian(equations, z), -ca.jacobian(equations, lam)
+    rows, bias, rate = _rows(reduced, left, z, known, na, nv)
     both = ca.vertcat(z, lam)
     if both.numel() and (ca.depends_on(matrix, both) or ca.depends_on(spread, both)):
         log.report(
@@ -97,12 +93,11 @@ def make_core(
         return None
     zero = ca.SX.zeros(both.shape)
     force = -ca.substitute(equations, both, zero) if both.numel() else -equations
-    rows, bias, rate = _rows(reduced, left, z, known, na, nv)
     sizes = replace_known(resolve_all(reduced.force_size, chains, left.resolver), known)
     sizes = ca.substitute(sizes, both, zero) if both.numel() else sizes
     size = ca.vertcat(sizes, ca.fabs(force[count + na :]))
     # z is ordered: accelerations of the mechanism, of the text, auxiliary, algebraic
-    general = bool(user) or not _is_symmetric(matrix, spread, rows)
+    general = bool(nc) or not _is_mass_matrix(matrix, spread, rows)
     return Core(
         q=ca.vertcat(s.q, column(states.q)),
         v=column(states.v),
@@ -123,6 +118,37 @@ def make_core(
         rate=rate,
         coefficients=_coefficients(reduced, left, known),
     )
+
+
+def _in_order_of(z: ca.SX, found: Differentiated, core: set[int]) -> list[ca.SX]:
+    """The text's equations of the core, each in the place of the unknown it is matched with.
+
+    An equation is turned round where its unknown stands in it with a negative factor, so that what
+    is a mass matrix looks like one.
+    """
+    place = {x.element_hash(): k for k, x in enumerate(ca.vertsplit(z) if z.numel() else ())}
+    ordered: dict[int, ca.SX] = {}
+    others: list[ca.SX] = []
+    for k in sorted(core):
+        component = found.components[k]
+        for i, j in zip(component.equations, component.unknowns, strict=True):
+            if i < found.newton:
+                continue
+            unknown, value = found.unknown(j), found.values[i]
+            at = place.get(unknown.element_hash())
+            if at is None:
+                others.append(value)
+                continue
+            slope = ca.jacobian(value, unknown)
+            ordered[at] = -value if _looks_negative(slope) else value
+    free = iter(others)
+    return [ordered[k] if k in ordered else next(free) for k in range(z.numel())]
+
+
+def _looks_negative(slope: ca.SX) -> bool:
+    symbols = ca.symvar(slope)
+    value = ca.Function("slope", symbols, [slope]).call([ca.DM(1)] * len(symbols))[0]
+    return float(value) < 0
 
 
 def _sort_states(found: Differentiated, core: set[int]) -> _States:
@@ -202,19 +228,19 @@ def _metric(reduced: Reduced, nv: int, na: int) -> ca.SX:
     return metric
 
 
-def _is_symmetric(matrix: ca.SX, spread: ca.SX, rows: ca.SX) -> bool:
+def _is_mass_matrix(matrix: ca.SX, spread: ca.SX, rows: ca.SX) -> bool:
     """Whether the core is a mass matrix with reactions along the rows: at a few random places."""
-    if matrix.size1() != matrix.size2():
-        return False
     symbols = ca.symvar(ca.veccat(matrix, spread, rows))
     both = ca.Function("core", symbols, [matrix, spread, rows.T])
     random = np.random.default_rng(1)
     for _ in range(3):
-        a, e, j = (
-            x.full() for x in both.call([ca.DM(x) for x in random.uniform(0.1, 2, len(symbols))])
-        )
-        scale = np.abs(a).max(initial=0)
-        if not np.all(np.abs(a - a.T) <= 1e-12 * scale) or not np.allclose(e, j, 1e-12, 0):
+        values = [ca.DM(x) for x in random.uniform(0.1, 2, len(symbols))]
+        a, e, j = (x.full() for x in both.call(values))
+        if not a.size:
+            return True
+        scale = np.abs(a).max()
+        symmetric = np.all(np.abs(a - a.T) <= 1e-12 * scale) and np.allclose(e, j, 1e-12, 0)
+        if not symmetric or np.linalg.eigvalsh((a + a.T) / 2)[0] <= 0:
             return False
     return True
 

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 import casadi as ca
 from frot.compiler.balance import report_unbalanced
 from frot.compiler.chains import Chains
-from frot.compiler.eliminate import Origin, Residuals
+from frot.compiler.eliminate import Residuals
 from frot.compiler.index import find_unbalanced, reduce_index
 from frot.compiler.order import Component, find_components
+from frot.compiler.origins import Origin, Unknown
 from frot.compiler.symbols import column
 from frot.dsl import Log
 
@@ -54,7 +55,8 @@ def differentiate(
     incidence = _incidence(system.values, chains, place)
     unbalanced = find_unbalanced([tuple(row) for row in incidence], len(left))
     if unbalanced is not None:
-        report_unbalanced(unbalanced, [chains.items[j] for j in left], system.origins, log)
+        unknowns = [Unknown(chains.items[j].name, chains.items[j].span) for j in left]
+        report_unbalanced(unbalanced, unknowns, system.origins, log)
         return None
     index = reduce_index(incidence, len(left))
     values, origins = list(system.values), system.origins

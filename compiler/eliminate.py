@@ -12,20 +12,11 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.chains import Chains, Resolver
+from frot.compiler.origins import Origin
 from frot.compiler.symbols import column
-from frot.dsl.source import Span
 
 # Equations that a removal may lengthen: (terms less one) x (other equations) of the unknown.
 MOST_FILL = 12
-
-
-@dataclass(frozen=True, slots=True)
-class Origin:
-    """Where a scalar equation comes from: its place, its text and the component it is in."""
-
-    span: Span
-    text: str
-    owner: str
 
 
 @dataclass(slots=True, eq=False)

@@ -7,8 +7,9 @@ from graphlib import CycleError, TopologicalSorter
 
 import casadi as ca
 from frot.compiler.expressions import Conditions, Lowering
+from frot.compiler.names import component_names
 from frot.compiler.symbols import column
-from frot.compiler.text_symbols import TextSymbols, component_names, scalars, shaped
+from frot.compiler.text_symbols import TextSymbols, scalars, shaped
 from frot.dsl import Log
 from frot.dsl.checked import (
     Assertion,

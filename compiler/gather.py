@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import casadi as ca
-from frot.compiler.eliminate import Origin, Residuals
+from frot.compiler.eliminate import Residuals
 from frot.compiler.expressions import Lowering
+from frot.compiler.origins import Origin
 from frot.compiler.text_symbols import scalars
 from frot.dsl import Log
 from frot.dsl.checked import Equation, IfEquations

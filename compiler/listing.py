@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import casadi as ca
 from frot.compiler.assembled import Assembled
 from frot.compiler.expressions import Lowering
+from frot.compiler.names import component_names
 from frot.compiler.reduce import Reduced
-from frot.compiler.text_symbols import component_names, scalars
+from frot.compiler.text_symbols import scalars
 from frot.dsl.checked import Body, Liaison, Variable
 from frot.dsl.dimensions import Dimension, dimension
 

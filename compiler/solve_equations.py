@@ -15,8 +15,9 @@ from frot.compiler.assembled import Assembled, Block, Invariants
 from frot.compiler.chains import Chains, replace_known
 from frot.compiler.core import Core, make_core
 from frot.compiler.differentiate import Differentiated, differentiate
-from frot.compiler.eliminate import Eliminated, Origin, Residuals, eliminate, resolve_all
+from frot.compiler.eliminate import Eliminated, Residuals, eliminate, resolve_all
 from frot.compiler.order import Component, closure
+from frot.compiler.origins import Origin
 from frot.compiler.reduce import Reduced
 from frot.compiler.symbols import column
 from frot.compiler.tear import tear

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.chains import Chains
+from frot.compiler.names import component_names
 from frot.dsl.checked import Variable
 from frot.dsl.source import Span
 
@@ -59,14 +60,6 @@ def make_text_symbols(variables: tuple[Variable, ...], chains: Chains) -> TextSy
                 chains.add(name, variable.span, variable, (symbol,))
         text.values[variable] = shaped(symbols, variable.type.shape)
     return text
-
-
-def component_names(name: str, shape: tuple[int, ...]) -> list[str]:
-    """`x`, or `x[1]`, `x[2]`, or `x[1,1]`, `x[1,2]`: by rows."""
-    names = [""]
-    for size in shape:
-        names = [f"{n},{k + 1}" if n else f"{k + 1}" for n in names for k in range(size)]
-    return [f"{name}[{n}]" if n else name for n in names]
 
 
 def shaped(items: list[ca.SX], shape: tuple[int, ...]) -> ca.SX:

@@ -1,0 +1,24 @@
+"""Where unknowns and equations come from, for messages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from frot.dsl.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """A scalar equation: its place, its text and the component it is in."""
+
+    span: Span
+    text: str
+    owner: str
+
+
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    """A scalar unknown; `span` is None for a coordinate of the mechanism."""
+
+    name: str
+    span: Span | None
