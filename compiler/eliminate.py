@@ -1,19 +1,22 @@
-"""Removes the unknowns that an equation gives explicitly: aliases, sums, ideal gears.
+"""Removes unknowns that an equation gives explicitly: aliases, ideal gears, what is prescribed.
 
 An equation that is linear in an unknown, with a constant or parameter as coefficient, defines it;
-the unknown and its derivatives are replaced everywhere. This is a choice of dummy derivatives made
-beforehand: what is removed needs no state, no index reduction and no projection.
+the unknown and its derivatives are replaced everywhere. For an unknown with states this is a choice
+of dummy derivatives made beforehand: it needs no state, no index reduction and no projection.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.chains import Chains, Resolver
 from frot.compiler.origins import Origin
 from frot.compiler.symbols import column
+
+Entries = Mapping[int, int]
 
 # Equations that a removal may lengthen: (terms less one) x (other equations) of the unknown.
 MOST_FILL = 12
@@ -38,9 +41,13 @@ class Pivot:
 
 @dataclass(slots=True, eq=False)
 class Eliminated:
-    """The equations left, the removed unknowns and what they are, the divisors of that."""
+    """The equations left with the numbers they had, the removed unknowns and what they are.
+
+    `pivots` are the divisors of their definitions.
+    """
 
     residuals: Residuals
+    numbers: list[int]
     removed: set[int]
     resolver: Resolver
     pivots: list[Pivot]
@@ -54,18 +61,26 @@ class _Candidate:
     entry: int
 
 
-def eliminate(residuals: Residuals, chains: Chains, p: ca.SX, defaults: ca.DM) -> Eliminated:
+def eliminate(
+    residuals: Residuals,
+    may_define: Callable[[int, int, Entries], bool],
+    chains: Chains,
+    p: ca.SX,
+    defaults: ca.DM,
+) -> Eliminated:
     """Remove explicit unknowns, a set of independent ones at a time, until none is left.
 
-    `p` and `defaults` are the parameters and their values, by which a divisor is known not to be
-    zero. Chains of the mechanism are never removed.
+    `may_define(i, j, entries)`: whether equation i, counted as in `residuals`, may define the
+    unknown of chain j; `entries` maps the chains that stand in it to their highest orders. `p` and
+    `defaults` are the parameters and their values, by which a divisor is known not to be zero.
     """
     values, origins = list(residuals.values), list(residuals.origins)
+    numbers = list(range(len(values)))
     rounds: list[tuple[list[int], ca.SX]] = []
     pivots: list[Pivot] = []
     while values:
         table = _Table(values, chains, p, defaults)
-        chosen = _choose(table, chains)
+        chosen = _choose(table, numbers, may_define, chains)
         if not chosen:
             break
         definitions = column(
@@ -83,10 +98,13 @@ def eliminate(residuals: Residuals, chains: Chains, p: ca.SX, defaults: ca.DM) -
         used = {c.equation for c in chosen}
         kept = [i for i in range(len(values)) if i not in used]
         origins = [origins[i] for i in kept]
+        numbers = [numbers[i] for i in kept]
         left = column(values[i] for i in kept)
         values = ca.vertsplit(_replace(left, removed, definitions, chains)) if kept else []
     removed_at_all = {chain for removed, _ in rounds for chain in removed}
-    return Eliminated(Residuals(values, origins), removed_at_all, _resolver(rounds, chains), pivots)
+    return Eliminated(
+        Residuals(values, origins), numbers, removed_at_all, _resolver(rounds, chains), pivots
+    )
 
 
 class _Table:
@@ -140,9 +158,19 @@ class _Table:
         return kinds
 
 
-def _choose(table: _Table, chains: Chains) -> list[_Candidate]:
+def _choose(
+    table: _Table,
+    numbers: Sequence[int],
+    may_define: Callable[[int, int, Entries], bool],
+    chains: Chains,
+) -> list[_Candidate]:
     """Definitions none of which holds an unknown that another defines; algebraic ones first."""
-    candidates = [c for entry in table.entries if (c := _candidate(entry, table, chains))]
+    candidates = [
+        c
+        for entry in table.entries
+        if may_define(numbers[entry[1]], entry[2], table.orders[entry[1]])
+        and (c := _candidate(entry, table, chains))
+    ]
     if any(c.rank[0] == 0 for c in candidates):
         candidates = [c for c in candidates if c.rank[0] == 0]
     chosen: list[_Candidate] = []
