@@ -47,7 +47,8 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
             log,
             "a rotoïde that closes a loop",
             pin.liaison.span,
-            "its bodies are joined by other rotoïdes already; close the loop by a `point_courbe`",
+            f"other rotoïdes already join '{point_body(pin.a).name}' and "
+            f"'{point_body(pin.b).name}': leave one of them out",
         )
     if log.failed:
         return None
