@@ -158,7 +158,7 @@ def _bounds_couple(element: Element) -> bool:
 
 
 def _solve(alg: ca.SX, z: ca.SX, known: list[ca.SX], curved: bool) -> ca.Function:
-    """The z with `alg` = 0: one linear solve, or Newton's method from no reactions where `curved`."""
+    """Gives z: one linear solve, or Newton's method from no reactions where `curved`."""
     names = (["t", "x", "u", "p", "mode"], ["z"])
     slope = ca.jacobian(alg, z)
     if not curved:
