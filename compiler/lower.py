@@ -246,7 +246,8 @@ def _guess(reduced: Reduced, looking: Lowering, unknown: ca.SX, log: Log) -> ca.
                 continue
             zero = [ca.SX.zeros(s.q.shape), ca.SX.zeros(s.v.shape)]
             here, slope = ca.substitute([left[i], ca.jacobian(left[i], unknown)], [s.q, s.v], zero)
-            value += slope.T * (right[i] - here) / ca.sumsqr(slope)
+            square = ca.sumsqr(slope)  # zero where the pose shows no way to the value guessed
+            value += ca.if_else(square > 0, slope.T * (right[i] - here) / square, 0)
     return value
 
 
