@@ -7,6 +7,7 @@ from pathlib import Path
 
 import casadi as ca
 from frot.compiler.lower import Lowered
+from frot.compiler.mechanism import Pin
 from frot.compiler.symbols import column
 from frot.compiler.walk import is_fixed
 from frot.dsl.checked import Expression
@@ -29,8 +30,8 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
                 _record(
                     _text(c.liaison.name),
                     _text(_place(c.liaison.span)),
-                    "FROT_BY_NORMAL",
-                    *(r.normal, -1, r.tangent, r.rolling, int(c.reduced)),
+                    "FROT_BY_PIN" if isinstance(c, Pin) else "FROT_BY_NORMAL",
+                    *(r.normal, r.second, r.tangent, r.rolling, int(c.reduced)),
                     int(_fixed(c.mu) and _fixed(c.mu_s)),
                     int(_fixed(c.delta)),
                 )

@@ -9,6 +9,7 @@ import casadi as ca
 from frot.compiler.assembled import Assembled
 from frot.compiler.expressions import Lowering
 from frot.compiler.names import component_names
+from frot.compiler.pins import PinGeometry
 from frot.compiler.reduce import Reduced
 from frot.compiler.text_symbols import scalars
 from frot.dsl.checked import Body, Liaison, Variable
@@ -137,12 +138,28 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
         for suffix, part in _components(f"{liaison.name}.{name}", value):
             yield Listed(suffix, part, of, doc, quantity)
 
+    geometry = reduced.variables.geometry[liaison]
+    reacts = liaison in reduced.variables.reactions
+    if isinstance(geometry, PinGeometry):
+        yield from one("angle", NUMBER, "angle of b's axes less that of a's", "Angle")
+        yield from one("speed", RATE, "its rate", "AngularVelocity")
+        yield from one("gap", LENGTH, "distance of the places")
+        if geometry.radius is not None:
+            yield from one("slip", VELOCITY, "relative velocity at the surface of the pin")
+        if reacts:
+            yield from one("normal_force", FORCE, "size of the reaction")
+            if geometry.radius is not None:
+                yield from one("tangential_force", FORCE, "friction at the surface of the pin")
+            yield from one("force", FORCE, "reaction of the first place on the second")
+            yield from one("torque", ENERGY, "couple of the first place on the second", "Torque")
+            yield from one("power", POWER, "power of the reaction")
+        return
     if liaison.kind.name == "point_courbe":
         yield from one("u", LENGTH, "abscissa along the line")
         yield from one("abscissa", LENGTH, "abscissa along the line")
     yield from one("gap", LENGTH, "distance of the places")
     yield from one("slip", VELOCITY, "velocity of the body's point along the line")
-    if liaison not in reduced.variables.reactions:
+    if not reacts:
         return
     yield from one("normal_force", FORCE, "reaction along the normal, on the body")
     yield from one("tangential_force", FORCE, "friction along the line, on the body")

@@ -4,15 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from frot.compiler.mechanism import (
-    Contact,
-    Coordinates,
-    FreeCoordinates,
-    LineCoordinates,
-    Mechanism,
-    Point,
-    is_unilateral,
-)
+from frot.compiler.mechanism import Contact, Element, Mechanism, Pin, Point, point_body, turns
+from frot.compiler.spanning import span
 from frot.compiler.walk import is_fixed, read_expressions, subexpressions
 from frot.dsl import Log
 from frot.dsl.checked import (
@@ -22,18 +15,19 @@ from frot.dsl.checked import (
     Curve,
     CurvePlace,
     Expression,
-    Frame,
+    Force,
     Law,
     Liaison,
+    Literal,
     Model,
     Quantity,
 )
 from frot.dsl.source import Span
 
 SHAPES = ("particle", "ring", "disc", "rod")
-LIAISONS = ("point_courbe", "contact_ponctuel")
+LIAISONS = ("point_courbe", "contact_ponctuel", "rotoide")
 LAWS = ("coulomb", "rolling_resistance")
-FORCES = ("attraction", "on", "spring")
+FORCES = ("attraction", "couple", "damper", "drag", "on", "spring")
 ROUND = ("ring", "disc")
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
 
@@ -43,30 +37,31 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     _refuse_unknown(model, log)
     if log.failed:
         return None
-    contacts = [c for x in model.liaisons if (c := _contact(x, log)) is not None]
+    elements = [e for x in model.liaisons if (e := _element(x, log)) is not None]
+    _refuse_surface(model, elements, log)
     if log.failed:
         return None
-    coordinates, kept = _coordinates(model, contacts)
+    tree = span(model, elements)
+    for pin in tree.closing:
+        _refuse(
+            log,
+            "a rotoïde that closes a loop",
+            pin.liaison.span,
+            f"other rotoïdes already join '{point_body(pin.a).name}' and "
+            f"'{point_body(pin.b).name}': leave one of them out",
+        )
+    if log.failed:
+        return None
     read = _read_liaisons(model)
-    chosen: list[Contact] = []
-    ideal: list[Contact] = []
-    for contact in contacts:
-        reduced = contact.liaison in kept
-        silent = contact.mu is None and contact.delta is None and contact.liaison not in read
-        (ideal if reduced and silent else chosen).append(replace(contact, reduced=reduced))
-    return Mechanism(model, coordinates, tuple(chosen), tuple(ideal), model.forces)
-
-
-def owner_body(owner: Body | Frame) -> Body:
-    """The body a frame, or a frame on a frame, is fixed to."""
-    while isinstance(owner, Frame):
-        owner = owner.owner
-    return owner
-
-
-def point_body(point: Point) -> Body:
-    """The body a point belongs to."""
-    return point.body if isinstance(point, BodyPoint) else owner_body(point)
+    chosen: list[Element] = []
+    ideal: list[Element] = []
+    for element in elements:
+        reduced = element.liaison in tree.kept
+        silent = element.mu is None and element.delta is None and element.liaison not in read
+        if isinstance(element, Contact):
+            element = replace(element, reduced=reduced)
+        (ideal if reduced and silent else chosen).append(element)
+    return Mechanism(model, tree.coordinates, tuple(chosen), tuple(ideal), model.forces)
 
 
 def _refuse(log: Log, what: str, span: Span | None, help: str = "") -> None:
@@ -102,10 +97,12 @@ def _refuse_unknown(model: Model, log: Log) -> None:
                 _one_of("liaisons", LIAISONS),
             )
         for law in liaison.laws:
-            _refuse_law(law, log)
+            _refuse_law(liaison, law, log)
     for force in model.forces:
         if force.kind.name not in FORCES:
             _refuse(log, f"the force '{force.kind.name}'", force.span, _one_of("forces", FORCES))
+        if force.kind.name == "couple":
+            _refuse_couple(force, log)
     if model.world.gravity is not None and not is_fixed(model.world.gravity):
         _refuse(log, "gravity that depends on time or motion", model.world.span)
     if model.experiment.method not in ("auto", "explicit"):
@@ -130,13 +127,18 @@ def _one_of(what: str, names: tuple[str, ...]) -> str:
     return f"supported {what}: {', '.join(names)}"
 
 
-def _refuse_law(law: Law, log: Log) -> None:
+def _refuse_law(liaison: Liaison, law: Law, log: Log) -> None:
     if law.kind.name not in LAWS:
         _refuse(log, f"the law '{law.kind.name}'", law.span, _one_of("laws", LAWS))
         return
-    for name in ("radius", "half_length"):
+    pin = liaison.kind.name == "rotoide"
+    if pin and law.kind.name != "coulomb":
+        _refuse(log, f"the law '{law.kind.name}' of a rotoïde", law.span, "`coulomb` is")
+    for name in ("half_length",) if pin else ("radius", "half_length"):
         if name in law.arguments:
             _refuse(log, f"'{name}' of the law '{law.kind.name}'", law.arguments[name].span)
+    if pin and "radius" in law.arguments and not is_fixed(law.arguments["radius"]):
+        _refuse(log, "a radius that depends on time or motion", law.arguments["radius"].span)
     for argument in law.arguments.values():
         for node in subexpressions(argument):
             if isinstance(node, Quantity) and node.name in (
@@ -145,6 +147,7 @@ def _refuse_law(law: Law, log: Log) -> None:
                 "slip",
                 "angular_velocity",
                 "angular_acceleration",
+                "speed",
                 *REACTION,
             ):
                 _refuse(
@@ -158,6 +161,77 @@ def _refuse_law(law: Law, log: Log) -> None:
 def _law(liaison: Liaison, kind: str) -> Law | None:
     """The law of this kind; a liaison has each kind once at most."""
     return next((law for law in liaison.laws if law.kind.name == kind), None)
+
+
+def _refuse_couple(force: Force, log: Log) -> None:
+    holder = force.arguments["holder"]
+    if isinstance(holder, Liaison):
+        if "angle" not in holder.kind.coordinates:
+            log.report(
+                "E0205",
+                f"liaison '{holder.name}' has no angle that a couple could drive",
+                force.span,
+                help="a couple acts in a `rotoide`, or on a body",
+            )
+    elif isinstance(holder, BodyPoint) and not turns(holder.body):
+        log.report(
+            "E0205",
+            f"a couple on '{holder.body.name}', which does not turn",
+            force.span,
+            help="name a body that turns, or a `rotoide`",
+        )
+
+
+def _refuse_surface(model: Model, elements: list[Element], log: Log) -> None:
+    """What happens at the surface of a pin is known with its radius only."""
+    plain = {e.liaison for e in elements if isinstance(e, Pin) and e.radius is None}
+    for expression in read_expressions(model):
+        for node in subexpressions(expression):
+            if (
+                isinstance(node, Quantity)
+                and node.owner in plain
+                and node.name in ("slip", "tangential_force")
+            ):
+                log.report(
+                    "E0203",
+                    f"no '{node.name}' on '{node.owner.name}': its pin has no radius",
+                    node.span,
+                    help="read `speed` or `torque`, or give the law `coulomb(..., radius = ...)`",
+                )
+
+
+def _element(liaison: Liaison, log: Log) -> Element | None:
+    return _pin(liaison, log) if liaison.kind.name == "rotoide" else _contact(liaison, log)
+
+
+def _pin(liaison: Liaison, log: Log) -> Pin | None:
+    a, b, unilateral = liaison.a, liaison.b, liaison.options["unilateral"]
+    assert isinstance(a, Point) and isinstance(b, Point)
+    if not (isinstance(unilateral, Literal) and unilateral.value is False):
+        _refuse(log, "a rotoïde that can part", unilateral.span)
+        return None
+    if not (turns(point_body(a)) or turns(point_body(b))):
+        _refuse(
+            log,
+            "a rotoïde of two bodies that do not turn",
+            liaison.span,
+            "a particle has no angle: use a rod, a disc or a ring",
+        )
+        return None
+    law = _law(liaison, "coulomb")
+    if law is not None and "radius" not in law.arguments:
+        log.report(
+            "E0204",
+            f"'coulomb' of the rotoïde '{liaison.name}' needs radius",
+            law.span,
+            notes=("radius: radius of the pin; its friction couple is mu*radius*norm(R)",),
+            help="write `coulomb(..., radius = 8 mm)`",
+        )
+        return None
+    if law is None:
+        return Pin(liaison, a, b, unilateral, None, None, None)
+    mu, mu_s, radius = (law.arguments[name] for name in ("mu", "mu_s", "radius"))
+    return Pin(liaison, a, b, unilateral, mu, mu_s, radius)
 
 
 def _contact(liaison: Liaison, log: Log) -> Contact | None:
@@ -206,49 +280,6 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
         coulomb.arguments["mu_s"] if coulomb else None,
         rolling.arguments["delta"] if rolling else None,
     )
-
-
-def _coordinates(
-    model: Model, contacts: list[Contact]
-) -> tuple[tuple[Coordinates, ...], set[Liaison]]:
-    """A spanning tree: the first liaison that can carries each body, in the order of the text."""
-    carried: dict[Body, Contact] = {}
-    for contact in contacts:
-        body = point_body(contact.point)
-        if (
-            contact.liaison.kind.name == "point_courbe"
-            and not is_unilateral(contact.liaison)
-            and body is not model.ground
-            and body not in carried
-            and body not in _carriers(owner_body(contact.line.owner), carried)
-        ):
-            carried[body] = contact
-    ordered: list[Coordinates] = []
-    done = {model.ground}
-
-    def place(body: Body) -> None:
-        if body in done:
-            return
-        done.add(body)
-        contact = carried.get(body)
-        if contact is None:
-            ordered.append(FreeCoordinates(body))
-            return
-        place(owner_body(contact.line.owner))
-        ordered.append(LineCoordinates(body, contact.point, contact.line, contact.liaison))
-
-    for body in model.bodies:
-        place(body)
-    return tuple(ordered), {contact.liaison for contact in carried.values()}
-
-
-def _carriers(body: Body, carried: dict[Body, Contact]) -> set[Body]:
-    """The body and all those its coordinates hang on."""
-    chain = {body}
-    while body in carried:
-        body = owner_body(carried[body].line.owner)
-        chain.add(body)
-    return chain
 
 
 def _read_liaisons(model: Model) -> set[Liaison]:

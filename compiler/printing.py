@@ -15,8 +15,8 @@ def print_stage(model: Model, stage: str, log: Log) -> str | None:
     if stage == "mechanism":
         return dump(mechanism)
     from frot.compiler.lower import lower
+    from frot.compiler.names import coordinate_names
     from frot.compiler.reduce import reduce
-    from frot.compiler.symbols import coordinate_names
 
     reduced = reduce(mechanism, log)
     lowered = lower(reduced, log) if reduced is not None else None

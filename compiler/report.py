@@ -53,7 +53,8 @@ class Report:
         for liaison in self.liaisons:
             nature = "unilateral" if liaison.unilateral else "bilateral"
             lines.append(f"  {liaison.name:<{width}}  {liaison.text}")
-            lines.append(f"  {'':<{width}}  {liaison.relations} relation, {nature}; {liaison.kept}")
+            relations = f"{liaison.relations} relation{'s' if liaison.relations > 1 else ''}"
+            lines.append(f"  {'':<{width}}  {relations}, {nature}; {liaison.kept}")
         return "\n".join(lines)
 
 
