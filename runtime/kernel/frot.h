@@ -100,7 +100,8 @@ enum frot_rule {
   FROT_POSITIVE = 0,
   FROT_NOT_NEGATIVE = 1,
   FROT_FINITE = 2,
-  FROT_NOT_BELOW_PREVIOUS = 3
+  FROT_NOT_BELOW_PREVIOUS = 3,
+  FROT_NOT_ZERO = 4 /* it is divided by */
 };
 
 /* A value the model must have, with the sentence's subject: "mass of body 'hoop'". */

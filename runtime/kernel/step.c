@@ -93,13 +93,19 @@ static int run_stages(const frot_model *m, frot_state *s, frot_work *w, const fr
   return FROT_OK;
 }
 
-/* Size against which the error of coordinate or speed j is measured: the largest it has had, or
- * what the step brings it by what is known at its start. The step's own result is no witness. */
+/* Size against which the error of value j is measured: the largest it has had, or what the step
+ * brings it by what is known at its start. The step's own result is no witness, but for a state of
+ * the text that begins at zero with no rate at all. */
 static double size_at_start(const frot_model *m, const frot_state *s, const frot_work *w,
                             const frot_layout *l, int j, double h) {
   double size = fmax(s->data[l->scale_x + j], fabs(w->z0[j])), change = h * fabs(w->k[j]);
-  if (j < m->nq && m->q_speed[j] >= 0) change += h * h * fabs(w->k[m->nq + m->q_speed[j]]);
-  return fmax(size, change);
+  int is_state = j < m->nq && m->q_speed[j] < 0;
+  if (is_state)
+    change += h * fabs(w->k[l->nz + j] - w->k[j]) / dp_c[1];
+  else if (j < m->nq)
+    change += h * h * fabs(w->k[m->nq + m->q_speed[j]]);
+  size = fmax(size, change);
+  return size > 0 || !is_state ? size : fabs(w->z1[j] - w->z0[j]);
 }
 
 /* Error of value j that rounding alone can make in a step h: it is not followed. */

@@ -104,6 +104,8 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       const frot_check *check = &m->checks[f->item];
       const char *rule = check->rule == FROT_POSITIVE       ? "it must be positive"
                          : check->rule == FROT_NOT_NEGATIVE ? "it must not be negative"
+                         : check->rule == FROT_NOT_ZERO
+                             ? "it must not be zero, for an equation is divided by it"
                          : check->rule == FROT_NOT_BELOW_PREVIOUS
                              ? "it must not be below the coefficient of motion"
                              : "it must be a finite number";
