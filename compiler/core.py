@@ -12,6 +12,7 @@ from frot.compiler.eliminate import Eliminated, Pivot, Residuals, eliminate, res
 from frot.compiler.reduce import Reduced
 from frot.compiler.symbols import column
 from frot.dsl import Log
+from frot.dsl.source import Span
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -278,7 +279,7 @@ def _is_mass_matrix(matrix: ca.SX, spread: ca.SX, rows: ca.SX) -> bool:
     return True
 
 
-def _place(found: Differentiated, core: set[int], reduced: Reduced) -> object:
+def _place(found: Differentiated, core: set[int], reduced: Reduced) -> Span:
     for k in core:
         for i in found.components[k].equations:
             if i >= found.newton:

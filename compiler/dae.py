@@ -84,7 +84,17 @@ def make_dae(model: Model, log: Log) -> Dae | None:
     mechanism = mechanize(model, log)
     reduced = reduce(mechanism, log) if mechanism is not None else None
     lowered = lower(reduced, log) if reduced is not None else None
-    return _assemble(lowered) if lowered is not None else None
+    if lowered is None:
+        return None
+    if model.variables or lowered.system.general:
+        log.report(
+            "E0701",
+            "the DAE of a model with equations of its own is not supported yet",
+            model.span,
+            help="`simulate` and the FMU run it; 'frot check --emit equations' shows it",
+        )
+        return None
+    return _assemble(lowered)
 
 
 def _assemble(lowered: Lowered) -> Dae:

@@ -302,8 +302,8 @@ def _coefficients(
     """mu, mu_s (times the radius of a pin), delta; a negative one is no number, so it is seen."""
     values: list[ca.SX] = []
     for contact in contacts:
-        pin = isinstance(contact, Pin) and contact.radius is not None
-        arm = moving.lower(contact.radius) if pin else ca.SX(1)
+        radius = contact.radius if isinstance(contact, Pin) else None
+        arm = ca.SX(1) if radius is None else moving.lower(radius)
         for expression in (contact.mu, contact.mu_s, contact.delta):
             if expression is None:
                 values.append(ca.SX(0))

@@ -105,7 +105,7 @@ def contact_rows(contacts: tuple[Element, ...]) -> tuple[Rows, ...]:
 
 def make_symbols(mechanism: Mechanism) -> Symbols:
     """Symbols of the sizes the mechanism needs."""
-    nq = sum(len(coordinate_names(c)) for c in mechanism.coordinates)
+    names = [n for c in mechanism.coordinates for n in coordinate_names(c)]
     _, na = auxiliary_places(mechanism)
     rows = contact_rows(mechanism.contacts)
     n_rows = sum(k >= 0 for r in rows for k in (r.normal, r.second, r.tangent, r.rolling))
@@ -113,14 +113,14 @@ def make_symbols(mechanism: Mechanism) -> Symbols:
     inputs = mechanism.model.inputs
     return Symbols(
         t=ca.SX.sym("t"),
-        q=ca.SX.sym("q", nq),
-        v=ca.SX.sym("v", nq),
+        q=column(ca.SX.sym(n) for n in names),
+        v=column(ca.SX.sym(f"der({n})") for n in names),
         w=ca.SX.sym("w", na),
         sw=ca.SX.sym("sw", na),
-        u=ca.SX.sym("u", len(inputs)),
-        p=ca.SX.sym("p", len(parameters)),
+        u=column(ca.SX.sym(i.name) for i in inputs),
+        p=column(ca.SX.sym(p.name) for p in parameters),
         sides=ca.SX.sym("side", len(mechanism.contacts)),
-        a=ca.SX.sym("a", nq),
+        a=column(ca.SX.sym(f"der(der({n}))") for n in names),
         lam=ca.SX.sym("lam", n_rows),
         energy=ca.SX.sym("energy", 2),
         parameters=parameters,

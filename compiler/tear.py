@@ -40,8 +40,9 @@ def tear(residual: list[ca.SX], unknowns: list[ca.SX], p: ca.SX, defaults: ca.DM
     alone = len(unknowns) == 1
     if alone and not ca.depends_on(jacobian, z):
         rest = ca.substitute(whole, z, ca.SX.zeros(1))
-        divided = ((jacobian[0, 0], unknowns[0], 0),)
-        return Torn(((unknowns[0], -rest / jacobian[0, 0]),), divided, (), (), True)
+        factor = jacobian[0, 0]
+        formula = (unknowns[0], -rest / factor)
+        return Torn((formula,), ((factor, unknowns[0], 0),), (), (), True)
     divisors = _divisors(jacobian, z, p, defaults)
     steps, iterated, rest_equations = _order(jacobian, divisors)
     explicit = []
