@@ -233,7 +233,7 @@ def _rows(
         mechanical[:, :count] = reduced.rows[:, :count]
         mechanical[:, nv : nv + na] = reduced.rows[:, count:]
     slips = resolve_all(column(e.slip for e in elements), chains, left.resolver)
-    rate = resolve_all(chains.rate(slips), chains, left.resolver)
+    rate = resolve_all(column(e.acceleration for e in elements), chains, left.resolver)
     slips, rate = replace_known(slips, known), replace_known(rate, known)
     own = ca.jacobian(rate, z)
     free = ca.substitute(rate, z, ca.SX.zeros(z.shape)) if z.numel() else rate

@@ -191,7 +191,7 @@ def _choose(
 def _candidate(entry: tuple[int, int, int], table: _Table, chains: Chains) -> _Candidate | None:
     at, row, chain = entry
     kind = table.kinds[at]
-    if kind < 0 or chains.items[chain].variable is None or table.orders[row][chain] > 0:
+    if kind < 0 or chains.items[chain].fixed or table.orders[row][chain] > 0:
         return None
     terms, others = len(table.orders[row]) - 1, len(table.equations[chain]) - 1
     if terms > 1 and others > 1 and terms * others > MOST_FILL:

@@ -73,6 +73,7 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
             )
     for variable in mechanism.model.variables:
         yield from _of_text(reduced, variable)
+    yield from _rates(system)
     for body in mechanism.model.bodies:
         yield from _of_body(reduced, body)
     for contact in (*mechanism.contacts, *mechanism.ideal):
@@ -109,6 +110,18 @@ def _of_text(reduced: Reduced, variable: Variable) -> Iterator[Listed]:
             output=variable.output,
             unit=variable.unit,
         )
+
+
+def _rates(system: Assembled) -> Iterator[Listed]:
+    """States that are derivatives of variables, by the name `der(x)`."""
+    chains = system.reduced.text.chains
+    for symbol in (*ca.vertsplit(system.q), *ca.vertsplit(system.v)):
+        index, order = chains.place[symbol.element_hash()]
+        variable = chains.items[index].variable
+        if order == 1 and variable is not None:
+            name = chains.items[index].name
+            rate = variable.type.dimension / dimension(s=1)
+            yield Listed(f"der({name})", symbol, rate, f"rate of {name}")
 
 
 def _of_body(reduced: Reduced, body: Body) -> Iterator[Listed]:

@@ -69,7 +69,7 @@ def _refuse(log: Log, what: str, span: Span | None, help: str = "") -> None:
 
 
 def _refuse_unknown(model: Model, log: Log) -> None:
-    if not model.planar:
+    if not model.planar and (model.bodies or model.liaisons):
         _refuse(log, "a model in space", model.span, "write `planar model` if the motion is plane")
     for body in model.bodies:
         if body.shape is not None and body.shape.name not in SHAPES:

@@ -21,6 +21,7 @@ from frot.compiler.gather import gather
 from frot.compiler.kinematics import Kinematics
 from frot.compiler.mechanism import Element, Mechanism, Pin
 from frot.compiler.names import coordinate_names
+from frot.compiler.origins import Origin
 from frot.compiler.pins import PinGeometry
 from frot.compiler.symbols import Rows, Symbols, column, contact_rows, make_symbols
 from frot.compiler.text_symbols import FrictionElement, TextSymbols, make_text_symbols, scalars
@@ -100,6 +101,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     coefficients = _coefficients(mechanism.contacts, moving, symbols, log)
     geometry = [variables.geometry[contact.liaison] for contact in mechanism.contacts]
     equations = gather(mechanism.model.equations, moving, log)
+    _add_slip_accelerations(equations, text)
     events = gather_events(mechanism.model, text, conditions, moving, looking, log)
     if log.failed:
         return None
@@ -141,7 +143,7 @@ def _text(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
         *(ca.vertsplit(x) if names else () for x in (symbols.q, symbols.v, symbols.a)),
         strict=True,
     ):
-        chains.add(name, None, None, chain)
+        chains.add(name, None, symbols=chain, fixed=True)
     chains.forbid_rate(symbols.u, "the input")
     chains.forbid_rate(symbols.lam, "the reaction")
     return make_text_symbols(mechanism.model.variables, chains)
@@ -178,11 +180,23 @@ def _friction_maker(text: TextSymbols) -> Callable[[Call, list[ca.SX], str], ca.
             name = f"{owner}.friction_{count}" if owner else f"friction_{count}"
         taken.add(name)
         force = ca.SX.sym(f"{name}.friction")
-        text.elements.append(FrictionElement(name, call.span, force, slip, bound, at_rest))
+        acceleration = ca.SX.sym(f"{name}.slip_acceleration")
+        text.elements.append(
+            FrictionElement(name, call.span, force, acceleration, slip, bound, at_rest)
+        )
         text.chains.forbid_rate(force, "the friction")
         return force
 
     return make
+
+
+def _add_slip_accelerations(equations: Residuals, text: TextSymbols) -> None:
+    """An unknown for the rate of each slip, so that index reduction brings it to light."""
+    for element in text.elements:
+        name = element.acceleration.name()
+        text.chains.add(name, element.span, symbols=(element.acceleration,))
+        equations.values.append(text.chains.rate(element.slip) - element.acceleration)
+        equations.origins.append(Origin(element.span, f"slip of {element.name}", ""))
 
 
 def _variables(

@@ -75,7 +75,7 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
     found = differentiate(system, count, chains, left.removed, log)
     if found is None:
         return None
-    core, late = _core_components(found, reduced, left)
+    core, late = _core_components(found, reduced)
     solving = Solving()
     for k, component in enumerate(found.components):
         if k not in core and k not in late:
@@ -125,9 +125,7 @@ def _are_equations(left: Eliminated, chains: Chains, log: Log) -> bool:
     return good
 
 
-def _core_components(
-    found: Differentiated, reduced: Reduced, left: Eliminated
-) -> tuple[set[int], set[int]]:
+def _core_components(found: Differentiated, reduced: Reduced) -> tuple[set[int], set[int]]:
     """Components between what friction acts on and what its slip depends on; those after them."""
     chains = reduced.text.chains
     elements = reduced.text.elements
@@ -138,12 +136,9 @@ def _core_components(
         acted_on = set(ca.jacobian_sparsity(column(found.values), lam).row())
         sources |= {found.component_of_equation[i] for i in acted_on}
     for element in elements:
-        slip = resolve_all(element.slip, chains, left.resolver)
-        rate = resolve_all(chains.rate(slip), chains, left.resolver)
-        for symbol in ca.symvar(rate):
-            place = chains.place.get(symbol.element_hash())
-            if place is not None and place in found.component_of_unknown:
-                sinks.add(found.component_of_unknown[place])
+        place = chains.place[element.acceleration.element_hash()]
+        if place in found.component_of_unknown:
+            sinks.add(found.component_of_unknown[place])
     touched = closure(sources, found.users)
     core = touched & closure(sinks, [c.needs for c in found.components])
     return core, touched - core

@@ -15,12 +15,14 @@ from frot.dsl.source import Span
 class FrictionElement:
     """Set-valued dry friction of the equations: `force` opposes `slip` and is bounded.
 
-    `bound` holds while it slips, `bound_at_rest` at rest. `force` is a symbol.
+    `bound` holds while it slips, `bound_at_rest` at rest. `force` and `acceleration`, the rate of
+    the slip, are symbols.
     """
 
     name: str
     span: Span
     force: ca.SX
+    acceleration: ca.SX
     slip: ca.SX
     bound: ca.SX
     bound_at_rest: ca.SX

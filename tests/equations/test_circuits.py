@@ -15,14 +15,14 @@ model Charging
   ConstantVoltage source(V = 5 V);
   Resistor r(R = R);
   Capacitor c(C = C);
-  Ground ground;
+  Ground earth;
 initial
   c.v = {start} V;
 equation
   connect(source.p, r.p);
   connect(r.n, c.p);
   connect(c.n, source.n);
-  connect(source.n, ground.p);
+  connect(source.n, earth.p);
   experiment(stop = 3 s, tolerance = 1e-10);
 end Charging;
 """
@@ -65,7 +65,7 @@ model Parallel "two capacitors on one node: their voltages are one state"
   Capacitor a(C = 1 F);
   Capacitor b(C = 3 F);
   Resistor r(R = 2 Ohm);
-  Ground ground;
+  Ground earth;
 initial
   {initial}
 equation
@@ -73,7 +73,7 @@ equation
   connect(a.p, r.p);
   connect(a.n, b.n);
   connect(a.n, r.n);
-  connect(a.n, ground.p);
+  connect(a.n, earth.p);
   experiment(stop = 10 s, tolerance = 1e-10);
 end Parallel;
 """
@@ -101,13 +101,13 @@ model Bridge "Wheatstone's bridge: a linear algebraic loop"
   Resistor r1(R = R1); Resistor r2(R = R2); Resistor r3(R = R3); Resistor r4(R = R4);
   Resistor r5(R = R5);
   VoltageSource source;
-  Ground ground;
+  Ground earth;
 equation
   source.voltage = 10 V*cos(3 Hz*time);
   connect(source.p, r1.p); connect(source.p, r2.p);
   connect(r1.n, r3.p); connect(r2.n, r4.p);
   connect(r1.n, r5.p); connect(r2.n, r5.n);
-  connect(r3.n, ground.p); connect(r4.n, ground.p); connect(source.n, ground.p);
+  connect(r3.n, earth.p); connect(r4.n, earth.p); connect(source.n, earth.p);
   experiment(stop = 2 s);
 end Bridge;
 """
@@ -160,10 +160,10 @@ model Rectifier "a diode with straight lines: conduction begins and ends at loca
   VoltageSource source;
   Diode d(forward = 0.5 V, on_resistance = 1 Ohm, off_resistance = 1e9 Ohm);
   Resistor r(R = 9 Ohm);
-  Ground ground;
+  Ground earth;
 equation
   source.voltage = 2 V*sin(1 rad/s*time);
-  connect(source.p, d.p); connect(d.n, r.p); connect(r.n, ground.p); connect(source.n, ground.p);
+  connect(source.p, d.p); connect(d.n, r.p); connect(r.n, earth.p); connect(source.n, earth.p);
   experiment(stop = 6 s, tolerance = 1e-10);
 end Rectifier;
 """
