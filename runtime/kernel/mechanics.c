@@ -38,7 +38,7 @@ static void bounded_motion(const frot_model *m, const frot_work *w, const double
 void frot_guards(const frot_model *m, const frot_state *s, frot_work *w, const double *q,
                  const double *v, const double *d, const frot_contact_mode *modes, double *guard,
                  double *scale) {
-  const double *unilateral = s->data + frot_layout_of(m).unilateral;
+  const double *unilateral = s->data + w->layout.unilateral;
   for (int i = 0; i < m->n_contacts; i++) {
     const frot_contact *contact = &m->contacts[i];
     const frot_contact_mode *mode = &modes[i];

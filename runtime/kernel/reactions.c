@@ -72,9 +72,9 @@ static int holds(const frot_work *w, const frot_contact_mode *modes, int i, int 
 /* Unknowns into w->row_of, w->contact_of and `kind`, then the rows whose reaction is known though
  * they are held; returns the number of unknowns and in *rows that of all of them. */
 static int list_unknowns(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                         unsigned char *kind, int *rows) {
+                         unsigned char *kind, int clamped, int *rows) {
   int n = 0;
-  for (int pass = 1; pass <= 2; pass++) {
+  for (int pass = 1; pass <= 1 + clamped; pass++) {
     for (int i = 0; i < m->n_contacts; i++) {
       const frot_contact *contact = &m->contacts[i];
       if (!modes[i].closed) continue;
@@ -153,8 +153,8 @@ static int solve_least(const frot_model *m, frot_work *w, const unsigned char *k
 
 /* Solve once in the directions w->along. *dependent: the reactions are not unique. */
 static int solve(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                 unsigned char *kind, int *dependent) {
-  int rows, unknowns = list_unknowns(m, w, modes, kind, &rows);
+                 unsigned char *kind, int clamped, int *dependent) {
+  int rows, unknowns = list_unknowns(m, w, modes, kind, clamped, &rows);
   memset(w->lam, 0, sizeof(double) * (size_t)m->n_rows);
   assemble(m, w, modes, kind, unknowns, rows);
   double *copy = w->lstsq, *x = w->step;
@@ -197,11 +197,12 @@ static double turn_pins(const frot_model *m, frot_work *w, const frot_contact_mo
 }
 
 static int solve_pins(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                      unsigned char *kind, int *dependent) {
+                      unsigned char *kind, int clamped, int *dependent) {
+  if (w->pins == 0) return solve(m, w, modes, kind, clamped, dependent);
   memset(w->along, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
   int last = 0;
   for (int pass = 0; pass < PIN_PASSES; pass++) {
-    if (solve(m, w, modes, kind, dependent)) return 1;
+    if (solve(m, w, modes, kind, clamped, dependent)) return 1;
     double missed = turn_pins(m, w, modes);
     if (last || missed <= 4 * DBL_EPSILON) return 0;
     last = missed < PIN_CLOSE;
@@ -237,14 +238,14 @@ int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *m
   if (m->n_rows == 0) return 0;
   memset(w->clamp, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
   set_ratios(m, w, modes, at_rest);
-  if (solve_pins(m, w, modes, kind, &dependent)) return 1;
+  if (solve_pins(m, w, modes, kind, 0, &dependent)) return 1;
   while (dependent && clamp_excess(m, w, modes)) {
     set_ratios(m, w, modes, at_rest);
-    if (!solve_pins(m, w, modes, kind, &dependent)) continue;
+    if (!solve_pins(m, w, modes, kind, 1, &dependent)) continue;
     /* nothing else can hold: the excess stands, and ends the rest */
     memset(w->clamp, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
     set_ratios(m, w, modes, at_rest);
-    return solve_pins(m, w, modes, kind, &dependent);
+    return solve_pins(m, w, modes, kind, 0, &dependent);
   }
   return 0;
 }

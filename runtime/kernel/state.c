@@ -109,6 +109,9 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   for (int i = 0; i < m->n_blocks; i++)
     if (m->blocks[i].count > nb) nb = m->blocks[i].count;
   arena a = {base, sizeof(frot_work)};
+  w->layout = l;
+  w->pins = 0;
+  for (int i = 0; i < nc; i++) w->pins += m->contacts[i].bound == FROT_BY_PIN;
   TAKE(arg, most.n_arg), TAKE(res, most.n_res), TAKE(iw, most.n_iw), TAKE(w, most.n_w);
   TAKE(pivot, big > wide ? big : wide);
   TAKE(y, m->ny), TAKE(y_end, m->ny);

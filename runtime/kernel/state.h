@@ -70,6 +70,8 @@ typedef struct {
 } frot_segment;
 
 struct frot_work {
+  frot_layout layout;
+  int pins; /* elements that a pin's reaction bounds */
   const double **arg;
   double **res;
   long long *iw;
