@@ -127,19 +127,40 @@ static void assemble(const frot_model *m, frot_work *w, const frot_contact_mode 
   }
 }
 
-/* Least friction where the rows depend on each other (hyperstatic), if they do not contradict.
- * Friction weighs so much more than normal reactions that rest is not lost for want of it. */
+/* Weights of the unknowns into w->weight: friction weighs so much more than normal reactions that
+ * rest is not lost for want of it. Elements side by side that values bound share a load in
+ * proportion to their bounds, so that they reach them together: sum of lam^2 g / bound is least,
+ * where g, the size of the row, makes a gear between them count. */
+static void set_weights(const frot_model *m, frot_work *w, const unsigned char *kind,
+                        int unknowns) {
+  double largest = 0;
+  for (int c = 0; c < unknowns; c++) {
+    int i = w->contact_of[c], row = w->row_of[c];
+    double *weight = w->weight + c;
+    *weight = 1;
+    if (kind[c] != HELD || m->contacts[i].bound != FROT_BY_VALUE) continue;
+    double size = sqrt(fabs(w->delassus[row * (m->n_rows + 1)]));
+    *weight = size > 0 ? sqrt(w->coefficient[3 * i + 1] / size) : 1;
+    largest = fmax(largest, *weight);
+  }
+  for (int c = 0; c < unknowns; c++) {
+    if (kind[c] != HELD) continue;
+    if (m->contacts[w->contact_of[c]].bound == FROT_BY_VALUE && largest > 0)
+      w->weight[c] /= largest;
+    w->weight[c] *= FRICTION_WEIGHT;
+  }
+}
+
+/* Least reactions where the rows depend on each other (hyperstatic), if they do not contradict. */
 static int solve_least(const frot_model *m, frot_work *w, const unsigned char *kind, int unknowns,
                        int rows, double *x) {
   double *copy = w->lstsq, *b = copy + rows * unknowns, *scratch = b + rows;
-  for (int c = 0; c < unknowns; c++) {
-    double weight = kind[c] == HELD ? FRICTION_WEIGHT : 1;
-    for (int r = 0; r < rows; r++) copy[c * rows + r] = weight * w->active[c * rows + r];
-  }
+  set_weights(m, w, kind, unknowns);
+  for (int c = 0; c < unknowns; c++)
+    for (int r = 0; r < rows; r++) copy[c * rows + r] = w->weight[c] * w->active[c * rows + r];
   memcpy(b, w->right, sizeof(double) * (size_t)rows);
   frot_least_norm(copy, b, rows, unknowns, x, scratch, w->pivot);
-  for (int c = 0; c < unknowns; c++)
-    if (kind[c] == HELD) x[c] *= FRICTION_WEIGHT;
+  for (int c = 0; c < unknowns; c++) x[c] *= w->weight[c];
   for (int r = 0; r < rows; r++) {
     double sum = -w->right[r], size = frot_free_size(m, w, w->row_of[r]) + fabs(w->right[r]);
     for (int c = 0; c < unknowns; c++) {

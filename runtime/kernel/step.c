@@ -316,8 +316,10 @@ static int start_slope(const frot_model *m, frot_state *s, frot_work *w, const f
   int status = slope_at(m, s, w, l, t, w->z0, stage(l, w, 0));
   if (status == FROT_OK) {
     memcpy(s->data + l->y, w->y, sizeof(double) * (size_t)m->ny);
+    frot_turn_references(m, s, w);
     measure(m, s, w, l, w->z0);
     note_sizes(m, s, w, l, w->z0);
+    memcpy(stage(l, w, 0) + l->nx, w->ztry, sizeof(double) * (size_t)l->ng);
   }
   return status;
 }

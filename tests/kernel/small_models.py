@@ -285,7 +285,7 @@ def source(m: Small, folder: Path) -> str:
         ],
         ("int", "p_dependent"): [0] * len(m.parameters),
         ("int", "p_type"): [0] * len(m.parameters),
-        ("unsigned char", "row_depends"): [1] * (m.n_rows * (m.nq + 1)),
+        ("unsigned char", "row_depends"): _row_depends(m),
         ("unsigned char", "condition_strict"): [int(x) for x in m.strict],
         ("int", "q_speed"): m.speeds,
         ("frot_block", "blocks"): [
@@ -323,6 +323,21 @@ def source(m: Small, folder: Path) -> str:
         + "".join(f"  .{name} = {value},\n" for name, value in fields.items())
         + "};\n"
     )
+
+
+def _row_depends(m: Small) -> list[int]:
+    """For each row: does it depend on each coordinate, and on anything else that can change?"""
+    s = symbols(m)
+    if m.rows is None:
+        return []
+    rows, rates = ca.SX(m.rows(s)), m.row_rates
+    other = [s.t, s.u, s.discrete, s.y]
+    table: list[int] = []
+    for r in range(m.n_rows):
+        what = ca.horzcat(rows[r, :], ca.SX(rates(s))[r]) if rates else rows[r, :]
+        table += [int(ca.depends_on(rows[r, :], s.q[k])) for k in range(m.nq)]
+        table.append(int(any(x.numel() and ca.depends_on(what, x) for x in other)))
+    return table
 
 
 def _statements(m: Small) -> int:
