@@ -76,7 +76,7 @@ def make_core(
     z = ca.vertcat(column(states.accelerations), auxiliary, column(algebraic))
     lam = ca.vertcat(s.lam, column(e.force for e in elements))
     left_over = dict(zip(explicit.numbers, explicit.residuals.values, strict=True))
-    user = _in_order_of(ca.vertcat(z[count:nv], z[nv + na :]), found, core, left_over)
+    user = _in_order_of([*states.accelerations[count:], *algebraic], found, core, left_over)
     coupling = reduced.mass[:, count:] @ auxiliary
     equations = ca.vertcat(
         column(left_over[i] for i in range(count)) + coupling[:count],
@@ -153,14 +153,14 @@ def _remove_algebraic(
 
 
 def _in_order_of(
-    z: ca.SX, found: Differentiated, core: set[int], values: dict[int, ca.SX]
+    z: list[ca.SX], found: Differentiated, core: set[int], values: dict[int, ca.SX]
 ) -> list[ca.SX]:
     """The text's equations of the core, each in the place of the unknown it is matched with.
 
     An equation is turned round where its unknown stands in it with a negative factor, so that what
     is a mass matrix looks like one.
     """
-    place = {x.element_hash(): k for k, x in enumerate(ca.vertsplit(z) if z.numel() else ())}
+    place = {x.element_hash(): k for k, x in enumerate(z)}
     ordered: dict[int, ca.SX] = {}
     others: list[ca.SX] = []
     for k in sorted(core):
@@ -176,7 +176,7 @@ def _in_order_of(
             slope = ca.jacobian(value, unknown)
             ordered[at] = -value if _looks_negative(slope) else value
     free = iter(others)
-    return [ordered[k] if k in ordered else next(free) for k in range(z.numel())]
+    return [ordered[k] if k in ordered else next(free) for k in range(len(z))]
 
 
 def _looks_negative(slope: ca.SX) -> bool:
