@@ -76,6 +76,71 @@ int frot_lu_solve(double *a, double *b, int n) {
   return 0;
 }
 
+/* The power of two that brings a size to [1/2, 1); 1 for zero. */
+static double power_below(double size) {
+  int exponent = 0;
+  if (size > 0 && isfinite(size)) frexp(size, &exponent);
+  return ldexp(1, -exponent);
+}
+
+/* Scale rows and columns so that the largest entry of each is near 1. */
+static void equilibrate(double *a, int n, double *scale) {
+  double *row = scale, *column = scale + n;
+  for (int i = 0; i < n; i++) row[i] = 0;
+  for (int j = 0; j < n; j++)
+    for (int i = 0; i < n; i++) row[i] = fmax(row[i], fabs(AT(a, n, i, j)));
+  for (int i = 0; i < n; i++) row[i] = power_below(row[i]);
+  for (int j = 0; j < n; j++) {
+    double largest = 0;
+    for (int i = 0; i < n; i++) {
+      AT(a, n, i, j) *= row[i];
+      largest = fmax(largest, fabs(AT(a, n, i, j)));
+    }
+    column[j] = power_below(largest);
+    for (int i = 0; i < n; i++) AT(a, n, i, j) *= column[j];
+  }
+}
+
+int frot_lu(double *a, int n, int *pivot, double *scale) {
+  equilibrate(a, n, scale);
+  for (int k = 0; k < n; k++) {
+    int best = k;
+    for (int i = k + 1; i < n; i++)
+      if (fabs(AT(a, n, i, k)) > fabs(AT(a, n, best, k))) best = i;
+    pivot[k] = best;
+    if (!(fabs(AT(a, n, best, k)) > 4 * n * DBL_EPSILON)) return 1;
+    for (int j = k; best != k && j < n; j++) {
+      double t = AT(a, n, k, j);
+      AT(a, n, k, j) = AT(a, n, best, j);
+      AT(a, n, best, j) = t;
+    }
+    double inverse = 1 / AT(a, n, k, k);
+    for (int i = k + 1; i < n; i++) AT(a, n, i, k) *= inverse;
+    for (int j = k + 1; j < n; j++) {
+      double factor = AT(a, n, k, j);
+      if (factor == 0) continue;
+      for (int i = k + 1; i < n; i++) AT(a, n, i, j) -= AT(a, n, i, k) * factor;
+    }
+  }
+  return 0;
+}
+
+void frot_lu_apply(const double *a, int n, const int *pivot, const double *scale, double *x) {
+  for (int i = 0; i < n; i++) x[i] *= scale[i];
+  for (int k = 0; k < n; k++) {
+    double t = x[pivot[k]];
+    x[pivot[k]] = x[k];
+    x[k] = t;
+    if (t == 0) continue;
+    for (int i = k + 1; i < n; i++) x[i] -= AT(a, n, i, k) * t;
+  }
+  for (int k = n - 1; k >= 0; k--) {
+    x[k] /= AT(a, n, k, k);
+    for (int i = 0; i < k; i++) x[i] -= AT(a, n, i, k) * x[k];
+  }
+  for (int j = 0; j < n; j++) x[j] *= scale[n + j];
+}
+
 /* Householder vector of x (n), stored over x with its first entry beta apart: (I - 2 v v'/v'v) x
  * = (beta, 0, ...). Returns beta; `scale` is 2/v'v, 0 when nothing is to be done. */
 static double reflect(double *x, int n, double *scale) {

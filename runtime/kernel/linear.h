@@ -13,10 +13,16 @@ void frot_backward(const double *l, int n, int m, double *x);
  * Returns 0, or 1 when a is singular to rounding. */
 int frot_lu_solve(double *a, double *b, int n);
 
+/* LU of a (n x n) with partial pivoting, rows and columns scaled by powers of two first, so that
+ * units do not matter. `pivot` takes n integers, `scale` 2 n doubles. Returns 0, or 1 when a is
+ * singular to rounding or no number. frot_lu_apply: x <- a^-1 x by the factors. */
+int frot_lu(double *a, int n, int *pivot, double *scale);
+void frot_lu_apply(const double *a, int n, const int *pivot, const double *scale, double *x);
+
 /* Least squares of least norm: x (n) for a x = b, a (m x n) by columns, overwritten with b.
  * Rank by Householder QR with column pivoting, then a triangle from the right (G. Golub, C. Van
- * Loan, Matrix Computations, 4th ed., sect. 5.5). `work` takes m + 4*n + n*n doubles and `pivot` n
- * integers. Returns the rank; a and b are lost. */
+ * Loan, Matrix Computations, 4th ed., sect. 5.5). `work` takes m + 4*n + min(m, n)*n doubles and
+ * `pivot` n integers. Returns the rank; a and b are lost. */
 int frot_least_norm(double *a, double *b, int m, int n, double *x, double *work, int *pivot);
 
 double frot_dot(const double *a, const double *b, int n);
