@@ -8,6 +8,7 @@
 #include "resolve.h"
 #include "state.h"
 #include "step.h"
+#include "stiffness.h"
 
 /* Events at one instant after which the modes will not settle. */
 #define CROWD 100
@@ -53,7 +54,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   frot_layout l = frot_layout_of(m);
   s->phase = FROT_CLEARED;
   s->fault = (frot_fault){FROT_OK, -1, -1, -1, t, 0};
-  s->statistics = (frot_statistics){0, 0, 0, 0};
+  s->statistics = (frot_statistics){0, 0, 0, 0, 0, 0};
   s->options = options ? *options : (frot_options){0, FROT_REST, 0};
   s->t = t;
   int status = frot_settle_parameters(m, s, w, NULL);
@@ -68,6 +69,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->pending = s->has_slope = s->changed = s->crowded = s->several = 0;
   s->crowded_since = s->left_at = t;
   s->push = 0;
+  frot_choose_first(m, s);
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);

@@ -40,7 +40,9 @@ struct frot_state {
   int crowded;   /* events since the time last moved on */
   int several;   /* admissible motions at the start, until this is told as an event */
   int several_at;
-  int reserved;
+  int implicit;                /* the next step is made by the implicit method */
+  int stiff_steps, calm_steps; /* see stiffness.h */
+  int patience, stay;
   double crowded_since;
   double left_at; /* instant at which rest was left last: see `left` */
   double t;       /* time reached */
@@ -85,6 +87,9 @@ struct frot_work {
   double *k;                      /* DP_ALL x nz */
   double *z0, *z1, *ztry;         /* nz */
   double *f;                      /* DP_DENSE x nz */
+  double *change, *own_size, *largest_alike; /* nq: see sizes.h */
+  double *implicit;                          /* see jacobian.h */
+  int *implicit_pivot;
   double *values, *jacobian, *residual, *size, *step; /* initial values and projection */
   frot_contact_mode *trial, *best, *before;
   double *best_acceleration;
