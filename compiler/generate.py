@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from pathlib import Path
 
@@ -13,8 +14,15 @@ from frot.compiler.walk import is_fixed
 from frot.dsl.checked import Expression
 from frot.dsl.source import Span
 
-
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
+# The kernel gives every argument and takes every result: without the questions whether it does, a
+# function is one straight line, which C compilers take in time proportional to its length.
+_ABSENT = re.compile(r"(arg\[\d+\])\? (\1\[\d+\]) : 0")
+_UNASKED = re.compile(r"if \(res\[\d+\]!=0\) (?=res\[)")
+# Characters of C beyond which GCC looks for no more than it finds in such time.
+_LONG = 300_000
+_QUICK = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("O1")\n#endif\n'
+
 # The tables of frot_pattern, in its order.
 _PATTERN = ("order", "start", "column", "diagonal", "entry_row", "entry_column", "place")
 
@@ -215,7 +223,8 @@ def _functions(lowered: Lowered) -> str:
         text = path.read_text(encoding="utf-8")
     if "#error" in text:
         raise RuntimeError("CasADi could not generate C for a function of the model")
-    return text
+    text = _UNASKED.sub("", _ABSENT.sub(r"\2", text))
+    return (_QUICK + text) if len(text) > _LONG else text
 
 
 def _callable(function: ca.Function) -> str:

@@ -9,8 +9,8 @@ from frot.compiler.assemble import assemble
 from frot.compiler.assembled import Assembled, Block
 from frot.compiler.checks import Check, parameter_checks
 from frot.compiler.expressions import Lowering
-from frot.compiler.jacobian import Jacobian, make_jacobian, why_explicit
 from frot.compiler.initial_values import Statement, lower_initial
+from frot.compiler.jacobian import Jacobian, make_jacobian, why_explicit
 from frot.compiler.listing import Listed, list_variables
 from frot.compiler.lower_events import lower_update
 from frot.compiler.lower_parameters import lower_parameters, parameters_needed

@@ -161,7 +161,7 @@ enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 
  * + c. The rates q' are explicit; q_speed[k] is the speed that is the rate of q[k], or -1 where
  * q[k] is another state. In a model without equations in its core
  * (`general` = 0) A is the mass matrix, symmetric positive definite, nc = 0 and E = J'.
- * Matrices are dense, by columns. */
+ * Matrices are dense, by columns. Every argument is given and every result taken: none is NULL. */
 typedef struct {
   const char *name;
   const char *key; /* identity of the compiled model; kept in saved states */

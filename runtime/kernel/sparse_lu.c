@@ -5,6 +5,8 @@
 
 /* Part of the size of its terms that a pivot must keep. */
 #define LEAST_PIVOT 1e-9
+/* Terms below this have lost digits by underflow. */
+#define LEAST_TERM 1e-280
 
 int frot_sparse_factor(const frot_pattern *p, const double *jacobian, double shift, double *lu,
                        double *x) {
@@ -64,7 +66,7 @@ double frot_sparse_error(const frot_pattern *p, const double *jacobian, double s
   double worst = 0;
   for (int i = 0; i < p->n; i++) {
     double error = fabs(y[i]);
-    if (error == 0) continue;
+    if (error < LEAST_TERM) continue;
     if (!(error <= worst * size[i])) worst = error / size[i];
     if (isnan(worst)) break;
   }

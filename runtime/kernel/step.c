@@ -352,7 +352,9 @@ static void fire(frot_state *s, const frot_work *w, const frot_layout *l, int fi
 int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
-  double t = *g.t1, h = fmin(s->h, s->h_max);
+  double t = *g.t1, longest = s->h_max;
+  if (s->implicit && !m->time_dependent) longest *= LONG_REST; /* nothing can be passed over */
+  double h = fmin(s->h, longest);
   int status = start_slope(m, s, w, &l, t), rejections = 0, stiff = 0;
   if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
   if (!m->time_dependent && is_still(m, w)) h = LONG_REST * s->h_max;
@@ -372,7 +374,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
         status = FROT_DIVERGE;
       if (status == FROT_OK) {
         double factor = ratio > 0 ? 0.9 * pow(ratio, power) : 6;
-        s->h = fmin(h * fmin(fmax(factor, 1.0 / 3), rejections ? 1 : 6), s->h_max);
+        s->h = fmin(h * fmin(fmax(factor, 1.0 / 3), rejections ? 1 : 6), longest);
         break;
       }
       ratio = NAN;
