@@ -60,7 +60,9 @@ enum frot_event_kind {
   FROT_EVENT_ROLL_REVERSAL = 7,
   FROT_EVENT_REACTION = 8,  /* the reaction of a bilateral liaison changes sides */
   FROT_EVENT_CONDITION = 9, /* a condition of the text changes */
-  FROT_EVENT_SEVERAL = 10   /* several motions are admissible; count in `solutions` */
+  FROT_EVENT_SEVERAL = 10,  /* several motions are admissible; count in `solutions` */
+  FROT_EVENT_WARNING = 11,  /* a warning of the text; `contact` is its outcome */
+  FROT_EVENT_TERMINATE = 12 /* the text ended the run; `contact` is its outcome */
 };
 
 typedef int (*frot_function)(const double **arg, double **res, long long *iw, double *w, int mem);
@@ -121,7 +123,8 @@ typedef struct {
  * y[first .. first + count). residual(t, q, v, u, p, d, y [, z, lam]) -> r (count), dr/dy by
  * columns (count x count), size of the terms of r (count). `linear`: r is linear in its own
  * unknowns. `late`: it reads z, the accelerations, or the reactions, and is solved after them; it
- * then takes the two arguments more. Blocks are solved in order, the late ones last in the list. */
+ * then takes the two arguments more. Blocks are solved in order, the late ones last in the list;
+ * their unknowns lie in y in the same order. */
 typedef struct {
   frot_callable residual;
   int first, count, linear, late;

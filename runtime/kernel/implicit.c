@@ -61,10 +61,7 @@ size_t frot_implicit_integers(const frot_model *m) {
 
 int frot_implicit_begin(const frot_model *m, frot_state *s, frot_work *w, double t) {
   frot_layout l = frot_layout_of(m);
-  if (m->n_blocks > 0) { /* the unknowns of the blocks belong to the last evaluation */
-    int status = slope_at(m, s, w, &l, t, w->z0, row(&l, w, SLOPE_ROW));
-    if (status != FROT_OK) return status;
-  }
+  memcpy(w->y, s->data + l.y, sizeof(double) * (size_t)m->ny);
   return frot_jacobian_at(m, s, w, t, w->z0, s->data + l.d);
 }
 
@@ -89,6 +86,7 @@ int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, doubl
   int n = m->nq, status;
   double shift = 1 / (h * ro_gamma), *z = w->z1;
   memcpy(z, w->z0, sizeof(double) * (size_t)l.nx);
+  memcpy(w->y, s->data + l.y, sizeof(double) * (size_t)m->ny);
   if (frot_jacobian_factor(m, w, shift)) return FROT_DIVERGE;
   for (int i = 0; i < RO_STAGES; i++) {
     double *slope = i == 0 ? row(&l, w, 0) : row(&l, w, SLOPE_ROW);
@@ -108,7 +106,9 @@ int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, doubl
     if (i == 0 && !(frot_jacobian_error(m, w, shift, right, u) < MOST_GROWTH)) return FROT_DIVERGE;
   }
   argument(&l, w, n, RO_STAGES, z);
-  return slope_at(m, s, w, &l, t + h, z, row(&l, w, DP_STAGES));
+  status = slope_at(m, s, w, &l, t + h, z, row(&l, w, DP_STAGES));
+  memcpy(w->y_end, w->y, sizeof(double) * (size_t)m->ny);
+  return status;
 }
 
 double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, double h) {

@@ -6,8 +6,11 @@
 
 #include "linear.h"
 #include "mechanics.h"
+#include "blocks.h"
 
 #define PASSES 60
+#define LEAST_DAMPING 1e-9
+#define ROUNDS 10   /* of conditions that depend on values that depend on conditions */
 #define AGREES 1e-9 /* largest residual, relative to the terms, of statements that agree */
 #define TOUCHES 1e-9
 #define ROUNDING 1e-14
@@ -21,41 +24,134 @@ typedef struct {
   const double *d;
   unsigned char *use; /* per contact: its gap or its normal speed is to be zero */
   int velocity, n;
+  const double *factor; /* of the metric of the unknowns that have a speed, of the given order */
+  int order, attached;
 } problem;
 
 static double *unknown(const problem *p) { return p->velocity ? p->v : p->q; }
 
-/* Residuals (w->residual) and the rows of the Jacobian over L (w->jacobian); sets p->n. */
+static int unknown_count(const problem *p) { return p->velocity ? p->m->nv : p->m->nq; }
+
+/* The statements depend on the unknowns of the blocks too, and these on the states:
+ * J <- J - J_y (dr/dy)^-1 dr/dx. */
+static int through_blocks(const problem *p, int n) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int early = frot_layout_of(m).early, nx = unknown_count(p);
+  if (early == 0 || n == 0 || !m->block_slopes.call) return FROT_OK;
+  double *slopes_q = w->slopes, *slopes_v = slopes_q + m->nq * early;
+  double *lu = w->slopes_y, *scale = lu + early * early, *part = scale + 2 * early;
+  frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
+  w->res[0] = part, w->res[1] = slopes_q, w->res[2] = slopes_v, w->res[3] = lu;
+  m->block_slopes.call(w->arg, w->res, w->iw, w->w, 0);
+  if (!frot_all_finite(lu, early * early) || !frot_all_finite(w->slopes, (m->nq + m->nv) * early))
+    return FROT_NAN;
+  if (frot_lu(lu, early, w->slopes_pivot, scale)) return FROT_NAN;
+  const double *slopes = p->velocity ? slopes_v : slopes_q;
+  for (int i = 0; i < n; i++) {
+    memcpy(part, w->residual_y + m->ny * i, sizeof(double) * (size_t)early);
+    frot_lu_apply(lu, early, w->slopes_pivot, scale, part);
+    for (int j = 0; j < early; j++)
+      for (int k = 0; part[j] != 0 && k < nx; k++)
+        w->jacobian[nx * i + k] -= slopes[nx * j + k] * part[j];
+  }
+  return FROT_OK;
+}
+
+/* Residuals (w->residual) and the rows of the Jacobian (w->jacobian); sets p->n. */
 static int evaluate(problem *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
-  int nv = m->nv, nw = m->nv + m->na + m->nc, n = p->velocity ? m->n_velocity : m->n_position;
+  int nx = unknown_count(p), nw = frot_layout_of(m).nw;
+  int n = p->velocity ? m->n_velocity : m->n_position;
   const frot_callable *call = p->velocity ? &m->initial_velocity : &m->initial_position;
-  frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
-  w->res[0] = w->residual, w->res[1] = w->jacobian, w->res[2] = w->size;
-  w->res[3] = w->residual_y;
-  call->call(w->arg, w->res, w->iw, w->w, 0);
-  frot_kinematics(m, p->s, w, p->t, p->q, p->v, p->d);
+  p->n = 0;
+  int status = frot_kinematics(m, p->s, w, p->t, p->q, p->v, p->d);
+  if (status != FROT_OK) return status;
+  if (n > 0) {
+    frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
+    w->res[0] = w->residual, w->res[1] = w->jacobian, w->res[2] = w->size;
+    w->res[3] = w->residual_y;
+    call->call(w->arg, w->res, w->iw, w->w, 0);
+    status = through_blocks(p, n);
+    if (status != FROT_OK) return status;
+  }
   for (int i = 0; i < m->n_contacts; i++) {
     if (!p->use[i]) continue;
     int row = m->contacts[i].row_n;
+    const double *entries = w->rows + nw * row;
+    double *equation = w->jacobian + nx * n;
     w->residual[n] = p->velocity ? w->rate[row] : w->gap[i];
-    memcpy(w->jacobian + nv * n, w->rows + nw * row, sizeof(double) * (size_t)nv);
+    if (p->velocity) memcpy(equation, entries, sizeof(double) * (size_t)nx);
+    for (int k = 0; !p->velocity && k < nx; k++)
+      equation[k] = m->q_speed[k] >= 0 ? entries[m->q_speed[k]] : 0;
     w->size[n] = fabs(w->residual[n]);
     n++;
   }
   p->n = n;
-  double sum = 0;
-  for (int i = 0; i < n; i++) sum += w->residual[i] - w->residual[i];
-  for (int i = 0; i < n * nv; i++) sum += w->jacobian[i] - w->jacobian[i];
-  return sum == 0 ? FROT_OK : FROT_NAN;
+  int finite = frot_all_finite(w->residual, n) && frot_all_finite(w->jacobian, n * nx);
+  return finite ? FROT_OK : FROT_NAN;
+}
+
+/* The metric at the present values: that of the speeds for the unknowns that have one (their number
+ * in p->attached, its factor in p->factor), for the others the size of their guess. */
+static int find_metric(problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int nm = m->nv + m->na, count = 0;
+  const frot_contact_mode *modes = (const void *)(p->s->data + frot_layout_of(m).modes);
+  int status = frot_dynamics(m, p->s, w, p->t, p->q, p->v, p->d, modes);
+  if (status == FROT_OK) status = frot_metric(m, w);
+  if (status != FROT_OK) return status;
+  p->factor = w->factor, p->order = nm, p->attached = m->nv;
+  if (p->velocity) return FROT_OK;
+  const double *metric = m->general ? w->metric : w->mass;
+  for (int k = 0; k < m->nq; k++) count += m->q_speed[k] >= 0;
+  for (int a = 0, i = 0; a < m->nq; a++) {
+    if (m->q_speed[a] < 0) continue;
+    for (int b = 0, j = 0; b < m->nq; b++)
+      if (m->q_speed[b] >= 0)
+        w->position_factor[count * j++ + i] = metric[nm * m->q_speed[b] + m->q_speed[a]];
+    i++;
+  }
+  p->factor = w->position_factor, p->order = p->attached = count;
+  return frot_cholesky(w->position_factor, count) ? FROT_SINGULAR : FROT_OK;
+}
+
+static int is_attached(const problem *p, int k) { return p->velocity || p->m->q_speed[k] >= 0; }
+
+/* y <- L^-1 x: a row in the units of the metric; the attached unknowns come first. */
+static void into_metric(const problem *p, const double *x, double *y) {
+  int first = 0, other = p->attached;
+  for (int k = 0; k < unknown_count(p); k++) {
+    if (is_attached(p, k))
+      y[first++] = x[k];
+    else
+      y[other++] = x[k] * p->w->unit[k];
+  }
+  frot_forward(p->factor, p->order, p->attached, y);
+}
+
+/* x <- x0 + part * L'^-1 y. Returns the largest change, and in *size the largest value. */
+static double move(const problem *p, const double *y, const double *x0, double part, double *x,
+                   double *size) {
+  int first = 0, other = p->attached;
+  double largest = 0;
+  *size = 0;
+  for (int k = 0; k < unknown_count(p); k++) {
+    double change = part * (is_attached(p, k) ? y[first++] : y[other++] * p->w->unit[k]);
+    x[k] = x0[k] + change;
+    largest = fmax(largest, fabs(change)), *size = fmax(*size, fabs(x[k]));
+  }
+  return largest;
 }
 
 /* Size of the terms of equation i at the present values. */
 static double size_of(const problem *p, int i) {
   double sum = p->w->size[i];
   const double *x = unknown(p);
-  for (int k = 0; k < p->m->nv; k++) sum += fabs(p->w->jacobian[p->m->nv * i + k] * x[k]);
+  int nx = unknown_count(p);
+  for (int k = 0; k < nx; k++) sum += fabs(p->w->jacobian[nx * i + k] * x[k]);
   return sum;
 }
 
@@ -97,23 +193,64 @@ static int no_number(const problem *p, int status) {
   const frot_model *m = p->m;
   const int *statement = p->velocity ? m->velocity_statement : m->position_statement;
   int own = p->velocity ? m->n_velocity : m->n_position;
-  for (int i = 0; i < own && p->n > 0; i++)
+  for (int i = 0; i < own && p->n > 0 && status == FROT_NAN; i++)
     if (!isfinite(p->w->residual[i]))
       return frot_fail(p->s, FROT_INITIAL, p->t, -1, statement[i], -1, NAN);
-  return frot_fail(p->s, status, p->t, -1, -1, -1, 0);
+  return frot_fail_evaluation(p->s, p->w, status, p->t);
 }
 
-/* Gauss-Newton to the nearest values in the metric of the mass. */
-static int solve(problem *p) {
-  const frot_model *m = p->m;
+/* Sum of the squares of the residuals, and whether they are all near rounding. */
+static double square(const problem *p, int *close) {
+  double sum = 0;
+  *close = 1;
+  for (int i = 0; i < p->n; i++) {
+    sum += p->w->residual[i] * p->w->residual[i];
+    if (!agrees(p, i, 0)) *close = 0;
+  }
+  return sum;
+}
+
+/* Least change of the unknowns that removes the residuals to first order, over L, into w->step. */
+static void least_change(const problem *p) {
   frot_work *w = p->w;
-  frot_layout l = frot_layout_of(m);
-  const frot_contact_mode *modes = (const void *)(p->s->data + l.modes);
-  int nv = m->nv, nw = m->nv + m->na + m->nc;
+  int nx = unknown_count(p);
+  double *a = w->active, *b = w->right, *y = w->step;
+  for (int i = 0; i < p->n; i++) {
+    into_metric(p, w->jacobian + nx * i, y);
+    for (int k = 0; k < nx; k++) a[k * p->n + i] = y[k];
+    b[i] = -w->residual[i];
+  }
+  frot_least_norm(a, b, p->n, nx, y, w->lstsq, w->pivot);
+  frot_backward(p->factor, p->order, p->attached, y);
+}
+
+/* Take the change of w->step, or the part of it that improves the residuals. Returns whether the
+ * values have come to rest: nothing improves, or nothing moves any more. */
+static int take(problem *p) {
+  frot_work *w = p->w;
+  double *x = unknown(p), *x0 = w->ztry, size, moved;
+  int close;
+  double before = square(p, &close);
+  memcpy(x0, x, sizeof(double) * (size_t)unknown_count(p));
+  memcpy(w->y_end, w->y, sizeof(double) * (size_t)p->m->ny);
+  for (double part = 1; part > LEAST_DAMPING; part *= 0.5) {
+    moved = move(p, w->step, x0, part, x, &size);
+    if (moved <= 4 * DBL_EPSILON * size) return 1;
+    if (evaluate(p) == FROT_OK && (square(p, &close) <= before || close)) return 0;
+    memcpy(w->y, w->y_end, sizeof(double) * (size_t)p->m->ny);
+  }
+  memcpy(x, x0, sizeof(double) * (size_t)unknown_count(p));
+  return 1;
+}
+
+/* Damped Gauss-Newton to the nearest values in the metric. */
+static int solve(problem *p) {
+  frot_work *w = p->w;
   double start = -1, last = INFINITY;
-  double *x = unknown(p);
-  for (int pass = 0; pass < PASSES; pass++) {
-    int status = frot_dynamics(m, p->s, w, p->t, p->q, p->v, p->d, modes);
+  if (unknown_count(p) == 0) return FROT_OK;
+  for (int k = 0; !p->velocity && k < p->m->nq; k++) w->unit[k] = p->q[k] != 0 ? fabs(p->q[k]) : 1;
+  for (int pass = 0;; pass++) {
+    int status = find_metric(p);
     if (status == FROT_OK) status = evaluate(p);
     if (status != FROT_OK) return no_number(p, status);
     int good = 1;
@@ -126,34 +263,26 @@ static int solve(problem *p) {
     if (good || p->n == 0) return FROT_OK;
     if (pass > 3 && largest >= last && largest <= AGREES * start) return FROT_OK;
     last = largest;
-    /* least y with (L^-1 J')' y = -residual, then x += L'^-1 y */
-    double *a = w->active, *b = w->right, *y = w->step;
-    for (int i = 0; i < p->n; i++) {
-      memcpy(y, w->jacobian + nv * i, sizeof(double) * (size_t)nv);
-      frot_forward(w->factor, nw, nv, y);
-      for (int k = 0; k < nv; k++) a[k * p->n + i] = y[k];
-      b[i] = -w->residual[i];
-    }
-    frot_least_norm(a, b, p->n, nv, y, w->lstsq, w->pivot);
-    frot_backward(w->factor, nw, nv, y);
-    double step = 0, size = 0;
-    for (int k = 0; k < nv; k++) {
-      x[k] += y[k];
-      step = fmax(step, fabs(y[k])), size = fmax(size, fabs(x[k]));
-    }
-    if (step <= 4 * DBL_EPSILON * size || pass == PASSES - 1) {
-      if (evaluate(p) != FROT_OK) return frot_fail(p->s, FROT_NAN, p->t, -1, -1, -1, 0);
-      for (int i = 0; i < p->n; i++)
-        if (!agrees(p, i, start)) return contradiction(p);
-      return FROT_OK;
-    }
+    least_change(p);
+    if (!take(p) && pass < PASSES - 1) continue;
+    status = evaluate(p);
+    if (status != FROT_OK) return no_number(p, status);
+    for (int i = 0; i < p->n; i++)
+      if (!agrees(p, i, start)) return contradiction(p);
+    return FROT_OK;
   }
-  return FROT_OK;
+}
+
+static int solve_and_look(problem *p) {
+  int status = solve(p);
+  if (status != FROT_OK) return status;
+  status = frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
+  return status == FROT_OK ? FROT_OK : no_number(p, status);
 }
 
 static double length_size(const frot_model *m, const frot_work *w, int contact, const double *q) {
   return fabs(w->distance[contact]) + fabs(w->distance[contact] - w->gap[contact]) +
-         frot_row_size(m, w, m->contacts[contact].row_n, q);
+         frot_gap_size(m, w, m->contacts[contact].row_n, q);
 }
 
 static void set_conditions(const frot_model *m, const frot_work *w, double *d) {
@@ -161,69 +290,105 @@ static void set_conditions(const frot_model *m, const frot_work *w, double *d) {
     d[j] = m->condition_strict[j] ? w->condition[j] > 0 : w->condition[j] >= 0;
 }
 
-int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
-                        double *v) {
+/* Coordinates; chooses the sides of the contacts. Leaves w->gap there. */
+static int solve_positions(problem *p, double *side) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int nc = m->n_contacts;
+  const double *unilateral = p->s->data + frot_layout_of(m).unilateral;
+  p->velocity = 0;
+  /* The statements alone show on which side of its line each body is meant to be. */
+  memset(p->use, 0, (size_t)nc);
+  int status = solve_and_look(p);
+  if (status != FROT_OK) return status;
+  for (int i = 0; i < nc; i++)
+    if (frot_has_normal(&m->contacts[i]))
+      side[i] = w->distance[i] < -TOUCHES * length_size(m, w, i, p->q) ? -1 : 1;
+  for (int i = 0; i < nc; i++) {
+    const frot_contact *contact = &m->contacts[i];
+    p->use[i] = frot_has_normal(contact) && !contact->reduced && unilateral[i] == 0;
+  }
+  for (;;) {
+    status = solve_and_look(p);
+    if (status != FROT_OK) return status;
+    int added = 0;
+    for (int i = 0; i < nc; i++) {
+      if (p->use[i] || m->contacts[i].reduced || !frot_has_normal(&m->contacts[i])) continue;
+      if (w->gap[i] < -TOUCHES * length_size(m, w, i, p->q)) p->use[i] = 1, added = 1;
+    }
+    if (!added) return FROT_OK;
+  }
+}
+
+/* Speeds; opens contacts that separate. */
+static int solve_speeds(problem *p, frot_contact_mode *modes) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  p->velocity = 1;
+  for (;;) {
+    int status = solve_and_look(p);
+    if (status != FROT_OK) return status;
+    int added = 0;
+    for (int i = 0; i < m->n_contacts; i++) {
+      const frot_contact *contact = &m->contacts[i];
+      int row = contact->row_n;
+      if (p->use[i] || contact->reduced || !frot_has_normal(contact) || !modes[i].closed) continue;
+      double size =
+          DBL_EPSILON * frot_row_size(m, w, row, p->v) + ROUNDING * frot_row_speed(m, w, row, p->v);
+      if (w->rate[row] > size)
+        modes[i].closed = 0; /* it leaves */
+      else if (w->rate[row] < -size)
+        p->use[i] = 1, added = 1;
+    }
+    if (!added) return FROT_OK;
+  }
+}
+
+/* All values from the guesses, with the conditions as they are; then sets these. */
+static int solve_once(problem *p, double *q, double *v) {
+  const frot_model *m = p->m;
+  frot_state *s = p->s;
+  frot_work *w = p->w;
   frot_layout l = frot_layout_of(m);
   int nc = m->n_contacts;
   double *d = s->data + l.d, *side = d + m->n_conditions;
   const double *unilateral = s->data + l.unilateral;
   frot_contact_mode *modes = (void *)(s->data + l.modes);
-  unsigned char *use = (unsigned char *)w->choice;
-  problem p = {m, s, w, t, q, v, d, use, 0, 0};
-
-  memset(s->data + l.modes, 0, sizeof *modes * (size_t)nc);
-  memset(d, 0, sizeof(double) * (size_t)l.nd);
-  for (int i = 0; i < nc; i++) side[i] = 1;
-  w->arg[0] = &t, w->arg[1] = s->data + l.u, w->arg[2] = s->data + l.p;
+  memset(modes, 0, sizeof *modes * (size_t)nc);
+  for (int i = 0; i < nc; i++) {
+    side[i] = modes[i].side = 1;
+    modes[i].closed = (signed char)!frot_has_normal(&m->contacts[i]);
+  }
+  w->arg[0] = &p->t, w->arg[1] = s->data + l.u, w->arg[2] = s->data + l.p;
   w->res[0] = q, w->res[1] = v, w->res[2] = w->y, w->res[3] = side + nc;
   m->start.call(w->arg, w->res, w->iw, w->w, 0);
-
-  /* Positions by the statements alone show on which side of its line each body is meant to be. */
-  memset(use, 0, (size_t)nc);
-  int status = solve(&p);
+  int status = solve_positions(p, side);
   if (status != FROT_OK) return status;
-  frot_kinematics(m, s, w, t, q, v, d);
-  for (int i = 0; i < nc; i++)
-    side[i] = w->distance[i] < -TOUCHES * length_size(m, w, i, q) ? -1 : 1;
-  for (int i = 0; i < nc; i++) use[i] = !m->contacts[i].reduced && unilateral[i] == 0;
-  for (;;) {
-    status = solve(&p);
-    if (status != FROT_OK) return status;
-    frot_kinematics(m, s, w, t, q, v, d);
-    int added = 0;
-    for (int i = 0; i < nc; i++) {
-      if (use[i] || m->contacts[i].reduced) continue;
-      if (w->gap[i] < -TOUCHES * length_size(m, w, i, q)) use[i] = 1, added = 1;
-    }
-    if (!added) break;
-  }
   set_conditions(m, w, d);
-
   for (int i = 0; i < nc; i++) {
+    const frot_contact *contact = &m->contacts[i];
+    if (!frot_has_normal(contact)) continue;
     int touches =
-        unilateral[i] == 0 || use[i] || fabs(w->gap[i]) <= TOUCHES * length_size(m, w, i, q);
+        unilateral[i] == 0 || p->use[i] || fabs(w->gap[i]) <= TOUCHES * length_size(m, w, i, q);
     modes[i].closed = (signed char)touches;
-    modes[i].side = 1;
-    use[i] = touches && unilateral[i] == 0 && !m->contacts[i].reduced;
+    p->use[i] = touches && unilateral[i] == 0 && !contact->reduced;
   }
-  p.velocity = 1;
-  for (;;) {
-    status = solve(&p);
-    if (status != FROT_OK) return status;
-    frot_kinematics(m, s, w, t, q, v, d);
-    int added = 0;
-    for (int i = 0; i < nc; i++) {
-      int row = m->contacts[i].row_n;
-      if (use[i] || m->contacts[i].reduced || !modes[i].closed) continue;
-      double size =
-          DBL_EPSILON * frot_row_size(m, w, row, v) + ROUNDING * frot_row_speed(m, w, row, v);
-      if (w->rate[row] > size)
-        modes[i].closed = 0; /* it leaves */
-      else if (w->rate[row] < -size)
-        use[i] = 1, added = 1;
-    }
-    if (!added) break;
-  }
+  status = solve_speeds(p, modes);
+  if (status != FROT_OK) return status;
   set_conditions(m, w, d);
   return FROT_OK;
+}
+
+int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
+                        double *v) {
+  frot_layout l = frot_layout_of(m);
+  problem p = {m, s, w, t, q, v, s->data + l.d, (unsigned char *)w->choice, 0, 0, NULL, 0, 0};
+  memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
+  for (int round = 0; round < ROUNDS; round++) {
+    size_t size = sizeof(double) * (size_t)m->n_conditions;
+    memcpy(w->condition_before, p.d, size);
+    int status = solve_once(&p, q, v);
+    if (status != FROT_OK || memcmp(w->condition_before, p.d, size) == 0) return status;
+  }
+  return frot_fail(s, FROT_CHATTER, t, -1, -1, -1, ROUNDS);
 }

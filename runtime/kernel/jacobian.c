@@ -50,12 +50,6 @@ frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *
   return j;
 }
 
-static int all_finite(const double *x, int n) {
-  double sum = 0;
-  for (int i = 0; i < n; i++) sum += x[i] - x[i];
-  return sum == 0;
-}
-
 /* q' depends on q and t through the unknowns y of the blocks too: J <- f_q - f_y (r_y)^-1 r_q. */
 static int condense(const frot_model *m, const frot_jacobian *j, int ny) {
   int n = m->nq;
@@ -82,14 +76,14 @@ int frot_jacobian_at(const frot_model *m, frot_state *s, frot_work *w, double t,
   m->jacobian.call(w->arg, w->res, w->iw, w->w, 0);
   s->statistics.jacobians++;
   if (ny > 0) {
-    if (!all_finite(j.slope_y, n * ny) || !all_finite(j.block_q, ny * n) ||
-        !all_finite(j.block_t, ny) || !all_finite(j.block_y, ny * ny))
+    if (!frot_all_finite(j.slope_y, n * ny) || !frot_all_finite(j.block_q, ny * n) ||
+        !frot_all_finite(j.block_t, ny) || !frot_all_finite(j.block_y, ny * ny))
       return FROT_NAN;
     int status = condense(m, &j, ny);
     if (status != FROT_OK) return status;
   }
   int entries = is_sparse(m) ? m->pattern.entries : n * n;
-  return all_finite(j.entries, entries) && all_finite(j.rate, n) ? FROT_OK : FROT_NAN;
+  return frot_all_finite(j.entries, entries) && frot_all_finite(j.rate, n) ? FROT_OK : FROT_NAN;
 }
 
 int frot_jacobian_factor(const frot_model *m, frot_work *w, double shift) {

@@ -4,16 +4,22 @@
 
 #include "state.h"
 
-/* Move speeds (and, with `position`, coordinates first) onto the relations that hold in `modes`,
- * by the least change in the metric of the mass. `stuck` (n_contacts, may be NULL): contacts whose
- * slip (bit 0) or rolling (bit 1) is to be zero whatever their mode. Returns 1 if anything moved.
- */
+/* Move coordinates and speeds onto the relations that hold in `modes` and onto the invariants, by
+ * the least change: in the metric of the speeds or, where there are invariants, in units of each
+ * state's size. `stuck` (n_contacts, may be NULL): contacts whose slip (bit 0) or rolling (bit 1)
+ * is to be zero whatever their mode. *moved: whether anything moved. FROT_OK or a status that is
+ * not recorded as a fault. */
 int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  const double *d, const frot_contact_mode *modes, const unsigned char *stuck,
-                 int position);
+                 int *moved);
+
+/* Rows that hold in `modes` and act on the speeds themselves, into w->row_of; returns their number.
+ * With `normals_only`, the relations between positions. */
+int frot_holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
+                      const unsigned char *stuck, int normals_only);
 
 /* Speeds that the relations of `modes` hold at zero for as long as the mode lasts: frozen (nv).
- * A relation counts when it depends on frozen coordinates alone. Uses w->rows. */
+ * A relation counts when it depends on frozen coordinates alone. Uses w->rows and w->factor. */
 void frot_find_frozen(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                       double *frozen);
 

@@ -1,7 +1,9 @@
 #include "record.h"
 
+#include <math.h>
+
 long long frot_events_at_once(const frot_model *m) {
-  return 4 * m->n_contacts + m->n_conditions + 4;
+  return 8 * m->n_contacts + 8 * m->n_conditions + m->n_outcomes + 8;
 }
 
 void frot_note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact, int before,
@@ -41,10 +43,20 @@ void frot_note_changes(const frot_model *m, frot_state *s, double t,
   }
 }
 
-void frot_tell_start(const frot_model *m, frot_state *s, frot_recorder *recorder) {
-  if (!s->several) return;
-  frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
-  int mode = frot_mode_value(&g.modes[s->several_at]);
-  frot_note(recorder, s, *g.t0, FROT_EVENT_SEVERAL, s->several_at, mode, mode, s->several);
-  s->several = 0;
+void frot_tell(const frot_model *m, frot_state *s, frot_recorder *recorder) {
+  if (s->several) {
+    frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
+    int mode = frot_mode_value(&g.modes[s->several_at]);
+    frot_note(recorder, s, *g.t0, FROT_EVENT_SEVERAL, s->several_at, mode, mode, s->several);
+    s->several = 0;
+  }
+  if (!s->untold || !recorder) return;
+  double *asked = s->data + frot_layout_of(m).asked;
+  for (int i = 0; i < m->n_outcomes; i++) {
+    if (isnan(asked[i])) continue;
+    int ends = m->outcomes[i].kind == FROT_OUTCOME_TERMINATE;
+    frot_note(recorder, s, asked[i], ends ? FROT_EVENT_TERMINATE : FROT_EVENT_WARNING, i, 0, 0, 1);
+    asked[i] = NAN;
+  }
+  s->untold = 0;
 }

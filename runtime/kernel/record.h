@@ -13,7 +13,7 @@ void frot_note_changes(const frot_model *m, frot_state *s, double t,
                        const frot_contact_mode *before, const frot_contact_mode *after,
                        frot_recorder *recorder);
 
-/* Record that several motions were admissible at the start, if they were and it is still untold. */
-void frot_tell_start(const frot_model *m, frot_state *s, frot_recorder *recorder);
+/* Record what is still untold: several admissible motions at the start, outcomes of the text. */
+void frot_tell(const frot_model *m, frot_state *s, frot_recorder *recorder);
 
 #endif

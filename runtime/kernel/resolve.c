@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "blocks.h"
 #include "mechanics.h"
 #include "projection.h"
 #include "record.h"
@@ -28,6 +29,8 @@ typedef struct {
  * to rounding against its terms, the sizes it had and the motion as a whole. */
 static int is_zero_rate(const instant *in, int row, const double *v, int guard, int moved) {
   if (moved && in->fired[guard] != 0) return 1;
+  if (frot_is_prescribed(in->m, in->w, row) && fabs(in->w->rate[row]) <= FROT_PRESCRIBED_REST)
+    return 1;
   double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
   return fabs(in->w->rate[row]) <=
          FROT_ZERO * size + ROUNDING * frot_row_speed(in->m, in->w, row, v);
@@ -54,26 +57,35 @@ static int friction_options(int active, double rate, int zero, int left, signed 
 /* A reaction that reached its upper bound (first guard) lets the body go backward. */
 static int left_by(const double *fired) { return fired[0] != 0 ? -1 : (fired[1] != 0 ? 1 : 0); }
 
+/* The direction in which rest ends now; a prescribed motion says itself. */
+static int direction_left(const instant *in, int i, int rolling) {
+  const frot_contact *contact = &in->m->contacts[i];
+  int left = (int)in->left[2 * i + rolling], row = rolling ? contact->row_r : contact->row_t;
+  if (left != 0 && frot_is_prescribed(in->m, in->w, row)) return in->w->c[row] > 0 ? 1 : -1;
+  return left;
+}
+
 static int contact_options(const instant *in, int i, int forced, frot_contact_mode *list) {
   const frot_contact *contact = &in->m->contacts[i];
   const double *fired = in->fired + FROT_GUARDS * i;
   frot_contact_mode before = in->w->before[i];
-  int n = 0, can_open = in->unilateral[i] != 0;
+  int n = 0, can_open = in->unilateral[i] != 0 && frot_has_normal(contact);
+  int one_sided = can_open || !frot_has_normal(contact);
   int leaves = forced && before.closed && can_open && fired[0] != 0;
-  int turns = forced && before.closed && !can_open && fired[0] != 0;
+  int turns = forced && before.closed && !one_sided && fired[0] != 0;
   if (!leaves) {
     signed char friction[3], rolling[3];
     int act_t = bounds_something(in->w, contact, i, 0),
         act_r = bounds_something(in->w, contact, i, 1);
     int zero_t = in->zero[i] & 1, zero_r = in->zero[i] & 2;
     int n_t = friction_options(act_t, act_t ? in->w->rate[contact->row_t] : 0, zero_t,
-                               forced ? (int)in->left[2 * i] : 0, friction);
+                               forced ? direction_left(in, i, 0) : 0, friction);
     int n_r = friction_options(act_r, act_r ? in->w->rate[contact->row_r] : 0, zero_r,
-                               forced ? (int)in->left[2 * i + 1] : 0, rolling);
+                               forced ? direction_left(in, i, 1) : 0, rolling);
     for (int a = 0; a < n_t; a++)
       for (int b = 0; b < n_r; b++)
         for (int side = 1; side >= -1; side -= 2) {
-          if (side < 0 && (can_open || (!act_t && !act_r))) continue;
+          if (side < 0 && (one_sided || (!act_t && !act_r))) continue;
           if (turns && side == before.side) continue;
           /* held all round, the side follows from the reaction: is_admissible sets it */
           if (side < 0 && !turns && friction[a] <= FROT_STICK && rolling[b] <= FROT_STICK) continue;
@@ -103,10 +115,22 @@ static double acceleration(const instant *in, int row) {
 
 static int motion_is_admissible(const instant *in, int mode, int row, int departs, double bound) {
   double lam = in->w->lam[row];
+  if (mode == FROT_STICK && frot_is_prescribed(in->m, in->w, row))
+    return fabs(in->w->c[row]) <= FROT_PRESCRIBED_REST;
   if (mode == FROT_STICK) return fabs(lam) <= bound + 1e-10 * (fabs(bound) + fabs(lam));
   if (mode == FROT_NONE || !departs) return 1;
   double a = acceleration(in, row) * (mode == FROT_SLIP_FORWARD ? 1 : -1);
   return a >= -1e-9 * acceleration_size(in, row);
+}
+
+/* Whether the normal reaction has the sign of its side, which is set where all is held. */
+static int normal_is_admissible(const instant *in, int i, frot_contact_mode *mode) {
+  int row = in->m->contacts[i].row_n;
+  if (in->unilateral[i] == 0 && mode->friction <= FROT_STICK && mode->rolling <= FROT_STICK)
+    mode->side = in->w->lam[row] < 0 ? -1 : 1;
+  int matters = in->unilateral[i] != 0 || mode->friction != FROT_NONE || mode->rolling != FROT_NONE;
+  double load = acceleration_size(in, row) / fabs(in->w->delassus[row * (in->m->n_rows + 1)]);
+  return !(matters && mode->side * in->w->lam[row] < -1e-10 * load);
 }
 
 /* Whether the reactions of w->trial over the contacts `chosen` satisfy every inequality. */
@@ -122,20 +146,14 @@ static int is_admissible(const instant *in, const int *chosen, int count) {
       if (!(a >= -1e-9 * acceleration_size(in, contact->row_n))) return 0;
       continue;
     }
-    if (in->unilateral[i] == 0 && mode->friction <= FROT_STICK && mode->rolling <= FROT_STICK)
-      mode->side = w->lam[contact->row_n] < 0 ? -1 : 1;
-    double normal = mode->side * w->lam[contact->row_n];
-    const double *k = w->coefficient + 3 * i;
-    int matters =
-        in->unilateral[i] != 0 || mode->friction != FROT_NONE || mode->rolling != FROT_NONE;
-    double load = acceleration_size(in, contact->row_n) /
-                  in->w->delassus[contact->row_n * (in->m->n_rows + 1)];
-    if (matters && normal < -1e-10 * load) return 0;
-    if (contact->row_t >= 0 && !motion_is_admissible(in, mode->friction, contact->row_t,
-                                                     in->zero[i] & 1, k[1] * fabs(normal)))
+    if (frot_has_normal(contact) && !normal_is_admissible(in, i, mode)) return 0;
+    double friction = fabs(frot_bound_of_rest(in->m, w, i, mode, 0));
+    double rolling = fabs(frot_bound_of_rest(in->m, w, i, mode, 1));
+    if (contact->row_t >= 0 &&
+        !motion_is_admissible(in, mode->friction, contact->row_t, in->zero[i] & 1, friction))
       return 0;
-    if (contact->row_r >= 0 && !motion_is_admissible(in, mode->rolling, contact->row_r,
-                                                     in->zero[i] & 2, k[2] * fabs(normal)))
+    if (contact->row_r >= 0 &&
+        !motion_is_admissible(in, mode->rolling, contact->row_r, in->zero[i] & 2, rolling))
       return 0;
   }
   return 1;
@@ -164,9 +182,9 @@ static int preference(const instant *in, const int *chosen, int count) {
 /* Two combinations are one motion when the accelerations of their rows are equal. */
 static int is_new_motion(const instant *in, const int *chosen, int count) {
   for (int c = 0; c < count; c++) {
-    const frot_contact *contact = &in->m->contacts[chosen[c]];
-    int rows[3] = {contact->row_n, contact->row_t, contact->row_r};
-    for (int k = 0; k < 3; k++) {
+    int rows[FROT_ROWS];
+    frot_rows_of(&in->m->contacts[chosen[c]], rows);
+    for (int k = 0; k < FROT_ROWS; k++) {
       if (rows[k] < 0) continue;
       double change = acceleration(in, rows[k]) - in->w->best_acceleration[rows[k]];
       if (fabs(change) > 1e-7 * acceleration_size(in, rows[k])) return 1;
@@ -178,10 +196,10 @@ static int is_new_motion(const instant *in, const int *chosen, int count) {
 static void remember(const instant *in, const int *chosen, int count) {
   for (int c = 0; c < count; c++) {
     int i = chosen[c];
-    const frot_contact *contact = &in->m->contacts[i];
+    int rows[FROT_ROWS];
+    frot_rows_of(&in->m->contacts[i], rows);
     in->w->best[i] = in->w->trial[i];
-    int rows[3] = {contact->row_n, contact->row_t, contact->row_r};
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < FROT_ROWS; k++)
       if (rows[k] >= 0) in->w->best_acceleration[rows[k]] = acceleration(in, rows[k]);
   }
 }
@@ -224,6 +242,18 @@ static int search(const instant *in, const int *chosen, int count, int forced) {
   }
 }
 
+/* Whether a reaction of contact j moves contact i. */
+static int coupled(const instant *in, int i, int j) {
+  int a[FROT_ROWS], b[FROT_ROWS];
+  frot_rows_of(&in->m->contacts[i], a);
+  frot_rows_of(&in->m->contacts[j], b);
+  for (int k = 0; k < FROT_ROWS * FROT_ROWS; k++) {
+    int r = a[k / FROT_ROWS], c = b[k % FROT_ROWS];
+    if (r >= 0 && c >= 0 && in->w->delassus[r * in->m->n_rows + c] != 0) return 1;
+  }
+  return 0;
+}
+
 /* Contacts in one component act on each other through the masses. */
 static void find_components(const instant *in) {
   const frot_model *m = in->m;
@@ -232,14 +262,7 @@ static void find_components(const instant *in) {
   for (int i = 0; i < m->n_contacts; i++)
     for (int j = 0; j < i; j++) {
       if (component[i] < 0 || component[j] < 0 || component[i] == component[j]) continue;
-      int a[3] = {m->contacts[i].row_n, m->contacts[i].row_t, m->contacts[i].row_r};
-      int b[3] = {m->contacts[j].row_n, m->contacts[j].row_t, m->contacts[j].row_r};
-      int coupled = 0;
-      for (int k = 0; k < 9; k++) {
-        int r = a[k / 3], c = b[k % 3];
-        if (r >= 0 && c >= 0 && in->w->delassus[r * m->n_rows + c] != 0) coupled = 1;
-      }
-      if (!coupled) continue;
+      if (!coupled(in, i, j) && !coupled(in, j, i)) continue;
       int from = component[i], to = component[j];
       for (int k = 0; k <= i; k++)
         if (component[k] == from) component[k] = to;
@@ -289,6 +312,74 @@ static void note_left(const frot_model *m, frot_state *s, double t) {
   s->left_at = t;
 }
 
+/* Conditions whose guards fired change. */
+void frot_flip_conditions(const frot_model *m, frot_state *s, double t, frot_recorder *recorder) {
+  frot_layout l = frot_layout_of(m);
+  double *d = s->data + l.d, *fired = s->data + l.fired + FROT_GUARDS * m->n_contacts;
+  for (int j = 0; j < m->n_conditions; j++) {
+    if (fired[j] == 0) continue;
+    fired[j] = 0;
+    d[j] = 1 - d[j];
+    frot_note(recorder, s, t, FROT_EVENT_CONDITION, j, (int)(1 - d[j]), (int)d[j], 1);
+  }
+}
+
+/* What is known of the speeds: a slip that has come to zero is zero exactly, if its law can hold
+ * it. Moves coordinates and speeds onto what holds. */
+static int settle_speeds(instant *in, double t, double *q, double *v) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  double *d = in->s->data + in->l.d;
+  int nc = m->n_contacts;
+  for (int i = 0; i < nc; i++) {
+    if (!w->best[i].closed) continue;
+    const frot_contact *contact = &m->contacts[i];
+    int slipped = w->before[i].friction > FROT_STICK, rolled = w->before[i].rolling > FROT_STICK;
+    if (contact->row_t >= 0 && is_zero_rate(in, contact->row_t, v, FROT_GUARDS * i + 1, slipped))
+      in->zero[i] |= 1;
+    if (contact->row_r >= 0 && is_zero_rate(in, contact->row_r, v, FROT_GUARDS * i + 3, rolled))
+      in->zero[i] |= 2;
+  }
+  for (int i = 0; i < nc; i++) { /* a law that bounds nothing holds nothing */
+    if (!bounds_something(w, &m->contacts[i], i, 0)) in->zero[i] &= (unsigned char)~1;
+    if (!bounds_something(w, &m->contacts[i], i, 1)) in->zero[i] &= (unsigned char)~2;
+    in->at_rest[i] = in->zero[i] & 1;
+  }
+  memcpy(w->trial, w->best, sizeof *w->trial * (size_t)nc);
+  for (int i = 0; i < nc; i++) w->trial[i].friction = w->trial[i].rolling = FROT_NONE;
+  int moved;
+  return frot_project(m, in->s, w, t, q, v, d, w->trial, in->zero, &moved);
+}
+
+/* The modes into w->best, component after component. */
+static int choose_modes(const instant *in, double t, int first, frot_recorder *recorder) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  int several = 0, several_at = -1;
+  find_components(in);
+  for (int root = 0; root < m->n_contacts; root++) {
+    int *chosen = w->row_of + m->n_rows, count = 0;
+    for (int i = 0; i < m->n_contacts; i++)
+      if (w->component[i] == root) chosen[count++] = i;
+    if (count == 0) continue;
+    int motions = search(in, chosen, count, 1);
+    if (motions == 0) motions = search(in, chosen, count, 0);
+    if (motions < 0) return frot_fail(in->s, FROT_TOO_LARGE, t, chosen[0], -1, -1, count);
+    if (motions == 0) return frot_fail(in->s, FROT_IMPASSE, t, chosen[0], -1, -1, 0);
+    if (motions > 1) several = motions, several_at = chosen[0];
+  }
+  if (!several) return FROT_OK;
+  if (first)
+    in->s->several = several, in->s->several_at = several_at; /* told by the first frot_advance */
+  else
+    frot_note(recorder, in->s, t, FROT_EVENT_SEVERAL, several_at,
+              frot_mode_value(&w->before[several_at]), frot_mode_value(&w->best[several_at]),
+              several);
+  if (in->s->options.on_indeterminate == FROT_HALT)
+    return frot_fail(in->s, FROT_SEVERAL, t, several_at, -1, -1, several);
+  return FROT_OK;
+}
+
 int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  int first, frot_recorder *recorder) {
   frot_layout l = frot_layout_of(m);
@@ -301,62 +392,20 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   memcpy(w->before, modes, sizeof *modes * (size_t)nc);
   memset(flags, 0, 2 * (size_t)nc);
 
-  for (int j = 0; j < m->n_conditions; j++) {
-    if (fired[FROT_GUARDS * nc + j] == 0) continue;
-    d[j] = 1 - d[j];
-    if (!first) frot_note(recorder, s, t, FROT_EVENT_CONDITION, j, (int)(1 - d[j]), (int)d[j], 1);
-  }
-  frot_kinematics(m, s, w, t, q, v, d);
-  int status = closable(&in, t, first);
+  int status = frot_kinematics(m, s, w, t, q, v, d);
+  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, t);
+  status = closable(&in, t, first);
   if (status != FROT_OK) return status;
-
   status = frot_dynamics(m, s, w, t, q, v, d, w->best);
-  if (status != FROT_OK) return frot_fail(s, status, t, -1, -1, -1, 0);
-  /* Speeds: a slip that has come to zero is zero exactly. */
-  for (int i = 0; i < nc; i++) {
-    if (!w->best[i].closed) continue;
-    const frot_contact *contact = &m->contacts[i];
-    int slipped = w->before[i].friction > FROT_STICK, rolled = w->before[i].rolling > FROT_STICK;
-    if (contact->row_t >= 0 && is_zero_rate(&in, contact->row_t, v, FROT_GUARDS * i + 1, slipped))
-      flags[i] |= 1;
-    if (contact->row_r >= 0 && is_zero_rate(&in, contact->row_r, v, FROT_GUARDS * i + 3, rolled))
-      flags[i] |= 2;
-  }
-  for (int i = 0; i < nc; i++) { /* a law that bounds nothing holds nothing */
-    if (!bounds_something(w, &m->contacts[i], i, 0)) flags[i] &= (unsigned char)~1;
-    if (!bounds_something(w, &m->contacts[i], i, 1)) flags[i] &= (unsigned char)~2;
-    in.at_rest[i] = flags[i] & 1;
-  }
-  memcpy(w->trial, w->best, sizeof *modes * (size_t)nc);
-  for (int i = 0; i < nc; i++) w->trial[i].friction = w->trial[i].rolling = FROT_NONE;
-  frot_project(m, s, w, t, q, v, d, w->trial, flags, 1);
-  status = frot_dynamics(m, s, w, t, q, v, d, w->best);
-  if (status != FROT_OK) return frot_fail(s, status, t, -1, -1, -1, 0);
+  if (status == FROT_OK) status = frot_metric(m, w);
+  if (status == FROT_OK) status = settle_speeds(&in, t, q, v);
+  if (status == FROT_OK) status = frot_dynamics(m, s, w, t, q, v, d, w->best);
+  if (status == FROT_OK) status = frot_metric(m, w);
+  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, t);
 
   frot_row_loads(m, s, w, t, q, v, d, w->best);
-  find_components(&in);
-  int several = 0, several_at = -1;
-  for (int root = 0; root < nc; root++) {
-    int *chosen = w->row_of + m->n_rows, count = 0;
-    for (int i = 0; i < nc; i++)
-      if (w->component[i] == root) chosen[count++] = i;
-    if (count == 0) continue;
-    int motions = search(&in, chosen, count, 1);
-    if (motions == 0) motions = search(&in, chosen, count, 0);
-    if (motions < 0) return frot_fail(s, FROT_TOO_LARGE, t, chosen[0], -1, -1, count);
-    if (motions == 0) return frot_fail(s, FROT_IMPASSE, t, chosen[0], -1, -1, 0);
-    if (motions > 1) several = motions, several_at = chosen[0];
-  }
-  if (several) {
-    if (first)
-      s->several = several, s->several_at = several_at; /* told by the first frot_advance */
-    else
-      frot_note(recorder, s, t, FROT_EVENT_SEVERAL, several_at,
-                frot_mode_value(&w->before[several_at]), frot_mode_value(&w->best[several_at]),
-                several);
-    if (s->options.on_indeterminate == FROT_HALT)
-      return frot_fail(s, FROT_SEVERAL, t, several_at, -1, -1, several);
-  }
+  status = choose_modes(&in, t, first, recorder);
+  if (status != FROT_OK) return status;
   memcpy(modes, w->best, sizeof *modes * (size_t)nc);
   if (!first) frot_note_changes(m, s, t, w->before, modes, recorder);
   frot_find_frozen(m, w, modes, frozen);

@@ -2,10 +2,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "blocks.h"
+#include "happen.h"
 #include "initial.h"
 #include "mechanics.h"
 #include "record.h"
-#include "resolve.h"
 #include "state.h"
 #include "step.h"
 #include "stiffness.h"
@@ -38,14 +39,13 @@ int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, dou
   return FROT_OK;
 }
 
+/* Kinetic and potential energy together; NaN where the blocks have no solution. */
 static double energy_now(const frot_model *m, frot_state *s, frot_work *w, const double *x) {
-  frot_layout l = frot_layout_of(m);
-  double kinetic = 0, potential = 0;
-  frot_inputs(m, s, w, &s->t, x, x + m->nq, s->data + l.d);
-  w->res[0] = &kinetic, w->res[1] = &potential;
-  m->energy.call(w->arg, w->res, w->iw, w->w, 0);
-  s->energy_scale = fmax(s->energy_scale, fabs(kinetic));
-  return kinetic + potential;
+  double energy[2];
+  int status = frot_energies(m, s, w, s->t, x, x + m->nq, s->data + frot_layout_of(m).d, energy);
+  if (status != FROT_OK) return NAN;
+  s->energy_scale = fmax(s->energy_scale, fabs(energy[0]));
+  return energy[0] + energy[1];
 }
 
 int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
@@ -66,12 +66,17 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
                                           : experiment[2];
   s->h_max = experiment[1] > start ? experiment[1] - start : 1;
   if (m->time_dependent) s->h_max *= PART_OF_RUN;
-  s->pending = s->has_slope = s->changed = s->crowded = s->several = 0;
+  s->ended_recorded = 0;
+  s->pending = s->has_slope = s->changed = s->crowded = s->several = s->untold = 0;
+  for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
   s->crowded_since = s->left_at = t;
   s->push = 0;
   frot_choose_first(m, s);
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
+  memset(s->data + l.noise, 0, sizeof(double) * (size_t)(m->nq + m->nv));
+  memset(s->data + l.push_v, 0, sizeof(double) * (size_t)m->nv);
+  memset(s->data + l.along, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
   memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.left, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
   memset(s->data + l.frozen, 0, sizeof(double) * (size_t)m->nv);
@@ -79,11 +84,12 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   memset(x, 0, sizeof(double) * (size_t)l.nx);
   status = frot_initial_values(m, s, w, t, x, x + m->nq);
   if (status != FROT_OK) return status;
-  status = frot_resolve(m, s, w, t, x, x + m->nq, 1, NULL);
-  if (status != FROT_OK) return status;
-  frot_make_instant(m, s, t, x);
+  status = frot_happen(m, s, w, t, x, x + m->nq, 1, NULL);
+  if (status != FROT_OK && status != FROT_TERMINATED) return status;
+  frot_make_instant(m, s, w, t, x);
   s->energy_scale = 0;
   s->energy = energy_now(m, s, w, x);
+  if (status == FROT_TERMINATED) return FROT_OK; /* told by the first frot_advance */
   status = frot_first_step(m, s, w);
   if (status != FROT_OK) return status;
   s->phase = FROT_RUNNING;
@@ -91,65 +97,102 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
 }
 
 /* Conditions whose value has changed sign without the motion passing through it. */
-static void fire_changed_conditions(const frot_model *m, frot_state *s, frot_work *w) {
+static int fire_changed_conditions(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   const double *x = s->data + l.x, *d = s->data + l.d;
-  frot_kinematics(m, s, w, s->t, x, x + m->nq, d);
+  int status = frot_kinematics(m, s, w, s->t, x, x + m->nq, d);
+  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, s->t);
   for (int j = 0; j < m->n_conditions; j++) {
     int holds = m->condition_strict[j] ? w->condition[j] > 0 : w->condition[j] >= 0;
     s->data[l.fired + FROT_GUARDS * m->n_contacts + j] = holds != (d[j] != 0);
   }
+  return FROT_OK;
 }
 
 static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
+  if (s->phase == FROT_ENDED) return FROT_TERMINATED;
   if (s->phase != FROT_RUNNING || !s->changed) return s->fault.status;
   frot_bind_work(m, w);
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   double *x = w->z1;
   frot_interpolate(m, &g, s->t, x);
+  frot_guess_unknowns(m, w, &g, s->t);
   double before = energy_now(m, s, w, x);
   s->changed = 0;
-  int status = frot_settle_parameters(m, s, w, NULL);
-  if (status != FROT_OK) return status;
   memcpy(s->data + l.x, x, sizeof(double) * (size_t)l.nx);
   x = s->data + l.x;
-  memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
-  fire_changed_conditions(m, s, w);
-  status = frot_resolve(m, s, w, s->t, x, x + m->nq, 0, recorder);
+  int status = frot_settle_parameters(m, s, w, NULL);
   if (status != FROT_OK) return status;
-  frot_make_instant(m, s, s->t, x);
-  s->energy += energy_now(m, s, w, x) - before;
+  memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
+  status = fire_changed_conditions(m, s, w);
+  if (status != FROT_OK) return status;
+  double events = s->energy; /* what the text's events change is added there */
+  status = frot_happen(m, s, w, s->t, x, x + m->nq, 0, recorder);
+  if (status != FROT_OK && status != FROT_TERMINATED) return status;
+  frot_make_instant(m, s, w, s->t, x);
+  s->energy = events + energy_now(m, s, w, x) - before;
   s->pending = 0;
-  return FROT_OK;
+  return status;
 }
 
 int frot_settle(const frot_model *m, frot_state *s, frot_work *w) { return settle(m, s, w, NULL); }
 
+/* What the guards fired at the end of the segment bring about. */
+static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
+                         frot_recorder *recorder) {
+  frot_layout l = frot_layout_of(m);
+  double *x = s->data + l.x, t = *frot_segment_at(m, s->data + l.segment).t1;
+  memcpy(w->y, s->data + l.y, sizeof(double) * (size_t)m->ny);
+  int status = frot_happen(m, s, w, t, x, x + m->nq, 0, recorder);
+  memcpy(s->data + l.y, w->y, sizeof(double) * (size_t)m->ny);
+  frot_tell(m, s, recorder);
+  if (status != FROT_TERMINATED) return status;
+  s->t = t;
+  frot_make_instant(m, s, w, t, x);
+  return status;
+}
+
+/* The text has ended the run: its last instant is a segment of its own. */
+static int end_of_run(const frot_model *m, frot_state *s, frot_recorder *recorder) {
+  frot_layout l = frot_layout_of(m);
+  if (recorder && recorder->segments && !s->ended_recorded) {
+    if (recorder->segment_count >= recorder->segment_capacity) return FROT_FULL;
+    memcpy(recorder->segments + recorder->segment_count * l.ns, s->data + l.segment,
+           sizeof(double) * (size_t)l.ns);
+    recorder->segment_count++;
+    s->ended_recorded = 1;
+  }
+  frot_tell(m, s, recorder);
+  return FROT_TERMINATED;
+}
+
 int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
                  frot_recorder *recorder, frot_monitor monitor, void *context) {
   if (s->phase == FROT_FAULTED) return s->fault.status;
+  if (s->phase == FROT_ENDED) return end_of_run(m, s, recorder);
   if (s->phase != FROT_RUNNING || !(t >= s->t)) return FROT_MISUSE;
   frot_bind_work(m, w);
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
-  double *x = s->data + l.x;
   if (s->changed) {
     int status = settle(m, s, w, recorder);
+    if (status == FROT_TERMINATED) return end_of_run(m, s, recorder);
     if (status != FROT_OK) return status;
   }
   while (*g.t1 <= t) {
     if (recorder && (recorder->event_count + frot_events_at_once(m) > recorder->event_capacity ||
                      (recorder->segments && recorder->segment_count >= recorder->segment_capacity)))
       return FROT_FULL;
-    frot_tell_start(m, s, recorder);
+    frot_tell(m, s, recorder);
     int status = FROT_OK;
     if (s->pending) {
       if (++s->crowded > CROWD)
         status = frot_fail(s, FROT_CHATTER, *g.t1, -1, -1, -1, s->crowded);
       else
-        status = frot_resolve(m, s, w, *g.t1, x, x + m->nq, 0, recorder);
+        status = happen_at_end(m, s, w, recorder);
       s->pending = s->has_slope = 0;
+      if (status == FROT_TERMINATED) return end_of_run(m, s, recorder);
     }
     long long steps = s->statistics.steps;
     if (status == FROT_OK) status = frot_step(m, s, w);
@@ -178,6 +221,7 @@ int frot_energy(const frot_model *m, frot_state *s, frot_work *w, double balance
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   frot_interpolate(m, &g, s->t, w->z1);
+  frot_guess_unknowns(m, w, &g, s->t);
   double mechanical = energy_now(m, s, w, w->z1);
   double dissipated = w->z1[m->nq + m->nv], work = w->z1[m->nq + m->nv + 1];
   balance[0] = mechanical - s->energy + dissipated - work;

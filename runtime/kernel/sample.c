@@ -1,6 +1,7 @@
 /* Values of the variables: at the time reached, and anywhere in recorded segments. */
 #include <string.h>
 
+#include "blocks.h"
 #include "mechanics.h"
 #include "state.h"
 #include "step.h"
@@ -9,13 +10,12 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
                      double t, double *values) {
   double *x = w->z1;
   frot_interpolate(m, g, t, x);
+  frot_guess_unknowns(m, w, g, t);
   const double *q = x, *v = x + m->nq;
   long long evaluations = s->statistics.evaluations;
-  int status = frot_dynamics(m, s, w, t, q, v, g->d, g->modes);
-  if (status == FROT_OK && frot_reactions(m, w, g->modes, NULL)) status = FROT_DIVERGE;
+  int status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, 1);
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
   if (status != FROT_OK) return status;
-  frot_accelerations(m, w, g->frozen);
   frot_inputs(m, s, w, &t, q, v, g->d);
   w->arg[7] = w->a, w->arg[8] = w->lam, w->arg[9] = x + m->nq + m->nv;
   w->res[0] = values;
@@ -29,7 +29,7 @@ int frot_values(const frot_model *m, frot_state *s, frot_work *w, double *values
   frot_bind_work(m, w);
   frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
   int status = values_in(m, s, w, &g, s->t, values);
-  if (status != FROT_OK && s->phase == FROT_RUNNING) frot_fail(s, status, s->t, -1, -1, -1, 0);
+  if (status != FROT_OK && s->phase == FROT_RUNNING) frot_fail_evaluation(s, w, status, s->t);
   return status;
 }
 

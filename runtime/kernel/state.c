@@ -11,12 +11,16 @@ typedef char frot_mode_fills_double[sizeof(frot_contact_mode) == sizeof(double) 
 
 frot_layout frot_layout_of(const frot_model *m) {
   frot_layout l;
-  l.nw = m->nv + m->na + m->nc;
+  l.nm = m->nv + m->na;
+  l.nw = l.nm + m->nc;
   l.nx = m->nq + m->nv + FROT_QUADRATURES;
   l.ng = FROT_GUARDS * m->n_contacts + m->n_conditions;
   l.nz = l.nx + l.ng;
   l.nd = m->n_conditions + m->n_contacts + m->n_discrete;
-  l.ns = 3 + m->n_contacts + l.nd + m->nv + l.nx + DP_DENSE * l.nx;
+  l.ns = 3 + m->n_contacts + l.nd + m->nv + 2 * m->ny + l.nx + DP_DENSE * l.nx;
+  l.early = 0;
+  for (int i = 0; i < m->n_blocks; i++)
+    if (!m->blocks[i].late) l.early += m->blocks[i].count;
   int at = 0;
   l.set = at, at += m->np;
   l.given = at, at += m->np;
@@ -25,11 +29,16 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.experiment = at, at += 4;
   l.unilateral = at, at += m->n_contacts;
   l.x = at, at += l.nx;
+  l.y = at, at += m->ny;
   l.slope = at, at += l.nz;
   l.scale_x = at, at += l.nx;
   l.scale_g = at, at += l.ng;
+  l.noise = at, at += m->nq + m->nv;
+  l.push_v = at, at += m->nv;
+  l.along = at, at += 2 * m->n_contacts;
   l.fired = at, at += l.ng;
   l.left = at, at += 2 * m->n_contacts;
+  l.asked = at, at += m->n_outcomes;
   l.modes = at, at += m->n_contacts;
   l.d = at, at += l.nd;
   l.frozen = at, at += m->nv;
@@ -52,6 +61,8 @@ frot_segment frot_segment_at(const frot_model *m, double *data) {
   s.modes = (frot_contact_mode *)(void *)data, data += m->n_contacts;
   s.d = data, data += l.nd;
   s.frozen = data, data += m->nv;
+  s.y0 = data, data += m->ny;
+  s.y1 = data, data += m->ny;
   s.x0 = data, data += l.nx;
   s.f = data;
   return s;
@@ -103,27 +114,49 @@ static frot_callable scratch_of_all(const frot_model *m) {
 static size_t bind(const frot_model *m, frot_work *w, char *base) {
   frot_layout l = frot_layout_of(m);
   frot_callable most = scratch_of_all(m);
-  int nr = m->n_rows, nc = m->n_contacts;
-  int ne = (m->n_position > m->n_velocity ? m->n_position : m->n_velocity) + nr + nc;
+  int nr = m->n_rows, nc = m->n_contacts, ni = m->n_invariants, nb = 0;
+  int ne = (m->n_position > m->n_velocity ? m->n_position : m->n_velocity) + nr + nc + ni;
+  int wide = ni > 0 ? m->nq + m->nv : m->nq;
+  if (l.nw > wide) wide = l.nw;
   int big = ne > l.nw ? ne : l.nw;
-  if (nr > big) big = nr;
+  for (int i = 0; i < m->n_blocks; i++)
+    if (m->blocks[i].count > nb) nb = m->blocks[i].count;
   arena a = {base, sizeof(frot_work)};
+  w->layout = l;
+  w->pins = 0;
+  for (int i = 0; i < nc; i++) w->pins += m->contacts[i].bound == FROT_BY_PIN;
   TAKE(arg, most.n_arg), TAKE(res, most.n_res), TAKE(iw, most.n_iw), TAKE(w, most.n_w);
-  TAKE(pivot, big);
-  TAKE(y, m->ny), TAKE(residual_y, m->ny * ne);
+  TAKE(pivot, big > wide ? big : wide);
+  TAKE(y, m->ny), TAKE(y_end, m->ny);
+  TAKE(block_r, nb), TAKE(block_j, nb * nb), TAKE(block_lu, nb * nb), TAKE(block_size, 2 * nb);
+  TAKE(block_step, 2 * nb), TAKE(block_scale, nb * nb + 5 * nb), TAKE(block_pivot, nb);
   TAKE(qd, m->nq), TAKE(mass, l.nw * l.nw), TAKE(h, l.nw), TAKE(rows, l.nw * nr), TAKE(c, nr);
   TAKE(rate, nr), TAKE(gap, nc), TAKE(condition, m->n_conditions), TAKE(coefficient, 3 * nc);
   TAKE(power, 1), TAKE(distance, nc);
-  TAKE(factor, l.nw * l.nw), TAKE(force, l.nw), TAKE(half_rows, l.nw * nr);
+  TAKE(factor, l.nm * l.nm), TAKE(force, l.nw), TAKE(half_rows, l.nw * nr);
+  int ng = m->general ? l.nw : 0;
+  TAKE(effect, ng * nr), TAKE(metric, m->general ? l.nm * l.nm : 0), TAKE(lu, ng * ng);
+  TAKE(lu_scale, 2 * ng), TAKE(free_motion, 2 * ng), TAKE(response, ng * nr), TAKE(lu_pivot, ng);
   TAKE(delassus, nr * nr), TAKE(free, nr), TAKE(row_load, nr), TAKE(lam, nr), TAKE(a, l.nw);
-  TAKE(active, big * big), TAKE(right, big), TAKE(lstsq, 2 * big * big + 6 * big);
-  TAKE(row_of, nr + nc), TAKE(guard, l.ng), TAKE(k, DP_ALL * l.nz);
+  TAKE(ratio, 2 * nc), TAKE(clamp, 2 * nc), TAKE(along, 2 * nc);
+  TAKE(active, big * (big > wide ? big : wide)), TAKE(right, big);
+  int least = big < wide ? big : wide;
+  TAKE(lstsq, 2 * big * big + 6 * big + 4 * wide + least * wide);
+  TAKE(row_of, nr + nc), TAKE(contact_of, nr), TAKE(kind, nr), TAKE(weight, nr), TAKE(guard, l.ng),
+      TAKE(k, DP_ALL * l.nz);
   TAKE(change, m->nq), TAKE(own_size, m->nq), TAKE(largest_alike, m->nq);
   TAKE(implicit, frot_implicit_doubles(m)), TAKE(implicit_pivot, frot_implicit_integers(m));
   TAKE(z0, l.nz), TAKE(z1, l.nz), TAKE(ztry, l.nz), TAKE(f, DP_DENSE * l.nz);
   int nvar = m->np > l.nw ? m->np : l.nw;
   TAKE(values, nvar + m->n_checks + m->nq + m->nv + m->n_loads + 4);
-  TAKE(jacobian, l.nw * ne), TAKE(residual, ne + l.nw), TAKE(size, ne), TAKE(step, l.nw + ne);
+  TAKE(jacobian, wide * ne), TAKE(residual, ne + l.nw), TAKE(size, ne);
+  TAKE(step, wide + l.nw + ne);
+  int asked = m->n_position + m->n_velocity > 0 ? l.early : 0;
+  TAKE(residual_y, m->ny * ne), TAKE(slopes, (m->nq + m->nv) * asked);
+  TAKE(slopes_y, asked * asked + 3 * asked), TAKE(slopes_pivot, asked), TAKE(unit, wide);
+  TAKE(position_factor, m->nv * m->nv);
+  TAKE(rose, m->n_conditions), TAKE(firing, m->n_whens), TAKE(outcome, m->n_outcomes);
+  TAKE(condition_before, m->n_conditions), TAKE(discrete, m->n_discrete);
   TAKE(trial, nc), TAKE(best, nc), TAKE(before, nc);
   TAKE(best_acceleration, nr), TAKE(choice, 4 * nc), TAKE(component, nc);
   return a.used;
@@ -135,6 +168,13 @@ size_t frot_work_size(const frot_model *model) {
   frot_work counted;
   return bind(model, &counted, NULL);
 }
+
+void frot_rows_of(const frot_contact *contact, int rows[FROT_ROWS]) {
+  rows[0] = contact->row_n, rows[1] = contact->row_n2;
+  rows[2] = contact->row_t, rows[3] = contact->row_r;
+}
+
+int frot_has_normal(const frot_contact *contact) { return contact->bound == FROT_BY_NORMAL; }
 
 int frot_mode_value(const frot_contact_mode *mode) {
   if (!mode->closed) return FROT_MODE_OPEN;
@@ -157,6 +197,19 @@ void frot_state_clear(const frot_model *m, frot_state *s) {
   s->fault = (frot_fault){FROT_OK, -1, -1, -1, 0, 0};
   for (int i = 0; i < m->np; i++) s->data[l.given + i] = s->data[l.p + i] = m->p_default[i];
   for (int i = 0; i < m->nu; i++) s->data[l.u + i] = m->u_default[i];
+  for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
+  frot_contact_mode *modes = (void *)(s->data + l.modes);
+  frot_segment g = frot_segment_at(m, s->data + l.segment);
+  for (int i = 0; i < m->n_contacts; i++)
+    modes[i].closed = g.modes[i].closed = (signed char)!frot_has_normal(&m->contacts[i]);
+}
+
+/* Whether a mode is one that the element can have. */
+static int mode_valid(const frot_contact *contact, const frot_contact_mode *mode) {
+  return (mode->closed == 1 || (mode->closed == 0 && frot_has_normal(contact))) &&
+         mode->side >= -1 && mode->side <= 1 && mode->friction >= 0 && mode->friction <= 3 &&
+         mode->rolling >= 0 && mode->rolling <= 3 && (mode->friction == 0 || contact->row_t >= 0) &&
+         (mode->rolling == 0 || contact->row_r >= 0);
 }
 
 int frot_state_valid(const frot_model *m, const void *block, size_t size) {
@@ -165,19 +218,17 @@ int frot_state_valid(const frot_model *m, const void *block, size_t size) {
   if (size != frot_state_size(m) || s->magic != FROT_MAGIC || s->version != FROT_LAYOUT_VERSION ||
       s->size != size || strncmp(s->key, m->key, FROT_KEY - 1) != 0)
     return 0;
-  if (s->phase < FROT_CLEARED || s->phase > FROT_FAULTED) return 0;
+  if (s->phase < FROT_CLEARED || s->phase > FROT_ENDED) return 0;
   if (!isfinite(s->t) || !isfinite(s->h) || !isfinite(s->h_max) || !isfinite(s->tolerance))
     return 0;
   if (s->implicit < 0 || s->implicit > m->has_jacobian) return 0;
   if (s->fault.contact < -1 || s->fault.contact >= m->n_contacts) return 0;
+  if (s->phase == FROT_ENDED && (s->outcome < 0 || s->outcome >= m->n_outcomes)) return 0;
   const frot_contact_mode *modes = (const void *)(s->data + l.modes);
   frot_segment g = frot_segment_at(m, (double *)(s->data + l.segment));
-  for (int i = 0; i < 2 * m->n_contacts; i++) {
-    const frot_contact_mode *mode = i < m->n_contacts ? modes + i : g.modes + i - m->n_contacts;
-    if (mode->closed < 0 || mode->closed > 1 || mode->side < -1 || mode->side > 1 ||
-        mode->friction < 0 || mode->friction > 3 || mode->rolling < 0 || mode->rolling > 3)
+  for (int i = 0; i < m->n_contacts; i++)
+    if (!mode_valid(&m->contacts[i], modes + i) || !mode_valid(&m->contacts[i], g.modes + i))
       return 0;
-  }
   return 1;
 }
 

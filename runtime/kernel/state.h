@@ -6,12 +6,12 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 1
+#define FROT_LAYOUT_VERSION 2
 #define FROT_KEY 72
 #define FROT_GUARDS 5      /* guards of a contact: see guards.c */
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
-enum frot_phase { FROT_CLEARED = 0, FROT_RUNNING = 1, FROT_FAULTED = 2 };
+enum frot_phase { FROT_CLEARED = 0, FROT_RUNNING = 1, FROT_FAULTED = 2, FROT_ENDED = 3 };
 
 /* Mode of one contact. As large as a double, so that segments are arrays of doubles. */
 typedef struct {
@@ -24,9 +24,10 @@ typedef struct {
 
 /* Offsets in doubles from the head of state->data, and sizes. Computed from the model. */
 typedef struct {
-  int nw, nx, nz, ng, nd, ns; /* ns: doubles of a segment */
-  int set, given, p, u, experiment, unilateral, x, slope, scale_x, scale_g, fired, left, modes, d,
-      frozen, segment, size;
+  int nw, nm, nx, nz, ng, nd, ns; /* nm: order of the metric; ns: doubles of a segment */
+  int early;                      /* unknowns of the blocks that are not late */
+  int set, given, p, u, experiment, unilateral, x, y, slope, scale_x, scale_g, noise, push_v, along,
+      fired, left, asked, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -43,6 +44,9 @@ struct frot_state {
   int implicit;                /* the next step is made by the implicit method */
   int stiff_steps, calm_steps; /* see stiffness.h */
   int patience, stay;
+  int outcome; /* the `terminate` that ended the run */
+  int untold;  /* outcomes wait to be told as events: their times are in `asked`, NaN elsewhere */
+  int ended_recorded; /* the last instant of a run that has ended is recorded */
   double crowded_since;
   double left_at; /* instant at which rest was left last: see `left` */
   double t;       /* time reached */
@@ -63,26 +67,43 @@ typedef struct {
   double *t0, *t1, *h;
   frot_contact_mode *modes;
   double *d, *frozen;
-  double *x0; /* nx: q, v, quadratures */
-  double *f;  /* DP_DENSE x nx */
+  double *y0, *y1; /* unknowns of the blocks at its ends */
+  double *x0;      /* nx: q, v, quadratures */
+  double *f;       /* DP_DENSE x nx */
 } frot_segment;
 
 struct frot_work {
+  frot_layout layout;
+  int pins; /* elements that a pin's reaction bounds */
   const double **arg;
   double **res;
   long long *iw;
   double *w;
   int *pivot;
-  double *y;          /* unknowns of the blocks */
+  double *y;     /* unknowns of the blocks: the guess before, the solution after */
+  double *y_end; /* the same at the end of a step */
+  int block;     /* the block that failed last, or -1; and why */
+  int block_singular;
+  double *block_r, *block_j, *block_lu, *block_size, *block_step, *block_scale;
+  int *block_pivot;
   double *residual_y; /* ny x equations: transposed Jacobian in y of initial values */
   /* results of `dynamics` and `kinematics` */
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power, *distance;
-  /* factor of the mass matrix, L^-1 h, L^-1 J', W and the rows' free accelerations */
-  double *factor, *force, *half_rows, *delassus, *free;
+  /* Cholesky factor of the metric; symmetric core: it is the mass matrix, with L^-1 h, L^-1 J' */
+  double *factor, *force, *half_rows;
+  /* general core: E, metric, factors of A, A^-1 h, A^-1 E */
+  double *effect, *metric, *lu, *lu_scale, *free_motion, *response;
+  int *lu_pivot;
+  double *delassus, *free;        /* W by rows, and the rows' free accelerations */
   double *row_load;               /* n_rows: acceleration of a row by the sizes of all loads */
-  double *lam, *a;                /* reactions (n_rows), accelerations (nw) */
+  double *lam, *a;                /* reactions (n_rows), solution z of the core (nw) */
+  double *ratio, *clamp;          /* 2 per contact: see reactions.c */
+  double *along;                  /* 2 per contact: direction of a pin's reaction */
   double *active, *right, *lstsq; /* the active rows' system */
   int *row_of;                    /* rows of the active system */
+  int *contact_of;                /* and the contacts they belong to */
+  unsigned char *kind;            /* and what they are */
+  double *weight;                 /* and what they weigh where they are not unique */
   double *guard;                  /* ng */
   double *k;                      /* DP_ALL x nz */
   double *z0, *z1, *ztry;         /* nz */
@@ -91,6 +112,9 @@ struct frot_work {
   double *implicit;                          /* see jacobian.h */
   int *implicit_pivot;
   double *values, *jacobian, *residual, *size, *step; /* initial values and projection */
+  double *slopes, *slopes_y, *unit, *position_factor; /* initial values: see initial.c */
+  int *slopes_pivot;
+  double *rose, *firing, *outcome, *condition_before, *discrete; /* events of the text */
   frot_contact_mode *trial, *best, *before;
   double *best_acceleration;
   int *choice, *component;
@@ -101,6 +125,12 @@ frot_layout frot_layout_of(const frot_model *model);
 /* Set the pointers of a scratch block into itself. */
 void frot_bind_work(const frot_model *model, frot_work *work);
 frot_segment frot_segment_at(const frot_model *model, double *data);
+
+/* The rows of an element: reactions that bound, slip, rolling; -1 where there is none. */
+#define FROT_ROWS 4
+void frot_rows_of(const frot_contact *contact, int rows[FROT_ROWS]);
+/* Whether an element is a contact, which can open and has a normal. */
+int frot_has_normal(const frot_contact *contact);
 
 /* Value of a liaison's variable `mode`. */
 int frot_mode_value(const frot_contact_mode *mode);

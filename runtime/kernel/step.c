@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "blocks.h"
 #include "implicit.h"
-#include "linear.h"
 #include "mechanics.h"
 #include "projection.h"
 #include "resolve.h"
@@ -31,6 +31,11 @@
 #define LOCATE_PASSES 12
 /* The first step, in longest steps: what starts from rest shows its size only as it moves. */
 #define FIRST_PART 1e-3
+/* Rejections of one step after which the rounding of its derivatives is measured. */
+#define PATIENCE 6
+/* Part by which values are moved to see what rounding does to derivatives. */
+#define NUDGE (2 * DBL_EPSILON)
+#define CHUNK 4 /* states summed together, in registers */
 /* Length of a step in which nothing moves and nothing depends on time, in longest steps. */
 #define LONG_REST 1e9
 
@@ -46,24 +51,54 @@ static int slope_at(const frot_model *m, frot_state *s, frot_work *w, const frot
                           slope);
 }
 
-/* Stages 1..12 of a step h from z0, stage 0 being there; w->z1 is the end, stage 12 its derivative.
- */
+/* sum[j] <- sum of coefficient[k] times stage k < count at state from + j, j < size <= CHUNK. */
+static void weigh(const frot_work *w, int nz, const double *coefficient, int count, int from,
+                  int size, double sum[CHUNK]) {
+  const double *slopes = w->k + from;
+  if (size == CHUNK) {
+    double a = 0, b = 0, c = 0, d = 0;
+    for (int k = 0; k < count; k++, slopes += nz) {
+      const double factor = coefficient[k];
+      a += factor * slopes[0], b += factor * slopes[1];
+      c += factor * slopes[2], d += factor * slopes[3];
+    }
+    sum[0] = a, sum[1] = b, sum[2] = c, sum[3] = d;
+    return;
+  }
+  for (int j = 0; j < size; j++) {
+    double total = 0;
+    for (int k = 0; k < count; k++) total += coefficient[k] * slopes[k * nz + j];
+    sum[j] = total;
+  }
+}
+
+/* z <- base + h * (sum of coefficient[k] times stage k < count); base may be NULL. */
+static void combine(const frot_work *w, int nz, const double *coefficient, int count, double h,
+                    const double *base, double *z) {
+  for (int from = 0; from < nz; from += CHUNK) {
+    double sum[CHUNK];
+    int size = nz - from < CHUNK ? nz - from : CHUNK;
+    weigh(w, nz, coefficient, count, from, size, sum);
+    for (int j = 0; j < size; j++) z[from + j] = (base ? base[from + j] : 0) + h * sum[j];
+  }
+}
+
+/* Stages 1..12 of a step h from z0, stage 0 being there; w->z1 is the end, stage 12 its derivative,
+ * w->y_end the unknowns of the blocks there. */
 static int run_stages(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                       double t, double h) {
   if (s->implicit) return frot_implicit_stages(m, s, w, t, h);
+  memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
   for (int i = 1; i <= DP_STAGES; i++) {
     double *z = i == DP_STAGES ? w->z1 : w->ztry;
-    for (int j = 0; j < l->nz; j++) {
-      double sum = 0;
-      for (int k = 0; k < i; k++) sum += dp_a[i][k] * w->k[k * l->nz + j];
-      z[j] = w->z0[j] + h * sum;
-    }
+    combine(w, l->nz, dp_a[i], i, h, w->z0, z);
     int status = slope_at(m, s, w, l, i == DP_STAGES ? t + h : t + dp_c[i] * h, z, stage(l, w, i));
     if (status != FROT_OK) {
       memmove(w->z1, z, sizeof(double) * (size_t)l->nx); /* where it happened */
       return status;
     }
   }
+  memcpy(w->y_end, w->y, sizeof(double) * (size_t)m->ny);
   return FROT_OK;
 }
 
@@ -90,6 +125,16 @@ static void size_own_states(const frot_model *m, const frot_state *s, frot_work 
   frot_state_sizes(m, s, w);
 }
 
+/* Error of value j that rounding alone can make in a step h: it is not followed. */
+static double rounding_of(const frot_model *m, const frot_state *s, const frot_work *w,
+                          const frot_layout *l, int j, double h) {
+  int speed = j < m->nq ? m->q_speed[j] : j - m->nq;
+  double known = NOISE * h * s->data[l->noise + j] / NUDGE;
+  if (speed < 0) return known;
+  double rounding = NOISE * h * frot_push_on(m, s, w, speed);
+  return fmax(known, j < m->nq ? h * rounding : rounding);
+}
+
 /* Estimate of the local error over its bound: at most 1 for a good step, NaN for no number. */
 static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                           double h) {
@@ -97,46 +142,53 @@ static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, cons
   size_own_states(m, s, w, l, h);
   double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
   double guard_tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
+  double e5[CHUNK], e3[CHUNK];
   for (int j = 0; j < l->nz; j++) {
+    int at = j % CHUNK, size = l->nz - j < CHUNK ? l->nz - j : CHUNK;
+    if (at == 0) {
+      weigh(w, l->nz, dp_e5, DP_STAGES + 1, j, size, e5);
+      weigh(w, l->nz, dp_e3, DP_STAGES + 1, j, size, e3);
+    }
     if (j >= m->nq + m->nv && j < l->nx) continue; /* energies follow */
-    double e5 = 0, e3 = 0, largest = 0;
-    for (int k = 0; k <= DP_STAGES; k++) {
-      double slope = w->k[k * l->nz + j];
-      e5 += dp_e5[k] * slope;
-      e3 += dp_e3[k] * slope;
-      largest = fmax(largest, fabs(slope));
-    }
-    if (largest == 0) continue;
-    e5 *= h, e3 *= h;
-    double bound;
+    if (e5[at] == 0 && e3[at] == 0) continue;
+    double bound, fifth = h * e5[at], third = h * e3[at];
     if (j < l->nx) {
-      /* a coordinate that only rounding moves is not followed */
-      int speed = j < m->nq ? m->q_speed[j] : j - m->nq;
-      double rounding = speed < 0 ? 0 : NOISE * h * s->push / w->factor[speed * (l->nw + 1)];
-      bound =
-          fmax(tolerance * size_at_start(m, s, w, l, j, h), j < m->nq ? h * rounding : rounding);
+      bound = fmax(tolerance * size_at_start(m, s, w, l, j, h), rounding_of(m, s, w, l, j, h));
     } else {
-      double size = s->data[l->scale_g + j - l->nx];
-      bound = guard_tolerance * h * fmax(largest, GUARD_LOOSEST * size);
+      double largest = GUARD_LOOSEST * s->data[l->scale_g + j - l->nx];
+      for (int k = 0; k <= DP_STAGES; k++) largest = fmax(largest, fabs(w->k[k * l->nz + j]));
+      bound = guard_tolerance * h * largest;
     }
-    double joint = sqrt(e5 * e5 + 0.01 * e3 * e3);
-    double ratio = joint > 0 ? e5 * e5 / joint / bound : joint;
+    double joint = sqrt(fifth * fifth + 0.01 * third * third);
+    double ratio = joint > 0 ? fifth * fifth / joint / bound : joint;
     if (!(ratio <= worst)) worst = ratio;
     if (isnan(worst)) break;
   }
   return worst;
 }
 
+/* What rounding of the values does to the derivatives at the start of the step, into the state. A
+ * value whose derivative is nothing but rounding would shrink the step without end. */
+static void measure_noise(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                          double t) {
+  double *slope = stage(l, w, 1), *noise = s->data + l->noise;
+  for (int pattern = 0; pattern < 2; pattern++) {
+    memcpy(w->ztry, w->z0, sizeof(double) * (size_t)l->nz);
+    for (int j = 0; j < m->nq + m->nv; j++)
+      w->ztry[j] *= 1 + (((j >> pattern) & 1) != 0 ? NUDGE : -NUDGE);
+    memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
+    if (slope_at(m, s, w, l, t, w->ztry, slope) != FROT_OK) return;
+    for (int j = 0; j < m->nq + m->nv; j++) noise[j] = fmax(noise[j], fabs(slope[j] - w->k[j]));
+  }
+}
+
 /* Vectors of the dense output of the step h into w->f (DP_DENSE x nz). Takes three evaluations. */
 static int make_dense(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                       double t, double h) {
   if (s->implicit) return frot_implicit_dense(m, s, w, t, h);
+  memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
   for (int i = DP_STAGES + 1; i < DP_ALL; i++) {
-    for (int j = 0; j < l->nz; j++) {
-      double sum = 0;
-      for (int k = 0; k < i; k++) sum += dp_a[i][k] * w->k[k * l->nz + j];
-      w->ztry[j] = w->z0[j] + h * sum;
-    }
+    combine(w, l->nz, dp_a[i], i, h, w->z0, w->ztry);
     int status = slope_at(m, s, w, l, t + dp_c[i] * h, w->ztry, stage(l, w, i));
     if (status != FROT_OK) return status;
   }
@@ -146,12 +198,8 @@ static int make_dense(const frot_model *m, frot_state *s, frot_work *w, const fr
     w->f[j] = step;
     w->f[l->nz + j] = h * start[j] - step;
     w->f[2 * l->nz + j] = 2 * step - h * (end[j] + start[j]);
-    for (int i = 0; i < 4; i++) {
-      double sum = 0;
-      for (int k = 0; k < DP_ALL; k++) sum += dp_d[i][k] * w->k[k * l->nz + j];
-      w->f[(3 + i) * l->nz + j] = h * sum;
-    }
   }
+  for (int i = 0; i < 4; i++) combine(w, l->nz, dp_d[i], DP_ALL, h, NULL, w->f + (3 + i) * l->nz);
   return FROT_OK;
 }
 
@@ -227,6 +275,11 @@ void frot_interpolate(const frot_model *m, const frot_segment *g, double t, doub
   }
 }
 
+void frot_guess_unknowns(const frot_model *m, frot_work *w, const frot_segment *g, double t) {
+  double theta = *g->h > 0 ? (t - *g->t0) / *g->h : 0;
+  for (int k = 0; k < m->ny; k++) w->y[k] = g->y0[k] + theta * (g->y1[k] - g->y0[k]);
+}
+
 static void copy_modes(frot_state *s, const frot_layout *l, const frot_model *m,
                        const frot_segment *g) {
   memcpy(g->modes, s->data + l->modes, sizeof *g->modes * (size_t)m->n_contacts);
@@ -234,12 +287,16 @@ static void copy_modes(frot_state *s, const frot_layout *l, const frot_model *m,
   memcpy(g->frozen, s->data + l->frozen, sizeof(double) * (size_t)m->nv);
 }
 
-void frot_make_instant(const frot_model *m, frot_state *s, double t, const double *x) {
+void frot_make_instant(const frot_model *m, frot_state *s, const frot_work *w, double t,
+                       const double *x) {
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   *g.t0 = *g.t1 = t;
   *g.h = 0;
   copy_modes(s, &l, m, &g);
+  memcpy(s->data + l.y, w->y, sizeof(double) * (size_t)m->ny);
+  memcpy(g.y0, w->y, sizeof(double) * (size_t)m->ny);
+  memcpy(g.y1, w->y, sizeof(double) * (size_t)m->ny);
   memcpy(g.x0, x, sizeof(double) * (size_t)l.nx);
   memset(g.f, 0, sizeof(double) * DP_DENSE * (size_t)l.nx);
   memmove(s->data + l.x, x, sizeof(double) * (size_t)l.nx);
@@ -259,11 +316,12 @@ static void note_sizes(const frot_model *m, frot_state *s, const frot_work *w, c
     s->data[l->scale_x + j] = fmax(s->data[l->scale_x + j], fabs(z[j]));
   for (int j = 0; j < l->ng; j++)
     s->data[l->scale_g + j] = fmax(s->data[l->scale_g + j], w->guard[j]);
-  s->push = fmax(s->push, sqrt(frot_dot(w->force, w->force, l->nw)));
+  frot_note_push(m, s, w);
+  const double *metric = m->general ? w->metric : w->mass;
   double kinetic = 0;
   for (int i = 0; i < m->nv; i++)
     for (int k = 0; k < m->nv; k++)
-      kinetic += 0.5 * z[m->nq + i] * w->mass[k * l->nw + i] * z[m->nq + k];
+      kinetic += 0.5 * z[m->nq + i] * metric[k * l->nm + i] * z[m->nq + k];
   s->energy_scale = fmax(s->energy_scale, kinetic);
 }
 
@@ -277,10 +335,14 @@ static int start_slope(const frot_model *m, frot_state *s, frot_work *w, const f
     return FROT_OK;
   }
   memcpy(w->z1, w->z0, sizeof(double) * (size_t)l->nx);
+  memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
   int status = slope_at(m, s, w, l, t, w->z0, stage(l, w, 0));
   if (status == FROT_OK) {
+    memcpy(s->data + l->y, w->y, sizeof(double) * (size_t)m->ny);
+    frot_turn_references(m, s, w);
     measure(m, s, w, l, w->z0);
     note_sizes(m, s, w, l, w->z0);
+    memcpy(stage(l, w, 0) + l->nx, w->ztry, sizeof(double) * (size_t)l->ng);
   }
   return status;
 }
@@ -288,6 +350,7 @@ static int start_slope(const frot_model *m, frot_state *s, frot_work *w, const f
 /* The applied force that is no number at the last evaluation (values w->z1), or -1. */
 static int wrong_load(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l) {
   double *sizes = w->ztry, *loads = w->values;
+  if (m->n_loads == 0) return -1;
   frot_inputs(m, s, w, &w->t, w->z1, w->z1 + m->nq, s->data + l->d);
   w->res[0] = sizes, w->res[1] = loads;
   m->sizes.call(w->arg, w->res, w->iw, w->w, 0);
@@ -296,15 +359,18 @@ static int wrong_load(const frot_model *m, frot_state *s, frot_work *w, const fr
   return -1;
 }
 
-/* Record a fault with what is to blame: the contact of a coefficient or the force that is no number
- * or, when the step goes to zero, the contact with the largest reaction. */
+/* Record a fault with what is to blame: a block of equations, the contact of a coefficient or the
+ * force that is no number or, when the step goes to zero, the contact with the largest reaction. */
 static int fail_at(const frot_model *m, frot_state *s, frot_work *w, int status, double t,
                    double h) {
   int blamed = -1;
   double largest = 0;
+  if (status == FROT_ALGEBRAIC || (status == FROT_NAN && w->block >= 0))
+    return frot_fail_evaluation(s, w, status, t);
   for (int i = 0; i < m->n_contacts; i++) {
     const double *k = w->coefficient + 3 * i;
-    double size = fabs(w->lam[m->contacts[i].row_n]);
+    const frot_contact *contact = &m->contacts[i];
+    double size = fabs(w->lam[contact->row_n >= 0 ? contact->row_n : contact->row_t]);
     int wrong = status == FROT_NAN ? isnan(k[0] + k[1] + k[2]) : size > largest;
     if (wrong) largest = size, blamed = i;
   }
@@ -380,7 +446,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
       ratio = NAN;
     }
     s->statistics.rejected++;
-    rejections++;
+    if (++rejections % PATIENCE == 0) measure_noise(m, s, w, &l, t);
     h *= ratio > 1 && ratio < 1e300 ? fmax(0.9 * pow(ratio, power), 1.0 / 3) : 0.25;
   }
 
@@ -402,6 +468,8 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
 
   *g.t0 = t, *g.t1 = t + h, *g.h = h;
   copy_modes(s, &l, m, &g);
+  memcpy(g.y0, s->data + l.y, sizeof(double) * (size_t)m->ny);
+  memcpy(g.y1, w->y_end, sizeof(double) * (size_t)m->ny);
   memcpy(g.x0, w->z0, sizeof(double) * (size_t)l.nx);
   for (int i = 0; i < DP_DENSE; i++)
     memcpy(g.f + i * l.nx, w->f + i * l.nz, sizeof(double) * (size_t)l.nx);
@@ -410,7 +478,11 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   double *x = s->data + l.x, *slope = s->data + l.slope;
   memcpy(x, w->z1, sizeof(double) * (size_t)l.nx);
   memcpy(slope, stage(&l, w, DP_STAGES), sizeof(double) * (size_t)l.nz);
-  int moved = frot_project(m, s, w, *g.t1, x, x + m->nq, s->data + l.d, modes_of(s, &l), NULL, 1);
+  int moved;
+  memcpy(w->y, w->y_end, sizeof(double) * (size_t)m->ny);
+  status = frot_project(m, s, w, *g.t1, x, x + m->nq, s->data + l.d, modes_of(s, &l), NULL, &moved);
+  if (status != FROT_OK) return fail_at(m, s, w, status, *g.t1, h);
+  memcpy(s->data + l.y, w->y, sizeof(double) * (size_t)m->ny);
   s->has_slope = !moved && !s->pending;
   frot_choose_next(m, s, stiff);
   if (*g.t1 > s->crowded_since + 1e-9 * s->h_max) s->crowded_since = *g.t1, s->crowded = 0;

@@ -16,6 +16,10 @@ static const char *contact_name(const frot_model *m, int contact) {
   return contact >= 0 && contact < m->n_contacts ? m->contacts[contact].name : "the model";
 }
 
+static const char *outcome_text(const frot_model *m, int outcome) {
+  return outcome >= 0 && outcome < m->n_outcomes ? m->outcomes[outcome].text : "";
+}
+
 void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_t size) {
   const char *name = contact_name(m, e->contact);
   switch (e->kind) {
@@ -32,6 +36,12 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
     case FROT_EVENT_SEVERAL:
       snprintf(text, size, "%s: %d motions are admissible at t = %.17g; taken: %s", name,
                e->solutions, e->t, mode_name(e->after));
+      return;
+    case FROT_EVENT_WARNING:
+      snprintf(text, size, "warning: %s at t = %.17g", outcome_text(m, e->contact), e->t);
+      return;
+    case FROT_EVENT_TERMINATE:
+      snprintf(text, size, "terminate: %s at t = %.17g", outcome_text(m, e->contact), e->t);
       return;
     case FROT_EVENT_ROLL_STOP:
     case FROT_EVENT_ROLL_START:
@@ -64,6 +74,22 @@ static void initial_text(const frot_model *m, const frot_fault *f, char *text, s
     snprintf(text, size,
              "the initial statement `%s` cannot hold together with the liaisons (by %.3g %s)", one,
              f->value, unit);
+}
+
+/* A block of equations without a solution. */
+static void block_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
+  const char *name = f->item >= 0 && f->item < m->n_blocks ? m->blocks[f->item].name : "a block";
+  if (f->value != 0)
+    snprintf(text, size,
+             "the equations for %s are singular at t = %.17g: they do not determine these unknowns "
+             "there; look for an equation that says the same as another, or for a factor that is "
+             "zero",
+             name, f->t);
+  else
+    snprintf(text, size,
+             "no solution of the equations for %s was found at t = %.17g: there is none near the "
+             "last values; give start values nearer to one, or keep the motion away from there",
+             name, f->t);
 }
 
 void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_t size) {
@@ -111,7 +137,18 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                "friction switch each other; change a coefficient or the starting values a little",
                f->t, (int)f->value);
       return;
+    case FROT_ALGEBRAIC:
+      block_text(m, f, text, size);
+      return;
+    case FROT_ASSERT:
+      snprintf(text, size, "%s (assertion failed at t = %.17g)", m->outcomes[f->item].text, f->t);
+      return;
     case FROT_NAN:
+      if (f->other >= 0) {
+        snprintf(text, size, "the equations for %s give no finite number at t = %.17g",
+                 m->blocks[f->other].name, f->t);
+        return;
+      }
       if (f->item >= 0) {
         snprintf(text, size, "force '%s' gives no finite number at t = %.17g",
                  m->loads[f->item].name, f->t);
@@ -137,6 +174,14 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                f->contact >= 0 ? "liaison '" : "", name, f->contact >= 0 ? "'" : "", f->t);
       return;
     case FROT_SINGULAR:
+      if (m->general) {
+        snprintf(text, size,
+                 "the equations of the motion are singular at t = %.17g: they do not determine the "
+                 "accelerations and the unknowns that go with them; give every part that can move "
+                 "a mass or an inertia, and look for an equation that says the same as another",
+                 f->t);
+        return;
+      }
       snprintf(text, size,
                "the mass matrix is singular at t = %.17g: a motion is possible that moves no mass",
                f->t);
@@ -157,6 +202,9 @@ void frot_fault_places(const frot_model *m, const frot_state *s, char *text, siz
   const char *places[3] = {"", "", ""};
   if (f->status == FROT_CHECK && f->item >= 0) places[0] = m->checks[f->item].place;
   if (f->status == FROT_NAN && f->item >= 0) places[0] = m->loads[f->item].place;
+  if (f->status == FROT_NAN && f->other >= 0) places[0] = m->blocks[f->other].place;
+  if (f->status == FROT_ALGEBRAIC && f->item >= 0) places[0] = m->blocks[f->item].place;
+  if (f->status == FROT_ASSERT && f->item >= 0) places[0] = m->outcomes[f->item].place;
   if (f->status == FROT_INITIAL) {
     if (f->item >= 0) places[0] = m->statements[f->item].place;
     if (f->other >= 0) places[1] = m->statements[f->other].place;

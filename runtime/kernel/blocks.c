@@ -1,0 +1,154 @@
+#include "blocks.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "linear.h"
+#include "mechanics.h"
+
+#define PASSES 100
+#define EXACT (4 * DBL_EPSILON) /* residual, in sizes of the terms, that is rounding */
+#define SETTLED 1e-9            /* the same, that is a solution if nothing improves it */
+#define LEAST_DAMPING 1e-12
+
+/* A block at given arguments. */
+typedef struct {
+  frot_work *w;
+  const frot_block *block;
+  double *y;
+} problem;
+
+/* Residual, its Jacobian and sizes at p->y. Returns 0, or 1 for no number. */
+static int evaluate(const problem *p) {
+  frot_work *w = p->w;
+  int n = p->block->count;
+  w->res[0] = w->block_r, w->res[1] = w->block_j, w->res[2] = w->block_size;
+  p->block->residual.call(w->arg, w->res, w->iw, w->w, 0);
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += w->block_r[i] - w->block_r[i];
+  for (int i = 0; i < n * n; i++) sum += w->block_j[i] - w->block_j[i];
+  return !(sum == 0);
+}
+
+/* The largest residual in the given sizes of the terms. */
+static double worst(const double *r, const double *size, int n) {
+  double largest = 0;
+  for (int i = 0; i < n; i++)
+    if (r[i] != 0) largest = fmax(largest, size[i] > 0 ? fabs(r[i]) / size[i] : 1);
+  return largest;
+}
+
+static int factor(const problem *p) {
+  frot_work *w = p->w;
+  int n = p->block->count;
+  memcpy(w->block_lu, w->block_j, sizeof(double) * (size_t)(n * n));
+  return frot_lu(w->block_lu, n, w->block_pivot, w->block_scale);
+}
+
+/* The Newton step into w->block_step; of least norm where the Jacobian is singular. */
+static int newton_step(const problem *p) {
+  frot_work *w = p->w;
+  int n = p->block->count, singular = factor(p);
+  double *step = w->block_step;
+  for (int i = 0; i < n; i++) step[i] = -w->block_r[i];
+  if (!singular) {
+    frot_lu_apply(w->block_lu, n, w->block_pivot, w->block_scale, step);
+    return 0;
+  }
+  memcpy(w->block_lu, w->block_j, sizeof(double) * (size_t)(n * n));
+  double *right = step + n;
+  memcpy(right, step, sizeof(double) * (size_t)n);
+  frot_least_norm(w->block_lu, right, n, n, step, w->block_scale, w->block_pivot);
+  return 1;
+}
+
+static int solve_linear(const problem *p) {
+  frot_work *w = p->w;
+  int n = p->block->count;
+  memset(p->y, 0, sizeof(double) * (size_t)n);
+  for (int pass = 0; pass < 2; pass++) { /* the second one refines */
+    if (evaluate(p)) return FROT_NAN;
+    if (pass == 0 && factor(p)) {
+      w->block_singular = 1;
+      return FROT_ALGEBRAIC;
+    }
+    frot_lu_apply(w->block_lu, n, w->block_pivot, w->block_scale, w->block_r);
+    double sum = 0;
+    for (int i = 0; i < n; i++) {
+      p->y[i] -= w->block_r[i];
+      sum += p->y[i] - p->y[i];
+    }
+    if (!(sum == 0)) return FROT_NAN;
+  }
+  return FROT_OK;
+}
+
+/* Halve the step until it improves the worst equation. Returns 1 when none does; the values are
+ * then those before. */
+static int line_search(const problem *p, double before) {
+  frot_work *w = p->w;
+  int n = p->block->count;
+  double *size = w->block_size + n, *from = w->block_step + n;
+  memcpy(size, w->block_size, sizeof(double) * (size_t)n);
+  memcpy(from, p->y, sizeof(double) * (size_t)n);
+  for (double part = 1; part > LEAST_DAMPING; part *= 0.5) {
+    for (int i = 0; i < n; i++) p->y[i] = from[i] + part * w->block_step[i];
+    if (!evaluate(p) && worst(w->block_r, size, n) < before * (1 - 0.25 * part)) return 0;
+    if (before <= SETTLED) break;
+  }
+  memcpy(p->y, from, sizeof(double) * (size_t)n);
+  return 1;
+}
+
+static int solve_nonlinear(const problem *p) {
+  frot_work *w = p->w;
+  int n = p->block->count;
+  if (evaluate(p)) return FROT_NAN;
+  for (int pass = 0; pass < PASSES; pass++) {
+    double off = worst(w->block_r, w->block_size, n);
+    if (off <= EXACT) return FROT_OK;
+    int singular = newton_step(p);
+    if (line_search(p, off)) {
+      if (off <= SETTLED) return FROT_OK;
+      w->block_singular = singular;
+      return FROT_ALGEBRAIC;
+    }
+  }
+  return FROT_ALGEBRAIC;
+}
+
+static int solve(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                 const double *v, const double *d, int late) {
+  w->block = -1;
+  for (int i = 0; i < m->n_blocks; i++) {
+    const frot_block *block = &m->blocks[i];
+    if (block->late != late) continue;
+    problem p = {w, block, w->y + block->first};
+    frot_inputs(m, s, w, &t, q, v, d);
+    w->arg[7] = w->a, w->arg[8] = w->lam;
+    w->block_singular = 0;
+    int status = block->linear ? solve_linear(&p) : solve_nonlinear(&p);
+    if (status != FROT_OK) {
+      w->block = i;
+      return status;
+    }
+  }
+  return FROT_OK;
+}
+
+int frot_solve_blocks(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                      const double *v, const double *d) {
+  return solve(m, s, w, t, q, v, d, 0);
+}
+
+int frot_solve_late(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                    const double *v, const double *d) {
+  return solve(m, s, w, t, q, v, d, 1);
+}
+
+int frot_fail_evaluation(frot_state *s, const frot_work *w, int status, double t) {
+  int item = status == FROT_ALGEBRAIC ? w->block : -1;
+  int other = status == FROT_NAN ? w->block : -1;
+  return frot_fail(s, status, t, -1, item, other, w->block_singular);
+}

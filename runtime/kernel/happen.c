@@ -1,0 +1,185 @@
+#include "happen.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "blocks.h"
+#include "mechanics.h"
+#include "record.h"
+#include "resolve.h"
+
+#define CROWD 100       /* rounds at one instant after which the conditions will not settle */
+#define UNCHANGED 1e-13 /* part of its largest size by which a condition may move by rounding */
+#define TOUCH 1e-9      /* part of the usual speed, or of the terms of a gap, that is none */
+
+typedef struct {
+  const frot_model *m;
+  frot_state *s;
+  frot_work *w;
+  frot_layout l;
+  double t, *q, *v;
+  frot_recorder *recorder;
+} instant;
+
+static frot_contact_mode *modes_of(const instant *in) {
+  return (frot_contact_mode *)(void *)(in->s->data + in->l.modes);
+}
+
+/* Which `when`s fire now, into w->firing: those whose condition rose, at the start those that hold.
+ */
+static int find_firing(const instant *in, int first) {
+  const frot_model *m = in->m;
+  const double *d = in->s->data + in->l.d;
+  int any = 0;
+  for (int i = 0; i < m->n_whens; i++) {
+    int j = m->when_condition[i];
+    int fires = first ? m->when_at_start[i] && d[j] != 0 : in->w->rose[j] != 0;
+    in->w->firing[i] = fires;
+    any |= fires;
+  }
+  return any;
+}
+
+/* Unilateral contacts that a new speed opens. One that it closes further is an impact. */
+static int release_contacts(const instant *in) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  const double *scale = in->s->data + in->l.scale_x + m->nq;
+  const double *unilateral = in->s->data + in->l.unilateral;
+  frot_contact_mode *modes = modes_of(in);
+  for (int i = 0; i < m->n_contacts; i++) {
+    const frot_contact *contact = &m->contacts[i];
+    int row = contact->row_n;
+    if (!frot_has_normal(contact) || contact->reduced || unilateral[i] == 0) continue;
+    if (!modes[i].closed) {
+      if (w->gap[i] < -TOUCH * frot_gap_size(m, w, row, in->q))
+        in->s->data[in->l.fired + FROT_GUARDS * i] = 1;
+      continue;
+    }
+    double usual = frot_row_size(m, w, row, in->v) + frot_row_size(m, w, row, scale);
+    if (w->rate[row] < -TOUCH * usual)
+      return frot_fail(in->s, FROT_IMPACT, in->t, i, -1, -1, w->rate[row]);
+    if (!(w->rate[row] > TOUCH * usual)) continue;
+    frot_note(in->recorder, in->s, in->t, FROT_EVENT_SEPARATION, i, frot_mode_value(&modes[i]),
+              FROT_MODE_OPEN, 1);
+    modes[i] = (frot_contact_mode){0, 1, FROT_NONE, FROT_NONE, {0}};
+  }
+  return FROT_OK;
+}
+
+/* Terminations and warnings are kept until they can be told; a failed assertion is a fault. */
+static int take_outcomes(const instant *in) {
+  const frot_model *m = in->m;
+  frot_state *s = in->s;
+  int ends = 0;
+  for (int i = 0; i < m->n_outcomes; i++) {
+    if (in->w->outcome[i] == 0) continue;
+    if (m->outcomes[i].kind == FROT_OUTCOME_FAIL)
+      return frot_fail(s, FROT_ASSERT, in->t, -1, i, -1, 0);
+    s->data[in->l.asked + i] = in->t;
+    s->untold = 1;
+    if (m->outcomes[i].kind == FROT_OUTCOME_TERMINATE && !ends) ends = 1, s->outcome = i;
+  }
+  return ends ? FROT_TERMINATED : FROT_OK;
+}
+
+/* Conditions that the new values change; those of them that come to hold are in w->rose. */
+static void change_conditions(const instant *in) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  double *d = in->s->data + in->l.d;
+  const double *scale = in->s->data + in->l.scale_g + FROT_GUARDS * m->n_contacts;
+  for (int j = 0; j < m->n_conditions; j++) {
+    double value = w->condition[j], before = w->condition_before[j];
+    double rounding = UNCHANGED * scale[j] + 4 * DBL_EPSILON * fmax(fabs(value), fabs(before));
+    int holds = m->condition_strict[j] ? value > 0 : value >= 0;
+    int changes = holds != (d[j] != 0) && fabs(value - before) > rounding;
+    w->rose[j] = changes && holds;
+    if (!changes) continue;
+    d[j] = holds;
+    frot_note(in->recorder, in->s, in->t, FROT_EVENT_CONDITION, j, !holds, holds, 1);
+  }
+}
+
+/* Call `update` for the `when`s of w->firing and apply what it gives. */
+static int update(const instant *in) {
+  const frot_model *m = in->m;
+  frot_state *s = in->s;
+  frot_work *w = in->w;
+  double *d = s->data + in->l.d, *discrete = d + m->n_conditions + m->n_contacts;
+  int status =
+      frot_solution(m, s, w, in->t, in->q, in->v, d, modes_of(in), s->data + in->l.frozen, 1);
+  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, in->t);
+  double *q = w->ztry, *v = w->ztry + m->nq;
+  frot_inputs(m, s, w, &in->t, in->q, in->v, d);
+  w->arg[7] = w->a, w->arg[8] = w->lam, w->arg[9] = w->firing;
+  w->res[0] = q, w->res[1] = v, w->res[2] = w->discrete, w->res[3] = w->outcome;
+  m->update.call(w->arg, w->res, w->iw, w->w, 0);
+  if (!frot_all_finite(q, m->nq + m->nv) || !frot_all_finite(w->discrete, m->n_discrete))
+    return frot_fail(s, FROT_NAN, in->t, -1, -1, -1, 0);
+  status = take_outcomes(in);
+  if (status != FROT_OK && status != FROT_TERMINATED) return status;
+  int ended = status == FROT_TERMINATED;
+
+  status = frot_kinematics(m, s, w, in->t, in->q, in->v, d);
+  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, in->t);
+  memcpy(w->condition_before, w->condition, sizeof(double) * (size_t)m->n_conditions);
+  int moved = memcmp(in->q, q, sizeof(double) * (size_t)m->nq) != 0 ||
+              memcmp(in->v, v, sizeof(double) * (size_t)m->nv) != 0;
+  memcpy(in->q, q, sizeof(double) * (size_t)m->nq);
+  memcpy(in->v, v, sizeof(double) * (size_t)m->nv);
+  memcpy(discrete, w->discrete, sizeof(double) * (size_t)m->n_discrete);
+  status = frot_kinematics(m, s, w, in->t, in->q, in->v, d);
+  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, in->t);
+  change_conditions(in);
+  if (ended) return FROT_TERMINATED;
+  return moved ? release_contacts(in) : FROT_OK;
+}
+
+/* Fire `when`s until none fires. *fired: whether any did. */
+static int fire_whens(const instant *in, int first, int *fired) {
+  const frot_model *m = in->m;
+  frot_state *s = in->s;
+  const double *d = s->data + in->l.d;
+  double before[2], after[2];
+  *fired = 0;
+  for (int round = 0; find_firing(in, first && round == 0); round++) {
+    if (round == CROWD) return frot_fail(s, FROT_CHATTER, in->t, -1, -1, -1, round);
+    int status = FROT_OK;
+    if (round == 0) status = frot_energies(m, s, in->w, in->t, in->q, in->v, d, before);
+    if (status != FROT_OK) return frot_fail_evaluation(s, in->w, status, in->t);
+    *fired = 1;
+    status = update(in);
+    if (status != FROT_OK) return status;
+  }
+  if (!*fired) return FROT_OK;
+  /* what the text gives or takes is no part of the balance of the motion */
+  int status = frot_energies(m, s, in->w, in->t, in->q, in->v, d, after);
+  if (status != FROT_OK) return frot_fail_evaluation(s, in->w, status, in->t);
+  s->energy += after[0] + after[1] - before[0] - before[1];
+  return FROT_OK;
+}
+
+static int end_run(const instant *in) {
+  in->s->phase = FROT_ENDED;
+  memset(in->s->data + in->l.fired, 0, sizeof(double) * (size_t)in->l.ng);
+  return FROT_TERMINATED;
+}
+
+int frot_happen(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
+                int first, frot_recorder *recorder) {
+  frot_layout l = frot_layout_of(m);
+  instant in = {m, s, w, l, t, q, v, recorder};
+  const double *d = s->data + l.d;
+  int fired = 0, status = FROT_OK;
+  if (first) status = frot_resolve(m, s, w, t, q, v, 1, recorder);
+  if (status != FROT_OK) return status;
+  for (int j = 0; j < m->n_conditions; j++)
+    w->rose[j] = s->data[l.fired + FROT_GUARDS * m->n_contacts + j] != 0 && d[j] == 0;
+  frot_flip_conditions(m, s, t, recorder);
+  if (m->n_whens > 0) status = fire_whens(&in, first, &fired);
+  if (status == FROT_TERMINATED) return end_run(&in);
+  if (status != FROT_OK) return status;
+  return first && !fired ? FROT_OK : frot_resolve(m, s, w, t, q, v, first, recorder);
+}

@@ -1,0 +1,111 @@
+#include "invariants.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "linear.h"
+#include "projection.h"
+
+#define PASSES 5
+#define ROUNDING (4 * DBL_EPSILON) /* residual, in sizes of the terms, that is none */
+#define LEAST_SIZE 1e-3            /* of the largest size of its kind, for a state still small */
+
+/* Units in which the changes of the states are measured, into w->unit (nq + nv): their sizes. What
+ * is frozen does not change. */
+static void find_units(const frot_model *m, const frot_state *s, frot_work *w, const double *q,
+                       const double *v) {
+  frot_layout l = frot_layout_of(m);
+  const double *frozen = s->data + l.frozen, *scale = s->data + l.scale_x;
+  int first = 0, ends[2] = {m->nq, m->nq + m->nv};
+  for (int kind = 0; kind < 2; first = ends[kind], kind++) {
+    double largest = 0;
+    for (int k = first; k < ends[kind]; k++) {
+      w->unit[k] = fmax(scale[k], fabs(kind == 0 ? q[k] : v[k - m->nq]));
+      largest = fmax(largest, w->unit[k]);
+    }
+    for (int k = first; k < ends[kind]; k++) {
+      w->unit[k] = largest > 0 ? fmax(w->unit[k], LEAST_SIZE * largest) : 1;
+      if (kind == 1 && frozen[k - m->nq] != 0) w->unit[k] = 0;
+    }
+  }
+}
+
+/* One more equation, its row (nq + nv) in `row`: scaled by the units and to length 1. Returns
+ * whether it is off by more than rounding; an equation that nothing can change is left out. */
+static int add(const frot_model *m, frot_work *w, int *n, double residual, double size) {
+  int nx = m->nq + m->nv;
+  double *row = w->jacobian + nx * *n;
+  for (int k = 0; k < nx; k++) row[k] *= w->unit[k];
+  double length = sqrt(frot_dot(row, row, nx));
+  if (!(length > 0)) return 0;
+  for (int k = 0; k < nx; k++) row[k] /= length;
+  w->residual[(*n)++] = residual / length;
+  return fabs(residual) > ROUNDING * size;
+}
+
+/* The equations into w->jacobian, by rows, and w->residual; returns whether one is off. */
+static int list_equations(const frot_model *m, frot_state *s, frot_work *w, double t,
+                          const double *q, const double *v, const double *d,
+                          const frot_contact_mode *modes, const unsigned char *stuck, int *n) {
+  int nx = m->nq + m->nv, nw = m->nv + m->na + m->nc, off = 0;
+  double *g = w->right, *size = w->size;
+  *n = 0;
+  frot_inputs(m, s, w, &t, q, v, d);
+  w->res[0] = g, w->res[1] = w->jacobian, w->res[2] = size;
+  m->invariants.call(w->arg, w->res, w->iw, w->w, 0);
+  for (int i = 0; i < m->n_invariants; i++) {
+    double *row = w->jacobian + nx * *n;
+    memmove(row, w->jacobian + nx * i, sizeof(double) * (size_t)nx);
+    off |= add(m, w, n, g[i], size[i]);
+  }
+  for (int i = 0; i < m->n_contacts; i++) {
+    const frot_contact *contact = &m->contacts[i];
+    if (!modes[i].closed || contact->reduced || contact->row_n < 0) continue;
+    double *row = w->jacobian + nx * *n;
+    memset(row, 0, sizeof(double) * (size_t)nx);
+    for (int k = 0; k < m->nq; k++)
+      if (m->q_speed[k] >= 0) row[k] = w->rows[nw * contact->row_n + m->q_speed[k]];
+    off |= add(m, w, n, w->gap[i], frot_gap_size(m, w, contact->row_n, q));
+  }
+  int held = frot_holding_rows(m, w, modes, stuck, 0);
+  for (int i = 0; i < held; i++) {
+    double *row = w->jacobian + nx * *n;
+    memset(row, 0, sizeof(double) * (size_t)nx);
+    memcpy(row + m->nq, w->rows + nw * w->row_of[i], sizeof(double) * (size_t)m->nv);
+    off |= add(m, w, n, w->rate[w->row_of[i]], frot_row_size(m, w, w->row_of[i], v));
+  }
+  return off;
+}
+
+int frot_project_jointly(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
+                         double *v, const double *d, const frot_contact_mode *modes,
+                         const unsigned char *stuck, int *moved) {
+  int nx = m->nq + m->nv;
+  *moved = 0;
+  find_units(m, s, w, q, v);
+  for (int pass = 0; pass < PASSES; pass++) {
+    int n, status = frot_kinematics(m, s, w, t, q, v, d);
+    if (status != FROT_OK) return status;
+    int off = list_equations(m, s, w, t, q, v, d, modes, stuck, &n);
+    if (!frot_all_finite(w->residual, n) || !frot_all_finite(w->jacobian, n * nx)) return FROT_NAN;
+    if (!off) return FROT_OK;
+    for (int i = 0; i < n; i++)
+      for (int j = 0; j <= i; j++)
+        w->active[j * n + i] = w->active[i * n + j] =
+            frot_dot(w->jacobian + nx * i, w->jacobian + nx * j, nx);
+    double *lam = w->step;
+    frot_least_norm(w->active, w->residual, n, n, lam, w->lstsq, w->pivot);
+    for (int i = 0; i < n; i++)
+      for (int k = 0; k < nx; k++) {
+        double change = lam[i] * w->unit[k] * w->jacobian[nx * i + k];
+        if (k < m->nq)
+          q[k] -= change;
+        else
+          v[k - m->nq] -= change;
+      }
+    *moved = 1;
+  }
+  return FROT_OK;
+}
