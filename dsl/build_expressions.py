@@ -109,12 +109,12 @@ def _items(node: Any, at: Place, depth: int) -> tuple[tree.Expression, ...]:
 def _arguments(node: Any, at: Place, depth: int) -> tuple[tree.Argument, ...]:
     found = []
     for child in node.children:
-        if child.data == "named":
-            name = _expression(child.children[0], at, depth)
-            value = _expression(child.children[1], at, depth)
-            found.append(
-                tree.Argument(name, value, Span(at.source, name.span.start, value.span.end))
-            )
+        if child.data in ("named", "kept"):
+            *name, value = (_expression(c, at, depth) for c in child.children if hasattr(c, "data"))
+            final = getattr(child.children[0], "type", "") == "FINAL"
+            first = name[0] if name else value
+            span = Span(at.source, first.span.start, value.span.end)
+            found.append(tree.Argument(name[0] if name else None, value, span, final))
         else:
             value = _expression(child, at, depth)
             found.append(tree.Argument(None, value, value.span))

@@ -13,7 +13,7 @@ from frot.dsl.check_values import check_bounds
 from frot.dsl.describe import describe, listed
 from frot.dsl.dimensions import BOOLEAN, STRING, Type
 from frot.dsl.evaluation import constant
-from frot.dsl.scope import Scope, did_you_mean, near
+from frot.dsl.scope import Array, Scope, did_you_mean, near
 from frot.dsl.source import Span
 
 Bound = checked.Expression | checked.Place | checked.Liaison
@@ -182,6 +182,8 @@ def _nature(found: checked.Place) -> str:
     match found:
         case checked.CurvePlace():
             return "curve"
+        case checked.SurfacePlace():
+            return "surface"
         case checked.BodyGeometry(body=body, name=name):
             assert body.shape is not None
             return body.shape.geometry[name]
@@ -212,14 +214,14 @@ def _or(words: Sequence[str]) -> str:
 
 
 def _point(argument: Argument, node: tree.Expression, what: str, scope: Scope) -> Bound | None:
-    if isinstance(node, tree.Name | tree.Member):
+    if isinstance(node, tree.Name | tree.Member | tree.Index):
         thing = resolve(node, scope, "place")
         if thing is None:
             return None
-        if hasattr(thing, "type") and not isinstance(thing, checked.Liaison | checked.Body):
+        if isinstance(thing, checked.Expression):
             kind = vector(argument.type, scope.planar)
             if agrees(thing.type, kind):
-                return thing  # type: ignore[return-value]
+                return thing
             scope.log.report("E0301", f"expected a point, found {describe(thing.type)}", node.span)
             return None
         return _place(argument, node, what, scope)
@@ -227,8 +229,10 @@ def _point(argument: Argument, node: tree.Expression, what: str, scope: Scope) -
 
 
 def _holder(node: tree.Expression, scope: Scope) -> Bound | None:
-    if isinstance(node, tree.Name):
+    if isinstance(node, tree.Name | tree.Member | tree.Index):
         thing = resolve(node, scope, "place")
+        if isinstance(thing, Array) and scope.element is not None:
+            thing = thing.items[scope.element[0]] if len(thing.items) == scope.element[1] else thing
         if thing is None or isinstance(thing, checked.Liaison):
             return thing
         if isinstance(thing, checked.Body):

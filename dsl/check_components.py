@@ -1,177 +1,237 @@
-"""Parameters, constants, inputs and outputs."""
+"""Values that are declared: parameters, constants, inputs, outputs and variables."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from frot.dsl import checked, tree
-from frot.dsl.catalogue import TYPES
-from frot.dsl.check_expressions import agrees, expect, expression, unit_of
+from frot.dsl.check_expressions import agrees, as_integer, expression, fitting, is_whole, value_of
+from frot.dsl.check_types import Kind, modified
 from frot.dsl.check_values import computed
-from frot.dsl.describe import describe
-from frot.dsl.dimensions import STRING, Type
+from frot.dsl.describe import describe, pair, written_unit
+from frot.dsl.dimensions import Type
 from frot.dsl.evaluation import constant
-from frot.dsl.scope import Scope, did_you_mean
+from frot.dsl.indexing import element, whole_number
+from frot.dsl.modifiers import Modifier
+from frot.dsl.scope import Record, Scope
+from frot.dsl.source import Span
 
-Component = checked.Parameter | checked.Input | checked.Output
-_ROLES = ("parameter", "constant", "input", "output")
-
-
-def role(clause: tree.Component) -> str:
-    """`parameter`, `constant`, `input` or `output`; empty for a plain component."""
-    return next((w.text for w in clause.prefixes if w.text in _ROLES), "")
+Value = checked.Parameter | checked.Input | checked.Output | checked.Variable
+ROLES = ("parameter", "constant", "input", "output")
 
 
-def refused(clause: tree.Component, scope: Scope, defined: frozenset[str]) -> bool:
-    """Report a clause that cannot be kept: an unknown type, a component, a plain variable."""
-    log = scope.log
-    names = ", ".join(d.name.text for d in clause.declared)
-    written = clause.type.span.text
-    if isinstance(clause.type, tree.Index) or any(d.subscripts for d in clause.declared):
-        log.report("E0701", f"arrays are not supported yet ({names!r})", clause.span)
-        return True
-    simple = isinstance(clause.type, tree.Name) and clause.type.text in TYPES
-    if not simple:
-        head = written.split(".")[0]
-        if head in defined or "Flange" in written or not scope.knows(head):
-            if scope.knows(head) or head in defined:
-                message = f"components are not supported yet ({names!r} of type {written!r})"
-                log.report("E0701", message, clause.span)
-            return True
-        log.report(
-            "E0206",
-            f"unknown type {written!r}",
-            clause.type.span,
-            help=did_you_mean(written, (*TYPES, *defined)),
-        )
-        return True
-    for prefix in clause.prefixes:
-        if prefix.text in ("flow", "final"):
-            log.report("E0701", f"{prefix.text!r} is not supported yet here", prefix.span)
-            return True
-    if not role(clause):
-        log.report(
-            "E0701",
-            f"plain variables are not supported yet ({names!r})",
-            clause.span,
-            help=f"for a value that is computed write 'output {written} {names} = ...;'",
-        )
-        return True
-    return False
+@dataclass(frozen=True, slots=True)
+class Declared:
+    """One name with its type, its role and what is said of it from outside."""
+
+    item: tree.Declared
+    kind: Kind
+    role: str
+    modifier: Modifier | None
+    type_sizes: tuple[tree.Expression, ...] = ()
 
 
-def component(clause: tree.Component, item: tree.Declared, scope: Scope) -> Component | None:
-    """The checked parameter, constant, input or output; None after a message."""
-    assert isinstance(clause.type, tree.Name)
-    kind = TYPES[clause.type.text]
-    modifiers = _modifiers(item, scope)
-    if modifiers is None:
+def role_of(clause: tree.Component) -> str:
+    """`parameter`, `constant`, `input` or `output`; empty for a plain variable."""
+    return next((w.text for w in clause.prefixes if w.text in ROLES), "")
+
+
+def sizes(
+    subscripts: tuple[tree.Expression, ...], name: tree.Word, scope: Scope
+) -> tuple[int, ...] | None:
+    """The sizes of an array, known before the run; None after a message."""
+    found: list[int] = []
+    for node in subscripts:
+        if isinstance(node, tree.Range):
+            scope.log.report("E0304", "a size is one number", node.span)
+            return None
+        size = whole_number(node, scope, f"the size of {name.text!r}")
+        if size is None:
+            return None
+        if size < 1:
+            message = f"the size of {name.text!r} must be at least 1; it is {size}"
+            scope.log.report("E0402", message, node.span)
+            return None
+        found.append(size)
+    return tuple(found)
+
+
+def declare(what: Declared, scope: Scope) -> Value | None:
+    """The checked parameter, constant, input, output or variable; None after a message."""
+    item = what.item
+    parts = {} if what.modifier is None else what.modifier.parts
+    kind = modified(what.kind, parts, scope)
+    shape = sizes((*what.type_sizes, *item.subscripts), item.name, scope)
+    if kind is None or shape is None:
         return None
-    factor: float | None = None
-    if "unit" in modifiers:
-        given = modifiers["unit"]
-        if not isinstance(given.value, tree.Text):
-            scope.log.report("E0302", "a unit is given as a text: 'unit = \"N.m\"'", given.span)
-            return None
-        unit = unit_of(given.value.value, given.value.span, scope)
-        if unit is None:
-            return None
-        kind, factor = Type("real", unit.dimension), unit.factor
-    match role(clause):
-        case "input":
-            return _input(item, kind, clause.type.text, modifiers.get("start"), scope)
-        case "output":
-            return _output(item, kind, clause.type.text, scope)
-        case word:
-            return _parameter(item, kind, clause.type.text, factor, word == "constant", scope)
+    if shape:
+        for count in shape:
+            scope.build.grow(count, item.span)
+        kind = Kind(kind.type.of_shape(shape), kind.name, kind.unit, kind.factor, kind.start)
+    is_top = scope.instance is scope.build.root
+    if what.role in ("parameter", "constant"):
+        return _parameter(what, kind, scope)
+    if what.role == "input" and is_top:
+        return _input(what, kind, scope)
+    if what.role == "output" and is_top and item.value is not None:
+        return _output(what, kind, scope)
+    return _variable(what, kind, is_top and what.role == "output", scope)
 
 
-def _modifiers(item: tree.Declared, scope: Scope) -> dict[str, tree.Argument] | None:
-    found: dict[str, tree.Argument] = {}
-    for argument in item.modifiers:
-        name = argument.name.text if isinstance(argument.name, tree.Name) else ""
-        if name not in ("start", "unit"):
-            message = f"the modifier {argument.span.text!r} is not supported yet"
-            scope.log.report("E0701", message, argument.span)
-            return None
-        found[name] = argument
+def given_value(
+    modifier: Modifier | None, kind: Kind, scope: Scope
+) -> tuple[checked.Expression | None, tree.Expression | None]:
+    """The value a modifier gives, for this item of an array, and its text; None after a message."""
+    if modifier is None:
+        return None, None
+    if modifier.known is not None:
+        return (modifier.known if not isinstance(modifier.known, Record) else None), None
+    node, there = modifier.value, modifier.scope
+    assert node is not None
+    if "value" not in modifier.memo:
+        modifier.memo["value"] = _raw(node, kind, there)
+    found = modifier.memo["value"]
+    if found is None:
+        return None, node
+    assert not isinstance(found, Record)
+    outer = tuple(size for _, size in modifier.picks)
+    whole = found.type.shape
+    for depth in range(len(outer), 0, -1):
+        if whole == (*outer[-depth:], *kind.type.shape):
+            for index, _ in modifier.picks[-depth:]:
+                found = element(found, index, found.span)
+            break
+    return fitting(found, node, kind.type, there, unit=kind.unit), node
+
+
+def _raw(node: tree.Expression, kind: Kind, scope: Scope) -> checked.Expression | None:
+    """The expression; a bare number where the type has a unit is taken in that unit."""
+    found = value_of(node, scope)
+    if isinstance(found, Record):
+        message = f"expected {describe(kind.type)}, found a record {found.of.name!r}"
+        scope.log.report("E0205", message, node.span)
+        return None
+    if found is not None and kind.factor is not None:
+        return _in_unit(found, kind)
     return found
 
 
-def _written_unit(node: tree.Expression | None) -> str:
+def _in_unit(found: checked.Expression, kind: Kind) -> checked.Expression:
+    match found:
+        case checked.Literal(value=float() as value, unit="") if found.type.dimension.is_one:
+            assert kind.factor is not None
+            one = Type("real", kind.type.dimension)
+            return checked.Literal(value * kind.factor, one, found.span, kind.unit)
+        case checked.Unary(op="-", operand=checked.Literal() as inner):
+            made = _in_unit(inner, kind)
+            return checked.Unary("-", made, made.type, found.span)
+    return found
+
+
+def _bound(what: Declared, kind: Kind, scope: Scope) -> tuple[checked.Expression | None, str, bool]:
+    """The value of a declaration, the unit it is written in, and whether there is one at all."""
+    modifier = what.modifier
+    if modifier is not None and modifier.has_value:
+        value, node = given_value(modifier, kind, scope)
+        return value, _unit(node, value), True
+    if what.item.value is None:
+        return None, "", False
+    found = _raw(what.item.value, kind, scope)
+    if found is not None and _stretches(found, kind):
+        found = _stretched(found, kind)
+    if found is not None:
+        found = fitting(found, what.item.value, kind.type, scope, unit=kind.unit)
+    return found, _unit(what.item.value, found), True
+
+
+def _stretches(found: checked.Expression, kind: Kind) -> bool:
+    """Whether one number stands for all items of an array that is declared."""
+    return bool(kind.type.shape) and agrees(found.type, kind.type.of_shape(()))
+
+
+def _stretched(found: checked.Expression, kind: Kind) -> checked.Expression:
+    for size in reversed(kind.type.shape):
+        inner = found.type
+        found = checked.Vector((found,) * size, inner.of_shape((size, *inner.shape)), found.span)
+    return found
+
+
+def _unit(node: tree.Expression | None, value: checked.Expression | None) -> str:
     while isinstance(node, tree.Prefix):
         node = node.operand
-    return node.unit if isinstance(node, tree.Number | tree.Tuple) else ""
+    if isinstance(node, tree.Number | tree.Tuple) and node.unit:
+        return node.unit
+    return written_unit(value) if isinstance(value, checked.Literal) else ""
 
 
-def _typed(
-    node: tree.Expression, kind: Type, factor: float | None, scope: Scope
-) -> checked.Expression | None:
-    """The value of a declaration; a bare number under `unit = "..."` is taken in that unit."""
-    if kind.base == "integer":
-        return _integer(node, scope)
-    number = node.operand if isinstance(node, tree.Prefix) else node
-    if factor is None or not isinstance(number, tree.Number) or number.unit:
-        return expect(node, kind, scope)
-    value = number.value * factor * (-1 if isinstance(node, tree.Prefix) and node.op == "-" else 1)
-    return checked.Literal(value, kind, node.span)
+# ------------------------------------------------------------------ the four roles
 
 
-def _integer(node: tree.Expression, scope: Scope) -> checked.Expression | None:
-    found = expect(node, TYPES["Real"], scope, others=(TYPES["Integer"],))
-    if found is None:
-        return None
-    value = computed(found, scope)
-    if isinstance(value, float) and not value.is_integer():
-        scope.log.report("E0301", f"expected a whole number, found {value:g}", node.span)
-        return None
-    return found
-
-
-def _parameter(
-    item: tree.Declared,
-    kind: Type,
-    quantity: str,
-    factor: float | None,
-    is_constant: bool,
-    scope: Scope,
-) -> checked.Parameter | None:
-    word = "constant" if is_constant else "parameter"
-    if item.value is None:
+def _parameter(what: Declared, kind: Kind, scope: Scope) -> checked.Parameter | None:
+    item, is_constant = what.item, what.role == "constant"
+    value, unit, given = _bound(what, kind, scope)
+    if not given:
+        owner = scope.instance.name
         scope.log.report(
             "E0504",
-            f"{word} {item.name.text!r} has no value",
-            item.name.span,
-            help=f"write '{item.name.text} = ...'",
+            f"{what.role} {item.name.text!r} has no value",
+            scope.instance.span if owner else item.name.span,
+            help=f"write '{item.name.text} = ...'"
+            if not owner
+            else f"give it one: '{owner.rpartition('.')[2]}({item.name.text} = ...)'",
         )
         return None
-    value = _typed(item.value, kind, factor, scope)
     if value is None:
         return None
     moving = constant(value)
     if moving is not None:
         scope.log.report(
             "E0305",
-            f"{word} {item.name.text!r} must depend on parameters only",
+            f"{what.role} {item.name.text!r} must depend on parameters only",
             moving.span,
             caret="this varies",
         )
         return None
-    unit = _written_unit(item.value)
-    found = checked.Parameter(
-        item.name.text, kind, value, item.span, item.doc, unit, is_constant, quantity
-    )
     result = computed(value, scope)
+    name = scope.dotted(item.name.text)
+    found = checked.Parameter(
+        name, kind.type, value, item.span, item.doc, unit or kind.unit, is_constant, kind.name
+    )
     if result is not None:
         scope.values[found] = result
     return found
 
 
-def _input(
-    item: tree.Declared,
-    kind: Type,
-    quantity: str,
-    start: tree.Argument | None,
-    scope: Scope,
-) -> checked.Input | None:
+def _start(kind: Kind, scope: Scope) -> tuple[checked.Expression | None, str, bool]:
+    """The value of `start = ...`, its unit, and whether it is without fault."""
+    if kind.start is None:
+        return None, "", True
+    value, node = given_value(kind.start, _spread(kind), scope)
+    if value is None:
+        return None, "", False
+    moving = constant(value)
+    if moving is not None:
+        message = "a start value must depend on parameters only"
+        scope.log.report("E0305", message, moving.span, caret="this varies")
+        return None, "", False
+    return value, _unit(node, value), True
+
+
+def _spread(kind: Kind) -> Kind:
+    """The kind whose start is asked for: one number may stand for all items of an array."""
+    start = kind.start
+    if start is None or start.value is None or not kind.type.shape:
+        return kind
+    found = expression(start.value, start.scope) if "spread" not in start.memo else None
+    if "spread" not in start.memo:
+        start.memo["spread"] = found
+        if found is not None and _stretches(found, kind):
+            start.memo["value"] = _stretched(found, kind)
+    return kind
+
+
+def _input(what: Declared, kind: Kind, scope: Scope) -> checked.Input | None:
+    item = what.item
     if item.value is not None:
         scope.log.report(
             "E0505",
@@ -180,42 +240,89 @@ def _input(
             help=f"its first value is written '{item.name.text}(start = ...)'",
         )
         return None
-    if start is None:
-        zeros: dict[str, bool | str] = {"boolean": False, "string": ""}
-        zero = zeros.get(kind.base, 0.0)
-        first = checked.Literal(zero, kind, item.span)
-        return checked.Input(item.name.text, kind, first, item.span, item.doc, "", quantity)
-    value = expect(start.value, kind, scope)
+    value, unit, good = _start(kind, scope)
+    if not good:
+        return None
     if value is None:
-        return None
-    moving = constant(value)
-    if moving is not None:
-        scope.log.report("E0305", "a start value must depend on parameters only", moving.span)
-        return None
-    unit = _written_unit(start.value)
-    return checked.Input(item.name.text, kind, value, item.span, item.doc, unit, quantity)
+        value = zero(kind.type, item.span)
+    return checked.Input(
+        item.name.text, kind.type, value, item.span, item.doc, unit or kind.unit, kind.name
+    )
 
 
-def _output(item: tree.Declared, kind: Type, quantity: str, scope: Scope) -> checked.Output | None:
-    if item.value is None:
-        scope.log.report(
-            "E0504",
-            f"output {item.name.text!r} has no value",
-            item.name.span,
-            help=f"write '{item.name.text} = ...'",
-        )
-        return None
-    value = expression(item.value, scope)
+def zero(kind: Type, span: Span) -> checked.Expression:
+    """The value of a type where nothing is said: 0, false, an empty text."""
+    zeros: dict[str, bool | str | float] = {"boolean": False, "string": ""}
+    found: checked.Expression = checked.Literal(
+        zeros.get(kind.base, 1.0 if kind.enumeration is not None else 0.0), kind.of_shape(()), span
+    )
+    for size in reversed(kind.shape):
+        inner = found.type
+        found = checked.Vector((found,) * size, inner.of_shape((size, *inner.shape)), span)
+    return found
+
+
+def _output(what: Declared, kind: Kind, scope: Scope) -> checked.Output | None:
+    item = what.item
+    assert item.value is not None
+    value = _raw(item.value, kind, scope)
     if value is None:
         return None
-    whole = Type(kind.base, kind.dimension, value.type.shape)
-    if kind == STRING or not agrees(value.type, whole):
+    # An output of one number may be given a vector: its shape is that of its value.
+    shape = kind.type.shape or value.type.shape
+    whole = kind.type.of_shape(shape)
+    if whole.base == "integer" and is_whole(value) and whole.enumeration is None:
+        value = as_integer(value)
+    if kind.type.base == "string" or not agrees(value.type, whole):
+        wanted, shown = pair(kind.type, value.type, kind.unit, written_unit(value))
         scope.log.report(
             "E0301",
-            f"expected {describe(kind)}, found {describe(value.type)}",
+            f"expected {wanted}, found {shown}",
             item.value.span,
-            caret=describe(value.type),
+            caret=shown,
         )
         return None
-    unit = _written_unit(item.value)
-    return checked.Output(item.name.text, whole, value, item.span, item.doc, unit, quantity)
+    unit = _unit(item.value, value) or kind.unit
+    return checked.Output(item.name.text, whole, value, item.span, item.doc, unit, kind.name)
+
+
+def _variable(what: Declared, kind: Kind, is_output: bool, scope: Scope) -> checked.Variable | None:
+    item = what.item
+    if kind.type.base == "string":
+        scope.log.report(
+            "E0305",
+            f"{item.name.text!r} is a text: only a parameter or constant can be one",
+            item.span,
+            help=f"write 'parameter String {item.name.text} = ...'",
+        )
+        return None
+    start, start_unit, good = _start(kind, scope)
+    if not good:
+        return None
+    name = scope.dotted(item.name.text)
+    found = checked.Variable(
+        name,
+        kind.type,
+        item.span,
+        item.doc,
+        kind.unit or start_unit,
+        kind.name,
+        start,
+        output=is_output,
+    )
+    modifier = what.modifier
+    node = item.value
+    if modifier is not None and modifier.has_value:
+        node = modifier.value
+    elif node is None:
+        return found
+    span = node.span if node is not None else modifier.span if modifier is not None else item.span
+
+    def bind() -> None:
+        value, _, _ = _bound(what, kind, scope)
+        if value is not None:
+            left = checked.Reference(found, found.type, item.name.span)
+            scope.build.equations.append(checked.Equation(left, value, span, scope.instance.name))
+
+    scope.build.bindings.append(bind)
+    return found

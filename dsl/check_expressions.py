@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from frot.dsl import checked, tree
 from frot.dsl.check_names import kind_of, resolve
-from frot.dsl.describe import describe
-from frot.dsl.dimensions import BOOLEAN, REAL, STRING, Type
-from frot.dsl.scope import Scope
+from frot.dsl.describe import describe, pair, written_unit
+from frot.dsl.dimensions import BOOLEAN, INTEGER, REAL, STRING, Type
+from frot.dsl.scope import Instance, Record, Scope
 from frot.dsl.source import Span
 from frot.dsl.units import Unit, UnknownUnit, parse_unit
 
@@ -20,6 +21,15 @@ NUMERIC = ("real", "integer")
 
 def expression(node: tree.Expression, scope: Scope) -> checked.Expression | None:
     """The checked expression, or None after a message (or where one was already given)."""
+    found = value_of(node, scope)
+    if isinstance(found, Record):
+        _not_a_value(f"a record {found.of.name!r}", node, "name one of its members", scope)
+        return None
+    return found
+
+
+def value_of(node: tree.Expression, scope: Scope) -> checked.Expression | Record | None:
+    """As `expression`, where a whole record may stand too."""
     return _CHECKS[type(node)](node, scope)
 
 
@@ -28,21 +38,47 @@ def expect(
 ) -> checked.Expression | None:
     """The checked expression if it is of this type (or of one of `others`)."""
     found = expression(node, scope)
-    if found is None:
-        return None
+    return None if found is None else fitting(found, node, kind, scope, others=others)
+
+
+def fitting(
+    found: checked.Expression,
+    node: tree.Expression,
+    kind: Type,
+    scope: Scope,
+    *,
+    others: tuple[Type, ...] = (),
+    unit: str = "",
+) -> checked.Expression | None:
+    """The expression, or its item for one of an array declaration; None after a message.
+
+    `unit` is the one the author wrote for what is expected.
+    """
     if any(agrees(found.type, k) for k in (kind, *others)):
         return found
-    wanted = " or ".join(describe(k) for k in (kind, *others))
+    if kind.base == "integer" and kind.enumeration is None and is_whole(found):
+        return fitting(as_integer(found), node, kind, scope, others=others, unit=unit)
+    if scope.element is not None and found.type.shape[:1] == scope.element[1:]:
+        from frot.dsl.indexing import element
+
+        item = element(found, scope.element[0], found.span)
+        if any(agrees(item.type, k) for k in (kind, *others)):
+            return item
+    whole = kind.base == "integer" and agrees(found.type, Type(shape=kind.shape))
+    wanted, shown = pair(kind, found.type, unit, written_unit(found))
+    wanted = " or ".join((wanted, *(describe(k) for k in others)))
+    if whole and kind.enumeration is None:
+        wanted, shown = "a whole number", "a number that may be none"
     help_text = ""
     if isinstance(node, tree.Number) and not node.unit and kind.is_scalar:
-        help_text = f"write the unit: '{node.span.text} {kind.dimension.unit}'"
+        help_text = f"write the unit: '{node.span.text} {unit or kind.dimension.unit}'"
     elif isinstance(node, tree.Tuple) and not node.unit and found.type.dimension.is_one:
         help_text = f"write the unit after the tuple: '{node.span.text} {kind.dimension.unit}'"
     scope.log.report(
         "E0301",
-        f"expected {wanted}, found {describe(found.type)}",
+        f"expected {wanted}, found {shown}",
         node.span,
-        caret=describe(found.type),
+        caret=shown,
         help=help_text if kind.base in NUMERIC and not kind.dimension.is_one else "",
     )
     return None
@@ -50,11 +86,33 @@ def expect(
 
 def agrees(found: Type, wanted: Type) -> bool:
     """Whether a value of one type can stand where the other is wanted."""
+    if wanted.enumeration is not None:
+        return found == wanted
     if found.base in NUMERIC and wanted.base in NUMERIC:
-        if wanted.base == "integer" and found.base != "integer":
+        if found.enumeration is not None or (wanted.base == "integer" and found.base != "integer"):
             return False
         return found.dimension == wanted.dimension and found.shape == wanted.shape
     return found.base == wanted.base and found.shape == wanted.shape
+
+
+def is_whole(node: checked.Expression) -> bool:
+    """Whether an expression is a whole number by its form: `2`, `-n`, `(1, 2)`."""
+    match node:
+        case checked.Literal(value=value, type=kind):
+            written_plain = kind.dimension.is_one and not node.unit
+            return written_plain and isinstance(value, float) and value.is_integer()
+        case checked.Unary(op="-", operand=operand):
+            return is_whole(operand)
+        case checked.Vector(items=items):
+            return all(is_whole(i) for i in items)
+        case checked.If(yes=yes, no=no):
+            return is_whole(yes) and is_whole(no)
+    return node.type.base == "integer" and node.type.enumeration is None
+
+
+def as_integer(node: checked.Expression) -> checked.Expression:
+    """A whole number by its form, typed so."""
+    return replace(node, type=Type("integer", node.type.dimension, node.type.shape))
 
 
 # ------------------------------------------------------------------ literals
@@ -117,19 +175,23 @@ def _tuple(node: tree.Tuple, scope: Scope) -> checked.Expression | None:
         return found[0]
     first = found[0].type
     for written, item in zip(node.items, found, strict=True):
-        if item.type.base not in NUMERIC:
+        if item.type.base != first.base and item.type.base not in NUMERIC:
             scope.log.report("E0303", f"a tuple cannot hold {describe(item.type)}", written.span)
             return None
-        if item.type.dimension != first.dimension or item.type.shape != first.shape:
+        alike = item.type.enumeration == first.enumeration and item.type.shape == first.shape
+        if item.type.dimension != first.dimension or not alike:
+            units = written_unit(found[0]), written_unit(item)
+            before, now = pair(first, item.type, *units)
             scope.log.report(
                 "E0303",
-                f"the items of a tuple differ: {describe(first)}, then {describe(item.type)}",
+                f"the items of a tuple differ: {before}, then {now}",
                 written.span,
-                caret=describe(item.type),
+                caret=now,
                 help="give each item its unit, or one unit after the tuple: '(0, 1) m'",
             )
             return None
-    kind = Type("real", first.dimension, (len(found), *first.shape))
+    base = "real" if any(i.type.base == "real" for i in found) else first.base
+    kind = Type(base, first.dimension, (len(found), *first.shape), first.enumeration)
     return checked.Vector(tuple(found), kind, node.span)
 
 
@@ -168,51 +230,28 @@ def _factor(unit: Unit, span: Span, text: str) -> checked.Literal:
 # ------------------------------------------------------------------ names
 
 
-def _name(node: tree.Name | tree.Member, scope: Scope) -> checked.Expression | None:
+def _name(
+    node: tree.Name | tree.Member | tree.Index, scope: Scope
+) -> checked.Expression | Record | None:
     thing = resolve(node, scope, "value")
-    if thing is None:
-        return None
-    if isinstance(
-        thing,
-        checked.Body
-        | checked.Frame
-        | checked.Curve
-        | checked.Liaison
-        | checked.Force
-        | checked.BodyPoint
-        | checked.BodyGeometry
-        | checked.CurvePlace,
-    ):
-        help_text = ""
-        if isinstance(thing, checked.Body | checked.Frame | checked.BodyPoint):
-            help_text = f"name one of its variables, as '{node.span.text}.position'"
-        scope.log.report(
-            "E0205", f"{kind_of(thing)} stands where a value is needed", node.span, help=help_text
-        )
-        return None
-    return thing
+    if thing is None or isinstance(thing, checked.Expression | Record):
+        return thing
+    if isinstance(thing, Instance) and thing.of.kind == "record":
+        from frot.dsl.records import record_of
+
+        return record_of(thing, node.span, scope)
+    help_text = ""
+    if isinstance(thing, checked.Body | checked.Frame | checked.BodyPoint):
+        help_text = f"name one of its variables, as '{node.span.text}.position'"
+    elif isinstance(thing, Instance):
+        help_text = "name one of its variables"
+    _not_a_value(kind_of(thing), node, help_text, scope)
+    return None
 
 
-def _index(node: tree.Index, scope: Scope) -> checked.Expression | None:
-    operand = expression(node.operand, scope)
-    if operand is None:
-        return None
-    subscript = node.subscripts[0]
-    if len(node.subscripts) > 1 or isinstance(subscript, tree.Range):
-        scope.log.report("E0701", "slices and matrices are not supported yet", node.span)
-        return None
-    if len(operand.type.shape) != 1:
-        scope.log.report("E0304", f"{describe(operand.type)} has no index", node.span)
-        return None
-    size = operand.type.shape[0]
-    if not isinstance(subscript, tree.Number) or not subscript.integer or subscript.unit:
-        scope.log.report("E0304", "an index is a whole number", subscript.span)
-        return None
-    if not 1 <= subscript.value <= size:
-        scope.log.report("E0304", f"the index must be from 1 to {size}", subscript.span)
-        return None
-    kind = Type(operand.type.base, operand.type.dimension)
-    return checked.Element(operand, int(subscript.value) - 1, kind, node.span)
+def _not_a_value(what: str, node: tree.Expression, help_text: str, scope: Scope) -> None:
+    message = f"{what} stands where a value is needed"
+    scope.log.report("E0205", message, node.span, help=help_text)
 
 
 # ------------------------------------------------------------------ operators
@@ -237,10 +276,18 @@ def _infix(node: tree.Infix, scope: Scope) -> checked.Expression | None:
     left, right = expression(node.left, scope), expression(node.right, scope)
     if left is None or right is None:
         return None
+    if node.op == "*" and left.type.shape and right.type.shape and _are_matrices(left, right):
+        from frot.dsl.arrays import product
+
+        return product(node, left, right, scope)
     kind = _infix_type(node, left, right, scope)
     if kind is None:
         return None
     return checked.Binary(node.op, left, right, kind, node.span)
+
+
+def _are_matrices(left: checked.Expression, right: checked.Expression) -> bool:
+    return len(left.type.shape) == 2 or len(right.type.shape) == 2
 
 
 def _infix_type(
@@ -251,21 +298,28 @@ def _infix_type(
         if a == BOOLEAN and b == BOOLEAN:
             return BOOLEAN
         return _refuse(node, f"{op!r} joins two conditions", a, b, scope, "E0301")
-    if op in ("==", "<>") and a.base == b.base and a.base in ("boolean", "string"):
-        return BOOLEAN
+    if op in ("==", "<>") and a == b and a.is_scalar:
+        if a.base in ("boolean", "string") or a.enumeration is not None:
+            return BOOLEAN
+    if a.enumeration is not None or b.enumeration is not None:
+        return _refuse(node, f"{op!r} cannot be applied here", a, b, scope, "E0301")
     if a.base not in NUMERIC or b.base not in NUMERIC:
         return _refuse(node, f"{op!r} cannot be applied here", a, b, scope)
+    # Whole numbers written without a unit do not make a sum of whole numbers a real one.
+    both = is_whole(left) and is_whole(right) and "integer" in (a.base, b.base)
+    base = "integer" if both else "real"
     if op in ("+", "-", "<", "<=", ">", ">=", "==", "<>"):
         word = {"+": "add", "-": "subtract"}.get(op, "compare")
         if a.dimension != b.dimension or a.shape != b.shape:
-            return _refuse(node, f"cannot {word} these", a, b, scope, "E0301")
+            units = written_unit(left), written_unit(right)
+            return _refuse(node, f"cannot {word} these", a, b, scope, "E0301", units)
         if word == "compare":
             return BOOLEAN if a.is_scalar else _refuse(node, "vectors have no order", a, b, scope)
-        return Type("real", a.dimension, a.shape)
+        return Type(base, a.dimension, a.shape)
     if op == "*":
         if not a.is_scalar and not b.is_scalar:
             return _refuse(node, "two vectors: write 'dot(a, b)' or 'cross(a, b)'", a, b, scope)
-        return Type("real", a.dimension * b.dimension, a.shape or b.shape)
+        return Type(base, a.dimension * b.dimension, a.shape or b.shape)
     if not b.is_scalar:
         return _refuse(node, f"the right side of {op!r} is a scalar", a, b, scope)
     if op == "/":
@@ -307,10 +361,17 @@ def _known(node: checked.Expression) -> float | None:
 
 
 def _refuse(
-    node: tree.Infix, message: str, a: Type, b: Type, scope: Scope, code: str = "E0304"
+    node: tree.Infix,
+    message: str,
+    a: Type,
+    b: Type,
+    scope: Scope,
+    code: str = "E0304",
+    units: tuple[str, str] = ("", ""),
 ) -> Type | None:
     """Report operands that do not fit; there is then no type."""
-    operands = f"{describe(a)} {node.op} {describe(b)}"
+    left, right = pair(a, b, *units)
+    operands = f"{left} {node.op} {right}"
     scope.log.report(code, f"{message}: {operands}", node.span, caret=operands)
     return None
 
@@ -321,34 +382,42 @@ def _conditional(node: tree.Conditional, scope: Scope) -> checked.Expression | N
     if condition is None or yes is None or no is None:
         return None
     if not (agrees(no.type, yes.type) or agrees(yes.type, no.type)):
+        first, second = pair(yes.type, no.type, written_unit(yes), written_unit(no))
         scope.log.report(
             "E0301",
-            f"the branches differ: {describe(yes.type)}, then {describe(no.type)}",
+            f"the branches differ: {first}, then {second}",
             node.no.span,
-            caret=describe(no.type),
+            caret=second,
         )
         return None
-    return checked.If(condition, yes, no, yes.type, node.span)
+    kind = yes.type if yes.type.base != "integer" else no.type
+    return checked.If(condition, yes, no, kind, node.span)
 
 
-def _range(node: tree.Range, scope: Scope) -> None:
-    scope.log.report("E0701", "ranges are not supported yet", node.span)
+def _range(node: tree.Range, scope: Scope) -> checked.Expression | None:
+    from frot.dsl.indexing import span_of
+
+    found = span_of(node, scope, "a range")
+    if found is None:
+        return None
+    items = tuple(checked.Literal(float(n), INTEGER, node.span) for n in found)
+    return checked.Vector(items, Type("integer", shape=(len(items),)), node.span)
 
 
-def _call(node: tree.Call, scope: Scope) -> checked.Expression | None:
+def _call(node: tree.Call, scope: Scope) -> checked.Expression | Record | None:
     from frot.dsl.check_calls import call
 
     return call(node, scope)
 
 
-_CHECKS: dict[type, Callable[[Any, Scope], checked.Expression | None]] = {
+_CHECKS: dict[type, Callable[[Any, Scope], checked.Expression | Record | None]] = {
     tree.Number: _number,
     tree.Text: _text,
     tree.Truth: _truth,
     tree.Tuple: _tuple,
     tree.Name: _name,
     tree.Member: _name,
-    tree.Index: _index,
+    tree.Index: _name,
     tree.Prefix: _prefix,
     tree.Infix: _infix,
     tree.Conditional: _conditional,

@@ -7,29 +7,28 @@ from typing import cast
 from frot.dsl import checked, tree
 from frot.dsl.catalogue import FORCES, LAWS, LIAISONS, find, spellings
 from frot.dsl.check_arguments import bind
+from frot.dsl.check_expressions import expect
 from frot.dsl.check_geometry import called
+from frot.dsl.check_liaison_members import coordinates
+from frot.dsl.check_types import find_class
+from frot.dsl.check_user_kinds import check_law, check_liaison
 from frot.dsl.check_values import known
 from frot.dsl.describe import quantity
 from frot.dsl.diagnostics import Label
 from frot.dsl.scope import Scope, did_you_mean
 
 
-def liaison(node: tree.Liaison, scope: Scope, defined: frozenset[str]) -> checked.Liaison | None:
+def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison | None:
     """The checked liaison, its laws still to be given by `give_laws`; None after a message."""
-    if node.subscripts:
-        scope.log.report("E0701", "arrays of liaisons are not supported yet", node.span)
-        return None
     call = called(node.kind, "liaison", scope)
-    if node.driven is not None:
-        scope.log.report("E0701", "'driven' is not supported yet", node.driven_span)
-        return None
     if call is None:
         return None
     name, callee, arguments = call
     kind = find(LIAISONS, name)
     if kind is None:
-        if name in defined:
-            scope.log.report("E0701", "user-defined liaisons are not supported yet", callee.span)
+        defined = find_class(callee, scope)
+        if defined is not None and defined.kind == "liaison":
+            check_liaison(defined, arguments, node.kind.span, scope)
         elif scope.knows(name):
             help_text = did_you_mean(name, spellings(LIAISONS))
             word = "joint" if node.keyword == "joint" else "liaison"
@@ -48,7 +47,31 @@ def liaison(node: tree.Liaison, scope: Scope, defined: frozenset[str]) -> checke
     if not _parts_agree(node, kind.name, a, b, scope):
         return None
     options = cast("dict[str, checked.Expression]", found.values)
-    return checked.Liaison(node.name.text, kind, a, b, options, (), node.span, node.doc)
+    made = checked.Liaison(full_name, kind, a, b, options, (), node.span, node.doc)
+    if node.driven is not None:
+        _driven(node, made, scope)
+    return made
+
+
+def _driven(node: tree.Liaison, made: checked.Liaison, scope: Scope) -> None:
+    """Check `driven(angle = ...)`, then refuse it."""
+    known_coordinates = coordinates(made, scope.planar)
+    own = [c for c in made.kind.coordinates if c in known_coordinates]
+    for argument in node.driven or ():
+        name = argument.name.span.text if argument.name is not None else ""
+        if name not in own:
+            what = f"{name!r} is not a coordinate" if name else "name the coordinate that is driven"
+            scope.log.report(
+                "E0204",
+                f"{what} of liaison {made.name!r}",
+                argument.span,
+                notes=(f"its coordinates are: {', '.join(own) or 'none'}",),
+                help=did_you_mean(name, own),
+            )
+            return
+        if expect(argument.value, known_coordinates[name], scope) is None:
+            return
+    scope.log.report("E0701", "'driven' is not supported yet", node.driven_span)
 
 
 def _parts_agree(
@@ -75,6 +98,8 @@ def _root(place: checked.Place) -> checked.Body:
     match place:
         case checked.CurvePlace(curve=curve):
             owner = curve.owner
+        case checked.SurfacePlace(surface=surface):
+            owner = surface.owner
         case checked.Frame():
             owner = place
         case checked.BodyPoint(body=body) | checked.BodyGeometry(body=body):
@@ -84,9 +109,7 @@ def _root(place: checked.Place) -> checked.Body:
     return owner
 
 
-def give_laws(
-    node: tree.Liaison, to: checked.Liaison | None, scope: Scope, defined: frozenset[str]
-) -> None:
+def give_laws(node: tree.Liaison, to: checked.Liaison | None, scope: Scope) -> None:
     """Check the laws of a liaison once every name has its meaning.
 
     They may read any coordinate, that of their own liaison among them. `to` is None where the
@@ -94,7 +117,7 @@ def give_laws(
     """
     found: list[checked.Law] = []
     for written in node.laws:
-        law = _law(written, scope, defined)
+        law = _law(written, scope)
         if law is None:
             continue
         same = next((other for other in found if other.kind is law.kind), None)
@@ -107,15 +130,16 @@ def give_laws(
         object.__setattr__(to, "laws", tuple(found))
 
 
-def _law(written: tree.Expression, scope: Scope, defined: frozenset[str]) -> checked.Law | None:
+def _law(written: tree.Expression, scope: Scope) -> checked.Law | None:
     call = called(written, "law", scope)
     if call is None:
         return None
     name, callee, arguments = call
     kind = find(LAWS, name)
     if kind is None:
-        if name in defined:
-            scope.log.report("E0701", "user-defined laws are not supported yet", callee.span)
+        defined = find_class(callee, scope)
+        if defined is not None and defined.kind == "law":
+            check_law(defined, arguments, written.span, scope)
         elif scope.knows(name):
             help_text = did_you_mean(name, spellings(LAWS))
             scope.log.report("E0202", f"unknown law {name!r}", callee.span, help=help_text)
@@ -141,11 +165,8 @@ def _check_pair(values: dict[str, checked.Expression], scope: Scope) -> None:
                 )
 
 
-def force(node: tree.Force, scope: Scope) -> checked.Force | None:
+def force(node: tree.Force, full_name: str, scope: Scope) -> checked.Force | None:
     """The checked force; None after a message."""
-    if node.subscripts:
-        scope.log.report("E0701", "arrays of forces are not supported yet", node.span)
-        return None
     call = called(node.kind, "force", scope)
     if call is None:
         return None
@@ -159,4 +180,4 @@ def force(node: tree.Force, scope: Scope) -> checked.Force | None:
     found = bind(arguments, kind.arguments, name, node.kind.span, scope)
     if not found.complete:
         return None
-    return checked.Force(node.name.text, kind, found.values, node.span, node.doc)
+    return checked.Force(full_name, kind, found.values, node.span, node.doc)

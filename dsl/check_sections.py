@@ -8,12 +8,13 @@ from frot.dsl import checked, tree
 from frot.dsl.catalogue import Argument
 from frot.dsl.catalogue.types import ACCELERATION, TIME
 from frot.dsl.check_arguments import bind, word
-from frot.dsl.check_expressions import agrees, expect, expression
+from frot.dsl.check_equations import both_sides
 from frot.dsl.check_values import known
 from frot.dsl.describe import describe, quantity
-from frot.dsl.dimensions import REAL, Type
+from frot.dsl.dimensions import REAL
 from frot.dsl.evaluation import constant
 from frot.dsl.scope import Scope, did_you_mean
+from frot.dsl.sections import called_name
 from frot.dsl.source import Span
 
 _GRAVITY = Argument("gravity", ACCELERATION, required=False, sign="nonnegative")
@@ -134,31 +135,53 @@ def _check_times(values: dict[str, checked.Expression | None], scope: Scope) -> 
 # ------------------------------------------------------------------ initial
 
 
-def initial(
+def initial_statement(element: tree.Element, scope: Scope) -> None:
+    """Check a statement of the section `initial` and keep what it says."""
+    if isinstance(element, tree.IfEquation):
+        scope.log.report(
+            "E0501",
+            "an 'if' of the section 'initial' whose condition can change",
+            element.span,
+            help="use a Boolean or Integer parameter, or an expression 'if c then a else b'",
+        )
+        return
+    assert isinstance(element, tree.Equation)
+    if element.right is not None:
+        _initial(element.left, element.right, element.span, False, scope)
+        return
+    name = called_name(element)
+    if name != "guess":
+        message = f"{name!r} in the section 'initial'" if name else "this is not a statement"
+        scope.log.report("E0501", message, element.span, help="put it after the word 'equation'")
+        return
+    assert isinstance(element.left, tree.Call)
+    for argument in element.left.arguments:
+        if argument.name is None:
+            scope.log.report("E0204", "a guess is written 'guess(x = ...)'", argument.span)
+        else:
+            _initial(argument.name, argument.value, argument.span, True, scope)
+
+
+def _initial(
     left: tree.Expression, right: tree.Expression, span: Span, guess: bool, scope: Scope
-) -> checked.InitialEquation | None:
-    """The checked `left = right`; None after a message."""
-    first = expression(left, scope)
-    if first is None:
-        expression(right, scope)
-        return None
-    if first.type.base not in ("real", "integer"):
-        scope.log.report(
-            "E0301",
-            f"an initial equation is between numbers, not {describe(first.type)}",
-            left.span,
-        )
-        return None
-    wanted = Type("real", first.type.dimension, first.type.shape)
-    second = expect(right, wanted, scope)
-    if second is None or not agrees(second.type, wanted):
-        return None
-    if constant(first) is None and constant(second) is None:
-        scope.log.report(
-            "E0508",
-            "this statement holds only parameters: it determines nothing",
-            span,
-            help="name a variable of a body, a frame or a liaison on one side",
-        )
-        return None
-    return checked.InitialEquation(first, second, span, guess)
+) -> None:
+    sides = both_sides(left, right, scope)
+    for first, second in sides or ():
+        if first.type.base not in ("real", "integer"):
+            scope.log.report(
+                "E0301",
+                f"an initial equation is between numbers, not {describe(first.type)}",
+                left.span,
+                help="the first value of a condition is written where it is declared: "
+                "'Boolean b(start = true);'",
+            )
+            return
+        if constant(first) is None and constant(second) is None:
+            scope.log.report(
+                "E0508",
+                "this statement holds only parameters: it determines nothing",
+                span,
+                help="name a variable of a body, a frame or a liaison on one side",
+            )
+            return
+        scope.build.initial.append(checked.InitialEquation(first, second, span, guess))

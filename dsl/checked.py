@@ -156,7 +156,8 @@ class Parameter:
     """A parameter (tunable) or a constant; `value` may depend on other parameters.
 
     `unit` is the unit of the author's default (`mm`), for display; values are SI.
-    `quantity` is the name of its type (`Angle`).
+    `quantity` is the name of its type (`Angle`). `structural` says what the parameter decides (`the
+    size of 'r' (ladder.frot:4:3)`), and is empty for others: such a parameter is a constant too.
     """
 
     name: str
@@ -167,6 +168,7 @@ class Parameter:
     unit: str = ""
     constant: bool = False
     quantity: str = ""
+    structural: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -356,6 +358,18 @@ class Curve:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Surface:
+    """A surface on a body or frame; `ground.plane` has `span` None."""
+
+    name: str
+    owner: Body | Frame
+    kind: str
+    arguments: Mapping[str, Expression]
+    span: Span | None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class BodyPoint:
     """A named frame of a body's shape: `rod.start`; a bare body name means its `G`."""
 
@@ -381,7 +395,20 @@ class CurvePlace:
     span: Span
 
 
-Place = BodyPoint | BodyGeometry | CurvePlace | Frame
+@dataclass(frozen=True, slots=True, eq=False)
+class SurfacePlace:
+    """A surface, as an argument: `ground.plane`, `ramp`."""
+
+    surface: Surface
+    span: Span
+
+    @property
+    def name(self) -> str:
+        """The name of the surface."""
+        return self.surface.name
+
+
+Place = BodyPoint | BodyGeometry | CurvePlace | SurfacePlace | Frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)

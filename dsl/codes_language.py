@@ -63,6 +63,13 @@ _SYNTAX = {
         "Give names to its parts.",
         snippet(f"parameter Real x = {'(' * 210}1{')' * 210};"),
     ),
+    "E0109": Code(
+        "model too large",
+        "Components, scalars of arrays, equations and calls of functions are counted while the "
+        "model is made; there are 200 000 at most.",
+        "Make the arrays smaller; look for a range or a size that is not meant.",
+        snippet("parameter Real x = sum(zeros(1000000));"),
+    ),
 }
 
 _NAMES = {
@@ -114,9 +121,23 @@ _NAMES = {
     ),
     "E0208": Code(
         "declarations in a circle",
-        "Each of these needs the value of the next one, and the last that of the first.",
-        "Give one of them a value of its own.",
+        "Each of these needs the next one, and the last one the first: values of parameters, models "
+        "that hold each other, functions that call each other, bases, types.",
+        "Give one of them a value of its own, or take one of the uses away.",
         snippet("parameter Real a = b + 1;\nparameter Real b = a - 1;"),
+    ),
+    "E0210": Code(
+        "library not found",
+        "An import names a file 'Library.frot' or a folder 'Library' beside this file or among the "
+        "libraries of Frot, and what is in it.",
+        "Check the name, and put the file beside this one.",
+        "import Nowhere.Thing;\nplanar model Example\nend Example;\n",
+    ),
+    "E0211": Code(
+        "imports in a circle",
+        "A file imports another that imports it again, directly or through others.",
+        "Put what both need into a file of its own.",
+        "",
     ),
 }
 
@@ -154,6 +175,15 @@ _TYPES = {
         "not on time or on the motion.",
         "Use parameters.",
         snippet("body ball: particle(mass = time*(1 kg/(1 s)));"),
+    ),
+    "E0306": Code(
+        "sizes differ",
+        "In a declaration of several bodies, liaisons or forces, 'body b[3]: ...', an array of the "
+        "same size gives each its item. Another size has no meaning there.",
+        "Give the array the size of the declaration, or name a part of it: 'b[1:2]'.",
+        snippet(
+            "body b[3]: rod(mass = 1 kg, length = 1 m);\nliaison j[2]: rotoide(b.tip, ground);"
+        ),
     ),
 }
 
@@ -238,10 +268,10 @@ _STRUCTURE = {
         ),
     ),
     "E0508": Code(
-        "initial statement that determines nothing",
-        "An initial statement fixes a variable of the motion. This one holds only parameters and "
-        "numbers.",
-        "Name a variable of a body, a frame or a liaison.",
+        "statement that determines nothing",
+        "An equation or an initial statement determines a variable. This one holds only parameters "
+        "and numbers.",
+        "Name a variable, of a body, a frame, a liaison or of the equations.",
         snippet("parameter Length r = 1 m;", "r = 2 m;"),
     ),
     "E0509": Code(
@@ -255,6 +285,64 @@ _STRUCTURE = {
         "The text holds several models of which none is a part of another.",
         "Say which one is meant, with '--model' or model=.",
         "planar model A\nend A;\nplanar model B\nend B;\n",
+    ),
+    "E0512": Code(
+        "modification of what is final",
+        "A name declared or modified as 'final' keeps its value in every model that uses it.",
+        "Take the modifier away, or the word 'final'.",
+        'model Part\n  final parameter Real a = 1;\nequation\n  assert(a > 0, "a");\nend Part;\n'
+        "model Example\n  Part part(a = 2);\nend Example;\n",
+    ),
+    "E0513": Code(
+        "component of a partial model",
+        "A partial model is only a base: something is left open in it.",
+        "Declare a component of a model that extends it.",
+        "partial model Base\nend Base;\nmodel Example\n  Base b;\nend Example;\n",
+    ),
+    "E0514": Code(
+        "function without one output",
+        "A function gives one value: it has exactly one output, of any type.",
+        "Declare one output; put several values into a record or an array.",
+        "function f\n  input Real x;\nend f;\nmodel Example\n  parameter Real y = f(2);\n"
+        "end Example;\n",
+    ),
+    "E0515": Code(
+        "connection of unlike things",
+        "Connectors are connected if they have the same variables with the same dimensions, and "
+        "the same flows among them.",
+        "Connect connectors of one kind.",
+        "connector A\n  Real v;\n  flow Real i;\nend A;\nconnector B\n  Real v;\n  flow Force i;\n"
+        "end B;\nmodel Example\n  A a;\n  B b;\nequation\n  connect(a, b);\nend Example;\n",
+    ),
+    "E0516": Code(
+        "branches of 'if' with different numbers of equations",
+        "Where a condition can change, every branch must determine as much as the others, and "
+        "there must be an 'else'.",
+        "Give every branch as many equations.",
+        "model Example\n  Real x;\nequation\n  if time > 1 s then\n    x = 1;\n  end if;\n"
+        "end Example;\n",
+    ),
+    "E0517": Code(
+        "variable set by two 'when's",
+        "Two 'when's can fire at the same instant; which one would then decide is not said.",
+        "Join them by 'elsewhen'.",
+        "model Example\n  Integer n;\nequation\n  when time > 1 s then\n    n = 1;\n  end when;\n"
+        "  when time > 2 s then\n    n = 2;\n  end when;\nend Example;\n",
+    ),
+    "E0518": Code(
+        "no statement of 'when'",
+        "At an event discrete variables are set, 'x = value;', variables that move are set anew, "
+        "'reinit(x, value);', and 'assert' and 'terminate' may stand.",
+        "Write it as one of these.",
+        "model Example\n  Real x;\nequation\n  der(x) = 1 1/s;\n  when x > 1 then\n"
+        "    der(x) = 2 1/s;\n  end when;\nend Example;\n",
+    ),
+    "E0519": Code(
+        "'pre' of a variable that does not jump",
+        "The value before an event differs from the value after it only for variables that a "
+        "'when' sets.",
+        "Write the variable itself.",
+        "model Example\n  Real x;\nequation\n  x = pre(x) + time/(1 s);\nend Example;\n",
     ),
     "E0511": Code(
         "law on a body that cannot obey it",
@@ -273,7 +361,7 @@ _LATER = {
         "The text is right, but this version of Frot cannot turn it into equations yet. "
         "It says so rather than leaving the construct out.",
         "Write the model without it.",
-        "model Example\nend Example;\n",
+        snippet("curve c on ground: circle(radius = 1 m);"),
     ),
 }
 

@@ -2,25 +2,36 @@
 
 from __future__ import annotations
 
+from frot.dsl import checked
 from frot.dsl.catalogue import WORDS
 from frot.dsl.dimensions import Type
 
+_SAID = {"boolean": ("a condition", "conditions"), "string": ("a text", "texts")}
 
-def describe(kind: Type) -> str:
-    """`a length (m)`, `a vector of 2 velocities (m/s)`, `a condition`, `a number`."""
-    if kind.base == "boolean":
-        return "a condition"
-    if kind.base == "string":
-        return "a text"
-    unit = kind.dimension.unit
+
+def describe(kind: Type, unit: str = "") -> str:
+    """`a length (m)`, `a vector of 2 velocities (m/s)`, `a condition`, `a number`.
+
+    `unit` is shown in place of the SI unit: as the author wrote it.
+    """
+    if kind.base in _SAID:
+        one, several = _SAID[kind.base]
+        return one if kind.is_scalar else f"an array of {_size(kind)} {several}"
+    if kind.enumeration is not None:
+        one = f"of the enumeration {kind.enumeration.name!r}"
+        return f"a value {one}" if kind.is_scalar else f"an array of {_size(kind)} values {one}"
+    shown = unit or kind.dimension.unit
     word = WORDS.get(Type(dimension=kind.dimension), "")
-    tail = "" if kind.dimension.is_one else f" ({unit})"
+    tail = "" if kind.dimension.is_one and not unit else f" ({shown})"
     if kind.is_scalar:
         if not word:
-            return f"a quantity in {unit}"
+            return f"a quantity in {shown}"
         return f"{'an' if word[0] in 'aeiou' else 'a'} {word}{tail}"
-    size = "x".join(str(n) for n in kind.shape)
-    return f"a vector of {size} {word + ' items' if word else 'items'}{tail}"
+    return f"a vector of {_size(kind)} {word + ' items' if word else 'items'}{tail}"
+
+
+def _size(kind: Type) -> str:
+    return "x".join(str(n) for n in kind.shape)
 
 
 def quantity(value: float, kind: Type) -> str:
@@ -34,3 +45,30 @@ def listed(names: tuple[str, ...] | list[str], last: str = "or") -> str:
     if len(shown) < 2:
         return "".join(shown)
     return f"{', '.join(shown[:-1])} {last} {shown[-1]}"
+
+
+def written_unit(node: checked.Expression) -> str:
+    """The unit an author wrote in an expression or for what it names, or an empty text."""
+    for _ in range(20):
+        match node:
+            case checked.Literal(unit=unit):
+                return unit
+            case checked.Reference(target=target):
+                return target.unit
+            case checked.Unary(operand=inner) | checked.Element(operand=inner):
+                node = inner
+            case checked.Vector(items=items) if items:
+                node = items[0]
+            case checked.Binary(op="+" | "-", left=left):
+                node = left
+            case _:
+                return ""
+    return ""
+
+
+def pair(wanted: Type, found: Type, wanted_unit: str, found_unit: str) -> tuple[str, str]:
+    """Two types that differ, in the author's units where both sides have one."""
+    both = wanted_unit and found_unit
+    return describe(wanted, wanted_unit if both else ""), describe(
+        found, found_unit if both else ""
+    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 
 BASE = ("m", "kg", "s", "A", "K", "mol", "cd")
 
@@ -50,15 +51,39 @@ ONE = dimension()
 
 
 @dataclass(frozen=True, slots=True)
+class Enumeration:
+    """An enumeration: its name and its literals, which count from 1."""
+
+    name: str
+    literals: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Type:
     """Type of an expression: base (`real integer boolean string`), dimension and shape.
 
-    `shape` is `()` for a scalar and `(2,)` or `(3,)` for a vector.
+    `shape` is `()` for a scalar, `(2,)` or `(3,)` for a vector, `(n, m)` for a matrix.
+    The base of an enumeration is `integer`.
     """
 
     base: str = "real"
     dimension: Dimension = ONE
     shape: tuple[int, ...] = ()
+    enumeration: Enumeration | None = None
+
+    @property
+    def item(self) -> Type:
+        """The type of what one index gives."""
+        return Type(self.base, self.dimension, self.shape[1:], self.enumeration)
+
+    @property
+    def count(self) -> int:
+        """The number of scalars."""
+        return prod(self.shape)
+
+    def of_shape(self, shape: tuple[int, ...]) -> Type:
+        """The same type in another shape."""
+        return Type(self.base, self.dimension, shape, self.enumeration)
 
     @property
     def is_scalar(self) -> bool:

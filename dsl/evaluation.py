@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from frot.dsl import checked
@@ -27,45 +27,84 @@ def evaluate(expression: checked.Expression, values: Mapping[checked.Parameter, 
     by zero, an argument outside of a function's domain or a result out of range. KeyError is raised
     for a parameter that is not in `values`.
     """
+    return _value(expression, values, {})
+
+
+Known = dict[int, Value]
+
+
+def _value(
+    expression: checked.Expression, values: Mapping[checked.Parameter, object], known: Known
+) -> Value:
+    """As `evaluate`; `known` keeps what stands at several places of the tree."""
+    if isinstance(expression, checked.Literal):
+        return _literal(expression)
+    if id(expression) in known:
+        return known[id(expression)]
     try:
-        result = _EVALUATORS[type(expression)](expression, values)
+        result = _EVALUATORS[type(expression)](expression, values, known)
     except ZeroDivisionError:
         raise ValueError(f"division by zero in {expression.span.text!r}") from None
     except OverflowError:
         raise ValueError(f"{expression.span.text!r} is out of range") from None
     if isinstance(result, float) and not math.isfinite(result):
         raise ValueError(f"{expression.span.text!r} is out of range")
+    known[id(expression)] = result
     return result
+
+
+def nodes(root: checked.Expression) -> Iterator[checked.Expression]:
+    """The expression and everything in it, each object once, from left to right."""
+    seen: set[int] = set()
+    pending = [root]
+    while pending:
+        node = pending.pop()
+        if id(node) in seen:
+            continue
+        seen.add(id(node))
+        yield node
+        pending.extend(reversed(parts(node)))
+
+
+def parts(node: checked.Expression) -> tuple[checked.Expression, ...]:
+    """The expressions directly inside an expression."""
+    match node:
+        case (
+            checked.Element(operand=operand)
+            | checked.Unary(operand=operand)
+            | checked.Derivative(operand=operand)
+        ):
+            return (operand,)
+        case checked.Vector(items=items) | checked.Call(arguments=items):
+            return items
+        case checked.Binary(left=left, right=right):
+            return (left, right)
+        case checked.If(condition=condition, yes=yes, no=no):
+            return (condition, yes, no)
+    return ()
 
 
 def constant(expression: checked.Expression) -> checked.Expression | None:
     """The first part that is not constant, or None where the whole depends on parameters only."""
-    pending = [expression]
-    while pending:
-        node = pending.pop()
+    for node in nodes(expression):
         match node:
             case checked.Time() | checked.Quantity() | checked.Derivative():
                 return node
-            case checked.Reference(target=target):
-                if not isinstance(target, checked.Parameter):
-                    return node
-            case checked.Element(operand=operand) | checked.Unary(operand=operand):
-                pending.append(operand)
-            case checked.Vector(items=items) | checked.Call(arguments=items):
-                pending.extend(reversed(items))
-            case checked.Binary(left=left, right=right):
-                pending.extend((right, left))
-            case checked.If(condition=condition, yes=yes, no=no):
-                pending.extend((no, yes, condition))
+            case checked.Reference(target=target) if not isinstance(target, checked.Parameter):
+                return node
+            case checked.Call(function=function) if function not in _FUNCTIONS:
+                return node
     return None
 
 
-def _literal(node: checked.Literal, values: Mapping[checked.Parameter, object]) -> Value:
+def _literal(node: checked.Literal) -> Value:
     value = node.value
     return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
 
 
-def _reference(node: checked.Reference, values: Mapping[checked.Parameter, object]) -> Value:
+def _reference(
+    node: checked.Reference, values: Mapping[checked.Parameter, object], known: Known
+) -> Value:
     if not isinstance(node.target, checked.Parameter):
         raise NotConstant(node)
     value: Any = values[node.target]
@@ -85,36 +124,44 @@ def _plain(value: Any) -> Value:
     return float(value)
 
 
-def _moving(node: checked.Expression, values: Mapping[checked.Parameter, object]) -> Value:
+def _moving(
+    node: checked.Expression, values: Mapping[checked.Parameter, object], known: Known
+) -> Value:
     raise NotConstant(node)
 
 
-def _element(node: checked.Element, values: Mapping[checked.Parameter, object]) -> Value:
-    operand: Any = evaluate(node.operand, values)
+def _element(
+    node: checked.Element, values: Mapping[checked.Parameter, object], known: Known
+) -> Value:
+    operand: Any = _value(node.operand, values, known)
     result: Value = operand[node.index]
     return result
 
 
-def _vector(node: checked.Vector, values: Mapping[checked.Parameter, object]) -> Value:
-    return tuple(evaluate(i, values) for i in node.items)
+def _vector(
+    node: checked.Vector, values: Mapping[checked.Parameter, object], known: Known
+) -> Value:
+    return tuple(_value(i, values, known) for i in node.items)
 
 
-def _unary(node: checked.Unary, values: Mapping[checked.Parameter, object]) -> Value:
-    operand: Any = evaluate(node.operand, values)
+def _unary(node: checked.Unary, values: Mapping[checked.Parameter, object], known: Known) -> Value:
+    operand: Any = _value(node.operand, values, known)
     if node.op == "not":
         return not operand
     result: Value = _mapped(operator.neg, operand)
     return result
 
 
-def _binary(node: checked.Binary, values: Mapping[checked.Parameter, object]) -> Value:
+def _binary(
+    node: checked.Binary, values: Mapping[checked.Parameter, object], known: Known
+) -> Value:
     op = node.op
-    left: Any = evaluate(node.left, values)
+    left: Any = _value(node.left, values, known)
     if op == "and":
-        return bool(left and evaluate(node.right, values))
+        return bool(left and _value(node.right, values, known))
     if op == "or":
-        return bool(left or evaluate(node.right, values))
-    right: Any = evaluate(node.right, values)
+        return bool(left or _value(node.right, values, known))
+    right: Any = _value(node.right, values, known)
     if op == "^":
         return _power(node, left, right)
     function = _OPERATORS[op]
@@ -144,8 +191,8 @@ def _mapped(function: Callable[..., Any], *operands: Any) -> Any:
     return tuple(_mapped(function, *row) for row in zip(*columns, strict=True))
 
 
-def _call(node: checked.Call, values: Mapping[checked.Parameter, object]) -> Value:
-    operands: list[Any] = [evaluate(a, values) for a in node.arguments]
+def _call(node: checked.Call, values: Mapping[checked.Parameter, object], known: Known) -> Value:
+    operands: list[Any] = [_value(a, values, known) for a in node.arguments]
     try:
         result: Value = _FUNCTIONS[node.function](*operands)
     except ValueError:
@@ -154,8 +201,9 @@ def _call(node: checked.Call, values: Mapping[checked.Parameter, object]) -> Val
     return result
 
 
-def _if(node: checked.If, values: Mapping[checked.Parameter, object]) -> Value:
-    return evaluate(node.yes if evaluate(node.condition, values) else node.no, values)
+def _if(node: checked.If, values: Mapping[checked.Parameter, object], known: Known) -> Value:
+    chosen = node.yes if _value(node.condition, values, known) else node.no
+    return _value(chosen, values, known)
 
 
 def _cross(a: tuple[float, ...], b: tuple[float, ...]) -> Value:
@@ -212,8 +260,7 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "norm": lambda a: math.hypot(*a),
 }
 
-_EVALUATORS: dict[type, Callable[[Any, Mapping[checked.Parameter, object]], Value]] = {
-    checked.Literal: _literal,
+_EVALUATORS: dict[type, Callable[[Any, Mapping[checked.Parameter, object], Known], Value]] = {
     checked.Reference: _reference,
     checked.Time: _moving,
     checked.Quantity: _moving,

@@ -76,11 +76,15 @@ class Index:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Argument:
-    """`value` or `name = value`; the name of a guess or of a modifier may have members."""
+    """`value` or `name = value`; the name of a guess or of a modifier may have members.
+
+    `final` is written before a modifier that nobody may override.
+    """
 
     name: Expression | None
     value: Expression
     span: Span
+    final: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -43,6 +43,4 @@ FUNCTIONS: Mapping[str, Function] = {
 }
 
 # Functions of the language that have no meaning in `checked.Model` yet.
-LATER = frozenset(
-    ("pre", "edge", "change", "sample", "reinit", "transpose", "smooth", "noEvent", "delay")
-)
+LATER = frozenset(("smooth", "noEvent", "delay"))
