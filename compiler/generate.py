@@ -2,16 +2,30 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from pathlib import Path
 
 import casadi as ca
+from frot.compiler.jacobian import alike
 from frot.compiler.lower import Lowered
 from frot.compiler.mechanism import Pin
 from frot.compiler.symbols import column
 from frot.compiler.walk import is_fixed
 from frot.dsl.checked import Expression
 from frot.dsl.source import Span
+
+_METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
+# The kernel gives every argument and takes every result: without the questions whether it does, a
+# function is one straight line, which C compilers take in time proportional to its length.
+_ABSENT = re.compile(r"(arg\[\d+\])\? (\1\[\d+\]) : 0")
+_UNASKED = re.compile(r"if \(res\[\d+\]!=0\) (?=res\[)")
+# Characters of C beyond which GCC looks for no more than it finds in such time.
+_LONG = 300_000
+_QUICK = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("O1")\n#endif\n'
+
+# The tables of frot_pattern, in its order.
+_PATTERN = ("order", "start", "column", "diagonal", "entry_row", "entry_column", "place")
 
 
 def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[float]) -> str:
@@ -78,6 +92,8 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "unsigned char", "condition_strict", [str(int(x)) for x in reduced.conditions.strict]
         ),
         _array("int", "q_speed", [str(k) for k in system.q_speed]),
+        _array("int", "q_alike", [str(k) for k in alike(system)]),
+        *_pattern_arrays(lowered),
         _array(
             "frot_block",
             "blocks",
@@ -118,6 +134,9 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_invariants": len(system.invariants.origins),
         "n_whens": len(reduced.events.fired),
         "n_outcomes": len(reduced.events.outcomes),
+        "method": _METHODS[reduced.mechanism.model.experiment.method],
+        "has_jacobian": int(lowered.jacobian is not None),
+        "pattern": _pattern(lowered),
         "general": int(system.general),
         "late_rates": int(system.late),
         "n_conditions": len(reduced.conditions.flags),
@@ -146,6 +165,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "row_depends",
             "condition_strict",
             "q_speed",
+            "q_alike",
             "blocks",
             "when_condition",
             "when_at_start",
@@ -161,6 +181,26 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         f"  .name = {_text(model.name)},\n  .key = {_text(key)},\n"
         f"{numbers}\n{callables}\n{pointers}\n}};\n"
     )
+
+
+def _pattern(lowered: Lowered) -> str:
+    jacobian = lowered.jacobian
+    if jacobian is None or jacobian.factors is None:
+        return "{0}"
+    names = [f"pattern_{name}" for name in _PATTERN]
+    return _record(len(jacobian.factors.order), len(jacobian.rows), *names)
+
+
+def _pattern_arrays(lowered: Lowered) -> list[str]:
+    jacobian = lowered.jacobian
+    if jacobian is None or jacobian.factors is None:
+        return []
+    f = jacobian.factors
+    tables = (f.order, f.starts, f.columns, f.diagonal, jacobian.rows, jacobian.columns, f.places)
+    return [
+        _array("int", f"pattern_{name}", [str(k) for k in table])
+        for name, table in zip(_PATTERN, tables, strict=True)
+    ]
 
 
 def _depends_on_time(lowered: Lowered) -> bool:
@@ -184,7 +224,8 @@ def _functions(lowered: Lowered) -> str:
         text = path.read_text(encoding="utf-8")
     if "#error" in text:
         raise RuntimeError("CasADi could not generate C for a function of the model")
-    return text
+    text = _UNASKED.sub("", _ABSENT.sub(r"\2", text))
+    return (_QUICK + text) if len(text) > _LONG else text
 
 
 def _callable(function: ca.Function) -> str:

@@ -10,6 +10,7 @@ from frot.compiler.assembled import Assembled, Block
 from frot.compiler.checks import Check, parameter_checks
 from frot.compiler.expressions import Lowering
 from frot.compiler.initial_values import Statement, lower_initial
+from frot.compiler.jacobian import Jacobian, make_jacobian, why_explicit
 from frot.compiler.listing import Listed, list_variables
 from frot.compiler.lower_events import lower_update
 from frot.compiler.lower_parameters import lower_parameters, parameters_needed
@@ -37,6 +38,7 @@ class Lowered:
     velocity_statement: tuple[int, ...]
     row_depends: tuple[tuple[bool, ...], ...]
     dependent: tuple[bool, ...]
+    jacobian: Jacobian | None
 
 
 def lower(reduced: Reduced, log: Log) -> Lowered | None:
@@ -96,6 +98,17 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     }
     if system.general:
         outputs["spread"] = (state, [system.spread, system.metric])
+    jacobian = make_jacobian(system)
+    if reduced.mechanism.model.experiment.method == "implicit" and jacobian is None:
+        log.report(
+            "E0701",
+            f"the method 'implicit' is not supported for {why_explicit(system)}",
+            reduced.mechanism.model.experiment.span,
+            help="`auto` and `explicit` are supported",
+        )
+        return None
+    if jacobian is not None:
+        outputs["jacobian"] = (state, jacobian.results)
     if system.late:
         outputs["rates"] = (solution, [system.rates, system.power])
     if system.invariants.origins:
@@ -120,6 +133,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         initial.velocity_statement,
         _row_depends(system),
         tuple(bool(parameters_needed(parameter)) for parameter in s.parameters),
+        jacobian,
     )
 
 

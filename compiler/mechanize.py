@@ -105,12 +105,13 @@ def _refuse_unknown(model: Model, log: Log) -> None:
             _refuse_couple(force, log)
     if model.world.gravity is not None and not is_fixed(model.world.gravity):
         _refuse(log, "gravity that depends on time or motion", model.world.span)
-    if model.experiment.method not in ("auto", "explicit"):
+    allowed = ("auto", "explicit") if model.bodies else ("auto", "explicit", "implicit")
+    if model.experiment.method not in allowed:
         _refuse(
             log,
             f"the method '{model.experiment.method}'",
             model.experiment.span,
-            "`auto` and `explicit` are",
+            f"{', '.join(f'`{method}`' for method in allowed)} are",
         )
     for expression in read_expressions(model):
         for node in subexpressions(expression):

@@ -79,6 +79,8 @@ class Statistics(ct.Structure):
         ("rejected", ct.c_longlong),
         ("evaluations", ct.c_longlong),
         ("events", ct.c_longlong),
+        ("implicit_steps", ct.c_longlong),
+        ("jacobians", ct.c_longlong),
     )
 
 

@@ -139,6 +139,19 @@ typedef struct {
   const char *text, *place;
 } frot_outcome;
 
+/* Which integrator a run takes; FROT_AUTO changes between the two. */
+enum frot_method { FROT_AUTO = 0, FROT_EXPLICIT = 1, FROT_IMPLICIT = 2 };
+
+/* Pattern of a Jacobian J (n x n) and of the factors L + U of shift I - J, whose row and column k
+ * are those of state order[k]. Row k of the factors has the columns column[start[k]] .. up to
+ * start[k + 1], ascending; its diagonal stands at diagonal[k]. Entry e of J is in row entry_row[e]
+ * and column entry_column[e], and goes to place[e] of the factors. n = 0: the Jacobian is dense. */
+typedef struct {
+  int n, entries;
+  const int *order, *start, *column, *diagonal;
+  const int *entry_row, *entry_column, *place;
+} frot_pattern;
+
 /* One scalar variable. */
 enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 3 };
 
@@ -152,7 +165,7 @@ enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 
  * + c. The rates q' are explicit; q_speed[k] is the speed that is the rate of q[k], or -1 where
  * q[k] is another state. In a model without equations in its core
  * (`general` = 0) A is the mass matrix, symmetric positive definite, nc = 0 and E = J'.
- * Matrices are dense, by columns. */
+ * Matrices are dense, by columns. Every argument is given and every result taken: none is NULL. */
 typedef struct {
   const char *name;
   const char *key; /* identity of the compiled model; kept in saved states */
@@ -161,6 +174,8 @@ typedef struct {
   int general;        /* A is any matrix and `spread` gives E and the metric */
   int late_rates;     /* q' or the power depend on y of late blocks, z or lam: `rates` gives them */
   int time_dependent; /* forces, coefficients or conditions depend on time */
+  int method;         /* frot_method of the text */
+  int has_jacobian;   /* 1: the implicit method can run: no speeds, no rows, q' not late */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
   /* variables [0, n_contacts) are the modes of the contacts (frot_mode), the others are real */
 
@@ -187,6 +202,11 @@ typedef struct {
   frot_callable spread;
   /* rates(..., y, z (nw), lam (n_rows)) -> q' (nq), power (1). Called where `late_rates`. */
   frot_callable rates;
+  /* jacobian -> dq'/dq, dq'/dt (nq), at fixed y. The first holds the entries of `pattern`, or is
+   * dense (nq x nq). With early blocks r = 0 of the unknowns y (ny), which take a dense one, also
+   * dq'/dy (nq x ny), dr/dq (ny x nq), dr/dt (ny), dr/dy (ny x ny). Where `has_jacobian`. */
+  frot_callable jacobian;
+  frot_pattern pattern;
   /* invariants -> residual (n_invariants), its transposed Jacobian in (q, v) ((nq + nv) x
    *   n_invariants), size of its terms (n_invariants): relations between states that index
    *   reduction brought to light and that every accepted step is projected onto */
@@ -222,8 +242,10 @@ typedef struct {
   const unsigned char *row_depends;
   const unsigned char *condition_strict; /* n_conditions: 1 for < and >, 0 for <= and >= */
   const int *q_speed;                    /* nq: the speed that is the rate of q[k], or -1 */
-  const frot_block *blocks;              /* n_blocks */
-  const int *when_condition;             /* n_whens: it fires when this condition comes to hold */
+  /* nq: the first state that is no coordinate and has the dimension of q[k]; k for coordinates */
+  const int *q_alike;
+  const frot_block *blocks;  /* n_blocks */
+  const int *when_condition; /* n_whens: it fires when this condition comes to hold */
   const unsigned char
       *when_at_start;           /* n_whens: 1 where it also fires if that holds at the start */
   const frot_outcome *outcomes; /* n_outcomes */
@@ -245,6 +267,7 @@ typedef struct {
 
 typedef struct {
   long long steps, rejected, evaluations, events;
+  long long implicit_steps, jacobians; /* steps of the implicit method among `steps` */
 } frot_statistics;
 
 /* The model compiled together with the kernel. */

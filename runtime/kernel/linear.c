@@ -109,7 +109,7 @@ int frot_lu(double *a, int n, int *pivot, double *scale) {
       if (fabs(AT(a, n, i, k)) > fabs(AT(a, n, best, k))) best = i;
     pivot[k] = best;
     if (!(fabs(AT(a, n, best, k)) > 4 * n * DBL_EPSILON)) return 1;
-    for (int j = 0; best != k && j < n; j++) {
+    for (int j = k; best != k && j < n; j++) {
       double t = AT(a, n, k, j);
       AT(a, n, k, j) = AT(a, n, best, j);
       AT(a, n, best, j) = t;

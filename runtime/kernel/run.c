@@ -9,6 +9,7 @@
 #include "record.h"
 #include "state.h"
 #include "step.h"
+#include "stiffness.h"
 
 /* Events at one instant after which the modes will not settle. */
 #define CROWD 100
@@ -54,7 +55,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   frot_layout l = frot_layout_of(m);
   s->phase = FROT_CLEARED;
   s->fault = (frot_fault){FROT_OK, -1, -1, -1, t, 0};
-  s->statistics = (frot_statistics){0, 0, 0, 0};
+  s->statistics = (frot_statistics){0, 0, 0, 0, 0, 0};
   s->options = options ? *options : (frot_options){0, FROT_REST, 0};
   s->t = t;
   int status = frot_settle_parameters(m, s, w, NULL);
@@ -71,6 +72,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
   s->crowded_since = s->left_at = t;
   s->push = 0;
+  frot_choose_first(m, s);
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.noise, 0, sizeof(double) * (size_t)(m->nq + m->nv));

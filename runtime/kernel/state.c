@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "implicit.h"
+
 /* A mode fills a double exactly, so that it can lie in an array of doubles. */
 typedef char frot_mode_fills_double[sizeof(frot_contact_mode) == sizeof(double) ? 1 : -1];
 
@@ -82,11 +84,21 @@ static void *take(arena *a, size_t count, size_t size) {
 
 /* The scratch that any of the generated functions needs. */
 static frot_callable scratch_of_all(const frot_model *m) {
-  const frot_callable *calls[] = {&m->parameters,       &m->start,      &m->initial_position,
-                                  &m->initial_velocity, &m->kinematics, &m->dynamics,
-                                  &m->spread,           &m->rates,      &m->invariants,
-                                  &m->block_slopes,     &m->update,     &m->sizes,
-                                  &m->variables,        &m->energy};
+  const frot_callable *calls[] = {&m->parameters,
+                                  &m->start,
+                                  &m->initial_position,
+                                  &m->initial_velocity,
+                                  &m->kinematics,
+                                  &m->dynamics,
+                                  &m->spread,
+                                  &m->rates,
+                                  &m->jacobian,
+                                  &m->invariants,
+                                  &m->block_slopes,
+                                  &m->update,
+                                  &m->sizes,
+                                  &m->variables,
+                                  &m->energy};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
   for (int i = 0; i < count + m->n_blocks; i++) {
@@ -132,6 +144,8 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(lstsq, 2 * big * big + 6 * big + 4 * wide + least * wide);
   TAKE(row_of, nr + nc), TAKE(contact_of, nr), TAKE(kind, nr), TAKE(weight, nr), TAKE(guard, l.ng),
       TAKE(k, DP_ALL * l.nz);
+  TAKE(change, m->nq), TAKE(own_size, m->nq), TAKE(largest_alike, m->nq);
+  TAKE(implicit, frot_implicit_doubles(m)), TAKE(implicit_pivot, frot_implicit_integers(m));
   TAKE(z0, l.nz), TAKE(z1, l.nz), TAKE(ztry, l.nz), TAKE(f, DP_DENSE * l.nz);
   int nvar = m->np > l.nw ? m->np : l.nw;
   TAKE(values, nvar + m->n_checks + m->nq + m->nv + m->n_loads + 4);
@@ -207,6 +221,7 @@ int frot_state_valid(const frot_model *m, const void *block, size_t size) {
   if (s->phase < FROT_CLEARED || s->phase > FROT_ENDED) return 0;
   if (!isfinite(s->t) || !isfinite(s->h) || !isfinite(s->h_max) || !isfinite(s->tolerance))
     return 0;
+  if (s->implicit < 0 || s->implicit > m->has_jacobian) return 0;
   if (s->fault.contact < -1 || s->fault.contact >= m->n_contacts) return 0;
   if (s->phase == FROT_ENDED && (s->outcome < 0 || s->outcome >= m->n_outcomes)) return 0;
   const frot_contact_mode *modes = (const void *)(s->data + l.modes);

@@ -41,6 +41,9 @@ struct frot_state {
   int crowded;   /* events since the time last moved on */
   int several;   /* admissible motions at the start, until this is told as an event */
   int several_at;
+  int implicit;                /* the next step is made by the implicit method */
+  int stiff_steps, calm_steps; /* see stiffness.h */
+  int patience, stay;
   int outcome; /* the `terminate` that ended the run */
   int untold;  /* outcomes wait to be told as events: their times are in `asked`, NaN elsewhere */
   int ended_recorded; /* the last instant of a run that has ended is recorded */
@@ -105,6 +108,9 @@ struct frot_work {
   double *k;                      /* DP_ALL x nz */
   double *z0, *z1, *ztry;         /* nz */
   double *f;                      /* DP_DENSE x nz */
+  double *change, *own_size, *largest_alike; /* nq: see sizes.h */
+  double *implicit;                          /* see jacobian.h */
+  int *implicit_pivot;
   double *values, *jacobian, *residual, *size, *step; /* initial values and projection */
   double *slopes, *slopes_y, *unit, *position_factor; /* initial values: see initial.c */
   int *slopes_pivot;

@@ -10,10 +10,13 @@
 #include <string.h>
 
 #include "blocks.h"
+#include "implicit.h"
 #include "mechanics.h"
 #include "projection.h"
 #include "resolve.h"
 #include "roots.h"
+#include "sizes.h"
+#include "stiffness.h"
 
 /* Part of the tolerance given to one step, so that the whole run keeps it. */
 #define LOCAL_SHARE 0.1
@@ -84,6 +87,7 @@ static void combine(const frot_work *w, int nz, const double *coefficient, int c
  * w->y_end the unknowns of the blocks there. */
 static int run_stages(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                       double t, double h) {
+  if (s->implicit) return frot_implicit_stages(m, s, w, t, h);
   memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
   for (int i = 1; i <= DP_STAGES; i++) {
     double *z = i == DP_STAGES ? w->z1 : w->ztry;
@@ -99,18 +103,28 @@ static int run_stages(const frot_model *m, frot_state *s, frot_work *w, const fr
 }
 
 /* Size against which the error of value j is measured: the largest it has had, or what the step
- * brings it by what is known at its start. The step's own result is no witness, but for a state of
- * the text that begins at zero with no rate at all. */
+ * brings it by what is known at its start. The step's own result is no witness, but where a value
+ * begins at zero without any rate there is no other. */
 static double size_at_start(const frot_model *m, const frot_state *s, const frot_work *w,
                             const frot_layout *l, int j, double h) {
   double size = fmax(s->data[l->scale_x + j], fabs(w->z0[j])), change = h * fabs(w->k[j]);
-  int is_state = j < m->nq && m->q_speed[j] < 0;
-  if (is_state)
-    change += h * fabs(w->k[l->nz + j] - w->k[j]) / dp_c[1];
-  else if (j < m->nq)
-    change += h * h * fabs(w->k[m->nq + m->q_speed[j]]);
+  if (j < m->nq && m->q_speed[j] < 0) return w->own_size[j];
+  if (j < m->nq) change += h * h * fabs(w->k[m->nq + m->q_speed[j]]);
   size = fmax(size, change);
-  return size > 0 || !is_state ? size : fabs(w->z1[j] - w->z0[j]);
+  return size > 0 ? size : fabs(w->z1[j] - w->z0[j]);
+}
+
+/* What the step brings the states that are no coordinates, by their slopes at its start. Where that
+ * leaves a size of zero, by the largest slopes: of what begins with the step nothing else is known.
+ */
+static void size_own_states(const frot_model *m, const frot_state *s, frot_work *w,
+                            const frot_layout *l, double h) {
+  for (int j = 0; j < m->nq; j++) w->change[j] = h * fabs(w->k[j]);
+  if (!frot_state_sizes(m, s, w)) return;
+  for (int j = 0; j < m->nq; j++)
+    for (int k = 0; m->q_speed[j] < 0 && w->own_size[j] == 0 && k <= DP_STAGES; k++)
+      w->change[j] = fmax(w->change[j], h * fabs(w->k[k * l->nz + j]));
+  frot_state_sizes(m, s, w);
 }
 
 /* Error of value j that rounding alone can make in a step h: it is not followed. */
@@ -124,8 +138,10 @@ static double rounding_of(const frot_model *m, const frot_state *s, const frot_w
 }
 
 /* Estimate of the local error over its bound: at most 1 for a good step, NaN for no number. */
-static double error_ratio(const frot_model *m, const frot_state *s, const frot_work *w,
-                          const frot_layout *l, double h) {
+static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                          double h) {
+  if (s->implicit) return frot_implicit_error(m, s, w, h);
+  size_own_states(m, s, w, l, h);
   double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
   double guard_tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
   double e5[CHUNK], e3[CHUNK];
@@ -171,6 +187,7 @@ static void measure_noise(const frot_model *m, frot_state *s, frot_work *w, cons
 /* Vectors of the dense output of the step h into w->f (DP_DENSE x nz). Takes three evaluations. */
 static int make_dense(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                       double t, double h) {
+  if (s->implicit) return frot_implicit_dense(m, s, w, t, h);
   memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
   for (int i = DP_STAGES + 1; i < DP_ALL; i++) {
     combine(w, l->nz, dp_a[i], i, h, w->z0, w->ztry);
@@ -188,8 +205,10 @@ static int make_dense(const frot_model *m, frot_state *s, frot_work *w, const fr
   return FROT_OK;
 }
 
-static void guard_polynomial(const frot_work *w, const frot_layout *l, int guard, double h,
-                             double g[7]) {
+static void guard_polynomial(const frot_state *s, const frot_work *w, const frot_layout *l,
+                             int guard, double h, double g[7]) {
+  for (int k = 0; s->implicit && k < 7; k++) g[k] = w->f[k * l->nz + l->nx + guard];
+  if (s->implicit) return;
   for (int k = 0; k < 7; k++) {
     double sum = 0;
     for (int j = 0; j < DP_DENSE; j++) sum += dp_rate[k][j] * w->f[j * l->nz + l->nx + guard];
@@ -204,7 +223,7 @@ static int first_guard(const frot_state *s, const frot_work *w, const frot_layou
   *theta = FROT_NO_ROOT;
   for (int j = 0; j < l->ng; j++) {
     double g[7];
-    guard_polynomial(w, l, j, h, g);
+    guard_polynomial(s, w, l, j, h, g);
     double size = s->data[l->scale_g + j];
     for (int k = 0; k < 7; k++) size = fmax(size, fabs(g[k]));
     double at = frot_first_fall(g, GUARD_FLOOR * size);
@@ -219,7 +238,7 @@ static int first_guard(const frot_state *s, const frot_work *w, const frot_layou
 static int locate(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l, double t,
                   int j, double theta, double *h, int *falls) {
   double longest = *h, g[7];
-  guard_polynomial(w, l, j, *h, g);
+  guard_polynomial(s, w, l, j, *h, g);
   double span = 1e-4, left = fmax(theta - span, 0), right = fmin(theta + span, 1);
   double slope = (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * longest);
   double at = theta * longest, last_at = 0, last = 0, value = 0;
@@ -401,28 +420,36 @@ static void fire(frot_state *s, const frot_work *w, const frot_layout *l, int fi
 int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
-  double t = *g.t1, h = fmin(s->h, s->h_max);
-  int status = start_slope(m, s, w, &l, t), rejections = 0;
+  double t = *g.t1, longest = s->h_max;
+  if (s->implicit && !m->time_dependent) longest *= LONG_REST; /* nothing can be passed over */
+  double h = fmin(s->h, longest);
+  int status = start_slope(m, s, w, &l, t), rejections = 0, stiff = 0;
   if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
   if (!m->time_dependent && is_still(m, w)) h = LONG_REST * s->h_max;
+  if (s->implicit) status = frot_implicit_begin(m, s, w, t);
+  if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
+  double power = s->implicit ? -1.0 / 5 : -1.0 / 8;
   for (;;) {
     if (!(h > LEAST_STEP * fmax(fabs(t), 1e-3 * s->h_max)))
       return fail_at(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, t, h);
     status = run_stages(m, s, w, &l, t, h);
     double ratio = status == FROT_OK ? error_ratio(m, s, w, &l, h) : NAN;
     if (ratio <= 1) {
+      stiff = frot_is_stiff(m, s, w, h);
       measure(m, s, w, &l, w->z1);
       status = make_dense(m, s, w, &l, t, h);
+      if (status == FROT_OK && s->implicit && !frot_implicit_follows_guards(m, s, w))
+        status = FROT_DIVERGE;
       if (status == FROT_OK) {
-        double factor = ratio > 0 ? 0.9 * pow(ratio, -1.0 / 8) : 6;
-        s->h = fmin(h * fmin(fmax(factor, 1.0 / 3), rejections ? 1 : 6), s->h_max);
+        double factor = ratio > 0 ? 0.9 * pow(ratio, power) : 6;
+        s->h = fmin(h * fmin(fmax(factor, 1.0 / 3), rejections ? 1 : 6), longest);
         break;
       }
       ratio = NAN;
     }
     s->statistics.rejected++;
     if (++rejections % PATIENCE == 0) measure_noise(m, s, w, &l, t);
-    h *= ratio > 1 && ratio < 1e300 ? fmax(0.9 * pow(ratio, -1.0 / 8), 1.0 / 3) : 0.25;
+    h *= ratio > 1 && ratio < 1e300 ? fmax(0.9 * pow(ratio, power), 1.0 / 3) : 0.25;
   }
 
   double theta;
@@ -437,6 +464,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
     if (status != FROT_OK) return fail_at(m, s, w, status, t, h);
   }
   s->statistics.steps++;
+  s->statistics.implicit_steps += s->implicit;
   note_sizes(m, s, w, &l, w->z1);
   if (falls) fire(s, w, &l, guard);
 
@@ -458,6 +486,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   if (status != FROT_OK) return fail_at(m, s, w, status, *g.t1, h);
   memcpy(s->data + l.y, w->y, sizeof(double) * (size_t)m->ny);
   s->has_slope = !moved && !s->pending;
+  frot_choose_next(m, s, stiff);
   if (*g.t1 > s->crowded_since + 1e-9 * s->h_max) s->crowded_since = *g.t1, s->crowded = 0;
   return FROT_OK;
 }

@@ -288,6 +288,7 @@ def source(m: Small, folder: Path) -> str:
         ("unsigned char", "row_depends"): _row_depends(m),
         ("unsigned char", "condition_strict"): [int(x) for x in m.strict],
         ("int", "q_speed"): m.speeds,
+        ("int", "q_alike"): list(range(m.nq)),
         ("frot_block", "blocks"): [
             f"{{{_call(made[f'block_{i}'])}, {b.first}, {b.count}, {int(b.linear)}, "
             f'{int(b.late)}, "{b.name}", "small:{i + 1}:1"}}'

@@ -1,0 +1,222 @@
+#include "implicit.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "jacobian.h"
+#include "mechanics.h"
+#include "rosenbrock.h"
+#include "roots.h"
+#include "sizes.h"
+
+/* Part of the tolerance given to one step: the estimate is that of the order below. */
+#define LOCAL_SHARE 1.0
+#define LEAST_TOLERANCE 1e-14
+/* Error of a solution of the linear system, in units of its terms, that pivoting is missed by. */
+#define MOST_GROWTH 1e-10
+/* The polynomial of a guard need only show where it goes. */
+#define GUARD_LOOSEST 1e-3
+#define GUARD_TIGHTEST 1e-6
+#define GUARD_NODES 7 /* values at k/6 */
+
+/* Rows of w->k: the slopes at both ends, U_1 .. U_8 between, then scratch. */
+#define FIRST_ROW 1
+#define SLOPE_ROW (DP_STAGES + 1)
+#define RIGHT_ROW (DP_STAGES + 2)
+
+typedef char frot_rows_suffice[FIRST_ROW + RO_STAGES <= DP_STAGES && RIGHT_ROW < DP_ALL ? 1 : -1];
+
+/* Bernstein coefficients, times 600, of the polynomial through values at k/6. */
+static const double through[GUARD_NODES][GUARD_NODES] = {
+    {600, 0, 0, 0, 0, 0, 0},
+    {-870, 3600, -4500, 4000, -2250, 720, -100},
+    {908, -5328, 12060, -12320, 7380, -2448, 348},
+    {-681, 4536, -12555, 18000, -12555, 4536, -681},
+    {348, -2448, 7380, -12320, 12060, -5328, 908},
+    {-100, 720, -2250, 4000, -4500, 3600, -870},
+    {0, 0, 0, 0, 0, 0, 600},
+};
+
+static double *row(const frot_layout *l, const frot_work *w, int i) { return w->k + i * l->nz; }
+
+static int slope_at(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                    double t, const double *z, double *slope) {
+  return frot_derivatives(m, s, w, t, z, s->data + l->d,
+                          (const frot_contact_mode *)(const void *)(s->data + l->modes),
+                          s->data + l->frozen, slope);
+}
+
+size_t frot_implicit_doubles(const frot_model *m) {
+  size_t doubles = 0;
+  if (m->has_jacobian) frot_jacobian_of(m, NULL, &doubles, NULL);
+  return doubles;
+}
+
+size_t frot_implicit_integers(const frot_model *m) {
+  size_t doubles, integers = 0;
+  if (m->has_jacobian) frot_jacobian_of(m, NULL, &doubles, &integers);
+  return integers;
+}
+
+int frot_implicit_begin(const frot_model *m, frot_state *s, frot_work *w, double t) {
+  frot_layout l = frot_layout_of(m);
+  memcpy(w->y, s->data + l.y, sizeof(double) * (size_t)m->ny);
+  return frot_jacobian_at(m, s, w, t, w->z0, s->data + l.d);
+}
+
+/* z <- z0 + sum a_ij U_j; the last two stages add the U before to the argument before. */
+static void argument(const frot_layout *l, const frot_work *w, int n, int i, double *z) {
+  const double *z0 = w->z0;
+  if (i >= RO_ROWS) {
+    const double *last = row(l, w, FIRST_ROW + i - 1);
+    for (int k = 0; k < n; k++) z[k] += last[k];
+    return;
+  }
+  for (int k = 0; k < n; k++) {
+    double sum = 0;
+    for (int j = 0; j < i; j++) sum += ro_a[i][j] * w->k[(FIRST_ROW + j) * l->nz + k];
+    z[k] = z0[k] + sum;
+  }
+}
+
+int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  frot_layout l = frot_layout_of(m);
+  frot_jacobian jacobian = frot_jacobian_of(m, w, NULL, NULL);
+  int n = m->nq, status;
+  double shift = 1 / (h * ro_gamma), *z = w->z1;
+  memcpy(z, w->z0, sizeof(double) * (size_t)l.nx);
+  memcpy(w->y, s->data + l.y, sizeof(double) * (size_t)m->ny);
+  if (frot_jacobian_factor(m, w, shift)) return FROT_DIVERGE;
+  for (int i = 0; i < RO_STAGES; i++) {
+    double *slope = i == 0 ? row(&l, w, 0) : row(&l, w, SLOPE_ROW);
+    double *right = row(&l, w, RIGHT_ROW), *u = row(&l, w, FIRST_ROW + i);
+    if (i > 0) {
+      argument(&l, w, n, i, z);
+      double at = i >= RO_ROWS - 1 ? t + h : t + ro_c[i] * h;
+      if ((status = slope_at(m, s, w, &l, at, z, slope)) != FROT_OK) return status;
+    }
+    double by_time = h * ro_d[i];
+    for (int k = 0; k < n; k++) {
+      double sum = 0;
+      for (int j = 0; j < i; j++) sum += ro_C[i][j] * w->k[(FIRST_ROW + j) * l.nz + k];
+      right[k] = slope[k] + sum / h + by_time * jacobian.rate[k];
+    }
+    frot_jacobian_solve(m, w, right, u);
+    if (i == 0 && !(frot_jacobian_error(m, w, shift, right, u) < MOST_GROWTH)) return FROT_DIVERGE;
+  }
+  argument(&l, w, n, RO_STAGES, z);
+  status = slope_at(m, s, w, &l, t + h, z, row(&l, w, DP_STAGES));
+  memcpy(w->y_end, w->y, sizeof(double) * (size_t)m->ny);
+  return status;
+}
+
+double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, double h) {
+  frot_layout l = frot_layout_of(m);
+  double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
+  const double *slope = row(&l, w, 0), *error = row(&l, w, FIRST_ROW + RO_STAGES - 1);
+  /* a stiff state does not go where its slope at the start points to */
+  for (int k = 0; k < m->nq; k++)
+    w->change[k] = fmin(h * fabs(slope[k]), fabs(w->z1[k] - w->z0[k]));
+  if (frot_state_sizes(m, s, w)) {
+    for (int k = 0; k < m->nq; k++)
+      if (w->own_size[k] == 0) w->change[k] = fabs(w->z1[k] - w->z0[k]);
+    frot_state_sizes(m, s, w);
+  }
+  for (int k = 0; k < m->nq; k++) {
+    if (error[k] == 0) continue;
+    double ratio = fabs(error[k]) / (tolerance * w->own_size[k]);
+    if (!(ratio <= worst)) worst = ratio;
+    if (isnan(worst)) break;
+  }
+  return worst;
+}
+
+/* State inside the step by the vectors w->f. */
+static void inside(const frot_model *m, const frot_layout *l, const frot_work *w, double theta,
+                   double *z) {
+  double one = 1 - theta;
+  const double *f = w->f;
+  for (int k = 0; k < m->nq; k++) {
+    double sum = one * f[3 * l->nz + k];
+    sum = theta * (f[2 * l->nz + k] + sum);
+    sum = one * (f[l->nz + k] + sum);
+    z[k] = w->z0[k] + theta * (f[k] + sum);
+  }
+}
+
+/* Polynomials of the guards, and how far they miss them near both ends, where such a polynomial is
+ * at its worst. */
+static int follow_guards(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                         double t, double h) {
+  frot_jacobian jacobian = frot_jacobian_of(m, w, NULL, NULL);
+  double *slope = row(l, w, SLOPE_ROW), *value = w->f + l->nx;
+  const double *start = row(l, w, 0) + l->nx, *end = row(l, w, DP_STAGES) + l->nx;
+  memcpy(w->ztry, w->z0, sizeof(double) * (size_t)l->nx);
+  for (int i = 0; i < GUARD_NODES; i++) {
+    const double *from = i == 0 ? start : i == GUARD_NODES - 1 ? end : slope + l->nx;
+    if (from == slope + l->nx) {
+      double theta = i / (GUARD_NODES - 1.0);
+      inside(m, l, w, theta, w->ztry);
+      int status = slope_at(m, s, w, l, t + theta * h, w->ztry, slope);
+      if (status != FROT_OK) return status;
+    }
+    for (int g = 0; g < l->ng; g++) value[i * l->nz + g] = from[g];
+  }
+  for (int g = 0; g < l->ng; g++) {
+    double at[GUARD_NODES];
+    for (int i = 0; i < GUARD_NODES; i++) at[i] = value[i * l->nz + g];
+    for (int i = 0; i < GUARD_NODES; i++) {
+      double sum = 0;
+      for (int j = 0; j < GUARD_NODES; j++) sum += through[i][j] * at[j];
+      value[i * l->nz + g] = sum / 600;
+    }
+    jacobian.misfit[g] = 0;
+  }
+  for (int i = 0; i < 2; i++) {
+    double theta = i == 0 ? 1.0 / 12 : 11.0 / 12;
+    inside(m, l, w, theta, w->ztry);
+    int status = slope_at(m, s, w, l, t + theta * h, w->ztry, slope);
+    if (status != FROT_OK) return status;
+    for (int g = 0; g < l->ng; g++) {
+      double b[GUARD_NODES];
+      for (int k = 0; k < GUARD_NODES; k++) b[k] = value[k * l->nz + g];
+      double miss = fabs(frot_bernstein(b, theta) - slope[l->nx + g]);
+      jacobian.misfit[g] = fmax(jacobian.misfit[g], miss);
+    }
+  }
+  return FROT_OK;
+}
+
+int frot_implicit_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  frot_layout l = frot_layout_of(m);
+  memset(w->f, 0, sizeof(double) * DP_DENSE * (size_t)l.nz);
+  for (int k = 0; k < m->nq; k++) {
+    double c[3];
+    for (int i = 0; i < 3; i++) {
+      c[i] = 0;
+      for (int j = 0; j < RO_STAGES; j++) c[i] += ro_h[i][j] * w->k[(FIRST_ROW + j) * l.nz + k];
+    }
+    w->f[k] = w->z1[k] - w->z0[k];
+    w->f[l.nz + k] = c[0];
+    w->f[2 * l.nz + k] = c[1] + c[2];
+    w->f[3 * l.nz + k] = -c[2];
+  }
+  return l.ng > 0 ? follow_guards(m, s, w, &l, t, h) : FROT_OK;
+}
+
+int frot_implicit_follows_guards(const frot_model *m, const frot_state *s, const frot_work *w) {
+  frot_layout l = frot_layout_of(m);
+  frot_jacobian jacobian = frot_jacobian_of(m, w, NULL, NULL);
+  double tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
+  for (int g = 0; g < l.ng; g++) {
+    double size = fmax(fabs(row(&l, w, 0)[l.nx + g]), fabs(row(&l, w, DP_STAGES)[l.nx + g]));
+    size = fmax(size, GUARD_LOOSEST * s->data[l.scale_g + g]);
+    if (!(jacobian.misfit[g] <= tolerance * size)) return 0;
+  }
+  return 1;
+}
+
+double frot_implicit_rate(const frot_model *m, const frot_work *w) {
+  return frot_jacobian_norm(m, w, w->own_size);
+}

@@ -1,0 +1,131 @@
+#include "jacobian.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "linear.h"
+#include "mechanics.h"
+#include "sparse_lu.h"
+
+static int is_sparse(const frot_model *m) { return m->pattern.n > 0; }
+
+static int early_unknowns(const frot_model *m) {
+  int count = 0;
+  for (int i = 0; i < m->n_blocks; i++)
+    if (!m->blocks[i].late) count += m->blocks[i].count;
+  return count;
+}
+
+/* The next `count` items of an array that may be NULL. */
+static double *take(double *base, size_t *used, int count) {
+  double *at = base ? base + *used : NULL;
+  *used += (size_t)count;
+  return at;
+}
+
+frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *doubles,
+                               size_t *integers) {
+  int n = m->nq, ny = early_unknowns(m);
+  int entries = is_sparse(m) ? m->pattern.entries : n * n;
+  int factors = is_sparse(m) ? m->pattern.start[n] : n * n;
+  double *base = doubles ? NULL : w->implicit;
+  size_t used = 0;
+  frot_jacobian j;
+  j.entries = take(base, &used, entries);
+  j.rate = take(base, &used, n);
+  j.factors = take(base, &used, factors);
+  j.scale = take(base, &used, 2 * n);
+  j.scratch = take(base, &used, 2 * n);
+  j.error = take(base, &used, n);
+  j.misfit = take(base, &used, FROT_GUARDS * m->n_contacts + m->n_conditions);
+  j.slope_y = take(base, &used, n * ny);
+  j.block_q = take(base, &used, ny * n);
+  j.block_t = take(base, &used, ny);
+  j.block_y = take(base, &used, ny * ny);
+  j.block_scale = take(base, &used, 2 * ny);
+  j.pivot = doubles ? NULL : w->implicit_pivot;
+  j.block_pivot = doubles ? NULL : j.pivot + n;
+  if (doubles) *doubles = used;
+  if (integers) *integers = (size_t)(n + ny);
+  return j;
+}
+
+/* q' depends on q and t through the unknowns y of the blocks too: J <- f_q - f_y (r_y)^-1 r_q. */
+static int condense(const frot_model *m, const frot_jacobian *j, int ny) {
+  int n = m->nq;
+  if (frot_lu(j->block_y, ny, j->block_pivot, j->block_scale)) return FROT_SINGULAR;
+  for (int c = 0; c <= n; c++) {
+    double *x = c < n ? j->block_q + ny * c : j->block_t;
+    double *into = c < n ? j->entries + n * c : j->rate;
+    frot_lu_apply(j->block_y, ny, j->block_pivot, j->block_scale, x);
+    for (int k = 0; k < ny; k++) {
+      if (x[k] == 0) continue;
+      for (int i = 0; i < n; i++) into[i] -= j->slope_y[n * k + i] * x[k];
+    }
+  }
+  return FROT_OK;
+}
+
+int frot_jacobian_at(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                     const double *d) {
+  frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
+  int ny = early_unknowns(m), n = m->nq;
+  frot_inputs(m, s, w, &t, q, q + n, d);
+  double *res[] = {j.entries, j.rate, j.slope_y, j.block_q, j.block_t, j.block_y};
+  memcpy(w->res, res, sizeof res);
+  m->jacobian.call(w->arg, w->res, w->iw, w->w, 0);
+  s->statistics.jacobians++;
+  if (ny > 0) {
+    if (!frot_all_finite(j.slope_y, n * ny) || !frot_all_finite(j.block_q, ny * n) ||
+        !frot_all_finite(j.block_t, ny) || !frot_all_finite(j.block_y, ny * ny))
+      return FROT_NAN;
+    int status = condense(m, &j, ny);
+    if (status != FROT_OK) return status;
+  }
+  int entries = is_sparse(m) ? m->pattern.entries : n * n;
+  return frot_all_finite(j.entries, entries) && frot_all_finite(j.rate, n) ? FROT_OK : FROT_NAN;
+}
+
+int frot_jacobian_factor(const frot_model *m, frot_work *w, double shift) {
+  frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
+  int n = m->nq;
+  if (is_sparse(m)) return frot_sparse_factor(&m->pattern, j.entries, shift, j.factors, j.scratch);
+  for (int i = 0; i < n * n; i++) j.factors[i] = -j.entries[i];
+  for (int i = 0; i < n; i++) j.factors[n * i + i] += shift;
+  return frot_lu(j.factors, n, j.pivot, j.scale);
+}
+
+void frot_jacobian_solve(const frot_model *m, const frot_work *w, const double *b, double *x) {
+  frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
+  if (is_sparse(m)) {
+    frot_sparse_solve(&m->pattern, j.factors, b, j.scratch, x);
+    return;
+  }
+  memcpy(x, b, sizeof(double) * (size_t)m->nq);
+  frot_lu_apply(j.factors, m->nq, j.pivot, j.scale, x);
+}
+
+double frot_jacobian_error(const frot_model *m, const frot_work *w, double shift, const double *b,
+                           const double *x) {
+  frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
+  if (!is_sparse(m)) return 0;
+  return frot_sparse_error(&m->pattern, j.entries, shift, b, x, j.scratch, j.scratch + m->nq);
+}
+
+double frot_jacobian_norm(const frot_model *m, const frot_work *w, const double *size) {
+  frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
+  int n = m->nq;
+  double *sum = j.scratch, norm = 0;
+  memset(sum, 0, sizeof(double) * (size_t)n);
+  if (is_sparse(m)) {
+    const frot_pattern *p = &m->pattern;
+    for (int e = 0; e < p->entries; e++)
+      sum[p->entry_row[e]] += fabs(j.entries[e]) * size[p->entry_column[e]];
+  } else {
+    for (int c = 0; c < n; c++)
+      for (int i = 0; i < n; i++) sum[i] += fabs(j.entries[n * c + i]) * size[c];
+  }
+  for (int i = 0; i < n; i++)
+    if (size[i] > 0) norm = fmax(norm, sum[i] / size[i]);
+  return norm;
+}

@@ -1,0 +1,43 @@
+/* The Jacobian of the rates of q, and the matrix I/(h gamma) - J of an implicit step. */
+#ifndef FROT_JACOBIAN_H
+#define FROT_JACOBIAN_H
+
+#include "state.h"
+
+/* Scratch of the implicit step, in w->implicit and w->implicit_pivot. */
+typedef struct {
+  double *entries; /* of J: those of the pattern, or nq x nq */
+  double *rate;    /* nq: dq'/dt */
+  double *factors; /* of I/(h gamma) - J */
+  double *scale;   /* 2 x nq: of a dense matrix */
+  double *scratch; /* 2 x nq */
+  double *error;   /* nq */
+  double *misfit;  /* guards: how far their polynomials are from them */
+  double *slope_y, *block_q, *block_t, *block_y, *block_scale; /* with blocks */
+  int *pivot, *block_pivot;
+} frot_jacobian;
+
+/* The parts of the scratch; sizes in *doubles and *integers (may be NULL). */
+frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *doubles,
+                               size_t *integers);
+
+/* Evaluate at (t, q, d) with the unknowns w->y of the blocks there. FROT_OK, FROT_NAN or
+ * FROT_SINGULAR. */
+int frot_jacobian_at(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                     const double *d);
+
+/* Factor shift I - J. Returns 0, or 1 when that is singular to rounding. */
+int frot_jacobian_factor(const frot_model *m, frot_work *w, double shift);
+
+/* x <- (shift I - J)^-1 b. */
+void frot_jacobian_solve(const frot_model *m, const frot_work *w, const double *b, double *x);
+
+/* Largest error of a solution in a row, in units of the size of the row's terms; 0 where pivots are
+ * chosen by size. */
+double frot_jacobian_error(const frot_model *m, const frot_work *w, double shift, const double *b,
+                           const double *x);
+
+/* Norm of J by rows, state j in units of size[j]: a bound of its eigenvalues. */
+double frot_jacobian_norm(const frot_model *m, const frot_work *w, const double *size);
+
+#endif

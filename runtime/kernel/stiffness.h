@@ -1,0 +1,24 @@
+/* Which of the two integrators takes the next step.
+ *
+ * The explicit method is left when, for steps on end, its steps are as long as its stability allows
+ * (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, sect. IV.2), or the fastest
+ * rate of the model is felt in them while the solution itself changes much more slowly. The
+ * implicit one is left when, for steps on end, its steps are so short that the explicit one would
+ * be stable with them; if it was not of use for long, more evidence is asked for next time. The
+ * counts are part of the state. Nothing is computed for a model that has no Jacobian. */
+#ifndef FROT_STIFFNESS_H
+#define FROT_STIFFNESS_H
+
+#include "state.h"
+
+/* The method of the first step. */
+void frot_choose_first(const frot_model *m, frot_state *s);
+
+/* Whether the step h just accepted speaks for the implicit method. The explicit method's last
+ * argument before the end is still in w->ztry. 0 where the text gives the method. */
+int frot_is_stiff(const frot_model *m, const frot_state *s, const frot_work *w, double h);
+
+/* The method of the step after that one. */
+void frot_choose_next(const frot_model *m, frot_state *s, int stiff);
+
+#endif
