@@ -134,6 +134,15 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                name, (int)f->value, f->t);
       return;
     case FROT_CHATTER:
+      if (f->item >= 0) {
+        snprintf(text, size,
+                 "the events of the text do not settle at t = %.17g: they %s; let the text end the "
+                 "run or change what it does there",
+                 f->t,
+                 f->value > 0 ? "bring each other about without end"
+                              : "follow each other ever sooner, without end");
+        return;
+      }
       snprintf(text, size,
                "the modes do not settle at t = %.17g (%d events at one instant): two laws of "
                "friction switch each other; change a coefficient or the starting values a little",

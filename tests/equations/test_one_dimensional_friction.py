@@ -37,7 +37,7 @@ def test_a_clutch_locks_when_the_speeds_meet(drive: float, mu: float, sign: floa
     assert event.time == pytest.approx(meet, rel=1e-12)
     assert (event.liaison, event.before, event.after) == ("clutch", "slip", "stick")
     after = result.time > meet
-    assert np.all(result["clutch.slip"][after] == 0)
+    assert np.abs(result["clutch.slip"][after]).max() < 1e-14  # rounding of two speeds
     speed = 1 + a2 * meet + drive / 5 * (result.time[after] - meet)
     assert np.abs(result["one.speed"][after] - sign * speed).max() < 1e-9
 

@@ -173,7 +173,7 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
     out: dict[str, tuple[list[ca.SX], list[object]]] = {
         "parameters": (
             [s.p, ca.SX.sym("set", s.p.numel()), s.u],
-            [s.p, NONE, ca.DM(list(m.unilateral)), ca.DM([0.0, m.stop, 1e-10, float('nan')])],
+            [s.p, NONE, ca.DM(list(m.unilateral)), ca.DM([0.0, m.stop, 1e-10, float("nan")])],
         ),
         "start": (
             [s.t, s.u, s.p],

@@ -76,7 +76,11 @@ def test_plain_states_need_no_speeds(run) -> None:
 
 def test_a_model_without_states_tells_the_time(run) -> None:
     model = Small(
-        name="clock", nq=0, variables={"sine": lambda s: ca.sin(s.t)}, rates=lambda s: NONE, stop=5.0
+        name="clock",
+        nq=0,
+        variables={"sine": lambda s: ca.sin(s.t)},
+        rates=lambda s: NONE,
+        stop=5.0,
     )
     result = run(model)
     assert np.allclose(result["sine"], np.sin(result.time), rtol=0, atol=1e-15)
@@ -140,6 +144,7 @@ def test_kepler_s_equation_is_solved_at_every_instant(run) -> None:
 
 def test_a_linear_block_is_exact(run) -> None:
     """A resistor ladder: three currents of one linear block drive a capacitor."""
+
     def ladder(s):
         return [s.y[0] - s.y[1] - s.y[2], 2 * s.y[1] - s.q[0], s.y[0] + 2 * s.y[1] - 10]
 
@@ -199,4 +204,3 @@ def test_noise_alone_does_not_stop_a_plain_state(run) -> None:
     )  # fmt: skip
     result = run(model, tolerance=1e-6)
     assert result.figures.steps < 2000
-
