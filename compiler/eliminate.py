@@ -120,14 +120,12 @@ class _Table:
         self.coefficients = jacobian.nz[:] if jacobian.nnz() else ca.SX.zeros(0)
         rows, columns = jacobian.sparsity().get_triplet()
         self.orders: list[dict[int, int]] = [{} for _ in values]
-        self.lowest: list[dict[int, int]] = [{} for _ in values]
         self.equations: dict[int, set[int]] = defaultdict(set)
         self.differentiated: set[int] = set()
         self.entries: list[tuple[int, int, int]] = []
         for entry, (row, at) in enumerate(zip(rows, columns, strict=True)):
             chain, order = chains.place[own[at].element_hash()]
             self.orders[row][chain] = max(order, self.orders[row].get(chain, 0))
-            self.lowest[row][chain] = min(order, self.lowest[row].get(chain, order))
             self.equations[chain].add(row)
             if order:
                 self.differentiated.add(chain)
@@ -198,20 +196,9 @@ def _candidate(entry: tuple[int, int, int], table: _Table, chains: Chains) -> _C
     if terms > 1 and others > 1 and terms * others > MOST_FILL:
         return None
     differentiated = chain in table.differentiated
-    if differentiated and (row in table.unrated or _raises_orders(row, table, terms)):
+    if differentiated and row in table.unrated:
         return None
     return _Candidate((int(differentiated), kind, terms * others), row, chain, at)
-
-
-def _raises_orders(row: int, table: _Table, terms: int) -> bool:
-    """Whether to differentiate the equation means more than a name for a derivative does.
-
-    `w = der(phi)` names a derivative. In `der(u) = w - u` the unknown w is a state of its own.
-    """
-    orders, lowest = table.orders[row], table.lowest[row]
-    if not any(orders.values()):
-        return False
-    return terms > 1 or any(order != lowest[chain] for chain, order in orders.items())
 
 
 def _replace(value: ca.SX, removed: list[int], definitions: ca.SX, chains: Chains) -> ca.SX:
