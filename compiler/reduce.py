@@ -10,11 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.contacts import Geometry, down, element_geometry, row_rates
+from frot.compiler.contacts import Geometry, down, joint_geometry, row_rates
 from frot.compiler.expressions import Conditions, Lowering
 from frot.compiler.forces import load
 from frot.compiler.kinematics import Kinematics
-from frot.compiler.mechanism import Element, Mechanism, Pin
+from frot.compiler.mechanism import Joint, Mechanism, Pin
 from frot.compiler.pins import PinGeometry
 from frot.compiler.symbols import Rows, Symbols, column, contact_rows, make_symbols
 from frot.compiler.variables import Variables
@@ -105,9 +105,9 @@ def _variables(mechanism: Mechanism, kinematics: Kinematics, symbols: Symbols) -
     geometry: dict[Liaison, Geometry | PinGeometry] = {}
     for index, contact in enumerate(mechanism.contacts):
         side = symbols.sides[index]
-        geometry[contact.liaison] = element_geometry(contact, kinematics, side, world)
+        geometry[contact.liaison] = joint_geometry(contact, kinematics, side, world)
     for contact in mechanism.ideal:
-        geometry[contact.liaison] = element_geometry(contact, kinematics, ca.SX(1), world)
+        geometry[contact.liaison] = joint_geometry(contact, kinematics, ca.SX(1), world)
     return Variables(
         symbols,
         kinematics,
@@ -202,7 +202,7 @@ def _reads_solution(value: ca.SX, symbols: Symbols) -> bool:
     )
 
 
-def _rates(contacts: tuple[Element, ...], variables: Variables, kinematics: Kinematics) -> ca.SX:
+def _rates(contacts: tuple[Joint, ...], variables: Variables, kinematics: Kinematics) -> ca.SX:
     return column(
         rate
         for contact in contacts
@@ -211,13 +211,13 @@ def _rates(contacts: tuple[Element, ...], variables: Variables, kinematics: Kine
 
 
 def _coefficients(
-    contacts: tuple[Element, ...], moving: Lowering, symbols: Symbols, log: Log
+    contacts: tuple[Joint, ...], moving: Lowering, symbols: Symbols, log: Log
 ) -> ca.SX:
     """mu, mu_s (times the radius of a pin), delta; a negative one is no number, so it is seen."""
     values: list[ca.SX] = []
     for contact in contacts:
-        pin = isinstance(contact, Pin) and contact.radius is not None
-        arm = moving.lower(contact.radius) if pin else ca.SX(1)
+        radius = contact.radius if isinstance(contact, Pin) else None
+        arm = ca.SX(1) if radius is None else moving.lower(radius)
         for expression in (contact.mu, contact.mu_s, contact.delta):
             if expression is None:
                 values.append(ca.SX(0))

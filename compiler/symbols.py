@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import casadi as ca
 from frot.compiler.mechanism import (
     Coordinates,
-    Element,
+    Joint,
     LineCoordinates,
     Mechanism,
     Pin,
@@ -50,7 +50,7 @@ class Symbols:
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """Rows of an element in the order of the kernel's arrays; -1 where there is none.
+    """Rows of a contact or pin in the order of the kernel's arrays; -1 where there is none.
 
     `normal` and, for a pin, `second` are the components of the reaction.
     """
@@ -85,14 +85,14 @@ def auxiliary_places(mechanism: Mechanism) -> tuple[dict[Liaison, int], int]:
     """
     places: dict[Liaison, int] = {}
     count = 0
-    for element in mechanism.contacts:
-        if element.reduced:
-            places[element.liaison] = count
-            count += 2 if isinstance(element, Pin) else 1
+    for joint in mechanism.contacts:
+        if joint.reduced:
+            places[joint.liaison] = count
+            count += 2 if isinstance(joint, Pin) else 1
     return places, count
 
 
-def contact_rows(contacts: tuple[Element, ...]) -> tuple[Rows, ...]:
+def contact_rows(contacts: tuple[Joint, ...]) -> tuple[Rows, ...]:
     """Number the rows of the contacts and pins."""
     rows: list[Rows] = []
     count = 0
