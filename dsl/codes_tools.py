@@ -110,4 +110,17 @@ TOOLS: Mapping[str, Code] = {
         "Check the coefficients of restitution and of friction of the liaisons named.",
         "",
     ),
+    "E0906": Code(
+        "an assertion does not hold",
+        "An 'assert' among the equations came to be false; its message is given.",
+        "Look at what leads there; 'level = warning' tells it and goes on.",
+        "",
+    ),
+    "E0907": Code(
+        "equations without a solution",
+        "The equations named do not determine their unknowns at this instant: no solution was "
+        "found near the last values, or there is more than one.",
+        "Give start values near the solution, or keep the motion away from there.",
+        "",
+    ),
 }

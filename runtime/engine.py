@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-OK, FULL, STOPPED = 0, 1, 2
+OK, FULL, STOPPED, TERMINATED = 0, 1, 2, 3
 INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
 _TEXT = 1024
 # Bytes of recorded steps after which a run is told to be too long.
@@ -88,6 +88,7 @@ _SIGNATURES: dict[str, tuple[object, tuple[object, ...]]] = {
     "frot_state_size": (ct.c_size_t, (_POINTER,)),
     "frot_work_size": (ct.c_size_t, (_POINTER,)),
     "frot_segment_size": (_LONG, (_POINTER,)),
+    "frot_events_at_once": (_LONG, (_POINTER,)),
     "frot_state_clear": (None, (_POINTER, _POINTER)),
     "frot_set_parameter": (None, (_POINTER, _POINTER, _INT, _DOUBLE)),
     "frot_set_input": (None, (_POINTER, _POINTER, _INT, _DOUBLE)),
@@ -244,7 +245,7 @@ class Engine:
         capacity = 64
         while True:
             buffer = np.empty((capacity, self.segment_size))
-            raw = (RawEvent * (4 * len(self.program.contacts) + 256))()
+            raw = (RawEvent * (256 + self._library.frot_events_at_once(self._model)))()
             recorder = Recorder(_address(buffer), capacity, 0, raw, len(raw), 0)
             status = int(
                 self._library.frot_advance(

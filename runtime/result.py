@@ -27,6 +27,8 @@ KINDS = (
     "reaction",
     "condition",
     "several",
+    "warning",
+    "terminate",
 )
 MODES = ("open", "stick", "slip")
 MOST_EVENTS = 40

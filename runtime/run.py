@@ -8,13 +8,23 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 from frot.dsl.diagnostics import FrotError, Log, fail
-from frot.runtime.engine import FULL, MOST_MEMORY, OK, STOPPED, Engine, Floats, RawEvent
+from frot.runtime.engine import (
+    FULL,
+    MOST_MEMORY,
+    OK,
+    STOPPED,
+    TERMINATED,
+    Engine,
+    Floats,
+    RawEvent,
+)
 from frot.runtime.program import ParameterInfo, Program
 from frot.runtime.result import KINDS, MODES, ROLLING, Event, Figures, Result
 
 DEFAULT_POINTS = 500
 MOST_POINTS = 10_000_000
 TOLERANCES = (1e-14, 1e-1)
+_GOOD = (OK, STOPPED, TERMINATED)
 
 CODES = {
     10: "E0401",
@@ -24,6 +34,8 @@ CODES = {
     15: "E0902",
     16: "E0903",
     17: "E0904",
+    22: "E0907",
+    23: "E0906",
 }
 
 
@@ -94,9 +106,9 @@ def simulate(
     wall = clock.perf_counter() - begun
     if run.status == FULL:
         end = float(run.segments[-1][0])
-    elif run.status not in (OK, STOPPED):
+    elif run.status not in _GOOD:
         end = min(engine.fault.t, engine.time)
-    elif run.status == STOPPED:
+    elif run.status != OK:
         end = engine.time
     kept = times[times < end]
     grid = np.append(kept, end) if run.status != OK else times
@@ -108,7 +120,7 @@ def simulate(
     )
     if run.status == FULL:
         raise _too_long(result, end)
-    if run.status not in (OK, STOPPED) or result is None:
+    if run.status not in _GOOD or result is None:
         raise _fault(engine, result)
     return result
 
@@ -221,6 +233,8 @@ def _from_text(info: ParameterInfo, text: str) -> float:
 def _event(engine: Engine, raw: RawEvent) -> Event:
     kind = KINDS[raw.kind]
     names: tuple[str, ...]
+    if kind in ("warning", "terminate"):
+        return Event(raw.t, kind, "", "", "", engine.event_text(raw))
     if kind == "condition":
         names = ("false", "true")
         liaison = f"condition {raw.contact + 1}"
@@ -250,5 +264,7 @@ _HELP = {
     16: "look at what switches at that time; change a coefficient or the starting values a little",
     17: "correct the expression, or keep the motion away from there",
     18: "look at the liaison or force named; a softer or smaller load may avoid it",
+    22: "give start values near the solution, or keep the motion away from there",
+    23: "look at what leads there, or weaken the assertion",
     19: "give every body a mass and an inertia of a usual size",
 }

@@ -8,15 +8,10 @@
 
 void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
                  const double *v, const double *d) {
-  frot_layout l = frot_layout_of(m);
+  (void)m;
   w->arg[0] = t, w->arg[1] = q, w->arg[2] = v;
-  w->arg[3] = s->data + l.u, w->arg[4] = s->data + l.p, w->arg[5] = d, w->arg[6] = w->y;
-}
-
-int frot_all_finite(const double *x, int n) {
-  double sum = 0;
-  for (int i = 0; i < n; i++) sum += x[i] - x[i];
-  return sum == 0;
+  w->arg[3] = s->data + w->layout.u, w->arg[4] = s->data + w->layout.p;
+  w->arg[5] = d, w->arg[6] = w->y;
 }
 
 /* Rows of the closed contacts into w->row_of; returns their number. */
@@ -57,7 +52,7 @@ static int symmetric_core(const frot_model *m, frot_work *w, int n) {
 
 /* A is any matrix: W = J Z and free = J z0 + c from Z = A^-1 E and z0 = A^-1 h. */
 static int general_core(const frot_model *m, frot_work *w, int n) {
-  frot_layout l = frot_layout_of(m);
+  frot_layout l = w->layout;
   int nw = l.nw, nr = m->n_rows;
   w->res[0] = w->effect, w->res[1] = w->metric;
   m->spread.call(w->arg, w->res, w->iw, w->w, 0);
@@ -181,7 +176,7 @@ static void spread_sizes(const frot_model *m, frot_work *w, const double *load, 
 
 void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d, const frot_contact_mode *modes) {
-  frot_layout l = frot_layout_of(m);
+  frot_layout l = w->layout;
   int nw = l.nw;
   double *load = w->step;
   const double *rows = m->general ? w->rows : w->half_rows;
@@ -212,7 +207,7 @@ void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, 
 }
 
 void frot_note_push(const frot_model *m, frot_state *s, const frot_work *w) {
-  frot_layout l = frot_layout_of(m);
+  frot_layout l = w->layout;
   if (!m->general) {
     s->push = fmax(s->push, sqrt(frot_dot(w->force, w->force, l.nw)));
     return;
@@ -222,9 +217,8 @@ void frot_note_push(const frot_model *m, frot_state *s, const frot_work *w) {
 }
 
 double frot_push_on(const frot_model *m, const frot_state *s, const frot_work *w, int speed) {
-  frot_layout l = frot_layout_of(m);
-  if (m->general) return s->data[l.push_v + speed];
-  return s->push / w->factor[speed * (l.nm + 1)];
+  if (m->general) return s->data[w->layout.push_v + speed];
+  return s->push / w->factor[speed * (m->nv + m->na + 1)];
 }
 
 int frot_is_prescribed(const frot_model *m, const frot_work *w, int row) {

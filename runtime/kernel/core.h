@@ -54,6 +54,10 @@ int frot_is_prescribed(const frot_model *m, const frot_work *w, int row);
 #define FROT_PRESCRIBED_REST 1e-12
 
 /* Whether all numbers are finite. */
-int frot_all_finite(const double *x, int n);
+static inline int frot_all_finite(const double *x, int n) {
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += x[i] - x[i];
+  return sum == 0;
+}
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "blocks.h"
 
+#define VANISHED 1e-9 /* part of its largest size below which a reaction has no direction */
+
 /* Guards of one bounded relative motion: of friction (bound mu_s N) or of rolling (bound delta N).
  */
 static void bounded(int mode, double rate, double rate_scale, double lam, double bound,
@@ -35,10 +37,24 @@ static void bounded_motion(const frot_model *m, const frot_work *w, const double
           frot_bound_of_rest(m, w, i, mode, rolling), g, size);
 }
 
+void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w) {
+  for (int i = 0; i < m->n_contacts && w->pins > 0; i++) {
+    const frot_contact *contact = &m->contacts[i];
+    if (contact->bound != FROT_BY_PIN) continue;
+    double *along = s->data + w->layout.along + 2 * i;
+    double first = w->lam[contact->row_n], second = w->lam[contact->row_n2];
+    double size = hypot(first, second), largest = s->data[w->layout.scale_g + FROT_GUARDS * i];
+    if (size > VANISHED * largest)
+      along[0] = first / size, along[1] = second / size;
+    else
+      along[0] = -along[0], along[1] = -along[1]; /* it passes through zero */
+  }
+}
+
 void frot_guards(const frot_model *m, const frot_state *s, frot_work *w, const double *q,
                  const double *v, const double *d, const frot_contact_mode *modes, double *guard,
                  double *scale) {
-  const double *unilateral = s->data + frot_layout_of(m).unilateral;
+  const double *unilateral = s->data + w->layout.unilateral;
   for (int i = 0; i < m->n_contacts; i++) {
     const frot_contact *contact = &m->contacts[i];
     const frot_contact_mode *mode = &modes[i];
@@ -51,6 +67,12 @@ void frot_guards(const frot_model *m, const frot_state *s, frot_work *w, const d
       if (frot_has_normal(contact) && (unilateral[i] != 0 || bounds)) {
         g[0] = mode->side * w->lam[contact->row_n];
         size[0] = fabs(w->lam[contact->row_n]);
+      }
+      if (contact->bound == FROT_BY_PIN && mode->friction > FROT_STICK) {
+        const double *along = s->data + w->layout.along + 2 * i;
+        double first = w->lam[contact->row_n], second = w->lam[contact->row_n2];
+        g[0] = along[0] * first + along[1] * second;
+        size[0] = fabs(first) + fabs(second);
       }
       bounded_motion(m, w, v, i, mode, 0, g + 1, size + 1);
       bounded_motion(m, w, v, i, mode, 1, g + 3, size + 3);

@@ -14,6 +14,11 @@ void frot_guards(const frot_model *m, const frot_state *s, frot_work *w, const d
                  const double *v, const double *d, const frot_contact_mode *modes, double *guard,
                  double *scale);
 
+/* Turn the reference directions of the pins' reactions to what they are in w->lam. The size of a
+ * reaction has a corner where it passes through zero: while a pin slips, its first guard is its
+ * reaction along the reference, so that no step goes over the corner. */
+void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w);
+
 /* Solve everything at (t, q, v, d) in the given mode: w->a, w->lam, w->qd and w->power, and with
  * `late` all the unknowns w->y. FROT_OK or a status that is not recorded as a fault. */
 int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,

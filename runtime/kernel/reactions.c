@@ -72,9 +72,9 @@ static int holds(const frot_work *w, const frot_contact_mode *modes, int i, int 
 /* Unknowns into w->row_of, w->contact_of and `kind`, then the rows whose reaction is known though
  * they are held; returns the number of unknowns and in *rows that of all of them. */
 static int list_unknowns(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                         unsigned char *kind, int *rows) {
+                         unsigned char *kind, int clamped, int *rows) {
   int n = 0;
-  for (int pass = 1; pass <= 2; pass++) {
+  for (int pass = 1; pass <= 1 + clamped; pass++) {
     for (int i = 0; i < m->n_contacts; i++) {
       const frot_contact *contact = &m->contacts[i];
       if (!modes[i].closed) continue;
@@ -127,19 +127,40 @@ static void assemble(const frot_model *m, frot_work *w, const frot_contact_mode 
   }
 }
 
-/* Least friction where the rows depend on each other (hyperstatic), if they do not contradict.
- * Friction weighs so much more than normal reactions that rest is not lost for want of it. */
+/* Weights of the unknowns into w->weight: friction weighs so much more than normal reactions that
+ * rest is not lost for want of it. Elements side by side that values bound share a load in
+ * proportion to their bounds, so that they reach them together: sum of lam^2 g / bound is least,
+ * where g, the size of the row, makes a gear between them count. */
+static void set_weights(const frot_model *m, frot_work *w, const unsigned char *kind,
+                        int unknowns) {
+  double largest = 0;
+  for (int c = 0; c < unknowns; c++) {
+    int i = w->contact_of[c], row = w->row_of[c];
+    double *weight = w->weight + c;
+    *weight = 1;
+    if (kind[c] != HELD || m->contacts[i].bound != FROT_BY_VALUE) continue;
+    double size = sqrt(fabs(w->delassus[row * (m->n_rows + 1)]));
+    *weight = size > 0 ? sqrt(w->coefficient[3 * i + 1] / size) : 1;
+    largest = fmax(largest, *weight);
+  }
+  for (int c = 0; c < unknowns; c++) {
+    if (kind[c] != HELD) continue;
+    if (m->contacts[w->contact_of[c]].bound == FROT_BY_VALUE && largest > 0)
+      w->weight[c] /= largest;
+    w->weight[c] *= FRICTION_WEIGHT;
+  }
+}
+
+/* Least reactions where the rows depend on each other (hyperstatic), if they do not contradict. */
 static int solve_least(const frot_model *m, frot_work *w, const unsigned char *kind, int unknowns,
                        int rows, double *x) {
   double *copy = w->lstsq, *b = copy + rows * unknowns, *scratch = b + rows;
-  for (int c = 0; c < unknowns; c++) {
-    double weight = kind[c] == HELD ? FRICTION_WEIGHT : 1;
-    for (int r = 0; r < rows; r++) copy[c * rows + r] = weight * w->active[c * rows + r];
-  }
+  set_weights(m, w, kind, unknowns);
+  for (int c = 0; c < unknowns; c++)
+    for (int r = 0; r < rows; r++) copy[c * rows + r] = w->weight[c] * w->active[c * rows + r];
   memcpy(b, w->right, sizeof(double) * (size_t)rows);
   frot_least_norm(copy, b, rows, unknowns, x, scratch, w->pivot);
-  for (int c = 0; c < unknowns; c++)
-    if (kind[c] == HELD) x[c] *= FRICTION_WEIGHT;
+  for (int c = 0; c < unknowns; c++) x[c] *= w->weight[c];
   for (int r = 0; r < rows; r++) {
     double sum = -w->right[r], size = frot_free_size(m, w, w->row_of[r]) + fabs(w->right[r]);
     for (int c = 0; c < unknowns; c++) {
@@ -153,8 +174,8 @@ static int solve_least(const frot_model *m, frot_work *w, const unsigned char *k
 
 /* Solve once in the directions w->along. *dependent: the reactions are not unique. */
 static int solve(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                 unsigned char *kind, int *dependent) {
-  int rows, unknowns = list_unknowns(m, w, modes, kind, &rows);
+                 unsigned char *kind, int clamped, int *dependent) {
+  int rows, unknowns = list_unknowns(m, w, modes, kind, clamped, &rows);
   memset(w->lam, 0, sizeof(double) * (size_t)m->n_rows);
   assemble(m, w, modes, kind, unknowns, rows);
   double *copy = w->lstsq, *x = w->step;
@@ -197,11 +218,12 @@ static double turn_pins(const frot_model *m, frot_work *w, const frot_contact_mo
 }
 
 static int solve_pins(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                      unsigned char *kind, int *dependent) {
+                      unsigned char *kind, int clamped, int *dependent) {
+  if (w->pins == 0) return solve(m, w, modes, kind, clamped, dependent);
   memset(w->along, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
   int last = 0;
   for (int pass = 0; pass < PIN_PASSES; pass++) {
-    if (solve(m, w, modes, kind, dependent)) return 1;
+    if (solve(m, w, modes, kind, clamped, dependent)) return 1;
     double missed = turn_pins(m, w, modes);
     if (last || missed <= 4 * DBL_EPSILON) return 0;
     last = missed < PIN_CLOSE;
@@ -237,14 +259,14 @@ int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *m
   if (m->n_rows == 0) return 0;
   memset(w->clamp, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
   set_ratios(m, w, modes, at_rest);
-  if (solve_pins(m, w, modes, kind, &dependent)) return 1;
+  if (solve_pins(m, w, modes, kind, 0, &dependent)) return 1;
   while (dependent && clamp_excess(m, w, modes)) {
     set_ratios(m, w, modes, at_rest);
-    if (!solve_pins(m, w, modes, kind, &dependent)) continue;
+    if (!solve_pins(m, w, modes, kind, 1, &dependent)) continue;
     /* nothing else can hold: the excess stands, and ends the rest */
     memset(w->clamp, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
     set_ratios(m, w, modes, at_rest);
-    return solve_pins(m, w, modes, kind, &dependent);
+    return solve_pins(m, w, modes, kind, 0, &dependent);
   }
   return 0;
 }

@@ -74,6 +74,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.noise, 0, sizeof(double) * (size_t)(m->nq + m->nv));
   memset(s->data + l.push_v, 0, sizeof(double) * (size_t)m->nv);
+  memset(s->data + l.along, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
   memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.left, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
   memset(s->data + l.frozen, 0, sizeof(double) * (size_t)m->nv);

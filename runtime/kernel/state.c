@@ -33,6 +33,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.scale_g = at, at += l.ng;
   l.noise = at, at += m->nq + m->nv;
   l.push_v = at, at += m->nv;
+  l.along = at, at += 2 * m->n_contacts;
   l.fired = at, at += l.ng;
   l.left = at, at += 2 * m->n_contacts;
   l.asked = at, at += m->n_outcomes;
@@ -109,6 +110,9 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   for (int i = 0; i < m->n_blocks; i++)
     if (m->blocks[i].count > nb) nb = m->blocks[i].count;
   arena a = {base, sizeof(frot_work)};
+  w->layout = l;
+  w->pins = 0;
+  for (int i = 0; i < nc; i++) w->pins += m->contacts[i].bound == FROT_BY_PIN;
   TAKE(arg, most.n_arg), TAKE(res, most.n_res), TAKE(iw, most.n_iw), TAKE(w, most.n_w);
   TAKE(pivot, big > wide ? big : wide);
   TAKE(y, m->ny), TAKE(y_end, m->ny);
@@ -126,7 +130,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(active, big * (big > wide ? big : wide)), TAKE(right, big);
   int least = big < wide ? big : wide;
   TAKE(lstsq, 2 * big * big + 6 * big + 4 * wide + least * wide);
-  TAKE(row_of, nr + nc), TAKE(contact_of, nr), TAKE(kind, nr), TAKE(guard, l.ng),
+  TAKE(row_of, nr + nc), TAKE(contact_of, nr), TAKE(kind, nr), TAKE(weight, nr), TAKE(guard, l.ng),
       TAKE(k, DP_ALL * l.nz);
   TAKE(z0, l.nz), TAKE(z1, l.nz), TAKE(ztry, l.nz), TAKE(f, DP_DENSE * l.nz);
   int nvar = m->np > l.nw ? m->np : l.nw;

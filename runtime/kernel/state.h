@@ -26,8 +26,8 @@ typedef struct {
 typedef struct {
   int nw, nm, nx, nz, ng, nd, ns; /* nm: order of the metric; ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
-  int set, given, p, u, experiment, unilateral, x, y, slope, scale_x, scale_g, noise, push_v, fired,
-      left, asked, modes, d, frozen, segment, size;
+  int set, given, p, u, experiment, unilateral, x, y, slope, scale_x, scale_g, noise, push_v, along,
+      fired, left, asked, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -70,6 +70,8 @@ typedef struct {
 } frot_segment;
 
 struct frot_work {
+  frot_layout layout;
+  int pins; /* elements that a pin's reaction bounds */
   const double **arg;
   double **res;
   long long *iw;
@@ -98,6 +100,7 @@ struct frot_work {
   int *row_of;                    /* rows of the active system */
   int *contact_of;                /* and the contacts they belong to */
   unsigned char *kind;            /* and what they are */
+  double *weight;                 /* and what they weigh where they are not unique */
   double *guard;                  /* ng */
   double *k;                      /* DP_ALL x nz */
   double *z0, *z1, *ztry;         /* nz */

@@ -32,8 +32,7 @@
 #define PATIENCE 6
 /* Part by which values are moved to see what rounding does to derivatives. */
 #define NUDGE (2 * DBL_EPSILON)
-/* States worked on together: their sums stay in the processor's nearest memory. */
-#define CHUNK 64
+#define CHUNK 4 /* states summed together, in registers */
 /* Length of a step in which nothing moves and nothing depends on time, in longest steps. */
 #define LONG_REST 1e9
 
@@ -49,18 +48,24 @@ static int slope_at(const frot_model *m, frot_state *s, frot_work *w, const frot
                           slope);
 }
 
-/* sum <- sum of coefficient[k] times stage k < count, for `size` states from `from` on. The length
- * of the loops is known at compile time where it can be, which makes them fast. */
+/* sum[j] <- sum of coefficient[k] times stage k < count at state from + j, j < size <= CHUNK. */
 static void weigh(const frot_work *w, int nz, const double *coefficient, int count, int from,
-                  int size, double *sum) {
-  for (int j = 0; j < size; j++) sum[j] = 0;
-  for (int k = 0; k < count; k++) {
-    const double factor = coefficient[k], *slope = w->k + k * nz + from;
-    if (factor == 0) continue;
-    if (size == CHUNK)
-      for (int j = 0; j < CHUNK; j++) sum[j] += factor * slope[j];
-    else
-      for (int j = 0; j < size; j++) sum[j] += factor * slope[j];
+                  int size, double sum[CHUNK]) {
+  const double *slopes = w->k + from;
+  if (size == CHUNK) {
+    double a = 0, b = 0, c = 0, d = 0;
+    for (int k = 0; k < count; k++, slopes += nz) {
+      const double factor = coefficient[k];
+      a += factor * slopes[0], b += factor * slopes[1];
+      c += factor * slopes[2], d += factor * slopes[3];
+    }
+    sum[0] = a, sum[1] = b, sum[2] = c, sum[3] = d;
+    return;
+  }
+  for (int j = 0; j < size; j++) {
+    double total = 0;
+    for (int k = 0; k < count; k++) total += coefficient[k] * slopes[k * nz + j];
+    sum[j] = total;
   }
 }
 
@@ -311,8 +316,10 @@ static int start_slope(const frot_model *m, frot_state *s, frot_work *w, const f
   int status = slope_at(m, s, w, l, t, w->z0, stage(l, w, 0));
   if (status == FROT_OK) {
     memcpy(s->data + l->y, w->y, sizeof(double) * (size_t)m->ny);
+    frot_turn_references(m, s, w);
     measure(m, s, w, l, w->z0);
     note_sizes(m, s, w, l, w->z0);
+    memcpy(stage(l, w, 0) + l->nx, w->ztry, sizeof(double) * (size_t)l->ng);
   }
   return status;
 }

@@ -1,10 +1,15 @@
 from __future__ import annotations
 
 import ctypes as ct
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from frot.runtime.program import Program
+from frot.runtime.result import Result
+from frot.runtime.run import simulate
+from small_models import Small, build
 
 import frot
 
@@ -24,3 +29,17 @@ def kernel(programs: dict[str, Program]) -> ct.CDLL:
     library.frot_first_fall.restype = ct.c_double
     library.frot_bernstein.restype = ct.c_double
     return library
+
+
+@pytest.fixture(scope="session")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Result]:
+    """Compiles a small model, once for each name, and runs it as `simulate` does."""
+    folder = tmp_path_factory.mktemp("small")
+    made: dict[str, Program] = {}
+
+    def run(model: Small, **options: Any) -> Result:
+        if model.name not in made:
+            made[model.name] = build(model, folder / model.name)
+        return simulate(made[model.name], **options)
+
+    return run
