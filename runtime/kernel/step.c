@@ -191,9 +191,10 @@ static void guard_polynomial(const frot_work *w, const frot_layout *l, int guard
   }
 }
 
-/* The first guard to fall inside the step, its theta in *theta; -1 when none does. */
-static int first_guard(const frot_state *s, const frot_work *w, const frot_layout *l, double h,
-                       double *theta) {
+/* The first guard to fall inside the step from t, its theta in *theta; -1 when none does. A guard
+ * that was zero at an event is known no better than its slope times the resolution of time. */
+static int first_guard(const frot_state *s, const frot_work *w, const frot_layout *l, double t,
+                       double h, double *theta) {
   int found = -1;
   *theta = FROT_NO_ROOT;
   for (int j = 0; j < l->ng; j++) {
@@ -201,7 +202,8 @@ static int first_guard(const frot_state *s, const frot_work *w, const frot_layou
     guard_polynomial(w, l, j, h, g);
     double size = s->data[l->scale_g + j];
     for (int k = 0; k < 7; k++) size = fmax(size, fabs(g[k]));
-    double at = frot_first_fall(g, GUARD_FLOOR * size);
+    double slope = 6 * fabs(g[1] - g[0]) / h;
+    double at = frot_first_fall(g, GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * slope);
     if (at < *theta) *theta = at, found = j;
   }
   return found;
@@ -420,7 +422,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   }
 
   double theta;
-  int guard = first_guard(s, w, &l, h, &theta), falls = 0;
+  int guard = first_guard(s, w, &l, t, h, &theta), falls = 0;
   if (guard >= 0) {
     if (theta * h <= LEAST_STEP * fmax(fabs(t), h)) return fire_at_start(s, &l, guard);
     status = locate(m, s, w, &l, t, guard, theta, &h, &falls);
