@@ -1,4 +1,4 @@
-"""Gap, slip and rolling rate of the contacts, and the rows of every element."""
+"""Gap, slip and rolling rate of the contacts, and the rows of every joint."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.kinematics import Kinematics, Line
-from frot.compiler.mechanism import Contact, Element, Pin, is_unilateral, owner_body, point_body
+from frot.compiler.mechanism import Contact, Joint, Pin, is_unilateral, owner_body, point_body
 from frot.compiler.pins import PinGeometry, pin_geometry
 from frot.dsl.checked import World
 
@@ -45,25 +45,25 @@ def down(world: World) -> ca.SX:
     return ca.SX(ca.DM(DOWN[world.down]))
 
 
-def element_geometry(
-    element: Element, kinematics: Kinematics, side: ca.SX, world: World
+def joint_geometry(
+    joint: Joint, kinematics: Kinematics, side: ca.SX, world: World
 ) -> Geometry | PinGeometry:
     """Geometry and relative velocities of a contact or pin, be it ideal or with friction."""
-    if isinstance(element, Pin):
-        return pin_geometry(element, kinematics)
-    return contact_geometry(element, kinematics, side, world)
+    if isinstance(joint, Pin):
+        return pin_geometry(joint, kinematics)
+    return contact_geometry(joint, kinematics, side, world)
 
 
 def row_rates(
-    element: Element, geometry: Geometry | PinGeometry, kinematics: Kinematics
+    joint: Joint, geometry: Geometry | PinGeometry, kinematics: Kinematics
 ) -> list[ca.SX]:
-    """Relative velocities of the element's rows, in their order."""
+    """Relative velocities of the joint's rows, in their order."""
     if isinstance(geometry, PinGeometry):
-        return [geometry.apart, *([geometry.speed] if element.mu is not None else [])]
+        return [geometry.apart, *([geometry.speed] if joint.mu is not None else [])]
     rates = [kinematics.velocity(geometry.gap)]
-    if element.mu is not None:
+    if joint.mu is not None:
         rates.append(geometry.slip)
-    if element.delta is not None:
+    if joint.delta is not None:
         rates.append(geometry.roll)
     return rates
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 from frot.compiler.lower import Lowered, lower
-from frot.compiler.mechanism import Element, Pin
+from frot.compiler.mechanism import Joint, Pin
 from frot.compiler.mechanize import mechanize
 from frot.compiler.names import coordinate_names
 from frot.compiler.reduce import Reduced, reduce
@@ -151,9 +151,9 @@ def _assemble(lowered: Lowered) -> Dae:
     )
 
 
-def _row_names(element: Element, rows: Rows) -> tuple[str, ...]:
-    name = element.liaison.name
-    if isinstance(element, Pin):
+def _row_names(joint: Joint, rows: Rows) -> tuple[str, ...]:
+    name = joint.liaison.name
+    if isinstance(joint, Pin):
         couple = (f"{name}.torque",) if rows.tangent >= 0 else ()
         return (f"{name}.force.x", f"{name}.force.y", *couple)
     return (
@@ -163,9 +163,9 @@ def _row_names(element: Element, rows: Rows) -> tuple[str, ...]:
     )
 
 
-def _bounds_couple(element: Element) -> bool:
+def _bounds_couple(joint: Joint) -> bool:
     """Whether the friction follows the norm of two components, which is not linear in them."""
-    return isinstance(element, Pin) and element.mu is not None
+    return isinstance(joint, Pin) and joint.mu is not None
 
 
 def _solve(alg: ca.SX, z: ca.SX, known: list[ca.SX], curved: bool) -> ca.Function:
@@ -184,13 +184,13 @@ def _solve(alg: ca.SX, z: ca.SX, known: list[ca.SX], curved: bool) -> ca.Functio
     return ca.Function("solve", arguments, [reached], *names)
 
 
-def _normal(reduced: Reduced, element: Element, rows: Rows, side: ca.SX) -> ca.SX:
+def _normal(reduced: Reduced, joint: Joint, rows: Rows, side: ca.SX) -> ca.SX:
     """The normal reaction that bounds friction: not negative; of a pin, the size of its reaction.
 
     Its slope is zero where a pin carries nothing, so that Newton's method can start there.
     """
     lam = reduced.symbols.lam
-    if not isinstance(element, Pin):
+    if not isinstance(joint, Pin):
         return side * lam[rows.normal]
     square = lam[rows.normal] ** 2 + lam[rows.second] ** 2
     return ca.if_else(square > 0, ca.sqrt(ca.if_else(square > 0, square, 1)), 0)

@@ -74,7 +74,7 @@ def load(force: Force, kinematics: Kinematics, lowering: Lowering, ground: Body)
         # Where the ends meet a spring has no direction: the limit of the part without one is taken.
         slack = (
             ca.SX(0)
-            if _is_zero(arguments["length"])
+            if _literal(arguments["length"]) == 0
             else ca.if_else(length > 0, rest / length, ca.SX(0))
         )
         pull, energy = -stiffness * (1 - slack) * apart, stiffness * (length - rest) ** 2 / 2
@@ -98,16 +98,13 @@ def _turning(holder: Argument, kinematics: Kinematics) -> ca.SX:
 def _drag(
     arguments: Mapping[str, Argument], kinematics: Kinematics, lowering: Lowering, ground: Body
 ) -> Load:
-    """A force c |v|^exponent against v, zero at rest."""
+    """A force c |v|^exponent against v; the exponent is 1 or 2."""
     body, place = _point(arguments["body"], kinematics, lowering, ground)
     velocity = kinematics.velocity_at(body, place)
-    power = lowering.lower(_value(arguments["exponent"])) - 1
-    moving = ca.sumsqr(velocity) > 0
-    speed = ca.sqrt(ca.if_else(moving, ca.sumsqr(velocity), 1))
-    factor = ca.SX(1) if power.is_zero() else ca.if_else(moving, speed**power, 0)
-    return Load(
-        (Action(velocity, -lowering.lower(_value(arguments["c"])) * factor * velocity),), None
-    )
+    factor = lowering.lower(_value(arguments["c"]))
+    if _literal(arguments["exponent"]) == 2:
+        factor *= ca.sqrt(ca.sumsqr(velocity))
+    return Load((Action(velocity, -factor * velocity),), None)
 
 
 def _unit(vector: ca.SX) -> ca.SX:
@@ -121,5 +118,5 @@ def _value(argument: Argument) -> Expression:
     return argument
 
 
-def _is_zero(argument: Argument) -> bool:
-    return isinstance(argument, Literal) and argument.value == 0
+def _literal(argument: Argument) -> object:
+    return argument.value if isinstance(argument, Literal) else None

@@ -94,7 +94,7 @@ class Pin:
         return None
 
 
-Element = Contact | Pin
+Joint = Contact | Pin
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -108,8 +108,8 @@ class Mechanism:
 
     model: Model
     coordinates: tuple[Coordinates, ...]
-    contacts: tuple[Element, ...]
-    ideal: tuple[Element, ...]
+    contacts: tuple[Joint, ...]
+    ideal: tuple[Joint, ...]
     forces: tuple[Force, ...]
 
 

@@ -12,14 +12,14 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.chains import Chains
-from frot.compiler.contacts import Geometry, down, element_geometry, row_rates
+from frot.compiler.contacts import Geometry, down, joint_geometry, row_rates
 from frot.compiler.eliminate import Residuals
 from frot.compiler.events import Events, gather_events
 from frot.compiler.expressions import Conditions, Lowering
 from frot.compiler.forces import load
 from frot.compiler.gather import gather
 from frot.compiler.kinematics import Kinematics
-from frot.compiler.mechanism import Element, Mechanism, Pin
+from frot.compiler.mechanism import Joint, Mechanism, Pin
 from frot.compiler.names import coordinate_names
 from frot.compiler.origins import Origin
 from frot.compiler.pins import PinGeometry
@@ -206,9 +206,9 @@ def _variables(
     geometry: dict[Liaison, Geometry | PinGeometry] = {}
     for index, contact in enumerate(mechanism.contacts):
         side = symbols.sides[index]
-        geometry[contact.liaison] = element_geometry(contact, kinematics, side, world)
+        geometry[contact.liaison] = joint_geometry(contact, kinematics, side, world)
     for contact in mechanism.ideal:
-        geometry[contact.liaison] = element_geometry(contact, kinematics, ca.SX(1), world)
+        geometry[contact.liaison] = joint_geometry(contact, kinematics, ca.SX(1), world)
     return Variables(
         symbols,
         text.chains,
@@ -302,7 +302,7 @@ def _reads_solution(value: ca.SX, symbols: Symbols) -> bool:
     )
 
 
-def _rates(contacts: tuple[Element, ...], variables: Variables, kinematics: Kinematics) -> ca.SX:
+def _rates(contacts: tuple[Joint, ...], variables: Variables, kinematics: Kinematics) -> ca.SX:
     return column(
         rate
         for contact in contacts
@@ -311,7 +311,7 @@ def _rates(contacts: tuple[Element, ...], variables: Variables, kinematics: Kine
 
 
 def _coefficients(
-    contacts: tuple[Element, ...], moving: Lowering, symbols: Symbols, log: Log
+    contacts: tuple[Joint, ...], moving: Lowering, symbols: Symbols, log: Log
 ) -> ca.SX:
     """mu, mu_s (times the radius of a pin), delta; a negative one is no number, so it is seen."""
     values: list[ca.SX] = []

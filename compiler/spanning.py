@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from frot.compiler.mechanism import (
     Contact,
     Coordinates,
-    Element,
     FreeCoordinates,
+    Joint,
     LineCoordinates,
     Pin,
     PinCoordinates,
@@ -29,26 +29,26 @@ class Tree:
     closing: tuple[Pin, ...]
 
 
-def span(model: Model, elements: Iterable[Element]) -> Tree:
+def span(model: Model, joints: Iterable[Joint]) -> Tree:
     """Let pins join bodies to groups, and a point on a line carry a group that has no ground.
 
     In the order of the text: a pin within a group closes a loop; a group hangs on the first line
     that is not on itself or on what it carries; else its first body moves freely.
     """
-    elements = tuple(elements)
+    joints = tuple(joints)
     groups = _Groups((model.ground, *model.bodies))
-    joints: dict[Body, list[tuple[Pin, Body]]] = {b: [] for b in (model.ground, *model.bodies)}
+    branches: dict[Body, list[tuple[Pin, Body]]] = {b: [] for b in (model.ground, *model.bodies)}
     closing: list[Pin] = []
-    for pin in elements:
+    for pin in joints:
         if isinstance(pin, Pin):
             a, b = point_body(pin.a), point_body(pin.b)
             if groups.join(a, b):
-                joints[a].append((pin, b))
-                joints[b].append((pin, a))
+                branches[a].append((pin, b))
+                branches[b].append((pin, a))
             else:
                 closing.append(pin)
     carried: dict[Body, Contact] = {}
-    for contact in elements:
+    for contact in joints:
         if isinstance(contact, Contact) and _can_carry(contact):
             group = groups.of(point_body(contact.point))
             chain = _carriers(groups.of(owner_body(contact.line.owner)), carried, groups)
@@ -60,7 +60,7 @@ def span(model: Model, elements: Iterable[Element]) -> Tree:
         for group in reversed(_carriers(groups.of(body), carried, groups)):
             if group not in done:
                 done.add(group)
-                ordered += _coordinates(group, carried.get(group), model, groups, joints)
+                ordered += _coordinates(group, carried.get(group), model, groups, branches)
     pins = (c.pin.liaison for c in ordered if isinstance(c, PinCoordinates))
     lines = (contact.liaison for contact in carried.values())
     return Tree(tuple(ordered), frozenset((*pins, *lines)), tuple(closing))
@@ -75,7 +75,7 @@ def _coordinates(
     contact: Contact | None,
     model: Model,
     groups: _Groups,
-    joints: dict[Body, list[tuple[Pin, Body]]],
+    branches: dict[Body, list[tuple[Pin, Body]]],
 ) -> Iterator[Coordinates]:
     """Those of a group, from its root outwards."""
     if group is groups.of(model.ground):
@@ -88,7 +88,7 @@ def _coordinates(
         yield FreeCoordinates(root)
     reached, seen = [root], {root}
     for body in reached:
-        for pin, other in joints[body]:
+        for pin, other in branches[body]:
             if other not in seen:
                 seen.add(other)
                 reached.append(other)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.mechanism import (
-    Element,
+    Joint,
     Mechanism,
     Pin,
 )
@@ -55,7 +55,7 @@ class Symbols:
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """Rows of an element in the order of the kernel's arrays; -1 where there is none.
+    """Rows of a contact or pin in the order of the kernel's arrays; -1 where there is none.
 
     `normal` and, for a pin, `second` are the components of the reaction.
     """
@@ -79,14 +79,14 @@ def auxiliary_places(mechanism: Mechanism) -> tuple[dict[Liaison, int], int]:
     """
     places: dict[Liaison, int] = {}
     count = 0
-    for element in mechanism.contacts:
-        if element.reduced:
-            places[element.liaison] = count
-            count += 2 if isinstance(element, Pin) else 1
+    for joint in mechanism.contacts:
+        if joint.reduced:
+            places[joint.liaison] = count
+            count += 2 if isinstance(joint, Pin) else 1
     return places, count
 
 
-def contact_rows(contacts: tuple[Element, ...]) -> tuple[Rows, ...]:
+def contact_rows(contacts: tuple[Joint, ...]) -> tuple[Rows, ...]:
     """Number the rows of the contacts and pins."""
     rows: list[Rows] = []
     count = 0

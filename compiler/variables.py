@@ -8,7 +8,7 @@ import casadi as ca
 from frot.compiler.chains import Chains
 from frot.compiler.contacts import Geometry
 from frot.compiler.kinematics import Kinematics
-from frot.compiler.mechanism import Element, Pin, point_body
+from frot.compiler.mechanism import Joint, Pin, point_body
 from frot.compiler.pins import PinGeometry, pin_variable
 from frot.compiler.symbols import Rows, Symbols
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity
@@ -25,7 +25,7 @@ class Variables:
     chains: Chains
     kinematics: Kinematics
     geometry: dict[Liaison, Geometry | PinGeometry]
-    contacts: dict[Liaison, Element]
+    contacts: dict[Liaison, Joint]
     reactions: dict[Liaison, Rows]
 
     def quantity(self, node: Quantity) -> ca.SX:

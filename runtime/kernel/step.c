@@ -224,9 +224,10 @@ static int lost_at_once(const frot_state *s, const frot_layout *l, int j, const 
   return s->data[l->fresh + j] != 0 && g[1] - g[0] < -NOISE * inside;
 }
 
-/* The first guard to fall inside the step, its theta in *theta; -1 when none does. */
+/* The first guard to fall inside the step from t, its theta in *theta; -1 when none does. A guard
+ * that was zero at an event is known no better than its slope times the resolution of time. */
 static int first_guard(const frot_model *m, const frot_state *s, const frot_work *w,
-                       const frot_layout *l, double h, double *theta) {
+                       const frot_layout *l, double t, double h, double *theta) {
   int found = -1, conditions = FROT_GUARDS * m->n_contacts;
   *theta = FROT_NO_ROOT;
   for (int j = 0; j < l->ng; j++) {
@@ -235,7 +236,8 @@ static int first_guard(const frot_model *m, const frot_state *s, const frot_work
     double size = s->data[l->scale_g + j], inside = 0;
     for (int k = 0; k < 7; k++) inside = fmax(inside, fabs(g[k]));
     size = fmax(size, inside);
-    double at = frot_first_fall(g, GUARD_FLOOR * size);
+    double slope = 6 * fabs(g[1] - g[0]) / h;
+    double at = frot_first_fall(g, GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * slope);
     if (j >= conditions && fabs(g[0]) <= FROT_ZERO * size &&
         lost_at_once(s, l, j - conditions, g, inside))
       at = 0;
@@ -465,7 +467,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   }
 
   double theta;
-  int guard = first_guard(m, s, w, &l, h, &theta), falls = 0;
+  int guard = first_guard(m, s, w, &l, t, h, &theta), falls = 0;
   if (guard >= 0) {
     if (theta * h <= LEAST_STEP * fmax(fabs(t), h)) return fire_at_start(s, &l, guard);
     status = locate(m, s, w, &l, t, guard, theta, &h, &falls);

@@ -8,7 +8,7 @@ import math
 import casadi as ca
 import numpy as np
 import pytest
-from mechanical_scenes import Scenes, near, row
+from mechanical_scenes import REFERENCE, Scenes, near, row
 from pin_scenes import (
     CART,
     FREE_PAIR,
@@ -325,6 +325,32 @@ def _mode_of(names: tuple[str, ...], now: dict) -> np.ndarray:
         kind = {1: 1, 2: slip}[int(now[f"{liaison}.mode"])]
         mode.append({"friction": kind, "rolling": 0}.get(part, 1))
     return np.array(mode, dtype=float)
+
+
+def test_a_dry_slider_crank_obeys_every_law_at_every_instant(scenes: Scenes) -> None:
+    """The example of the language: three dry pins and a dry guide that closes the loop.
+
+    The crank is so fast that reactions change by 1e6 N/s where the guide changes sides.
+    """
+    text = (REFERENCE.parent / "examples" / "slider_crank.frot").read_text(encoding="utf-8")
+    exact, loose = (scenes.run(text, tolerance=tolerance) for tolerance in (1e-12, 1e-9))
+    assert near(loose.at(3.0)["O.angle"], exact.at(3.0)["O.angle"], rel=1e-8)
+    assert exact.balance.relative < 1e-11
+    now = exact.at(np.linspace(0.01, 3.0, 4000))
+    for pin in "OAB":
+        size = np.hypot(now[f"{pin}.force.x"], now[f"{pin}.force.y"])
+        couple = -0.12 * 0.012 * size * np.sign(now[f"{pin}.speed"])
+        moving = np.abs(now[f"{pin}.speed"]) > 1e-6
+        assert np.allclose(now[f"{pin}.torque"][moving], couple[moving], rtol=1e-8)
+    friction = -0.08 * np.abs(now["C.normal_force"]) * np.sign(now["C.slip"])
+    moving = np.abs(now["C.slip"]) > 1e-6
+    largest = np.max(np.abs(friction))
+    assert np.max(np.abs(now["C.tangential_force"] - friction)[moving]) < 1e-9 * largest
+    # the piston: force of the rod, reaction of the guide, weight
+    x = now["B.force.x"] - now["C.force.x"] - 0.9 * now["piston.acceleration.x"]
+    y = now["B.force.y"] - now["C.force.y"] - 0.9 * 9.81
+    assert np.max(np.abs(x)) < 1e-8 * np.max(np.abs(now["B.force.x"]))
+    assert np.max(np.abs(y)) < 1e-8 * np.max(np.abs(now["B.force.x"]))
 
 
 def test_energy_is_kept_in_a_chain_of_dry_pins(scenes: Scenes) -> None:
