@@ -12,7 +12,7 @@ from frot.dsl import checked, tree
 from frot.dsl.build_expressions import HIGHEST
 from frot.dsl.check_components import role_of, sizes
 from frot.dsl.check_expressions import expression, fitting, value_of
-from frot.dsl.check_types import Kind, find_type
+from frot.dsl.check_types import Kind, find_type, split_type
 from frot.dsl.classes import Class, enter
 from frot.dsl.evaluation import parts
 from frot.dsl.order import names_in
@@ -199,10 +199,8 @@ def _value(
     there: Scope,
 ) -> checked.Expression | Record | None:
     """The value written in one scope for a name declared in another."""
-    subscripts = item.subscripts
-    type_node = clause.type
-    if isinstance(type_node, tree.Index):
-        type_node, subscripts = type_node.operand, (*type_node.subscripts, *subscripts)
+    type_node, type_sizes = split_type(clause)
+    subscripts = (*type_sizes, *item.subscripts)
     kind = find_type(type_node, inner, True)
     if kind is None:
         return None
