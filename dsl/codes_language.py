@@ -121,8 +121,8 @@ _NAMES = {
     ),
     "E0208": Code(
         "declarations in a circle",
-        "Each of these needs the next one, and the last one the first: values of parameters, models "
-        "that hold each other, functions that call each other, bases, types.",
+        "Each of these needs the next one, and the last one the first: values of parameters, "
+        "models that hold each other, functions that call each other, bases, types.",
         "Give one of them a value of its own, or take one of the uses away.",
         snippet("parameter Real a = b + 1;\nparameter Real b = a - 1;"),
     ),

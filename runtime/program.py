@@ -68,6 +68,7 @@ class Program:
 
     `parameters`, `inputs`, `variables` are in the order of the kernel's arrays; variables begin
     with the modes of `contacts`. `key` identifies the model's text, the compiler and its flags.
+    `fixed` are parameters that decide the structure, each with what it decides.
     """
 
     name: str
@@ -83,6 +84,7 @@ class Program:
     compiler: tuple[str, ...]
     flags: tuple[str, ...]
     folder: Path
+    fixed: tuple[tuple[str, str], ...] = ()
 
     @property
     def library(self) -> Path:
@@ -117,6 +119,7 @@ def read_program(folder: Path) -> Program:
             "experiment": ExperimentInfo(**data["experiment"]),
             "compiler": tuple(data["compiler"]),
             "flags": tuple(data["flags"]),
+            "fixed": tuple((name, why) for name, why in data.get("fixed", ())),
             "folder": folder,
         }
     )

@@ -174,6 +174,13 @@ def _values(
     values: list[tuple[int, float]] = []
     for name, value in (given or {}).items():
         if name not in index:
+            why = dict(program.fixed).get(name)
+            if why is not None:
+                raise fail(
+                    "E0805",
+                    f"parameter '{name}' cannot be set for a run: it decides {why}",
+                    help="change its value in the text; the model is then compiled again",
+                )
             near = get_close_matches(name, index, 1)
             listed = ", ".join(index) or "none"
             raise fail(
