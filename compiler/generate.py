@@ -21,7 +21,7 @@ _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
 _ABSENT = re.compile(r"(arg\[\d+\])\? (\1\[\d+\]) : 0")
 _UNASKED = re.compile(r"if \(res\[\d+\]!=0\) (?=res\[)")
 # Characters of C beyond which GCC looks for no more than it finds in such time.
-_LONG = 300_000
+_LONG = 100_000
 _QUICK = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("O1")\n#endif\n'
 
 # The tables of frot_pattern, in its order.

@@ -45,13 +45,23 @@ def factor_pattern(rows: Integers, columns: Integers, n: int) -> Factors:
     natural = np.arange(n)
     whole = sp.csr_matrix((np.ones(len(rows)), (rows, columns)), (n, n)) + sp.eye(n)
     both = sp.csr_matrix(whole + whole.T)
-    tried = (
-        natural,
-        np.asarray(reverse_cuthill_mckee(both, symmetric_mode=True), dtype=np.intp),
-        _minimum_degree(both, n),
-    )
-    made = [_eliminate(rows, columns, order, n) for order in tried]
-    return min(made, key=lambda factors: factors.work)
+    cuthill_mckee = reverse_cuthill_mckee(both, symmetric_mode=True).astype(np.intp)
+    tried = (_minimum_degree(both, n), cuthill_mckee, natural)
+    best = min((_eliminate(rows, columns, order, n) for order in tried), key=lambda f: f.work)
+    levelled = _eliminate(rows, columns, _by_levels(best), n)
+    return levelled if levelled.work <= best.work else best
+
+
+def _by_levels(factors: Factors) -> Integers:
+    """The order with rows together that do not wait for each other.
+
+    The processor then works at several of them at a time.
+    """
+    level: list[int] = []
+    for k, at in enumerate(factors.diagonal):
+        needed = factors.columns[factors.starts[k] : at]
+        level.append(1 + max((level[j] for j in needed), default=-1))
+    return np.array(factors.order, dtype=np.intp)[np.argsort(level, kind="stable")]
 
 
 def _minimum_degree(both: sp.csr_matrix, n: int) -> Integers:
