@@ -89,6 +89,16 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             [str(int(x)) for row in lowered.row_depends for x in row],
         ),
         _array(
+            "frot_condition",
+            "conditions",
+            [
+                _record(_text(text), told)
+                for text, told in zip(
+                    reduced.conditions.texts, reduced.conditions.told, strict=True
+                )
+            ],
+        ),
+        _array(
             "unsigned char", "condition_strict", [str(int(x)) for x in reduced.conditions.strict]
         ),
         _array("int", "q_speed", [str(k) for k in system.q_speed]),
@@ -163,6 +173,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "p_dependent",
             "p_type",
             "row_depends",
+            "conditions",
             "condition_strict",
             "q_speed",
             "q_alike",

@@ -103,12 +103,15 @@ def _sets_discrete(equation: InitialEquation) -> bool:
 def _residuals(
     index: int, equation: InitialEquation, system: Assembled, looking: Lowering, log: Log
 ) -> list[_Residual]:
-    if is_fixed(equation.left) and is_fixed(equation.right):
+    fixed = is_fixed(equation.left) and is_fixed(equation.right)
+    if fixed or equation.left.type.base == "boolean":
         log.report(
             "E0602",
-            "this initial statement depends on nothing that can change",
+            "this initial statement depends on nothing that can change"
+            if fixed
+            else "this condition follows from the equations: no 'when' sets it",
             equation.span,
-            help="state a coordinate or a velocity of a body or liaison, or leave it out",
+            help="state a coordinate, a speed or a state, or leave it out",
         )
         return []
     settled = system.reduced.variables.settled

@@ -67,7 +67,7 @@ class Program:
     """A compiled model in a folder: `model.c`, the shared library and this description.
 
     `parameters`, `inputs`, `variables` are in the order of the kernel's arrays; variables begin
-    with the modes of `contacts`. `key` identifies the model's text, the compiler and its flags.
+    with the modes of `contacts`. `conditions` are the text's, as written. `key` identifies the model's text, the compiler and its flags.
     `fixed` are parameters that decide the structure, each with what it decides.
     """
 
@@ -84,6 +84,7 @@ class Program:
     compiler: tuple[str, ...]
     flags: tuple[str, ...]
     folder: Path
+    conditions: tuple[str, ...] = ()
     fixed: tuple[tuple[str, str], ...] = ()
 
     @property
@@ -116,6 +117,7 @@ def read_program(folder: Path) -> Program:
                 for entry in data["variables"]
             ),
             "contacts": tuple(data["contacts"]),
+            "conditions": tuple(data.get("conditions", ())),
             "experiment": ExperimentInfo(**data["experiment"]),
             "compiler": tuple(data["compiler"]),
             "flags": tuple(data["flags"]),

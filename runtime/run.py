@@ -244,7 +244,7 @@ def _event(engine: Engine, raw: RawEvent) -> Event:
         return Event(raw.t, kind, "", "", "", engine.event_text(raw))
     if kind == "condition":
         names = ("false", "true")
-        liaison = f"condition {raw.contact + 1}"
+        liaison = engine.program.conditions[raw.contact]
     else:
         names = ROLLING if kind.startswith("roll_") else MODES
         liaison = engine.program.contacts[raw.contact]

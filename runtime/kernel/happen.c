@@ -102,7 +102,7 @@ static void change_conditions(const instant *in) {
     w->rose[j] = changes && holds;
     if (!changes) continue;
     d[j] = holds;
-    frot_note(in->recorder, in->s, in->t, FROT_EVENT_CONDITION, j, !holds, holds, 1);
+    frot_note_condition(m, in->recorder, in->s, in->t, j, holds);
   }
 }
 

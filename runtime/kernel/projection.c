@@ -93,7 +93,11 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
                  const double *d, const frot_contact_mode *modes, const unsigned char *stuck,
                  int *moved) {
   *moved = 0;
-  if (m->n_invariants > 0) return frot_project_jointly(m, s, w, t, q, v, d, modes, stuck, moved);
+  if (m->n_invariants > 0) {
+    frot_layout l = frot_layout_of(m);
+    return frot_project_jointly(m, s, w, t, q, v, d, modes, stuck, s->data + l.scale_x,
+                                s->data + l.frozen, moved);
+  }
   if (frot_holding_rows(m, w, modes, stuck, 0) == 0) return FROT_OK;
   int status = frot_metric(m, w);
   if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, moved);

@@ -24,8 +24,11 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
   const char *name = contact_name(m, e->contact);
   switch (e->kind) {
     case FROT_EVENT_CONDITION:
-      snprintf(text, size, "condition %d: %s -> %s at t = %.17g", e->contact + 1,
-               e->before ? "true" : "false", e->after ? "true" : "false", e->t);
+      snprintf(text, size,
+               m->conditions[e->contact].told == FROT_TOLD_RISING ? "%s at t = %.17g"
+               : e->after ? "%s: false -> true at t = %.17g"
+                          : "%s: true -> false at t = %.17g",
+               m->conditions[e->contact].text, e->t);
       return;
     case FROT_EVENT_REVERSAL:
       snprintf(text, size, "%s: slip reverses at t = %.17g", name, e->t);
