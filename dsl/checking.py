@@ -106,7 +106,7 @@ def _model(
         tuple(build.assertions),
     )
     if not log.failed:
-        warn(made, result, build)
+        warn(made, build)
     return result
 
 

