@@ -76,11 +76,14 @@ def make_report(model: Model, log: Log) -> Report | None:
     """The report of a model; None where its mechanics is refused."""
     unknowns = sum(v.type.count for v in model.variables if not v.discrete)
     counts = unknowns, sum(count(e) for e in model.equations), len(model.whens)
-    if not (model.bodies or model.liaisons or model.forces):
-        return Report(model.name, *counts, (), (), Mobility(0, 0, 0))
     mechanism = mechanize(model, log)
     if mechanism is None:
         return None
+    if model.variables or model.equations:
+        from frot.compiler.check_balance import check_balance
+
+        if not check_balance(model, mechanism, log):
+            return None
     return Report(
         mechanism.model.name,
         *counts,

@@ -67,7 +67,8 @@ class Program:
     """A compiled model in a folder: `model.c`, the shared library and this description.
 
     `parameters`, `inputs`, `variables` are in the order of the kernel's arrays; variables begin
-    with the modes of `contacts`. `conditions` are the text's, as written. `key` identifies the model's text, the compiler and its flags.
+    with the modes of `contacts`. `conditions` are those of the text, as written. `key` identifies
+    the text, the compiler and its flags.
     `fixed` are parameters that decide the structure, each with what it decides.
     """
 

@@ -2,10 +2,11 @@
 
 import math
 
-import frot
 import numpy as np
 import pytest
 from scipy.linalg import eigh
+
+import frot
 
 DIVIDER = """
 model Charging

@@ -1,8 +1,9 @@
 """`when`, `reinit`, `sample`, `assert` and `terminate`, and `if` equations."""
 
-import frot
 import numpy as np
 import pytest
+
+import frot
 
 BALL = """
 model Bouncing

@@ -2,10 +2,11 @@
 
 import math
 
-import frot
 import numpy as np
 import pytest
 from scipy.special import ellipk
+
+import frot
 
 PENDULUM = """
 model Pendulum "a point on a massless rod, in x and y, with the length as an equation (index 3)"
@@ -28,7 +29,9 @@ def period(length: float, angle: float) -> float:
     return 4 * math.sqrt(length / 9.81) * float(ellipk(math.sin(angle / 2) ** 2))
 
 
-@pytest.mark.parametrize(("length", "angle", "sign"), [(1.0, 1.2, 1), (2.5, 2.6, -1), (0.3, 3.1, 1)])
+@pytest.mark.parametrize(
+    ("length", "angle", "sign"), [(1.0, 1.2, 1), (2.5, 2.6, -1), (0.3, 3.1, 1)]
+)
 def test_a_pendulum_in_x_and_y_keeps_its_period(length: float, angle: float, sign: int) -> None:
     t = period(length, angle)
     text = PENDULUM.format(length=length, angle=angle, sign=sign, stop=2 * t)

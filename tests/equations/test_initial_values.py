@@ -1,7 +1,8 @@
 """First values of models of equations: steady states, values of what is not a state, guesses."""
 
-import frot
 import pytest
+
+import frot
 
 TANK = """
 model Tank

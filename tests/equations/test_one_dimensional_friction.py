@@ -1,8 +1,9 @@
 """Clutches, brakes and bearings by the engine of friction, against closed forms."""
 
-import frot
 import numpy as np
 import pytest
+
+import frot
 
 CLUTCH = """
 model TwoDiscs
