@@ -278,7 +278,7 @@ def test_the_general_core_treats_elements_as_the_symmetric_one_does(run) -> None
             start=([0, 0], [10.0, 0.0]),
             stop=5.0,
             metric=lambda s: ca.diag(column(2.0, 3.0)),
-        )  # fmt: skip
+        )
     )
     assert [e.kind for e in two.events] == ["stick"]
     assert two.events[0].time == pytest.approx(one.events[0].time, rel=1e-14)

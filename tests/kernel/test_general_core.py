@@ -204,3 +204,27 @@ def test_noise_alone_does_not_stop_a_plain_state(run) -> None:
     )  # fmt: skip
     result = run(model, tolerance=1e-6)
     assert result.figures.steps < 2000
+
+
+@pytest.mark.parametrize("n", [60, 1500])
+def test_a_front_runs_through_many_plain_states(run, n) -> None:
+    """Heat in a bar of n cells whose ends are held at 1 and 0, against its matrix exponential."""
+    k, stop = 400.0, 0.02
+    edge = np.r_[k, np.zeros(n - 1)]
+
+    def flow(s):
+        x = ca.vertcat(1, s.q, 0)
+        return k * (x[2:] - 2 * x[1:-1] + x[:-2])
+
+    model = Small(
+        name=f"bar{n}", nq=n, q_speed=[-1] * n, start=([0.0] * n,), rates=flow, stop=stop,
+        variables={f"x{i}": lambda s, i=i: s.q[i] for i in (0, 5, 20, 40)},
+    )  # fmt: skip
+    result = run(model, tolerance=1e-10)
+    i = np.arange(1, n + 1)
+    rates = -4 * k * np.sin(i * np.pi / (2 * (n + 1))) ** 2
+    modes = np.sin(np.outer(i, i) * np.pi / (n + 1)) * math.sqrt(2 / (n + 1))
+    x = modes @ (np.expm1(rates * stop) / rates * (modes @ edge))
+    for j in (0, 5, 20, 40):
+        assert result[f"x{j}"][-1] == pytest.approx(x[j], rel=1e-7, abs=1e-12)
+    assert result.figures.rejected < 60

@@ -25,7 +25,8 @@ def test_a_statement_on_a_speed_goes_through_the_blocks_too(run) -> None:
     """2 y = v + 4 (linear block); y = 5 gives v = 6."""
     model = Small(
         name="speed", nq=1, nv=1, start=([0.0], [0.0], [0.0]), mass=lambda s: ca.SX(1),
-        force=lambda s: ca.SX(0), blocks=[Block(0, lambda s: [2 * s.y[0] - s.v[0] - 4], linear=True)],
+        blocks=[Block(0, lambda s: [2 * s.y[0] - s.v[0] - 4], linear=True)],
+        force=lambda s: ca.SX(0),
         velocity=lambda s: s.y[0] - 5, variables={"v": lambda s: s.v[0]},
     )  # fmt: skip
     assert run(model)["v"][0] == pytest.approx(6, rel=1e-14)
@@ -74,7 +75,7 @@ def test_statements_that_contradict_each_other_are_named(run) -> None:
         blocks=[Block(0, lambda s: [s.y[0] ** 3 - s.q[0]])],
         position=lambda s: column(s.y[0] - 2, s.q[0] - 9),
     )  # fmt: skip
-    with pytest.raises(Exception, match="statement 1.*statement 2|statement 2.*statement 1") as e:
+    with pytest.raises(Exception, match=r"statement 1.*statement 2|statement 2.*statement 1") as e:
         run(model)
     assert "E0601" in str(e.value)
 
