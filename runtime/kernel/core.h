@@ -55,9 +55,12 @@ int frot_is_prescribed(const frot_model *m, const frot_work *w, int row);
 
 /* Whether all numbers are finite. */
 static inline int frot_all_finite(const double *x, int n) {
-  double sum = 0;
-  for (int i = 0; i < n; i++) sum += x[i] - x[i];
-  return sum == 0;
+  double sum[4] = {0, 0, 0, 0}; /* so that no addition waits for the one before */
+  int i = 0;
+  for (; i + 4 <= n; i += 4)
+    for (int k = 0; k < 4; k++) sum[k] += x[i + k] - x[i + k];
+  for (; i < n; i++) sum[0] += x[i] - x[i];
+  return sum[0] + sum[1] + sum[2] + sum[3] == 0;
 }
 
 #endif

@@ -19,6 +19,7 @@
 #define GUARD_LOOSEST 1e-3
 #define GUARD_TIGHTEST 1e-6
 #define GUARD_NODES 7 /* values at k/6 */
+#define CHUNK 4       /* states whose sums are formed together */
 
 /* Rows of w->k: the slopes at both ends, U_1 .. U_8 between, then scratch. */
 #define FIRST_ROW 1
@@ -65,18 +66,28 @@ int frot_implicit_begin(const frot_model *m, frot_state *s, frot_work *w, double
   return frot_jacobian_at(m, s, w, t, w->z0, s->data + l.d);
 }
 
-/* z <- z0 + sum a_ij U_j; the last two stages add the U before to the argument before. */
-static void argument(const frot_layout *l, const frot_work *w, int n, int i, double *z) {
-  const double *z0 = w->z0;
-  if (i >= RO_ROWS) {
-    const double *last = row(l, w, FIRST_ROW + i - 1);
-    for (int k = 0; k < n; k++) z[k] += last[k];
-    return;
-  }
-  for (int k = 0; k < n; k++) {
-    double sum = 0;
-    for (int j = 0; j < i; j++) sum += ro_a[i][j] * w->k[(FIRST_ROW + j) * l->nz + k];
-    z[k] = z0[k] + sum;
+/* For stage i: z <- z0 + sum a_ij U_j (the last two stages add the U before to the argument before)
+ * and right <- sum C_ij U_j. Some states at a time, so that their sums do not wait for each other.
+ */
+static void prepare(const frot_layout *l, const frot_work *w, int n, int i, double *z,
+                    double *right) {
+  const double *u = row(l, w, FIRST_ROW), *last = row(l, w, FIRST_ROW + i - 1);
+  for (int from = 0; from < n; from += CHUNK) {
+    int size = n - from < CHUNK ? n - from : CHUNK;
+    double value[CHUNK] = {0}, sum[CHUNK] = {0};
+    for (int j = 0; j < i; j++) {
+      const double *uj = u + j * l->nz + from;
+      double c = ro_C[i][j], a = i < RO_ROWS ? ro_a[i][j] : 0;
+      if (size == CHUNK) {
+        for (int k = 0; k < CHUNK; k++) value[k] += a * uj[k], sum[k] += c * uj[k];
+      } else {
+        for (int k = 0; k < size; k++) value[k] += a * uj[k], sum[k] += c * uj[k];
+      }
+    }
+    for (int k = 0; k < size; k++) {
+      z[from + k] = i < RO_ROWS ? w->z0[from + k] + value[k] : z[from + k] + last[from + k];
+      right[from + k] = sum[k];
+    }
   }
 }
 
@@ -91,21 +102,20 @@ int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, doubl
   for (int i = 0; i < RO_STAGES; i++) {
     double *slope = i == 0 ? row(&l, w, 0) : row(&l, w, SLOPE_ROW);
     double *right = row(&l, w, RIGHT_ROW), *u = row(&l, w, FIRST_ROW + i);
+    if (i == 0) memset(right, 0, sizeof(double) * (size_t)n);
     if (i > 0) {
-      argument(&l, w, n, i, z);
+      prepare(&l, w, n, i, z, right);
       double at = i >= RO_ROWS - 1 ? t + h : t + ro_c[i] * h;
       if ((status = slope_at(m, s, w, &l, at, z, slope)) != FROT_OK) return status;
     }
-    double by_time = h * ro_d[i];
-    for (int k = 0; k < n; k++) {
-      double sum = 0;
-      for (int j = 0; j < i; j++) sum += ro_C[i][j] * w->k[(FIRST_ROW + j) * l.nz + k];
-      right[k] = slope[k] + sum / h + by_time * jacobian.rate[k];
-    }
+    double by_time = h * ro_d[i], per_step = i > 0 ? 1 / h : 0;
+    for (int k = 0; k < n; k++)
+      right[k] = slope[k] + per_step * right[k] + by_time * jacobian.rate[k];
     frot_jacobian_solve(m, w, right, u);
     if (i == 0 && !(frot_jacobian_error(m, w, shift, right, u) < MOST_GROWTH)) return FROT_DIVERGE;
   }
-  argument(&l, w, n, RO_STAGES, z);
+  const double *last = row(&l, w, FIRST_ROW + RO_STAGES - 1);
+  for (int k = 0; k < n; k++) z[k] += last[k];
   status = slope_at(m, s, w, &l, t + h, z, row(&l, w, DP_STAGES));
   memcpy(w->y_end, w->y, sizeof(double) * (size_t)m->ny);
   return status;
@@ -116,8 +126,10 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
   double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
   const double *slope = row(&l, w, 0), *error = row(&l, w, FIRST_ROW + RO_STAGES - 1);
   /* a stiff state does not go where its slope at the start points to */
-  for (int k = 0; k < m->nq; k++)
-    w->change[k] = fmin(h * fabs(slope[k]), fabs(w->z1[k] - w->z0[k]));
+  for (int k = 0; k < m->nq; k++) {
+    double pointed = h * fabs(slope[k]), gone = fabs(w->z1[k] - w->z0[k]);
+    w->change[k] = pointed < gone ? pointed : gone;
+  }
   if (frot_state_sizes(m, s, w)) {
     for (int k = 0; k < m->nq; k++)
       if (w->own_size[k] == 0) w->change[k] = fabs(w->z1[k] - w->z0[k]);
@@ -191,16 +203,26 @@ static int follow_guards(const frot_model *m, frot_state *s, frot_work *w, const
 int frot_implicit_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   frot_layout l = frot_layout_of(m);
   memset(w->f, 0, sizeof(double) * DP_DENSE * (size_t)l.nz);
-  for (int k = 0; k < m->nq; k++) {
-    double c[3];
-    for (int i = 0; i < 3; i++) {
-      c[i] = 0;
-      for (int j = 0; j < RO_STAGES; j++) c[i] += ro_h[i][j] * w->k[(FIRST_ROW + j) * l.nz + k];
+  for (int from = 0; from < m->nq; from += CHUNK) {
+    int size = m->nq - from < CHUNK ? m->nq - from : CHUNK;
+    double c[3][CHUNK] = {{0}};
+    for (int j = 0; j < RO_STAGES; j++) {
+      const double *u = w->k + (FIRST_ROW + j) * l.nz + from;
+      for (int i = 0; i < 3; i++) {
+        if (size == CHUNK) {
+          for (int k = 0; k < CHUNK; k++) c[i][k] += ro_h[i][j] * u[k];
+        } else {
+          for (int k = 0; k < size; k++) c[i][k] += ro_h[i][j] * u[k];
+        }
+      }
     }
-    w->f[k] = w->z1[k] - w->z0[k];
-    w->f[l.nz + k] = c[0];
-    w->f[2 * l.nz + k] = c[1] + c[2];
-    w->f[3 * l.nz + k] = -c[2];
+    double *f = w->f + from;
+    for (int k = 0; k < size; k++) {
+      f[k] = w->z1[from + k] - w->z0[from + k];
+      f[l.nz + k] = c[0][k];
+      f[2 * l.nz + k] = c[1][k] + c[2][k];
+      f[3 * l.nz + k] = -c[2][k];
+    }
   }
   return l.ng > 0 ? follow_guards(m, s, w, &l, t, h) : FROT_OK;
 }

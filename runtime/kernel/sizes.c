@@ -6,6 +6,9 @@
 /* Size of a state at least, in units of the largest of its dimension. */
 #define LEAST_PART 1e-3
 
+/* fmax is a call, for what it does with NaN. */
+static double larger(double a, double b) { return a > b ? a : b; }
+
 int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w) {
   const double *had = s->data + frot_layout_of(m).scale_x;
   double *largest = w->largest_alike;
@@ -13,12 +16,14 @@ int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w) {
   memset(largest, 0, sizeof(double) * (size_t)m->nq);
   for (int j = 0; j < m->nq; j++) {
     if (m->q_speed[j] >= 0) continue;
-    w->own_size[j] = fmax(fmax(had[j], fabs(w->z0[j])), w->change[j]);
-    largest[m->q_alike[j]] = fmax(largest[m->q_alike[j]], w->own_size[j]);
+    double size = larger(larger(had[j], fabs(w->z0[j])), w->change[j]);
+    double *most = &largest[m->q_alike[j]];
+    w->own_size[j] = size;
+    *most = larger(*most, size);
   }
   for (int j = 0; j < m->nq; j++) {
     if (m->q_speed[j] >= 0) continue;
-    w->own_size[j] = fmax(w->own_size[j], LEAST_PART * largest[m->q_alike[j]]);
+    w->own_size[j] = larger(w->own_size[j], LEAST_PART * largest[m->q_alike[j]]);
     zero |= w->own_size[j] == 0;
   }
   return zero;

@@ -12,6 +12,7 @@
 #include "blocks.h"
 #include "implicit.h"
 #include "mechanics.h"
+#include "probe.h"
 #include "projection.h"
 #include "resolve.h"
 #include "roots.h"
@@ -418,7 +419,7 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
     double slope = fabs(stage(&l, w, 0)[j]), size = fabs(w->z0[j]);
     if (slope > 0 && size > 0) h = fmin(h, 0.01 * size / slope);
   }
-  s->h = fmax(h, 1e-6 * s->h_max);
+  s->h = frot_probe_step(m, s, w, s->t, fmax(h, 1e-6 * s->h_max));
   return FROT_OK;
 }
 

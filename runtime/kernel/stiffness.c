@@ -10,9 +10,9 @@
 #define FELT 0.5
 #define APART 10.0
 /* Steps that speak for the implicit method, with fewer than CALM on end that do not between. */
-#define STIFF_STEPS 15
-#define MOST_STIFF_STEPS 1920
-#define CALM_STEPS 6
+#define STIFF_STEPS 8
+#define MOST_STIFF_STEPS 2048
+#define CALM_STEPS 4
 /* Size of h lambda below which the implicit method is not worth its price, for so many steps. */
 #define EASY 3.0
 #define EASY_STEPS 10
