@@ -93,7 +93,7 @@ class Conditions:
         self.flags.append(flag)
         self.values.append(value)
         self.strict.append(strict)
-        self.texts.append(" ".join(text.split()))
+        self.texts.append(" ".join((text + ")" * (text.count("(") - text.count(")"))).split()))
         self.told.append(NEVER if not text else RISING if momentary else ALWAYS)
         return flag
 
@@ -214,9 +214,13 @@ class Lowering:
         if name in OF_EVENTS:
             return self._of_events(node, arguments)
         if name in ("min", "max"):
-            value = arguments[0]
-            for other in arguments[1:]:
-                value = self._least(value, other, conditions, node)
+            value, text = arguments[0], node.arguments[0].span.text
+            for other, written in zip(arguments[1:], node.arguments[1:], strict=True):
+                sign = ">=" if name == "max" else "<="
+                value = self._least(
+                    value, other, conditions, name, f"{text} {sign} {written.span.text}"
+                )
+                text = f"{name}({text}, {written.span.text})"
             return value
         if conditions is not None and name in ("abs", "sign"):
             above = conditions.add(arguments[0], False, f"{node.arguments[0].span.text} >= 0")
@@ -244,9 +248,8 @@ class Lowering:
         return arguments[0] if arguments else ca.SX(0)
 
     @staticmethod
-    def _least(x: ca.SX, y: ca.SX, conditions: Conditions | None, node: Call) -> ca.SX:
-        below = x - y if node.function == "max" else y - x
-        text = f"first of {node.span.text}"
+    def _least(x: ca.SX, y: ca.SX, conditions: Conditions | None, name: str, text: str) -> ca.SX:
+        below = x - y if name == "max" else y - x
         flag = conditions.add(below, False, text) if conditions is not None else below >= 0
         return ca.if_else(flag, x, y)
 

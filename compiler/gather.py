@@ -42,15 +42,6 @@ def _branches(equations: IfEquations, lowering: Lowering, log: Log) -> list[tupl
         lowering.owner = equations.owner
         conditions.append(None if condition is None else lowering.lower(condition))
         columns.append([pair for e in inner for pair in _residuals(e, lowering, log)])
-    if len({len(c) for c in columns}) > 1:
-        counts = ", ".join(str(len(c)) for c in columns)
-        log.report(
-            "E0605",
-            f"the branches of this 'if' have different numbers of scalar equations: {counts}",
-            equations.span,
-            help="give each branch, and an 'else', the same number of equations",
-        )
-        return []
     found = columns[-1]
     for holds, column in reversed(list(zip(conditions, columns, strict=True))[:-1]):
         assert holds is not None

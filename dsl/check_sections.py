@@ -167,10 +167,12 @@ def _initial(
 ) -> None:
     sides = both_sides(left, right, scope)
     for first, second in sides or ():
-        is_variable = isinstance(first, checked.Reference) and isinstance(
-            first.target, checked.Variable
+        set_by_when = (
+            isinstance(first, checked.Reference)
+            and isinstance(first.target, checked.Variable)
+            and first.target.discrete
         )
-        if first.type.base not in ("real", "integer") and not is_variable:
+        if first.type.base not in ("real", "integer") and not set_by_when:
             scope.log.report(
                 "E0301",
                 f"an initial equation is between numbers, not {describe(first.type)}",

@@ -19,7 +19,7 @@ EQUATIONS: Mapping[str, Code] = {
         "Every variable needs an equation that determines it; an equation determines one variable. "
         "The variables named share fewer equations than they are.",
         "Write the missing equation, connect the component, or make the variable a parameter.",
-        _equations("Real x;\nReal y;", "der(x) = y;"),
+        _equations("Length x;\nVelocity v;", "der(x) = v;"),
     ),
     "E0604": Code(
         "too many equations",
@@ -28,19 +28,13 @@ EQUATIONS: Mapping[str, Code] = {
         "Leave one out, or declare what it should determine as a variable.",
         _equations("Real x;", "x = 1;\nx = 2;"),
     ),
-    "E0605": Code(
-        "branches of different lengths",
-        "Whichever branch of an 'if' holds, the number of equations must be the same.",
-        "Give each branch, and an 'else', the same number of equations.",
-        _equations("Real x;", "if time > 1 s then\n  x = 1;\nelse\n  x = 2;\n  x = 3;\nend if;"),
-    ),
     "E0606": Code(
         "derivative that nobody knows",
         "The equations prescribe how something moves by a value whose derivative is not known: an "
         "input is held between communication points, a friction force jumps.",
         "Give the rate as an input and integrate it, or let the value act through a spring or a "
         "filter.",
-        _equations("input Real u;\nReal x;\nReal v;\nReal f;", "x = u;\nder(x) = v;\nder(v) = f;"),
+        _equations("input Length u;\nLength x;\nVelocity v;", "x = u;\nder(x) = v;"),
     ),
     "E0607": Code(
         "not linear in accelerations",
@@ -48,8 +42,8 @@ EQUATIONS: Mapping[str, Code] = {
         "together as one linear system; this equation is not linear in them.",
         "Let the quantity act through a state, as a filter or a spring does.",
         _equations(
-            "Real w;\nReal f;",
-            "f = friction(w, 1);\nder(w) + der(w)^3 = f;",
+            "Velocity v;\nForce f;",
+            "f = friction(v, 1 N);\n1 kg*der(v)*(1 + (der(v)/(1 m/s^2))^2) = f;",
         ),
     ),
     "E0608": Code(
@@ -58,8 +52,8 @@ EQUATIONS: Mapping[str, Code] = {
         "derivative the equations give.",
         "Name a variable that stands under 'der', or one that is equal to it.",
         _equations(
-            "Real x;\nReal y;",
-            "der(x) = 1;\ny = x^2 + time/(1 s);\nwhen x > 2 then\n  reinit(y, 0);\nend when;",
+            "Length x;\nArea y;",
+            "der(x) = 1 m/s;\ny = x^2;\nwhen x > 2 m then\n  reinit(y, 0 m^2);\nend when;",
         ),
     ),
     "E0609": Code(
