@@ -25,7 +25,8 @@ SLOWEST, LARGEST = 5.0, 1024.0
 WORDS = """planar partial model connector record function package shape end initial equation
 parameter constant input output flow final import extends type liaison joint body corps frame
 repère curve surface force with driven when then elsewhen if else elseif for in loop and or not
-true false as on at rotated Real Integer Boolean Length Voltage Torque Pin r c p v i x y z n M TwoPin Resistor time
+true false as on at rotated Real Integer Boolean Length Voltage Torque Pin r c p v i x y z n M
+TwoPin Resistor time
 der connect reinit pre edge sample assert terminate friction sum size zeros transpose enumeration
 guess world experiment ground line G rod ring rotoide coulomb mu 0 1 2.5 1e400 99999999 kg m/s deg
 degC °C N.m ; ; ; ( ) ( ) , , = = . . [ ] : + - * / ^ < <= == <> "text" // /* */ { } % ∞ é \\ \0"""
@@ -46,7 +47,7 @@ class Outcome:
 
 def sources() -> list[str]:
     """Texts to begin with: examples, models and the faulty texts of the tests."""
-    folders = ["tests/dsl/examples", "tests/dsl/diagnostics", "models", "bench/texts"]
+    folders = ["tests/dsl/examples", "tests/dsl/diagnostics", "models", "tests/dsl/sound"]
     found = [p for folder in folders for p in sorted((ROOT / folder).rglob("*.frot"))]
     return [p.read_text(encoding="utf-8") for p in found]
 

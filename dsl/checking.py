@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import sys
 
 from frot.dsl import checked, tree
@@ -19,6 +18,7 @@ from frot.dsl.check_sections import (
 from frot.dsl.check_when import mark_discrete, when
 from frot.dsl.choose import choose
 from frot.dsl.classes import Class, Namespace
+from frot.dsl.collecting import without_collection
 from frot.dsl.connections import Connections
 from frot.dsl.diagnostics import Log
 from frot.dsl.dimensions import REAL, Type
@@ -44,17 +44,13 @@ def check(file: tree.Tree, log: Log, model: str | None = None) -> checked.Model 
         return None
     limit = sys.getrecursionlimit()
     sys.setrecursionlimit(max(limit, _DEEPEST))
-    # Everything made here stays: looking for garbage takes a third of the time.
-    collects = gc.isenabled()
-    gc.disable()
     try:
-        found = _model(definition, space, libraries, log)
+        with without_collection():
+            found = _model(definition, space, libraries, log)
     except TooLarge:
         return None
     finally:
         sys.setrecursionlimit(limit)
-        if collects:
-            gc.enable()
     return None if log.failed else found
 
 
