@@ -8,6 +8,7 @@ Every text must end in a model or in messages: no traceback, no text over 5 s, n
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import random
 import re
@@ -21,10 +22,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 SLOWEST, LARGEST = 5.0, 1024.0
-WORDS = """planar partial model connector record function package shape end initial equation parameter
-constant input output flow final import extends type liaison joint body corps frame repère curve
-surface force with driven when then elsewhen if else elseif for in loop and or not true false as on
-at rotated Real Integer Boolean Length Voltage Torque Pin r c p v i x y z n M TwoPin Resistor time
+WORDS = """planar partial model connector record function package shape end initial equation
+parameter constant input output flow final import extends type liaison joint body corps frame
+repère curve surface force with driven when then elsewhen if else elseif for in loop and or not
+true false as on at rotated Real Integer Boolean Length Voltage Torque Pin r c p v i x y z n M
+TwoPin Resistor time
 der connect reinit pre edge sample assert terminate friction sum size zeros transpose enumeration
 guess world experiment ground line G rod ring rotoide coulomb mu 0 1 2.5 1e400 99999999 kg m/s deg
 degC °C N.m ; ; ; ( ) ( ) , , = = . . [ ] : + - * / ^ < <= == <> "text" // /* */ { } % ∞ é \\ \0"""
@@ -45,16 +47,15 @@ class Outcome:
 
 def sources() -> list[str]:
     """Texts to begin with: examples, models and the faulty texts of the tests."""
-    folders = ["tests/dsl/examples", "tests/dsl/diagnostics", "models", "bench/texts"]
+    folders = ["tests/dsl/examples", "tests/dsl/diagnostics", "models", "tests/dsl/sound"]
     found = [p for folder in folders for p in sorted((ROOT / folder).rglob("*.frot"))]
     return [p.read_text(encoding="utf-8") for p in found]
 
 
-KEYWORDS = set(
-    """planar partial model connector record function package end initial equation parameter constant
-    input output flow final import extends type liaison body frame curve surface force with when then
-    elsewhen if else elseif for in loop and or not true false on at rotated""".split()
-)
+_KEYWORDS = """planar partial model connector record function package end initial equation
+parameter constant input output flow final import extends type liaison body frame curve surface
+force with when then elsewhen if else elseif for in loop and or not true false on at rotated"""
+KEYWORDS = set(_KEYWORDS.split())
 NUMBERS = ("0", "-1", "1", "2", "3", "2.5", "1e9", "100000", "n", "x", "1:2")
 
 
@@ -149,10 +150,8 @@ def batch(seed: int, count: int) -> Outcome:
             if model is not None:
                 result.models += 1
                 show_model(model)
-                try:
+                with contextlib.suppress(ValueError):
                     default_values(model)
-                except ValueError:
-                    pass
             format_text(text)
         except Exception:
             result.faults.append((traceback.format_exc(), text))
@@ -188,8 +187,8 @@ def main() -> int:
             if part.slowest > whole.slowest:
                 whole.slowest, whole.slowest_text = part.slowest, part.slowest_text
             print(
-                f"\r{whole.texts} texts, {len(whole.faults)} faults, slowest {whole.slowest:.2f} s, "
-                f"memory {whole.memory:.0f} MB, {time.perf_counter() - begun:.0f} s",
+                f"\r{whole.texts} texts, {len(whole.faults)} faults, slowest {whole.slowest:.2f} s"
+                f", memory {whole.memory:.0f} MB, {time.perf_counter() - begun:.0f} s",
                 end="",
                 file=sys.stderr,
                 flush=True,

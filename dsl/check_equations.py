@@ -9,7 +9,7 @@ from frot.dsl import checked, tree
 from frot.dsl.check_expressions import NUMERIC, expect, fitting, value_of
 from frot.dsl.connect import connect
 from frot.dsl.describe import describe, written_unit
-from frot.dsl.diagnostics import Label
+from frot.dsl.diagnostics import LIMIT, Label
 from frot.dsl.dimensions import BOOLEAN, INTEGER, Type
 from frot.dsl.evaluation import constant, nodes
 from frot.dsl.indexing import settle, span_of
@@ -65,6 +65,9 @@ def loop(element: tree.For, scope: Scope) -> Iterator[Scope]:
         scope.log.report("E0502", message, name.span)
     for number in over or ():
         scope.build.grow(1, element.span)
+        # The rounds of a loop repeat their faults, which are told once.
+        if scope.log.repeated > LIMIT:
+            return
         literal = checked.Literal(float(number), INTEGER, name.span)
         yield scope.inside(**{name.text: literal})
 

@@ -234,7 +234,9 @@ def _name(
     node: tree.Name | tree.Member | tree.Index, scope: Scope
 ) -> checked.Expression | Record | None:
     thing = resolve(node, scope, "value")
-    if thing is None or isinstance(thing, checked.Expression | Record):
+    if thing is None or isinstance(thing, checked.Reference):
+        return thing
+    if isinstance(thing, checked.Expression | Record):
         return thing
     if isinstance(thing, Instance) and thing.of.kind == "record":
         from frot.dsl.records import record_of

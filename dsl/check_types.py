@@ -107,9 +107,13 @@ def alias(of: Class, scope: Scope) -> Kind | None:
 def _alias(of: Class, scope: Scope, around: list[Class]) -> Kind | None:
     node = of.definition
     assert isinstance(node, tree.Alias)
-    if of in around or len(around) > _LONGEST:
+    if of in around:
         path = " -> ".join(c.name for c in (*around[around.index(of) :], of))
         scope.log.report("E0208", f"types are made of each other: {path}", node.name.span)
+        return None
+    if len(around) > _LONGEST:
+        message = f"more than {_LONGEST} types are made of each other"
+        scope.log.report("E0108", message, node.name.span)
         return None
     literals = _literals(node, scope)
     if literals is not None:

@@ -18,6 +18,7 @@ from frot.dsl.check_sections import (
 from frot.dsl.check_when import mark_discrete, when
 from frot.dsl.choose import choose
 from frot.dsl.classes import Class, Namespace
+from frot.dsl.collecting import without_collection
 from frot.dsl.connections import Connections
 from frot.dsl.diagnostics import Log
 from frot.dsl.dimensions import REAL, Type
@@ -44,7 +45,8 @@ def check(file: tree.Tree, log: Log, model: str | None = None) -> checked.Model 
     limit = sys.getrecursionlimit()
     sys.setrecursionlimit(max(limit, _DEEPEST))
     try:
-        found = _model(definition, space, libraries, log)
+        with without_collection():
+            found = _model(definition, space, libraries, log)
     except TooLarge:
         return None
     finally:

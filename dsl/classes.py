@@ -26,7 +26,7 @@ end TranslationalFlange;
 """
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(slots=True, eq=False, repr=False)
 class Namespace:
     """The definitions seen from a place of a text; `outer` surrounds it.
 
@@ -104,7 +104,7 @@ class Namespace:
         yield from ("RotationalFlange", "TranslationalFlange")
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(slots=True, eq=False, repr=False)
 class Imported:
     """An import: what it names, None where it was not found (that was told)."""
 
@@ -113,7 +113,7 @@ class Imported:
     used: bool = False
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(slots=True, eq=False, repr=False)
 class Class:
     """A definition where it stands; a type made by `type` is one too, and so is a library."""
 

@@ -117,6 +117,7 @@ class _Link:
         return not differences
 
     def _members(self, a: Instance, b: Instance) -> None:
+        self.build.grow(1, self.span)
         for name, first in a.names.items():
             second = b.names.get(name)
             self._member(a, b, name, first, second)

@@ -41,6 +41,8 @@ class Log:
     """Collects diagnostics; a pass reports to it and goes on."""
 
     diagnostics: list[Diagnostic] = field(default_factory=list)
+    repeated: int = 0
+    told: set[tuple[str, Span | None]] = field(default_factory=set, repr=False)
 
     def report(
         self,
@@ -58,9 +60,11 @@ class Log:
 
         if code not in CODES:
             raise KeyError(f"the diagnostic code {code} is not registered in frot.dsl.codes")
-        entry = Diagnostic(code, message, span, caret, labels, notes, help)
-        if not any(d.code == code and d.span == span for d in self.diagnostics):
-            self.diagnostics.append(entry)
+        if (code, span) not in self.told:
+            self.told.add((code, span))
+            self.diagnostics.append(Diagnostic(code, message, span, caret, labels, notes, help))
+        else:
+            self.repeated += 1
 
     @property
     def failed(self) -> bool:

@@ -11,9 +11,9 @@ BASE = ("m", "kg", "s", "A", "K", "mol", "cd")
 
 @dataclass(frozen=True, slots=True)
 class Dimension:
-    """Exponents of m, kg, s, A, K, mol, cd. Angles are dimensionless."""
+    """Exponents of m, kg, s, A, K, mol, cd; whole ones are `int`. Angles are dimensionless."""
 
-    exponents: tuple[Fraction, ...] = (Fraction(0),) * 7
+    exponents: tuple[Fraction | int, ...] = (0,) * 7
 
     def __mul__(self, other: Dimension) -> Dimension:
         return Dimension(tuple(a + b for a, b in zip(self.exponents, other.exponents, strict=True)))
@@ -22,7 +22,8 @@ class Dimension:
         return Dimension(tuple(a - b for a, b in zip(self.exponents, other.exponents, strict=True)))
 
     def __pow__(self, power: Fraction | int) -> Dimension:
-        return Dimension(tuple(a * Fraction(power) for a in self.exponents))
+        exact = (a * Fraction(power) for a in self.exponents)
+        return Dimension(tuple(int(e) if e.denominator == 1 else e for e in exact))
 
     @property
     def is_one(self) -> bool:
@@ -38,13 +39,13 @@ class Dimension:
         return "/".join([text, *below])
 
 
-def _power(name: str, exponent: Fraction) -> str:
+def _power(name: str, exponent: Fraction | int) -> str:
     return name if exponent == 1 else f"{name}^{exponent}"
 
 
 def dimension(m: int = 0, kg: int = 0, s: int = 0, A: int = 0, K: int = 0) -> Dimension:
     """The dimension with these exponents of the base units."""
-    return Dimension(tuple(Fraction(e) for e in (m, kg, s, A, K, 0, 0)))
+    return Dimension((m, kg, s, A, K, 0, 0))
 
 
 ONE = dimension()

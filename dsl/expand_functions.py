@@ -19,6 +19,7 @@ from frot.dsl.order import in_order, names_in
 from frot.dsl.records import as_record
 from frot.dsl.scope import (
     BUILT_IN,
+    CALL,
     Build,
     Entity,
     Instance,
@@ -48,7 +49,7 @@ class _Function:
 def expand(of: Class, node: tree.Call, scope: Scope) -> checked.Expression | Record | None:
     """What a call of a function gives; None after a message."""
     build = scope.build
-    if any(of.definition is c.definition for c in build.calls):
+    if of in build.calls:
         path = " -> ".join(c.name for c in (*build.calls, of))
         scope.log.report("E0208", f"function {of.name!r} calls itself: {path}", node.span)
         return None
@@ -56,7 +57,7 @@ def expand(of: Class, node: tree.Call, scope: Scope) -> checked.Expression | Rec
         message = f"functions call one another more than {NESTED} levels deep"
         scope.log.report("E0108", message, node.span)
         return None
-    build.grow(1, node.span)
+    build.grow(CALL, node.span)
     read = _read(of, scope)
     made = Instance("", of, of.definition.span)
     inner = Scope(build, made, enter(of, build.libraries))
@@ -205,7 +206,10 @@ def _value(
     """The value written in one scope for a name declared in another."""
     type_node, type_sizes = split_type(clause)
     subscripts = (*type_sizes, *item.subscripts)
-    kind = find_type(type_node, inner, True)
+    known = inner.build.clauses
+    if id(clause) not in known:
+        known[id(clause)] = find_type(type_node, inner, True)
+    kind = known[id(clause)]
     if kind is None:
         return None
     if isinstance(kind, Class):
@@ -214,6 +218,7 @@ def _value(
             inner.log.report("E0206", message, type_node.span)
             return None
         return as_record(value_of(node, there), kind, node, there)
+    assert isinstance(kind, Kind)
     found = expression(node, there)
     shape = sizes(subscripts, item.name, inner)
     if found is None or shape is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 from frot.dsl import tree
 from frot.dsl.check_components import Declared, declare, role_of, sizes
@@ -22,6 +23,7 @@ from frot.dsl.modifiers import (
 from frot.dsl.order import in_order, names_in
 from frot.dsl.scope import (
     BUILT_IN,
+    COMPONENT,
     REFUSED,
     Array,
     Build,
@@ -47,7 +49,7 @@ def instantiate(
     around: tuple[Class, ...] = (),
 ) -> Instance:
     """The component `name` of a class: its names wait to be checked, its statements are kept."""
-    build.grow(1, span)
+    build.grow(COMPONENT, span)
     made = Instance(name, of, span, around=(*around, of))
     build.fresh.append(made)
     if not name:
@@ -148,6 +150,40 @@ def _declaration(
             _mechanical(element, [element.kind], element.subscripts, force, scope)
 
 
+@dataclass(slots=True)
+class _Clause:
+    """What a component clause says, the same in every component of its class."""
+
+    type: Kind | Class | None
+    sizes: tuple[tree.Expression, ...]
+    role: str
+    flow: bool
+    final: bool
+    needs: tuple[tuple[str, ...], ...]
+
+
+def _clause(clause: tree.Component, outer_role: str, scope: Scope) -> _Clause:
+    known = scope.build.clauses.get(id(clause))
+    if isinstance(known, _Clause) and (known.role == outer_role or not outer_role):
+        return known
+    node, type_sizes = split_type(clause)
+    words = {w.text for w in clause.prefixes}
+    role, flow = outer_role or role_of(clause), "flow" in words
+    found = find_type(node, scope, bool(role) or flow)
+    if flow and scope.instance.of.kind != "connector":
+        word = next(w for w in clause.prefixes if w.text == "flow")
+        scope.log.report("E0501", "'flow' stands in connectors only", word.span)
+    needs = []
+    for item in clause.declared:
+        used = [*type_sizes, *item.subscripts]
+        if isinstance(found, Kind):
+            used += [e for e in (item.value, *(a.value for a in item.modifiers)) if e is not None]
+        needs.append(_needs(used))
+    made = _Clause(found, type_sizes, role, flow, "final" in words, tuple(needs))
+    scope.build.clauses[id(clause)] = made
+    return made
+
+
 def declare_values(
     clause: tree.Component,
     scope: Scope,
@@ -155,36 +191,39 @@ def declare_values(
     outer_role: str = "",
 ) -> None:
     """Declare the names of a component clause: values, or components of a class."""
-    node, type_sizes = split_type(clause)
-    role = outer_role or role_of(clause)
-    flow = any(w.text == "flow" for w in clause.prefixes)
-    final = any(w.text == "final" for w in clause.prefixes)
-    found = find_type(node, scope, bool(role) or flow)
-    if isinstance(found, Class) and not _can_be_component(found, clause, role, scope):
+    said = _clause(clause, outer_role, scope)
+    found = said.type
+    if isinstance(found, Class) and not _can_be_component(found, clause, said.role, scope):
         found = None
-    if flow and scope.instance.of.kind != "connector":
-        word = next(w for w in clause.prefixes if w.text == "flow")
-        scope.log.report("E0501", "'flow' stands in connectors only", word.span)
-    for item in clause.declared:
-        outer = (modifiers or {}).get(item.name.text)
-        own = read_modifiers(item.modifiers, scope)
-        inner = Modifier(item.span, scope, parts=own, final=final) if own or final else None
-        if final and item.value is not None:
-            inner = Modifier(item.span, scope, item.value, parts=own, final=True)
-        modifier = merge(outer, inner, scope)
-        subscripts = (*type_sizes, *item.subscripts)
+    for item, needs in zip(clause.declared, said.needs, strict=True):
+        modifier = _modifier(item, said.final, modifiers, scope)
         if found is None:
             _add(item.name, Pending(item.name, (), lambda: None), scope)
             scope.instance.names[item.name.text] = REFUSED
         elif isinstance(found, Kind):
-            what = Declared(item, found, role, modifier, type_sizes)
-            used = [item.value, *subscripts, *(a.value for a in item.modifiers)]
-            pending = Pending(item.name, _needs(used), _value(what, scope), is_value=True)
-            if _add(item.name, pending, scope) and flow:
+            what = Declared(item, found, said.role, modifier, said.sizes)
+            pending = Pending(item.name, needs, _value(what, scope), is_value=True)
+            if _add(item.name, pending, scope) and said.flow:
                 scope.instance.flows.add(item.name.text)
         else:
-            check = _components(found, item, subscripts, modifier, role, scope)
-            _add(item.name, Pending(item.name, _needs(subscripts), check), scope)
+            subscripts = (*said.sizes, *item.subscripts)
+            check = _components(found, item, subscripts, modifier, said.role, scope)
+            _add(item.name, Pending(item.name, needs, check), scope)
+
+
+def _modifier(
+    item: tree.Declared,
+    final: bool,
+    modifiers: Mapping[str, Modifier] | None,
+    scope: Scope,
+) -> Modifier | None:
+    """What is said of a name from outside and where it is declared, the outer first."""
+    outer = modifiers.get(item.name.text) if modifiers else None
+    if not (item.modifiers or final):
+        return outer
+    own = read_modifiers(item.modifiers, scope)
+    value = item.value if final else None
+    return merge(outer, Modifier(item.span, scope, value, parts=own, final=final), scope)
 
 
 def _value(what: Declared, scope: Scope) -> Callable[[], Entity | None]:
@@ -219,9 +258,8 @@ def _can_be_component(of: Class, clause: tree.Component, role: str, scope: Scope
         log.report("E0206", message, span)
         return False
     around = scope.instance.around
-    if any(of.definition is c.definition for c in around):
-        index = next(k for k, c in enumerate(around) if c.definition is of.definition)
-        path = " -> ".join(c.name for c in (*around[index:], of))
+    if of in around:
+        path = " -> ".join(c.name for c in (*around[around.index(of) :], of))
         log.report("E0208", f"{of.kind} {of.name!r} holds itself: {path}", span)
         return False
     if len(around) > _NESTED:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from frot.dsl import syntax_messages as messages
 from frot.dsl.build_expressions import NESTED
+from frot.dsl.collecting import without_collection
 from frot.dsl.diagnostics import LIMIT, Log
 from frot.dsl.lex import END, JUNK
 from frot.dsl.source import Source, Span
@@ -39,10 +40,11 @@ def parse(source: Source, log: Log, tokens: list[Lexeme] | None = None) -> Tree:
     from frot.dsl.build import build
 
     reader = _Reader(source, log, tokens)
-    root = reader.read()
-    if root is None:
-        return Tree(source, (), frozenset(reader.lost))
-    return build(root, source, frozenset(reader.lost), log)
+    with without_collection():
+        root = reader.read()
+        if root is None:
+            return Tree(source, (), frozenset(reader.lost))
+        return build(root, source, frozenset(reader.lost), log)
 
 
 @dataclass(slots=True)

@@ -17,10 +17,13 @@ if TYPE_CHECKING:
     from frot.dsl.connections import Connections
     from frot.dsl.imports import Libraries
 
-# Scalars, components, equations and expanded calls of one model, together.
-LARGEST = 200_000
+# Scalars, components, equations, rounds of loops and expanded calls of one model, together: what a
+# check makes of a text stays below some seconds and hundreds of megabytes.
+LARGEST = 100_000
+# What a component and a call take, where an equation takes 1.
+COMPONENT, CALL = 2, 6
 # Declarations of different components that wait for one another.
-LONGEST = 100
+LONGEST = 400
 BUILT_IN = ("time", "pi", "ground")
 _CANDIDATES = 2000
 
@@ -36,7 +39,7 @@ class TooLarge(Exception):
     """The model is too large; it was told, and the check ends."""
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(slots=True, eq=False, repr=False)
 class Statements:
     """What is checked once every name has its meaning, each with the scope it is written in."""
 
@@ -47,7 +50,7 @@ class Statements:
     liaisons: list[tuple[tree.Liaison, Scope]] = field(default_factory=list)
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(slots=True, eq=False, repr=False)
 class Instance:
     """A component, or the model itself (`name` empty), or a package with its constants.
 
@@ -120,7 +123,7 @@ class Pending:
     busy: bool = False
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False)
 class Build:
     """What all scopes of one check share: the log, the values known so far, what was gathered.
 
@@ -150,6 +153,7 @@ class Build:
     fresh: list[Instance] = field(default_factory=list)
     calls: list[Class] = field(default_factory=list)
     functions: dict[int, object] = field(default_factory=dict)
+    clauses: dict[int, object] = field(default_factory=dict)
     before: list[tuple[checked.Call, checked.Variable, bool]] = field(default_factory=list)
     heights: dict[int, tuple[checked.Expression, int]] = field(default_factory=dict)
     size: int = 0
@@ -160,13 +164,13 @@ class Build:
         if self.size > LARGEST:
             self.log.report(
                 "E0109",
-                f"the model is too large: more than {LARGEST} components, equations and calls",
+                f"the model is too large: more than {LARGEST} scalars, equations and calls",
                 span,
             )
             raise TooLarge
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False)
 class Scope:
     """Where a part of a text is checked: the names of its component and what surrounds its class.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 
 from frot.dsl import checked, tree
 from frot.dsl.classes import Class, Imported
@@ -13,9 +14,10 @@ from frot.dsl.source import Source, Span
 def warn(made: list[Instance], build: Build) -> None:
     """Report what a sound model says in vain, in the file that is checked and not in libraries."""
     main = build.libraries.sources[0]
+    words = Counter(re.findall(r"\w+", main.text))
     for imported in build.libraries.imports:
-        _unused_import(imported, main, build)
-    _unused_parameters(made, main, build)
+        _unused_import(imported, words, main, build)
+    _unused_parameters(made, words, main, build)
     for instance in made:
         for name, entity in instance.names.items():
             _loose(name, entity, main, build)
@@ -27,7 +29,7 @@ def warn(made: list[Instance], build: Build) -> None:
         _unbalanced(connector, main, build)
 
 
-def _unused_import(imported: Imported, main: Source, build: Build) -> None:
+def _unused_import(imported: Imported, words: Counter[str], main: Source, build: Build) -> None:
     statement = imported.statement
     if statement.span.source is not main or imported.used or imported.target is None:
         return
@@ -37,18 +39,14 @@ def _unused_import(imported: Imported, main: Source, build: Build) -> None:
             return
     else:
         word = (statement.alias or statement.path[-1]).text
-        if _stands(word, statement.span, main):
+        if words[word] > 1:
             return
     build.log.report("W0101", "nothing of this import is used", statement.span)
 
 
-def _stands(word: str, declared: Span, main: Source) -> bool:
-    """Whether a word stands anywhere in the text but in its declaration."""
-    rest = main.text[: declared.start] + main.text[declared.end :]
-    return re.search(rf"\b{re.escape(word)}\b", rest) is not None
-
-
-def _unused_parameters(made: list[Instance], main: Source, build: Build) -> None:
+def _unused_parameters(
+    made: list[Instance], words: Counter[str], main: Source, build: Build
+) -> None:
     """A parameter that nothing names, in any of the components of its class."""
     unused: dict[Span, checked.Parameter] = {}
     used: set[Span] = set()
@@ -64,7 +62,7 @@ def _unused_parameters(made: list[Instance], main: Source, build: Build) -> None
     for span, parameter in unused.items():
         name = parameter.name.rpartition(".")[2]
         # A branch of `if` that is not taken, or another model of the text, may name it.
-        if span not in used and not _stands(name, span, main):
+        if span not in used and words[name] == 1:
             word = "constant" if parameter.constant else "parameter"
             build.log.report("W0102", f"{word} {name!r} is used nowhere", span)
 

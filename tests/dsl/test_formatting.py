@@ -11,7 +11,8 @@ from frot.dsl.parsing import Lexeme
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-EXAMPLES = sorted((Path(__file__).parent / "examples").glob("*.frot"))
+HERE = Path(__file__).parent
+EXAMPLES = [*sorted((HERE / "examples").glob("*.frot")), *sorted((HERE / "sound").glob("*.frot"))]
 # Statements that no example has.
 MORE = """import Library.Parts.*;
 import Library.Gear as Wheel;
@@ -40,6 +41,7 @@ end Softer;
    of several lines */
 model M
   parameter Real k(unit = "N.m/A") = 0.05 "constant";
+  Part p(final a = 2, final q(start = 3), r.s = 1);
   final constant Real t[2, 2] = ((1, 20), (300, 4));
   corps b: solid(mass = 1 kg, inertia = (1, 2, 3) kg.m^2);
   repère f on b at (0, 0, 0) m rotated(axis = y, angle = 20 deg) "doc";

@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 from frot.dsl import Log, compile_text, load, render_log
 
-EXAMPLES = sorted((Path(__file__).parent / "examples").glob("*.frot"))
+HERE = Path(__file__).parent
+EXAMPLES = [*sorted((HERE / "examples").glob("*.frot")), *sorted((HERE / "sound").glob("*.frot"))]
 MODELS = sorted((Path(__file__).parents[2] / "models").glob("*.frot"))
 
 
