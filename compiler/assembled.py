@@ -9,7 +9,7 @@ import casadi as ca
 from frot.compiler.eliminate import Pivot
 from frot.compiler.origins import Origin
 from frot.compiler.reduce import Reduced
-from frot.compiler.text_symbols import Element
+from frot.compiler.text_symbols import FrictionElement
 from frot.dsl.source import Span
 
 
@@ -45,7 +45,7 @@ class Assembled:
     """
 
     reduced: Reduced
-    elements: tuple[Element, ...]
+    elements: tuple[FrictionElement, ...]
     q: ca.SX
     v: ca.SX
     y: ca.SX

@@ -15,13 +15,15 @@ from frot.dsl.source import Span
 class Chain:
     """One scalar unknown. `symbols[k]` stands for its k-th derivative.
 
-    `variable` is the variable of the text it belongs to, None for a coordinate of the mechanism.
+    `variable` is the variable of the text it belongs to; None for a coordinate of the mechanism,
+    which is `fixed` (no equation of the text replaces it), and for what the compiler adds.
     """
 
     name: str
     span: Span | None
     variable: Variable | None
     symbols: list[ca.SX]
+    fixed: bool
 
 
 class Chains:
@@ -40,10 +42,11 @@ class Chains:
         span: Span | None,
         variable: Variable | None = None,
         symbols: Iterable[ca.SX] = (),
+        fixed: bool = False,
     ) -> int:
         """A new chain, beginning with these symbols; returns its index."""
         index = len(self.items)
-        self.items.append(Chain(name, span, variable, []))
+        self.items.append(Chain(name, span, variable, [], fixed))
         for symbol in symbols or (ca.SX.sym(name),):
             self._append(index, symbol)
         return index

@@ -32,6 +32,7 @@ def parameter_checks(mechanism: Mechanism, pivots: Sequence[Pivot] = ()) -> tupl
 
     `pivots` are divisors that came from solving equations for an unknown.
     """
+    first = {p.value.element_hash(): p for p in reversed(pivots)}
     divisors = (
         Check(
             NOT_ZERO,
@@ -41,6 +42,7 @@ def parameter_checks(mechanism: Mechanism, pivots: Sequence[Pivot] = ()) -> tupl
             p.origin.span,
         )
         for p in pivots
+        if first[p.value.element_hash()] is p
     )
     return (*_checks(mechanism), *divisors)
 

@@ -1,4 +1,4 @@
-"""Gap, slip and rolling rate of the contacts."""
+"""Gap, slip and rolling rate of the contacts, and the rows of every joint."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.kinematics import Kinematics, Line
-from frot.compiler.mechanism import Contact, is_unilateral
-from frot.compiler.mechanize import owner_body, point_body
+from frot.compiler.mechanism import Contact, Joint, Pin, is_unilateral, owner_body, point_body
+from frot.compiler.pins import PinGeometry, pin_geometry
 from frot.dsl.checked import World
 
 DOWN = {"+x": (1, 0), "-x": (-1, 0), "+y": (0, 1), "-y": (0, -1)}
@@ -45,10 +45,33 @@ def down(world: World) -> ca.SX:
     return ca.SX(ca.DM(DOWN[world.down]))
 
 
+def joint_geometry(
+    joint: Joint, kinematics: Kinematics, side: ca.SX, world: World
+) -> Geometry | PinGeometry:
+    """Geometry and relative velocities of a contact or pin, be it ideal or with friction."""
+    if isinstance(joint, Pin):
+        return pin_geometry(joint, kinematics)
+    return contact_geometry(joint, kinematics, side, world)
+
+
+def row_rates(
+    joint: Joint, geometry: Geometry | PinGeometry, kinematics: Kinematics
+) -> list[ca.SX]:
+    """Relative velocities of the joint's rows, in their order."""
+    if isinstance(geometry, PinGeometry):
+        return [geometry.apart, *([geometry.speed] if joint.mu is not None else [])]
+    rates = [kinematics.velocity(geometry.gap)]
+    if joint.mu is not None:
+        rates.append(geometry.slip)
+    if joint.delta is not None:
+        rates.append(geometry.roll)
+    return rates
+
+
 def contact_geometry(
     contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
 ) -> Geometry:
-    """Geometry and relative velocities of a contact, be it ideal or with friction."""
+    """Geometry and relative velocities of a point or rim on a line."""
     body, base = point_body(contact.point), owner_body(contact.line.owner)
     line = kinematics.line(contact.line)
     bilateral = contact.liaison.kind.name == "point_courbe" and not is_unilateral(contact.liaison)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
-from frot.compiler.chains import replace_known
+from frot.compiler.chains import Chains, replace_known
 from frot.compiler.differentiate import Differentiated
-from frot.compiler.eliminate import Eliminated, resolve_all
+from frot.compiler.eliminate import Eliminated, Pivot, Residuals, eliminate, resolve_all
 from frot.compiler.reduce import Reduced
 from frot.compiler.symbols import column
 from frot.dsl import Log
+from frot.dsl.source import Span
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,6 +37,8 @@ class Core:
     bias: ca.SX
     rate: ca.SX
     coefficients: ca.SX
+    known: dict[int, ca.SX]
+    pivots: tuple[Pivot, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,6 +57,7 @@ def make_core(
     core: set[int],
     newton: ca.SX,
     known: dict[int, ca.SX],
+    defaults: ca.DM,
     log: Log,
 ) -> Core | None:
     """Form the core of the components `core`; a fault is reported.
@@ -63,21 +67,24 @@ def make_core(
     """
     s, chains, elements = reduced.symbols, reduced.text.chains, reduced.text.elements
     states = _sort_states(found, core)
-    nv, na, nc = len(states.v), s.w.numel(), len(states.algebraic)
+    nv, na, count = len(states.v), s.w.numel(), s.v.numel()
+    explicit = _remove_algebraic(found, states, core, known, s.p, defaults, chains)
+    known = {**known, **explicit.resolver.known}
+    algebraic = [x for x in states.algebraic if x.element_hash() not in explicit.resolver.known]
+    nc = len(algebraic)
     auxiliary = ca.SX.sym("auxiliary", na)
-    z = ca.vertcat(column(states.accelerations), auxiliary, column(states.algebraic))
+    z = ca.vertcat(column(states.accelerations), auxiliary, column(algebraic))
     lam = ca.vertcat(s.lam, column(e.force for e in elements))
-    count = s.v.numel()
-    user = _in_order_of(ca.vertcat(z[count:nv], z[nv + na :]), found, core)
+    left_over = dict(zip(explicit.numbers, explicit.residuals.values, strict=True))
+    user = _in_order_of([*states.accelerations[count:], *algebraic], found, core, left_over)
     coupling = reduced.mass[:, count:] @ auxiliary
     equations = ca.vertcat(
-        column(found.values[: found.newton]) + coupling[:count],
+        column(left_over[i] for i in range(count)) + coupling[:count],
         column(user),
-        newton[count:] + coupling[count:],
+        replace_known(newton[count:], known) + coupling[count:],
     )
-    equations = replace_known(equations, known)
-    order = [*range(count), *range(count + len(user), count + len(user) + na)]
-    order += list(range(count, count + len(user)))
+    order = [*range(count), *range(count, nv), *range(count + len(user), count + len(user) + na)]
+    order += list(range(nv, count + len(user)))
     equations = equations[order] if order else equations
     matrix, spread = ca.jacobian(equations, z), -ca.jacobian(equations, lam)
     rows, bias, rate = _rows(reduced, left, z, known, na, nv)
@@ -95,8 +102,8 @@ def make_core(
     force = -ca.substitute(equations, both, zero) if both.numel() else -equations
     sizes = replace_known(resolve_all(reduced.force_size, chains, left.resolver), known)
     sizes = ca.substitute(sizes, both, zero) if both.numel() else sizes
-    size = ca.vertcat(sizes, ca.fabs(force[count + na :]))
-    # z is ordered: accelerations of the mechanism, of the text, auxiliary, algebraic
+    own = ca.fabs(force)
+    size = ca.vertcat(sizes[:count], own[count:nv], sizes[count:], own[nv + na :])
     general = bool(nc) or not _is_mass_matrix(matrix, spread, rows)
     return Core(
         q=ca.vertcat(s.q, column(states.q)),
@@ -117,24 +124,51 @@ def make_core(
         bias=bias,
         rate=rate,
         coefficients=_coefficients(reduced, left, known),
+        known=explicit.resolver.known,
+        pivots=tuple(explicit.pivots),
     )
 
 
-def _in_order_of(z: ca.SX, found: Differentiated, core: set[int]) -> list[ca.SX]:
+def _remove_algebraic(
+    found: Differentiated,
+    states: _States,
+    core: set[int],
+    known: dict[int, ca.SX],
+    p: ca.SX,
+    defaults: ca.DM,
+    chains: Chains,
+) -> Eliminated:
+    """The core's equations without the algebraic unknowns that have a formula: forces, mostly."""
+    inside = [i for k in sorted(core) for i in found.components[k].equations]
+    values = [replace_known(found.values[i], known) for i in inside]
+    own = {chains.place[x.element_hash()][0] for x in states.algebraic}
+    taken = eliminate(
+        Residuals(values, [found.origins[i] for i in inside]),
+        lambda i, j, _: j in own and inside[i] >= found.newton,
+        chains,
+        p,
+        defaults,
+    )
+    return replace(taken, numbers=[inside[i] for i in taken.numbers])
+
+
+def _in_order_of(
+    z: list[ca.SX], found: Differentiated, core: set[int], values: dict[int, ca.SX]
+) -> list[ca.SX]:
     """The text's equations of the core, each in the place of the unknown it is matched with.
 
     An equation is turned round where its unknown stands in it with a negative factor, so that what
     is a mass matrix looks like one.
     """
-    place = {x.element_hash(): k for k, x in enumerate(ca.vertsplit(z) if z.numel() else ())}
+    place = {x.element_hash(): k for k, x in enumerate(z)}
     ordered: dict[int, ca.SX] = {}
     others: list[ca.SX] = []
     for k in sorted(core):
         component = found.components[k]
         for i, j in zip(component.equations, component.unknowns, strict=True):
-            if i < found.newton:
+            if i < found.newton or i not in values:
                 continue
-            unknown, value = found.unknown(j), found.values[i]
+            unknown, value = found.unknown(j), values[i]
             at = place.get(unknown.element_hash())
             if at is None:
                 others.append(value)
@@ -142,7 +176,7 @@ def _in_order_of(z: ca.SX, found: Differentiated, core: set[int]) -> list[ca.SX]
             slope = ca.jacobian(value, unknown)
             ordered[at] = -value if _looks_negative(slope) else value
     free = iter(others)
-    return [ordered[k] if k in ordered else next(free) for k in range(z.numel())]
+    return [ordered[k] if k in ordered else next(free) for k in range(len(z))]
 
 
 def _looks_negative(slope: ca.SX) -> bool:
@@ -199,7 +233,7 @@ def _rows(
         mechanical[:, :count] = reduced.rows[:, :count]
         mechanical[:, nv : nv + na] = reduced.rows[:, count:]
     slips = resolve_all(column(e.slip for e in elements), chains, left.resolver)
-    rate = resolve_all(chains.rate(slips), chains, left.resolver)
+    rate = resolve_all(column(e.acceleration for e in elements), chains, left.resolver)
     slips, rate = replace_known(slips, known), replace_known(rate, known)
     own = ca.jacobian(rate, z)
     free = ca.substitute(rate, z, ca.SX.zeros(z.shape)) if z.numel() else rate
@@ -245,7 +279,7 @@ def _is_mass_matrix(matrix: ca.SX, spread: ca.SX, rows: ca.SX) -> bool:
     return True
 
 
-def _place(found: Differentiated, core: set[int], reduced: Reduced) -> object:
+def _place(found: Differentiated, core: set[int], reduced: Reduced) -> Span:
     for k in core:
         for i in found.components[k].equations:
             if i >= found.newton:

@@ -8,15 +8,18 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 from frot.compiler.lower import Lowered, lower
+from frot.compiler.mechanism import Joint, Pin
 from frot.compiler.mechanize import mechanize
+from frot.compiler.names import coordinate_names
 from frot.compiler.reduce import Reduced, reduce
-from frot.compiler.symbols import column, coordinate_names
+from frot.compiler.symbols import Rows, column
 from frot.compiler.walk import as_number
 from frot.dsl import Log
 from frot.dsl.checked import Model
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)
 STICK, FORWARD, BACKWARD = range(1, 4)
+NEWTON_STEPS = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,14 +39,16 @@ class Dae:
     """x' = ode, 0 = alg in a given mode, the guards that end the mode and the resets at its end.
 
     All Functions take (t, x, z, u, p, mode). x: coordinates then speeds; z: accelerations then
-    reactions of the contacts' rows; `mode` has four numbers a contact, then the conditions (0 or 1)
-    and the sides of the contacts (+1 or -1): closed (0 or 1), sign of a bilateral normal reaction,
+    reactions of the contacts' rows (of a pin: force of a on b and friction couple); `mode` has four
+    numbers a contact or pin, then the conditions (0 or 1) and the sides of the contacts (+1 or -1):
+    closed (0 or 1; a pin always is), sign of a bilateral normal reaction (a pin has none),
     friction and rolling (0 no law, 1 stick, 2 slip forward, 3 slip backward).
 
-    * `ode` (x'), `alg` (0, index 1: a linear system in z);
+    * `ode` (x'), `alg` (0, index 1: a system in z, linear but for the norm of the reaction of a pin
+      in slip);
     * `guards`: five a contact, positive while the mode lasts: normal (gap if open, reaction if
       closed), friction (2), rolling (2); then the conditions. One that cannot end the mode is 1;
-    * `solve` (t, x, u, p, mode) -> z: the linear system solved;
+    * `solve` (t, x, u, p, mode) -> z: the system solved;
     * `u0`, `p0`: start values of the inputs and the parameters, in SI;
     * `reset` (t, x, z, u, p, mode) -> x_after: speeds moved onto the relations of `mode`, the mode
       entered, by the least change in the metric of the mass. Without impacts nothing else jumps.
@@ -79,7 +84,17 @@ def make_dae(model: Model, log: Log) -> Dae | None:
     mechanism = mechanize(model, log)
     reduced = reduce(mechanism, log) if mechanism is not None else None
     lowered = lower(reduced, log) if reduced is not None else None
-    return _assemble(lowered) if lowered is not None else None
+    if lowered is None:
+        return None
+    if model.variables or lowered.system.general:
+        log.report(
+            "E0701",
+            "the DAE of a model with equations of its own is not supported yet",
+            model.span,
+            help="`simulate` and the FMU run it; 'frot check --emit equations' shows it",
+        )
+        return None
+    return _assemble(lowered)
 
 
 def _assemble(lowered: Lowered) -> Dae:
@@ -96,19 +111,11 @@ def _assemble(lowered: Lowered) -> Dae:
     auxiliary = ca.SX.zeros(s.w.shape)
     balance = reduced.mass @ ca.vertcat(s.a, auxiliary) - reduced.force - reduced.rows.T @ s.lam
     alg = ca.vertcat(balance, *_laws(reduced, contact_modes))
-    linear, constant = ca.jacobian(alg, z), ca.substitute(alg, z, ca.SX.zeros(z.shape))
-    solved = -ca.solve(linear, constant) if z.numel() else ca.SX.zeros(0)
     values = default_values(reduced.mechanism.model, {})
     guards = ca.vertcat(*_guards(reduced, contact_modes))
     q_names = [n for c in reduced.mechanism.coordinates for n in coordinate_names(c)]
     row_names = [
-        n
-        for c, r in zip(contacts, reduced.contact_rows, strict=True)
-        for n in (
-            f"{c.liaison.name}.normal_force",
-            *([f"{c.liaison.name}.tangential_force"] if r.tangent >= 0 else []),
-            *([f"{c.liaison.name}.rolling_couple"] if r.rolling >= 0 else []),
-        )
+        n for c, r in zip(contacts, reduced.contact_rows, strict=True) for n in _row_names(c, r)
     ]
     return Dae(
         names=Names(
@@ -137,17 +144,56 @@ def _assemble(lowered: Lowered) -> Dae:
         ode=ca.Function("ode", arguments, [ca.vertcat(s.v, s.a)], names, ["ode"]),
         alg=ca.Function("alg", arguments, [alg], names, ["alg"]),
         guards=ca.Function("guards", arguments, [guards], names, ["guards"]),
-        solve=ca.Function(
-            "solve",
-            [s.t, x, s.u, s.p, mode],
-            [solved],
-            ["t", "x", "u", "p", "mode"],
-            ["z"],
-        ),
+        solve=_solve(alg, z, [s.t, x, s.u, s.p, mode], any(_bounds_couple(c) for c in contacts)),
         reset=ca.Function("reset", arguments, [_reset(reduced, contact_modes)], names, ["x_after"]),
         u0=_column(as_number(evaluate(i.start, values)) for i in s.inputs),
         p0=_column(as_number(values[p]) for p in s.parameters),
     )
+
+
+def _row_names(joint: Joint, rows: Rows) -> tuple[str, ...]:
+    name = joint.liaison.name
+    if isinstance(joint, Pin):
+        couple = (f"{name}.torque",) if rows.tangent >= 0 else ()
+        return (f"{name}.force.x", f"{name}.force.y", *couple)
+    return (
+        f"{name}.normal_force",
+        *([f"{name}.tangential_force"] if rows.tangent >= 0 else []),
+        *([f"{name}.rolling_couple"] if rows.rolling >= 0 else []),
+    )
+
+
+def _bounds_couple(joint: Joint) -> bool:
+    """Whether the friction follows the norm of two components, which is not linear in them."""
+    return isinstance(joint, Pin) and joint.mu is not None
+
+
+def _solve(alg: ca.SX, z: ca.SX, known: list[ca.SX], curved: bool) -> ca.Function:
+    """Gives z: one linear solve, or Newton's method from no reactions where `curved`."""
+    names = (["t", "x", "u", "p", "mode"], ["z"])
+    slope = ca.jacobian(alg, z)
+    if not curved:
+        constant = ca.substitute(alg, z, ca.SX.zeros(z.shape))
+        solved = -ca.solve(slope, constant) if z.numel() else ca.SX.zeros(0)
+        return ca.Function("solve", known, [solved], *names)
+    step = ca.Function("newton_step", [z, *known], [z - ca.solve(slope, alg)])
+    arguments = [ca.MX.sym(n, *x.shape) for n, x in zip(names[0], known, strict=True)]
+    reached = ca.MX.zeros(z.shape)
+    for _ in range(NEWTON_STEPS):
+        reached = step(reached, *arguments)
+    return ca.Function("solve", arguments, [reached], *names)
+
+
+def _normal(reduced: Reduced, joint: Joint, rows: Rows, side: ca.SX) -> ca.SX:
+    """The normal reaction that bounds friction: not negative; of a pin, the size of its reaction.
+
+    Its slope is zero where a pin carries nothing, so that Newton's method can start there.
+    """
+    lam = reduced.symbols.lam
+    if not isinstance(joint, Pin):
+        return side * lam[rows.normal]
+    square = lam[rows.normal] ** 2 + lam[rows.second] ** 2
+    return ca.if_else(square > 0, ca.sqrt(ca.if_else(square > 0, square, 1)), 0)
 
 
 def _column(numbers: Iterable[float]) -> ca.DM:
@@ -167,9 +213,10 @@ def _laws(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:
         zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
     ):
         mode = modes[4 * i : 4 * i + 4]
-        closed, normal = mode[CLOSED], s.lam[rows.normal]
+        closed, normal = mode[CLOSED], _normal(reduced, contact, rows, mode[SIDE])
         if not contact.reduced:
-            equations.append(ca.if_else(closed, accelerations[rows.normal], normal))
+            lam_n = s.lam[rows.normal]
+            equations.append(ca.if_else(closed, accelerations[rows.normal], lam_n))
         for row, kind, coefficient in (
             (rows.tangent, mode[FRICTION], reduced.coefficients[3 * i]),
             (rows.rolling, mode[ROLLING], reduced.coefficients[3 * i + 2]),
@@ -177,7 +224,7 @@ def _laws(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:
             if row < 0:
                 continue
             sign = ca.if_else(kind == FORWARD, 1, 0) - ca.if_else(kind == BACKWARD, 1, 0)
-            follows = s.lam[row] + sign * coefficient * mode[SIDE] * normal
+            follows = s.lam[row] + sign * coefficient * normal
             held = ca.if_else(kind == STICK, accelerations[row], follows)
             equations.append(ca.if_else(closed, held, s.lam[row]))
     return equations
@@ -190,9 +237,10 @@ def _guards(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:
         zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
     ):
         mode = modes[4 * i : 4 * i + 4]
-        normal = mode[SIDE] * s.lam[rows.normal]
+        normal = _normal(reduced, contact, rows, mode[SIDE])
         gap = ca.SX(1) if contact.reduced else reduced.gap[i]
-        guards.append(ca.if_else(mode[CLOSED], normal, gap))
+        guard = ca.if_else(mode[CLOSED], normal, gap)
+        guards.append(ca.SX(1) if isinstance(contact, Pin) else guard)
         for row, kind, coefficient in (
             (rows.tangent, mode[FRICTION], reduced.coefficients[3 * i + 1]),
             (rows.rolling, mode[ROLLING], reduced.coefficients[3 * i + 2]),

@@ -6,6 +6,7 @@ choice of states has to be made, and none becomes singular on the way.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import casadi as ca
@@ -51,12 +52,8 @@ def differentiate(
 ) -> Differentiated | None:
     """Reduce the index; None after a message. `removed` are chains that are no unknowns."""
     left = tuple(j for j in range(len(chains.items)) if j not in removed)
-    place = {chain: k for k, chain in enumerate(left)}
-    incidence = _incidence(system.values, chains, place)
-    unbalanced = find_unbalanced([tuple(row) for row in incidence], len(left))
-    if unbalanced is not None:
-        unknowns = [Unknown(chains.items[j].name, chains.items[j].span) for j in left]
-        report_unbalanced(unbalanced, unknowns, system.origins, log)
+    incidence = find_incidence(system.values, chains, left)
+    if not is_balanced(incidence, left, system.origins, chains, log):
         return None
     index = reduce_index(incidence, len(left))
     values, origins = list(system.values), system.origins
@@ -101,8 +98,29 @@ def differentiate(
     )
 
 
-def _incidence(values: list[ca.SX], chains: Chains, place: dict[int, int]) -> list[dict[int, int]]:
-    """For each equation the highest order in which each unknown stands there."""
+def is_balanced(
+    incidence: Sequence[dict[int, int]],
+    left: Sequence[int],
+    origins: Sequence[Origin],
+    chains: Chains,
+    log: Log,
+) -> bool:
+    """Whether every unknown can have an equation of its own; what has none is reported."""
+    unbalanced = find_unbalanced([tuple(row) for row in incidence], len(left))
+    if unbalanced is not None:
+        unknowns = [Unknown(chains.items[j].name, chains.items[j].span) for j in left]
+        report_unbalanced(unbalanced, unknowns, origins, log)
+    return unbalanced is None
+
+
+def find_incidence(
+    values: Sequence[ca.SX], chains: Chains, left: Sequence[int]
+) -> list[dict[int, int]]:
+    """For each equation the highest order in which each unknown stands there.
+
+    Unknowns are numbered by their place in `left`, which holds indices of chains.
+    """
+    place = {chain: k for k, chain in enumerate(left)}
     incidence: list[dict[int, int]] = [{} for _ in values]
     whole = column(values)
     own = [s for s in ca.symvar(whole) if s.element_hash() in chains.place]

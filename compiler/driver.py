@@ -101,6 +101,8 @@ def build(model: Model, key: str, toolchain: Toolchain, log: Log) -> Program | N
                 compiler=toolchain.command,
                 flags=FLAGS,
                 folder=folder,
+                conditions=tuple(reduced.conditions.texts),
+                fixed=tuple((p.name, p.structural) for p in model.parameters if p.structural),
             ),
             folder,
         )

@@ -1,19 +1,22 @@
-"""Removes the unknowns that an equation gives explicitly: aliases, sums, ideal gears.
+"""Removes unknowns that an equation gives explicitly: aliases, ideal gears, what is prescribed.
 
 An equation that is linear in an unknown, with a constant or parameter as coefficient, defines it;
-the unknown and its derivatives are replaced everywhere. This is a choice of dummy derivatives made
-beforehand: what is removed needs no state, no index reduction and no projection.
+the unknown and its derivatives are replaced everywhere. For an unknown with states this is a choice
+of dummy derivatives made beforehand: it needs no state, no index reduction and no projection.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.chains import Chains, Resolver
 from frot.compiler.origins import Origin
 from frot.compiler.symbols import column
+
+Entries = Mapping[int, int]
 
 # Equations that a removal may lengthen: (terms less one) x (other equations) of the unknown.
 MOST_FILL = 12
@@ -38,9 +41,13 @@ class Pivot:
 
 @dataclass(slots=True, eq=False)
 class Eliminated:
-    """The equations left, the removed unknowns and what they are, the divisors of that."""
+    """The equations left with the numbers they had, the removed unknowns and what they are.
+
+    `pivots` are the divisors of their definitions.
+    """
 
     residuals: Residuals
+    numbers: list[int]
     removed: set[int]
     resolver: Resolver
     pivots: list[Pivot]
@@ -54,18 +61,26 @@ class _Candidate:
     entry: int
 
 
-def eliminate(residuals: Residuals, chains: Chains, p: ca.SX, defaults: ca.DM) -> Eliminated:
+def eliminate(
+    residuals: Residuals,
+    may_define: Callable[[int, int, Entries], bool],
+    chains: Chains,
+    p: ca.SX,
+    defaults: ca.DM,
+) -> Eliminated:
     """Remove explicit unknowns, a set of independent ones at a time, until none is left.
 
-    `p` and `defaults` are the parameters and their values, by which a divisor is known not to be
-    zero. Chains of the mechanism are never removed.
+    `may_define(i, j, entries)`: whether equation i, counted as in `residuals`, may define the
+    unknown of chain j; `entries` maps the chains that stand in it to their highest orders. `p` and
+    `defaults` are the parameters and their values, by which a divisor is known not to be zero.
     """
     values, origins = list(residuals.values), list(residuals.origins)
+    numbers = list(range(len(values)))
     rounds: list[tuple[list[int], ca.SX]] = []
     pivots: list[Pivot] = []
     while values:
         table = _Table(values, chains, p, defaults)
-        chosen = _choose(table, chains)
+        chosen = _choose(table, numbers, may_define, chains)
         if not chosen:
             break
         definitions = column(
@@ -83,10 +98,13 @@ def eliminate(residuals: Residuals, chains: Chains, p: ca.SX, defaults: ca.DM) -
         used = {c.equation for c in chosen}
         kept = [i for i in range(len(values)) if i not in used]
         origins = [origins[i] for i in kept]
+        numbers = [numbers[i] for i in kept]
         left = column(values[i] for i in kept)
         values = ca.vertsplit(_replace(left, removed, definitions, chains)) if kept else []
     removed_at_all = {chain for removed, _ in rounds for chain in removed}
-    return Eliminated(Residuals(values, origins), removed_at_all, _resolver(rounds, chains), pivots)
+    return Eliminated(
+        Residuals(values, origins), numbers, removed_at_all, _resolver(rounds, chains), pivots
+    )
 
 
 class _Table:
@@ -102,14 +120,12 @@ class _Table:
         self.coefficients = jacobian.nz[:] if jacobian.nnz() else ca.SX.zeros(0)
         rows, columns = jacobian.sparsity().get_triplet()
         self.orders: list[dict[int, int]] = [{} for _ in values]
-        self.lowest: list[dict[int, int]] = [{} for _ in values]
         self.equations: dict[int, set[int]] = defaultdict(set)
         self.differentiated: set[int] = set()
         self.entries: list[tuple[int, int, int]] = []
         for entry, (row, at) in enumerate(zip(rows, columns, strict=True)):
             chain, order = chains.place[own[at].element_hash()]
             self.orders[row][chain] = max(order, self.orders[row].get(chain, 0))
-            self.lowest[row][chain] = min(order, self.lowest[row].get(chain, order))
             self.equations[chain].add(row)
             if order:
                 self.differentiated.add(chain)
@@ -141,9 +157,19 @@ class _Table:
         return kinds
 
 
-def _choose(table: _Table, chains: Chains) -> list[_Candidate]:
+def _choose(
+    table: _Table,
+    numbers: Sequence[int],
+    may_define: Callable[[int, int, Entries], bool],
+    chains: Chains,
+) -> list[_Candidate]:
     """Definitions none of which holds an unknown that another defines; algebraic ones first."""
-    candidates = [c for entry in table.entries if (c := _candidate(entry, table, chains))]
+    candidates = [
+        c
+        for entry in table.entries
+        if may_define(numbers[entry[1]], entry[2], table.orders[entry[1]])
+        and (c := _candidate(entry, table, chains))
+    ]
     if any(c.rank[0] == 0 for c in candidates):
         candidates = [c for c in candidates if c.rank[0] == 0]
     chosen: list[_Candidate] = []
@@ -164,26 +190,15 @@ def _choose(table: _Table, chains: Chains) -> list[_Candidate]:
 def _candidate(entry: tuple[int, int, int], table: _Table, chains: Chains) -> _Candidate | None:
     at, row, chain = entry
     kind = table.kinds[at]
-    if kind < 0 or chains.items[chain].variable is None or table.orders[row][chain] > 0:
+    if kind < 0 or chains.items[chain].fixed or table.orders[row][chain] > 0:
         return None
     terms, others = len(table.orders[row]) - 1, len(table.equations[chain]) - 1
     if terms > 1 and others > 1 and terms * others > MOST_FILL:
         return None
     differentiated = chain in table.differentiated
-    if differentiated and (row in table.unrated or _raises_orders(row, table, terms)):
+    if differentiated and row in table.unrated:
         return None
     return _Candidate((int(differentiated), kind, terms * others), row, chain, at)
-
-
-def _raises_orders(row: int, table: _Table, terms: int) -> bool:
-    """Whether to differentiate the equation means more than a name for a derivative does.
-
-    `w = der(phi)` names a derivative. In `der(u) = w - u` the unknown w is a state of its own.
-    """
-    orders, lowest = table.orders[row], table.lowest[row]
-    if not any(orders.values()):
-        return False
-    return terms > 1 or any(order != lowest[chain] for chain, order in orders.items())
 
 
 def _replace(value: ca.SX, removed: list[int], definitions: ca.SX, chains: Chains) -> ca.SX:

@@ -62,23 +62,30 @@ FUNCTIONS: dict[str, Callable[..., ca.SX]] = {
     "transpose": lambda x: x.T,
 }
 
+NEVER, RISING, ALWAYS = range(3)
 STEPPING = ("floor", "ceil", "mod")
 OF_EVENTS = ("pre", "edge", "change", "sample", "initial", "friction")
 
 
 @dataclass(slots=True)
 class Conditions:
-    """Conditions on time and motion that switch a force or a coefficient: `value` > 0 while true.
+    """Conditions on time and motion that switch something: `value` > 0 while true.
 
-    `strict`: whether the condition is false where its value is zero.
+    `strict`: whether the condition is false where its value is zero. `texts` are as the author
+    wrote them, empty for what is no event to him; `told` says when a change is one (frot_told).
     """
 
     flags: list[ca.SX] = field(default_factory=list)
     values: list[ca.SX] = field(default_factory=list)
     strict: list[bool] = field(default_factory=list)
+    texts: list[str] = field(default_factory=list)
+    told: list[int] = field(default_factory=list)
 
-    def add(self, value: ca.SX, strict: bool) -> ca.SX:
-        """A flag, 0 or 1, that follows the sign of `value` by located events."""
+    def add(self, value: ca.SX, strict: bool, text: str = "", *, momentary: bool = False) -> ca.SX:
+        """A flag, 0 or 1, that follows the sign of `value` by located events.
+
+        A `momentary` condition is told when it comes to hold only.
+        """
         for flag, known, kind in zip(self.flags, self.values, self.strict, strict=True):
             if kind == strict and ca.is_equal(known, value, 20):
                 return flag  # the same switch, written or read twice
@@ -86,6 +93,8 @@ class Conditions:
         self.flags.append(flag)
         self.values.append(value)
         self.strict.append(strict)
+        self.texts.append(" ".join(text.split()))
+        self.told.append(NEVER if not text else RISING if momentary else ALWAYS)
         return flag
 
 
@@ -195,7 +204,7 @@ class Lowering:
         positive = left - right if node.op in (">", ">=") else right - left
         strict = node.op in ("<", ">")
         if conditions is not None:
-            return conditions.add(positive, strict)
+            return conditions.add(positive, strict, node.span.text)
         return positive > 0 if strict else positive >= 0
 
     def _call(self, node: Call) -> ca.SX:
@@ -207,10 +216,10 @@ class Lowering:
         if name in ("min", "max"):
             value = arguments[0]
             for other in arguments[1:]:
-                value = self._least(value, other, conditions, -1 if name == "max" else 1)
+                value = self._least(value, other, conditions, node)
             return value
         if conditions is not None and name in ("abs", "sign"):
-            above = conditions.add(arguments[0], False)
+            above = conditions.add(arguments[0], False, f"{node.arguments[0].span.text} >= 0")
             return (2 * above - 1) * (arguments[0] if name == "abs" else 1)
         if conditions is not None and name in STEPPING:
             self._refuse(f"`{name}` of a value that changes, in a force or coefficient", node)
@@ -235,9 +244,10 @@ class Lowering:
         return arguments[0] if arguments else ca.SX(0)
 
     @staticmethod
-    def _least(x: ca.SX, y: ca.SX, conditions: Conditions | None, sign: int) -> ca.SX:
-        below = sign * (y - x)
-        flag = conditions.add(below, False) if conditions is not None else below >= 0
+    def _least(x: ca.SX, y: ca.SX, conditions: Conditions | None, node: Call) -> ca.SX:
+        below = x - y if node.function == "max" else y - x
+        text = f"first of {node.span.text}"
+        flag = conditions.add(below, False, text) if conditions is not None else below >= 0
         return ca.if_else(flag, x, y)
 
     def _refuse(self, what: str, node: Expression) -> None:

@@ -52,10 +52,10 @@ def _branches(equations: IfEquations, lowering: Lowering, log: Log) -> list[tupl
         )
         return []
     found = columns[-1]
-    for condition, column in reversed(list(zip(conditions, columns, strict=True))[:-1]):
-        assert condition is not None
+    for holds, column in reversed(list(zip(conditions, columns, strict=True))[:-1]):
+        assert holds is not None
         found = [
-            (ca.if_else(condition, value, other), origin)
+            (ca.if_else(holds, value, other), origin)
             for (value, origin), (other, _) in zip(column, found, strict=True)
         ]
     return found

@@ -9,6 +9,7 @@ from pathlib import Path
 import casadi as ca
 from frot.compiler.jacobian import alike
 from frot.compiler.lower import Lowered
+from frot.compiler.mechanism import Pin
 from frot.compiler.symbols import column
 from frot.compiler.walk import is_fixed
 from frot.dsl.checked import Expression
@@ -43,8 +44,8 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
                 _record(
                     _text(c.liaison.name),
                     _text(_place(c.liaison.span)),
-                    "FROT_BY_NORMAL",
-                    *(r.normal, -1, r.tangent, r.rolling, int(c.reduced)),
+                    "FROT_BY_PIN" if isinstance(c, Pin) else "FROT_BY_NORMAL",
+                    *(r.normal, r.second, r.tangent, r.rolling, int(c.reduced)),
                     int(_fixed(c.mu) and _fixed(c.mu_s)),
                     int(_fixed(c.delta)),
                 )
@@ -86,6 +87,16 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "unsigned char",
             "row_depends",
             [str(int(x)) for row in lowered.row_depends for x in row],
+        ),
+        _array(
+            "frot_condition",
+            "conditions",
+            [
+                _record(_text(text), told)
+                for text, told in zip(
+                    reduced.conditions.texts, reduced.conditions.told, strict=True
+                )
+            ],
         ),
         _array(
             "unsigned char", "condition_strict", [str(int(x)) for x in reduced.conditions.strict]
@@ -162,6 +173,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "p_dependent",
             "p_type",
             "row_depends",
+            "conditions",
             "condition_strict",
             "q_speed",
             "q_alike",

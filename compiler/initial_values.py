@@ -56,13 +56,14 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
         "q": _guess(system, looking, system.q, ca.SX.zeros(system.q.shape)),
         "v": _guess(system, looking, system.v, ca.SX.zeros(system.v.shape)),
     }
-    direct = None if system.reduced.mechanism.contacts else _direct(found, system)
-    if direct is not None:
+    direct, complete = _direct(found, system)
+    # values that are stated one by one are where the search begins, or all there is to find
+    guess = {
+        "q": _with(system.q, guess["q"], direct),
+        "v": _with(system.v, guess["v"], direct),
+    }
+    if complete and not (system.reduced.mechanism.contacts or system.invariants.origins):
         found = []
-        guess = {
-            k: replace_known(_with(x, direct), {})
-            for k, x in (("q", (system.q, guess["q"])), ("v", (system.v, guess["v"])))
-        }
     for value, origin in zip(
         ca.vertsplit(system.invariants.values) if system.invariants.origins else (),
         system.invariants.origins,
@@ -102,12 +103,15 @@ def _sets_discrete(equation: InitialEquation) -> bool:
 def _residuals(
     index: int, equation: InitialEquation, system: Assembled, looking: Lowering, log: Log
 ) -> list[_Residual]:
-    if is_fixed(equation.left) and is_fixed(equation.right):
+    fixed = is_fixed(equation.left) and is_fixed(equation.right)
+    if fixed or equation.left.type.base == "boolean":
         log.report(
             "E0602",
-            "this initial statement depends on nothing that can change",
+            "this initial statement depends on nothing that can change"
+            if fixed
+            else "this condition follows from the equations: no 'when' sets it",
             equation.span,
-            help="state a coordinate or a velocity of a body or liaison, or leave it out",
+            help="state a coordinate, a speed or a state, or leave it out",
         )
         return []
     settled = system.reduced.variables.settled
@@ -132,38 +136,31 @@ def _residuals(
     ]
 
 
-def _direct(found: list[_Residual], system: Assembled) -> dict[int, ca.SX] | None:
-    """The values of states that the statements give one by one; None where they must be solved.
-
-    With such statements alone nothing is searched, however many states there are.
-    """
-    if system.invariants.origins:
-        return None
+def _direct(found: list[_Residual], system: Assembled) -> tuple[dict[int, ca.SX], bool]:
+    """The values of states that statements give one by one, and whether all statements do that."""
     states = {s.element_hash() for s in (*_items(system.q), *_items(system.v))}
     moving = states | {s.element_hash() for s in _items(system.y)}
     values: dict[int, ca.SX] = {}
+    complete = True
     for residual in found:
         inside = [s for s in ca.symvar(residual.value) if s.element_hash() in moving]
-        if len(inside) != 1 or inside[0].element_hash() not in states:
-            return None
-        symbol = inside[0]
-        slope = ca.jacobian(residual.value, symbol)
-        if not slope.is_constant() or symbol.element_hash() in values:
-            return None
-        rest = ca.substitute(residual.value, symbol, ca.SX(0))
-        values[symbol.element_hash()] = -rest / slope
-    return values
+        slope = ca.jacobian(residual.value, inside[0]) if len(inside) == 1 else ca.SX.sym("no")
+        key = inside[0].element_hash() if inside else 0
+        if not slope.is_constant() or key in values or key not in states:
+            complete = False
+            continue
+        values[key] = -ca.substitute(residual.value, inside[0], ca.SX(0)) / slope
+    return values, complete
 
 
 def _items(symbols: ca.SX) -> list[ca.SX]:
     return list(ca.vertsplit(symbols)) if symbols.numel() else []
 
 
-def _with(pair: tuple[ca.SX, ca.SX], direct: dict[int, ca.SX]) -> ca.SX:
-    symbols, guess = pair
-    return column(
-        direct.get(s.element_hash(), g) for s, g in zip(_items(symbols), _items(guess), strict=True)
-    )
+def _with(symbols: ca.SX, guess: ca.SX, direct: dict[int, ca.SX]) -> ca.SX:
+    """The guess, replaced where a value is given."""
+    pairs = zip(_items(symbols), _items(guess), strict=True)
+    return column(direct.get(s.element_hash(), g) for s, g in pairs)
 
 
 def _size(value: ca.SX, system: Assembled) -> ca.SX:

@@ -6,9 +6,16 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.expressions import Lowering
-from frot.compiler.mechanism import LineCoordinates, Mechanism, Point
-from frot.compiler.symbols import Symbols, coordinate_names
-from frot.dsl.checked import Body, BodyPoint, Curve, Frame
+from frot.compiler.mechanism import (
+    LineCoordinates,
+    Mechanism,
+    PinCoordinates,
+    Point,
+    turns,
+)
+from frot.compiler.names import coordinate_names
+from frot.compiler.symbols import Symbols, auxiliary_places
+from frot.dsl.checked import Body, BodyPoint, Curve, Frame, Liaison
 
 
 def rotation(angle: ca.SX) -> ca.SX:
@@ -48,7 +55,11 @@ class Line:
 
 
 class Kinematics:
-    """Where everything is, with the auxiliary coordinates w and speeds sw still in."""
+    """Where everything is, with the auxiliary coordinates w and speeds sw still in.
+
+    `auxiliary` gives the first auxiliary coordinate of a liaison, `pin_angles` the coordinate that
+    is the angle of a pin.
+    """
 
     def __init__(self, mechanism: Mechanism, symbols: Symbols, fixed: Lowering) -> None:
         """`fixed` lowers expressions of parameters."""
@@ -56,22 +67,24 @@ class Kinematics:
         self.fixed = fixed
         ground = Pose(ca.SX.zeros(2), ca.SX(0))
         self.poses: dict[Body, Pose] = {mechanism.model.ground: ground}
-        auxiliary = {
-            contact.liaison: index
-            for index, contact in enumerate(c for c in mechanism.contacts if c.reduced)
-        }
+        self.auxiliary, _ = auxiliary_places(mechanism)
+        self.pin_angles: dict[Liaison, int] = {}
         at = 0
         for coordinates in mechanism.coordinates:
             body = coordinates.body
             count = len(coordinate_names(coordinates))
             q = symbols.q[at : at + count]
             at += count
-            turns = body.shape is not None and body.shape.turns
-            angle = q[count - 1] if turns else ca.SX(0)
+            if isinstance(coordinates, PinCoordinates):
+                if count:
+                    self.pin_angles[coordinates.pin.liaison] = at - 1
+                self.poses[body] = self._pinned(coordinates, q)
+                continue
+            angle = q[count - 1] if turns(body) else ca.SX(0)
             if isinstance(coordinates, LineCoordinates):
                 line = self.line(coordinates.line)
                 place = line.through + q[0] * line.direction
-                index = auxiliary.get(coordinates.liaison)
+                index = self.auxiliary.get(coordinates.liaison)
                 if index is not None:
                     place += symbols.w[index] * line.normal
                 local = self.local_point(coordinates.point)
@@ -79,6 +92,18 @@ class Kinematics:
                 self.poses[body] = Pose(place - offset, angle)
             else:
                 self.poses[body] = Pose(q[:2], angle)
+
+    def _pinned(self, coordinates: PinCoordinates, q: ca.SX) -> Pose:
+        """Pose of a body that hangs on another; q is empty for one that does not turn."""
+        pin, sign = coordinates.pin, 1 if coordinates.carries_b else -1
+        own, base = (pin.b, pin.a) if coordinates.carries_b else (pin.a, pin.b)
+        place, angle = self.position(base), ca.SX(0)
+        at = self.auxiliary.get(pin.liaison)
+        if at is not None:
+            place += sign * self.symbols.w[at : at + 2]
+        if q.numel():
+            angle = self.angle(base) + sign * q - self.local_angle(own)
+        return Pose(place - Pose(ca.SX.zeros(2), angle).direction(self.local_point(own)), angle)
 
     def frame(self, owner: Body | Frame) -> Pose:
         """Pose of a body or frame."""
@@ -105,6 +130,16 @@ class Kinematics:
             half = self.fixed.lower(point.body.arguments["length"]) / 2
             return ca.vertcat(-half if point.name == "start" else half, 0)
         return ca.SX.zeros(2)
+
+    def local_angle(self, point: Point) -> ca.SX:
+        """Angle of the axes at a point of a body, from those of the body."""
+        angle = ca.SX(0)
+        frame: Body | Frame = point.body if isinstance(point, BodyPoint) else point
+        while isinstance(frame, Frame):
+            if frame.angle is not None:
+                angle += self.fixed.lower(frame.angle)
+            frame = frame.owner
+        return angle
 
     def position(self, point: Point | Body) -> ca.SX:
         """Ground coordinates (2)."""

@@ -9,6 +9,7 @@ import casadi as ca
 from frot.compiler.assembled import Assembled
 from frot.compiler.expressions import Lowering
 from frot.compiler.names import component_names
+from frot.compiler.pins import PinGeometry
 from frot.compiler.reduce import Reduced
 from frot.compiler.text_symbols import scalars
 from frot.dsl.checked import Body, Liaison, Variable
@@ -72,6 +73,7 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
             )
     for variable in mechanism.model.variables:
         yield from _of_text(reduced, variable)
+    yield from _rates(system)
     for body in mechanism.model.bodies:
         yield from _of_body(reduced, body)
     for contact in (*mechanism.contacts, *mechanism.ideal):
@@ -81,7 +83,7 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
     dissipated, work = reduced.symbols.energy[0], reduced.symbols.energy[1]
     yield Listed("energy.kinetic", reduced.kinetic, ENERGY, "kinetic energy of all bodies")
     yield Listed("energy.potential", reduced.potential, ENERGY, "gravity, springs, attractions")
-    yield Listed("energy.dissipated", dissipated, ENERGY, "lost in friction since the start")
+    yield Listed("energy.dissipated", dissipated, ENERGY, "lost in friction of the liaisons")
     yield Listed("energy.work", work, ENERGY, "work done by the other forces since the start")
 
 
@@ -108,6 +110,18 @@ def _of_text(reduced: Reduced, variable: Variable) -> Iterator[Listed]:
             output=variable.output,
             unit=variable.unit,
         )
+
+
+def _rates(system: Assembled) -> Iterator[Listed]:
+    """States that are derivatives of variables, by the name `der(x)`."""
+    chains = system.reduced.text.chains
+    for symbol in (*ca.vertsplit(system.q), *ca.vertsplit(system.v)):
+        index, order = chains.place[symbol.element_hash()]
+        variable = chains.items[index].variable
+        if order == 1 and variable is not None:
+            name = chains.items[index].name
+            rate = variable.type.dimension / dimension(s=1)
+            yield Listed(f"der({name})", symbol, rate, f"rate of {name}")
 
 
 def _of_body(reduced: Reduced, body: Body) -> Iterator[Listed]:
@@ -137,12 +151,28 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
         for suffix, part in _components(f"{liaison.name}.{name}", value):
             yield Listed(suffix, part, of, doc, quantity)
 
+    geometry = reduced.variables.geometry[liaison]
+    reacts = liaison in reduced.variables.reactions
+    if isinstance(geometry, PinGeometry):
+        yield from one("angle", NUMBER, "angle of b's axes less that of a's", "Angle")
+        yield from one("speed", RATE, "its rate", "AngularVelocity")
+        yield from one("gap", LENGTH, "distance of the places")
+        if geometry.radius is not None:
+            yield from one("slip", VELOCITY, "relative velocity at the surface of the pin")
+        if reacts:
+            yield from one("normal_force", FORCE, "size of the reaction")
+            if geometry.radius is not None:
+                yield from one("tangential_force", FORCE, "friction at the surface of the pin")
+            yield from one("force", FORCE, "reaction of the first place on the second")
+            yield from one("torque", ENERGY, "couple of the first place on the second", "Torque")
+            yield from one("power", POWER, "power of the reaction")
+        return
     if liaison.kind.name == "point_courbe":
         yield from one("u", LENGTH, "abscissa along the line")
         yield from one("abscissa", LENGTH, "abscissa along the line")
     yield from one("gap", LENGTH, "distance of the places")
     yield from one("slip", VELOCITY, "velocity of the body's point along the line")
-    if liaison not in reduced.variables.reactions:
+    if not reacts:
         return
     yield from one("normal_force", FORCE, "reaction along the normal, on the body")
     yield from one("tangential_force", FORCE, "friction along the line, on the body")

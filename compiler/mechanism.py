@@ -1,4 +1,4 @@
-"""The mechanism as plain data: bodies, their coordinates, contacts and forces."""
+"""The mechanism as plain data: bodies, their coordinates, contacts, pins and forces."""
 
 # Still free of any algebra: expressions are those of the checked model.
 
@@ -31,7 +31,19 @@ class LineCoordinates:
     liaison: Liaison
 
 
-Coordinates = FreeCoordinates | LineCoordinates
+@dataclass(frozen=True, slots=True, eq=False)
+class PinCoordinates:
+    """The body hangs on another by a rotoïde: the angle of the liaison, if the body turns.
+
+    `carries_b`: the body is that of the place `b` of the liaison, else of `a`.
+    """
+
+    body: Body
+    pin: Pin
+    carries_b: bool
+
+
+Coordinates = FreeCoordinates | LineCoordinates | PinCoordinates
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,6 +68,36 @@ class Contact:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Pin:
+    """A rotoïde of the points `a` and `b`, built into the coordinates.
+
+    `mu` and `mu_s` with the `radius` of the pin bound its couple; all three are None without
+    friction.
+    """
+
+    liaison: Liaison
+    a: Point
+    b: Point
+    unilateral: Expression
+    mu: Expression | None
+    mu_s: Expression | None
+    radius: Expression | None
+
+    @property
+    def reduced(self) -> bool:
+        """The coordinates always keep the liaison."""
+        return True
+
+    @property
+    def delta(self) -> None:
+        """A pin does not roll."""
+        return None
+
+
+Joint = Contact | Pin
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Mechanism:
     """What moves and what acts on it.
 
@@ -66,8 +108,8 @@ class Mechanism:
 
     model: Model
     coordinates: tuple[Coordinates, ...]
-    contacts: tuple[Contact, ...]
-    ideal: tuple[Contact, ...]
+    contacts: tuple[Joint, ...]
+    ideal: tuple[Joint, ...]
     forces: tuple[Force, ...]
 
 
@@ -104,3 +146,20 @@ def mobility(mechanism: Mechanism) -> Mobility:
         sum(n for x, n in relations.items() if x not in unilateral),
         sum(n for x, n in relations.items() if x in unilateral),
     )
+
+
+def point_body(point: Point) -> Body:
+    """The body a point belongs to."""
+    return point.body if isinstance(point, BodyPoint) else owner_body(point)
+
+
+def owner_body(owner: Body | Frame) -> Body:
+    """The body a frame, or a frame on a frame, is fixed to."""
+    while isinstance(owner, Frame):
+        owner = owner.owner
+    return owner
+
+
+def turns(body: Body) -> bool:
+    """Whether the body can have an angular velocity: neither the ground nor a particle."""
+    return body.shape is not None and body.shape.turns

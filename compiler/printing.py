@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import casadi as ca
+from frot.compiler.lower import Lowered, lower
 from frot.compiler.mechanize import mechanize
+from frot.compiler.reduce import reduce
 from frot.dsl import Log, dump
 from frot.dsl.checked import Model
 
@@ -14,33 +17,66 @@ def print_stage(model: Model, stage: str, log: Log) -> str | None:
         return None
     if stage == "mechanism":
         return dump(mechanism)
-    from frot.compiler.lower import lower
-    from frot.compiler.reduce import reduce
-    from frot.compiler.symbols import coordinate_names
-
     reduced = reduce(mechanism, log)
     lowered = lower(reduced, log) if reduced is not None else None
     if reduced is None or lowered is None:
         return None
-    if stage == "cost":
-        lines = [f"{model.name}: operations of the generated functions"]
-        lines += [f"  {name:<18}{f.n_instructions():>6}" for name, f in lowered.functions.items()]
+    return _cost(lowered) if stage == "cost" else _equations(lowered)
+
+
+def _cost(lowered: Lowered) -> str:
+    system = lowered.system
+    lines = [f"{lowered.reduced.mechanism.model.name}: operations of the generated functions"]
+    counted = [*lowered.functions.items(), *((f.name(), f) for f in lowered.blocks)]
+    lines += [f"  {name:<18}{f.n_instructions():>6}" for name, f in counted]
+    lines += [
+        f"  states {system.q.numel() + system.nv} (of these speeds {system.nv}), auxiliary speeds "
+        f"{system.na} (reactions that a law or an expression reads), rows {system.lam.numel()}, "
+        f"located conditions {len(lowered.reduced.conditions.flags)}"
+    ]
+    if system.y.numel() or system.invariants.origins:
         lines += [
-            f"  coordinates {reduced.symbols.q.numel()}, auxiliary speeds "
-            f"{reduced.symbols.w.numel()} (reactions that a law or an expression reads), rows "
-            f"{reduced.symbols.lam.numel()}, located conditions {len(reduced.conditions.flags)}"
+            f"  unknowns solved by iteration or elimination {system.y.numel()} in "
+            f"{len(system.blocks)} blocks, invariants {len(system.invariants.origins)}"
         ]
-        return "\n".join(lines)
-    names = [n for c in mechanism.coordinates for n in coordinate_names(c)]
-    parts = {
-        "q": ", ".join(names),
-        "M": reduced.mass,
-        "h": reduced.force,
-        "J": reduced.rows,
-        "c": reduced.bias,
-        "rate": reduced.rate,
-        "gap": reduced.gap,
-        "mu, mu_s, delta": reduced.coefficients,
-    }
-    lines = [f"{model.name}: M a = h + J' lam, rows accelerate by J a + c"]
-    return "\n".join([*lines, *(f"  {name} = {value}" for name, value in parts.items())])
+    return "\n".join(lines)
+
+
+def _equations(lowered: Lowered) -> str:
+    """Rates of the states, blocks, invariants, and the core system with its rows."""
+    reduced, system = lowered.reduced, lowered.system
+    lines = [f"{reduced.mechanism.model.name}: states {', '.join(system.names) or 'none'}"]
+    for symbol, rate in zip(_items(system.q), _items(system.rates), strict=True):
+        lines.append(f"  der({symbol.name()}) = {rate}")
+    for block in system.blocks:
+        kind = "linear" if block.linear else "iterated"
+        lines.append(f"  block of {block.name} ({kind}{', late' if block.late else ''}):")
+        lines += [f"    0 = {value}" for value in _items(block.residual)]
+    for value, origin in zip(
+        _items(system.invariants.values), system.invariants.origins, strict=True
+    ):
+        lines.append(f"  kept: 0 = {value}  from `{origin.text}`")
+    if system.z.numel() or system.lam.numel():
+        lines.append("  core: M z = h + J' lam, rows accelerate by J z + c")
+        parts = {
+            "z": system.z,
+            "M": system.matrix,
+            "h": system.force,
+            "J": system.rows,
+            "c": system.bias,
+            "rate": system.rate,
+            "gap": system.gap,
+            "mu, mu_s, delta": system.coefficients,
+        }
+        if system.general:
+            parts["in place of J'"] = system.spread
+        lines += [f"    {name} = {value}" for name, value in parts.items()]
+    for variable in reduced.mechanism.model.variables:
+        if not variable.discrete:
+            value = system.resolve(reduced.text.values[variable])
+            lines.append(f"  {variable.name} = {value}")
+    return "\n".join(lines)
+
+
+def _items(values: ca.SX) -> list[ca.SX]:
+    return list(ca.vertsplit(values)) if values.numel() else []

@@ -12,23 +12,19 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.chains import Chains
-from frot.compiler.contacts import Geometry, contact_geometry, down
+from frot.compiler.contacts import Geometry, down, joint_geometry, row_rates
 from frot.compiler.eliminate import Residuals
 from frot.compiler.events import Events, gather_events
 from frot.compiler.expressions import Conditions, Lowering
 from frot.compiler.forces import load
 from frot.compiler.gather import gather
 from frot.compiler.kinematics import Kinematics
-from frot.compiler.mechanism import Contact, Mechanism
-from frot.compiler.symbols import (
-    Rows,
-    Symbols,
-    column,
-    contact_rows,
-    coordinate_names,
-    make_symbols,
-)
-from frot.compiler.text_symbols import Element, TextSymbols, make_text_symbols, scalars
+from frot.compiler.mechanism import Joint, Mechanism, Pin
+from frot.compiler.names import coordinate_names
+from frot.compiler.origins import Origin
+from frot.compiler.pins import PinGeometry
+from frot.compiler.symbols import Rows, Symbols, column, contact_rows, make_symbols
+from frot.compiler.text_symbols import FrictionElement, TextSymbols, make_text_symbols, scalars
 from frot.compiler.variables import Variables
 from frot.dsl import Log
 from frot.dsl.checked import Call, Liaison, Model, Quantity, Reference, Variable
@@ -105,6 +101,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     coefficients = _coefficients(mechanism.contacts, moving, symbols, log)
     geometry = [variables.geometry[contact.liaison] for contact in mechanism.contacts]
     equations = gather(mechanism.model.equations, moving, log)
+    _add_slip_accelerations(equations, text)
     events = gather_events(mechanism.model, text, conditions, moving, looking, log)
     if log.failed:
         return None
@@ -146,7 +143,7 @@ def _text(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
         *(ca.vertsplit(x) if names else () for x in (symbols.q, symbols.v, symbols.a)),
         strict=True,
     ):
-        chains.add(name, None, None, chain)
+        chains.add(name, None, symbols=chain, fixed=True)
     chains.forbid_rate(symbols.u, "the input")
     chains.forbid_rate(symbols.lam, "the reaction")
     return make_text_symbols(mechanism.model.variables, chains)
@@ -183,23 +180,35 @@ def _friction_maker(text: TextSymbols) -> Callable[[Call, list[ca.SX], str], ca.
             name = f"{owner}.friction_{count}" if owner else f"friction_{count}"
         taken.add(name)
         force = ca.SX.sym(f"{name}.friction")
-        text.elements.append(Element(name, call.span, force, slip, bound, at_rest))
+        acceleration = ca.SX.sym(f"{name}.slip_acceleration")
+        text.elements.append(
+            FrictionElement(name, call.span, force, acceleration, slip, bound, at_rest)
+        )
         text.chains.forbid_rate(force, "the friction")
         return force
 
     return make
 
 
+def _add_slip_accelerations(equations: Residuals, text: TextSymbols) -> None:
+    """An unknown for the rate of each slip, so that index reduction brings it to light."""
+    for element in text.elements:
+        name = element.acceleration.name()
+        text.chains.add(name, element.span, symbols=(element.acceleration,))
+        equations.values.append(text.chains.rate(element.slip) - element.acceleration)
+        equations.origins.append(Origin(element.span, f"slip of {element.name}", ""))
+
+
 def _variables(
     mechanism: Mechanism, kinematics: Kinematics, symbols: Symbols, text: TextSymbols
 ) -> Variables:
     world = mechanism.model.world
-    geometry: dict[Liaison, Geometry] = {}
+    geometry: dict[Liaison, Geometry | PinGeometry] = {}
     for index, contact in enumerate(mechanism.contacts):
         side = symbols.sides[index]
-        geometry[contact.liaison] = contact_geometry(contact, kinematics, side, world)
+        geometry[contact.liaison] = joint_geometry(contact, kinematics, side, world)
     for contact in mechanism.ideal:
-        geometry[contact.liaison] = contact_geometry(contact, kinematics, ca.SX(1), world)
+        geometry[contact.liaison] = joint_geometry(contact, kinematics, ca.SX(1), world)
     return Variables(
         symbols,
         text.chains,
@@ -270,11 +279,10 @@ def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> _Loa
     for applied in mechanism.forces:
         result = load(applied, kinematics, moving, mechanism.model.ground)
         for action in result.actions:
-            velocity = kinematics.velocity_at(action.body, action.place)
-            push = ca.jacobian(velocity, speeds).T @ action.force
+            push = ca.jacobian(action.velocity, speeds).T @ action.force
             force, size = force + push, size + ca.fabs(push)
             if result.potential is None:
-                power += ca.dot(velocity, action.force)
+                power += ca.dot(action.velocity, action.force)
         sizes.append(sum((ca.sum1(ca.fabs(a.force)) for a in result.actions), ca.SX(0)))
         if result.potential is not None:
             potential += result.potential
@@ -294,24 +302,22 @@ def _reads_solution(value: ca.SX, symbols: Symbols) -> bool:
     )
 
 
-def _rates(contacts: tuple[Contact, ...], variables: Variables, kinematics: Kinematics) -> ca.SX:
-    rates: list[ca.SX] = []
-    for contact in contacts:
-        geometry = variables.geometry[contact.liaison]
-        rates.append(kinematics.velocity(geometry.gap))
-        if contact.mu is not None:
-            rates.append(geometry.slip)
-        if contact.delta is not None:
-            rates.append(geometry.roll)
-    return column(rates)
+def _rates(contacts: tuple[Joint, ...], variables: Variables, kinematics: Kinematics) -> ca.SX:
+    return column(
+        rate
+        for contact in contacts
+        for rate in row_rates(contact, variables.geometry[contact.liaison], kinematics)
+    )
 
 
 def _coefficients(
-    contacts: tuple[Contact, ...], moving: Lowering, symbols: Symbols, log: Log
+    contacts: tuple[Joint, ...], moving: Lowering, symbols: Symbols, log: Log
 ) -> ca.SX:
-    """mu, mu_s, delta of each contact; a negative one is no number, so that it is seen."""
+    """mu, mu_s (times the radius of a pin), delta; a negative one is no number, so it is seen."""
     values: list[ca.SX] = []
     for contact in contacts:
+        radius = contact.radius if isinstance(contact, Pin) else None
+        arm = ca.SX(1) if radius is None else moving.lower(radius)
         for expression in (contact.mu, contact.mu_s, contact.delta):
             if expression is None:
                 values.append(ca.SX(0))
@@ -324,7 +330,7 @@ def _coefficients(
                     "otherwise than by positions is not supported yet",
                     expression.span,
                 )
-            values.append(ca.if_else(value >= 0, value, ca.SX.nan()))
+            values.append(ca.if_else(value >= 0, arm * value, ca.SX.nan()))
     return column(values)
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from frot.compiler.mechanism import Mechanism, Mobility, is_unilateral, mobility
 from frot.compiler.mechanize import mechanize
 from frot.dsl import Log
+from frot.dsl.check_equations import count
 from frot.dsl.checked import BodyGeometry, BodyPoint, CurvePlace, Liaison, Model, Place
 
 
@@ -26,12 +27,17 @@ class Report:
     """Mobility and liaisons of a model; `str()` gives the text."""
 
     model: str
+    unknowns: int
+    equations: int
+    events: int
     bodies: tuple[tuple[str, str, int], ...]
     liaisons: tuple[LiaisonLine, ...]
     mobility: Mobility
 
     def __str__(self) -> str:
         m = self.mobility
+        if not (self.bodies or self.liaisons):
+            return "\n".join([f"{self.model}: equations only", *self._counts()])
         freedoms = ", ".join(f"{name} {count}" for name, _, count in self.bodies) or "none"
         lines = [
             f"{self.model}: planar, bodies {len(self.bodies)}, liaisons {len(self.liaisons)}",
@@ -49,21 +55,38 @@ class Report:
             lines.append(
                 "  counted as if all relations were independent; the run keeps those that are"
             )
+        lines += self._counts()
         width = max((len(x.name) for x in self.liaisons), default=0)
         for liaison in self.liaisons:
             nature = "unilateral" if liaison.unilateral else "bilateral"
             lines.append(f"  {liaison.name:<{width}}  {liaison.text}")
-            lines.append(f"  {'':<{width}}  {liaison.relations} relation, {nature}; {liaison.kept}")
+            relations = f"{liaison.relations} relation{'s' if liaison.relations > 1 else ''}"
+            lines.append(f"  {'':<{width}}  {relations}, {nature}; {liaison.kept}")
         return "\n".join(lines)
+
+    def _counts(self) -> list[str]:
+        """The line on the text's own equations, where there are some."""
+        if not (self.unknowns or self.equations or self.events):
+            return []
+        events = f", events {self.events}" if self.events else ""
+        return [f"  variables {self.unknowns}, equations {self.equations}{events}"]
 
 
 def make_report(model: Model, log: Log) -> Report | None:
     """The report of a model; None where its mechanics is refused."""
+    unknowns = sum(v.type.count for v in model.variables if not v.discrete)
+    counts = unknowns, sum(count(e) for e in model.equations), len(model.whens)
     mechanism = mechanize(model, log)
     if mechanism is None:
         return None
+    if model.variables or model.equations:
+        from frot.compiler.check_balance import check_balance
+
+        if not check_balance(model, mechanism, log):
+            return None
     return Report(
         mechanism.model.name,
+        *counts,
         tuple(
             (b.name, b.shape.name, b.shape.freedoms_planar)
             for b in mechanism.model.bodies

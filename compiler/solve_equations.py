@@ -14,8 +14,14 @@ import numpy as np
 from frot.compiler.assembled import Assembled, Block, Invariants
 from frot.compiler.chains import Chains, replace_known
 from frot.compiler.core import Core, make_core
-from frot.compiler.differentiate import Differentiated, differentiate
-from frot.compiler.eliminate import Eliminated, Residuals, eliminate, resolve_all
+from frot.compiler.differentiate import (
+    Differentiated,
+    differentiate,
+    find_incidence,
+    is_balanced,
+)
+from frot.compiler.eliminate import Eliminated, Entries, Pivot, Residuals, eliminate, resolve_all
+from frot.compiler.index import reduce_index
 from frot.compiler.order import Component, closure
 from frot.compiler.origins import Origin
 from frot.compiler.reduce import Reduced
@@ -32,6 +38,7 @@ class Solving:
     known: dict[int, ca.SX] = field(default_factory=dict)
     y: list[ca.SX] = field(default_factory=list)
     blocks: list[Block] = field(default_factory=list)
+    pivots: list[Pivot] = field(default_factory=list)
 
 
 def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
@@ -39,31 +46,44 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
     chains, s = reduced.text.chains, reduced.symbols
     values = default_values(reduced.mechanism.model, {})
     defaults = ca.DM(np.array([as_number(values[p]) for p in s.parameters]))
-    newton = _newton(reduced)
-    left = eliminate(reduced.equations, chains, s.p, defaults)
+    newton, count = _newton(reduced), s.v.numel()
+    own = [Origin(reduced.mechanism.model.span, "the equations of motion", "")] * count
+    raw = Residuals(
+        [*(ca.vertsplit(newton[:count]) if count else ()), *reduced.equations.values],
+        [*own, *reduced.equations.origins],
+    )
+    everything = range(len(chains.items))
+    incidence = find_incidence(raw.values, chains, everything)
+    if not is_balanced(incidence, everything, raw.origins, chains, log):
+        return None
+    index = reduce_index(incidence, len(everything))
+
+    def may_define(i: int, j: int, entries: Entries) -> bool:
+        """States only where the equation is differentiated as often; other unknowns if aliases."""
+        states = index.unknowns[j]
+        alias = len(entries) <= 2 and not any(entries.values())
+        return index.equations[count + i] == states and (states > 0 or alias)
+
+    left = eliminate(reduced.equations, may_define, chains, s.p, defaults)
     if not _are_equations(left, chains, log):
         return None
-    own = [Origin(reduced.mechanism.model.span, "", "")] * s.v.numel()
     forces = resolve_all(newton, chains, left.resolver)
-    count = s.v.numel()
     system = Residuals(
         [*ca.vertsplit(forces[:count]), *left.residuals.values] if count else left.residuals.values,
         [*own, *left.residuals.origins],
     )
-    removed = {
-        j for j, c in enumerate(chains.items) if c.symbols[0].element_hash() in left.resolver.known
-    }
-    found = differentiate(system, count, chains, removed, log)
+    found = differentiate(system, count, chains, left.removed, log)
     if found is None:
         return None
-    core, late = _core_components(found, reduced, left)
+    core, late = _core_components(found, reduced)
     solving = Solving()
     for k, component in enumerate(found.components):
         if k not in core and k not in late:
             _solve(component, found, solving, False, s.p, defaults)
-    built = make_core(reduced, left, found, core, forces, solving.known, log)
+    built = make_core(reduced, left, found, core, forces, solving.known, defaults, log)
     if built is None:
         return None
+    solving.known.update(built.known)
     for k, component in enumerate(found.components):
         if k in late:
             _solve(component, found, solving, True, s.p, defaults)
@@ -105,9 +125,7 @@ def _are_equations(left: Eliminated, chains: Chains, log: Log) -> bool:
     return good
 
 
-def _core_components(
-    found: Differentiated, reduced: Reduced, left: Eliminated
-) -> tuple[set[int], set[int]]:
+def _core_components(found: Differentiated, reduced: Reduced) -> tuple[set[int], set[int]]:
     """Components between what friction acts on and what its slip depends on; those after them."""
     chains = reduced.text.chains
     elements = reduced.text.elements
@@ -118,12 +136,9 @@ def _core_components(
         acted_on = set(ca.jacobian_sparsity(column(found.values), lam).row())
         sources |= {found.component_of_equation[i] for i in acted_on}
     for element in elements:
-        slip = resolve_all(element.slip, chains, left.resolver)
-        rate = resolve_all(chains.rate(slip), chains, left.resolver)
-        for symbol in ca.symvar(rate):
-            place = chains.place.get(symbol.element_hash())
-            if place is not None and place in found.component_of_unknown:
-                sinks.add(found.component_of_unknown[place])
+        place = chains.place[element.acceleration.element_hash()]
+        if place in found.component_of_unknown:
+            sinks.add(found.component_of_unknown[place])
     touched = closure(sources, found.users)
     core = touched & closure(sinks, [c.needs for c in found.components])
     return core, touched - core
@@ -141,6 +156,12 @@ def _solve(
     unknowns = [found.unknown(j) for j in component.unknowns]
     residual = [replace_known(found.values[i], solving.known) for i in component.equations]
     torn = tear(residual, unknowns, p, defaults)
+    parameters = {x.element_hash() for x in (ca.vertsplit(p) if p.numel() else ())}
+    for factor, unknown, number in torn.divisors:
+        inside = ca.symvar(factor)
+        if inside and all(x.element_hash() in parameters for x in inside):
+            origin = found.origins[component.equations[number]]
+            solving.pivots.append(Pivot(factor, unknown.name(), origin))
     first = len(solving.y)
     for symbol in torn.iterated:
         solving.y.append(symbol)
@@ -214,6 +235,6 @@ def _finish(
         power=power,
         blocks=tuple(solving.blocks),
         invariants=Invariants(invariants, tuple(found.invariant_origins)),
-        pivots=tuple(left.pivots),
+        pivots=(*left.pivots, *solving.pivots, *core.pivots),
         resolve=resolve,
     )

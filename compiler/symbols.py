@@ -6,8 +6,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import casadi as ca
-from frot.compiler.mechanism import Contact, Coordinates, LineCoordinates, Mechanism
-from frot.dsl.checked import Input, Parameter
+from frot.compiler.mechanism import (
+    Joint,
+    Mechanism,
+    Pin,
+)
+from frot.compiler.names import coordinate_names
+from frot.dsl.checked import Input, Liaison, Parameter
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,11 +55,15 @@ class Symbols:
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """Rows of a contact in the order of the kernel's arrays; -1 where there is none."""
+    """Rows of a contact or pin in the order of the kernel's arrays; -1 where there is none.
+
+    `normal` and, for a pin, `second` are the components of the reaction.
+    """
 
     normal: int
     tangent: int
     rolling: int
+    second: int = -1
 
 
 def column(values: Iterable[ca.SX]) -> ca.SX:
@@ -63,48 +72,55 @@ def column(values: Iterable[ca.SX]) -> ca.SX:
     return ca.vertcat(*items) if items else ca.SX.zeros(0)
 
 
-def coordinate_names(coordinates: Coordinates) -> tuple[str, ...]:
-    """Names of the coordinates, for messages and the DAE."""
-    body = coordinates.body
-    turning = (f"{body.name}.angle",) if body.shape is not None and body.shape.turns else ()
-    if isinstance(coordinates, LineCoordinates):
-        return (f"{coordinates.liaison.name}.u", *turning)
-    return (f"{body.name}.position.x", f"{body.name}.position.y", *turning)
+def auxiliary_places(mechanism: Mechanism) -> tuple[dict[Liaison, int], int]:
+    """First auxiliary speed of each liaison that has some, and the number of all.
+
+    A line has one, along its normal; a pin has two, along the axes of the ground.
+    """
+    places: dict[Liaison, int] = {}
+    count = 0
+    for joint in mechanism.contacts:
+        if joint.reduced:
+            places[joint.liaison] = count
+            count += 2 if isinstance(joint, Pin) else 1
+    return places, count
 
 
-def contact_rows(contacts: tuple[Contact, ...]) -> tuple[Rows, ...]:
-    """Number the rows of the contacts."""
+def contact_rows(contacts: tuple[Joint, ...]) -> tuple[Rows, ...]:
+    """Number the rows of the contacts and pins."""
     rows: list[Rows] = []
     count = 0
     for contact in contacts:
-        normal, tangent, rolling = count, -1, -1
+        normal, second, tangent, rolling = count, -1, -1, -1
         count += 1
+        if isinstance(contact, Pin):
+            second, count = count, count + 1
         if contact.mu is not None:
             tangent, count = count, count + 1
         if contact.delta is not None:
             rolling, count = count, count + 1
-        rows.append(Rows(normal, tangent, rolling))
+        rows.append(Rows(normal, tangent, rolling, second))
     return tuple(rows)
 
 
 def make_symbols(mechanism: Mechanism) -> Symbols:
     """Symbols of the sizes the mechanism needs."""
-    nq = sum(len(coordinate_names(c)) for c in mechanism.coordinates)
-    na = sum(contact.reduced for contact in mechanism.contacts)
+    names = [n for c in mechanism.coordinates for n in coordinate_names(c)]
+    _, na = auxiliary_places(mechanism)
     rows = contact_rows(mechanism.contacts)
-    n_rows = sum((r.normal >= 0) + (r.tangent >= 0) + (r.rolling >= 0) for r in rows)
+    n_rows = sum(k >= 0 for r in rows for k in (r.normal, r.second, r.tangent, r.rolling))
     parameters = tuple(p for p in mechanism.model.parameters if not p.constant)
     inputs = mechanism.model.inputs
     return Symbols(
         t=ca.SX.sym("t"),
-        q=ca.SX.sym("q", nq),
-        v=ca.SX.sym("v", nq),
+        q=column(ca.SX.sym(n) for n in names),
+        v=column(ca.SX.sym(f"der({n})") for n in names),
         w=ca.SX.sym("w", na),
         sw=ca.SX.sym("sw", na),
-        u=ca.SX.sym("u", len(inputs)),
-        p=ca.SX.sym("p", len(parameters)),
+        u=column(ca.SX.sym(i.name) for i in inputs),
+        p=column(ca.SX.sym(p.name) for p in parameters),
         sides=ca.SX.sym("side", len(mechanism.contacts)),
-        a=ca.SX.sym("a", nq),
+        a=column(ca.SX.sym(f"der(der({n}))") for n in names),
         lam=ca.SX.sym("lam", n_rows),
         energy=ca.SX.sym("energy", 2),
         parameters=parameters,

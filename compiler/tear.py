@@ -16,9 +16,13 @@ from frot.compiler.symbols import column
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Torn:
-    """`explicit` unknowns with their formulas in order, `iterated` ones with their `residual`."""
+    """`explicit` unknowns with their formulas in order, `iterated` ones with their `residual`.
+
+    `divisors` are (factor, unknown, number of the equation) of what the formulas divide by.
+    """
 
     explicit: tuple[tuple[ca.SX, ca.SX], ...]
+    divisors: tuple[tuple[ca.SX, ca.SX, int], ...]
     iterated: tuple[ca.SX, ...]
     residual: tuple[ca.SX, ...]
     linear: bool
@@ -36,22 +40,28 @@ def tear(residual: list[ca.SX], unknowns: list[ca.SX], p: ca.SX, defaults: ca.DM
     alone = len(unknowns) == 1
     if alone and not ca.depends_on(jacobian, z):
         rest = ca.substitute(whole, z, ca.SX.zeros(1))
-        return Torn(((unknowns[0], -rest / jacobian[0, 0]),), (), (), True)
+        factor = jacobian[0, 0]
+        formula = (unknowns[0], -rest / factor)
+        return Torn((formula,), ((factor, unknowns[0], 0),), (), (), True)
     divisors = _divisors(jacobian, z, p, defaults)
     steps, iterated, rest_equations = _order(jacobian, divisors)
     explicit = []
     for i, j in steps:
         others = ca.substitute(residual[i], unknowns[j], ca.SX(0))
         explicit.append((unknowns[j], -others / jacobian[i, j]))
+    divided = tuple((jacobian[i, j], unknowns[j], i) for i, j in steps)
     kept = column(unknowns[j] for j in iterated)
     put = _put_in(explicit, [residual[i] for i in rest_equations])
     slope = ca.jacobian(column(put), kept)
-    return Torn(
-        tuple(explicit),
-        tuple(unknowns[j] for j in iterated),
-        tuple(put),
-        not ca.depends_on(slope, kept),
-    )
+    linear = not ca.depends_on(slope, kept)
+    if len(put) == 1 and linear:
+        # one unknown left, in a linear equation: a formula too, and with it all the others
+        value = -ca.substitute(put[0], kept, ca.SX(0)) / slope
+        known = {kept.element_hash(): value}
+        formulas = ((s, replace_known(x, known)) for s, x in explicit)
+        return Torn(((kept, value), *formulas), divided, (), (), True)
+    iterated_symbols = tuple(unknowns[j] for j in iterated)
+    return Torn(tuple(explicit), divided, iterated_symbols, tuple(put), linear)
 
 
 def _put_in(explicit: list[tuple[ca.SX, ca.SX]], residual: list[ca.SX]) -> list[ca.SX]:

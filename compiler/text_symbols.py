@@ -12,15 +12,17 @@ from frot.dsl.source import Span
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Element:
+class FrictionElement:
     """Set-valued dry friction of the equations: `force` opposes `slip` and is bounded.
 
-    `bound` holds while it slips, `bound_at_rest` at rest. `force` is a symbol.
+    `bound` holds while it slips, `bound_at_rest` at rest. `force` and `acceleration`, the rate of
+    the slip, are symbols.
     """
 
     name: str
     span: Span
     force: ca.SX
+    acceleration: ca.SX
     slip: ca.SX
     bound: ca.SX
     bound_at_rest: ca.SX
@@ -42,7 +44,7 @@ class TextSymbols:
     chains: Chains
     values: dict[Variable, ca.SX] = field(default_factory=dict)
     discrete: list[Discrete] = field(default_factory=list)
-    elements: list[Element] = field(default_factory=list)
+    elements: list[FrictionElement] = field(default_factory=list)
 
     def add_discrete(self, name: str, symbol: ca.SX, start: ca.SX) -> None:
         """A discrete value, one of the text or one the compiler counts with."""

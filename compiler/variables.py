@@ -8,8 +8,8 @@ import casadi as ca
 from frot.compiler.chains import Chains
 from frot.compiler.contacts import Geometry
 from frot.compiler.kinematics import Kinematics
-from frot.compiler.mechanism import Contact
-from frot.compiler.mechanize import point_body
+from frot.compiler.mechanism import Joint, Pin, point_body
+from frot.compiler.pins import PinGeometry, pin_variable
 from frot.compiler.symbols import Rows, Symbols
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity
 
@@ -24,8 +24,8 @@ class Variables:
     symbols: Symbols
     chains: Chains
     kinematics: Kinematics
-    geometry: dict[Liaison, Geometry]
-    contacts: dict[Liaison, Contact]
+    geometry: dict[Liaison, Geometry | PinGeometry]
+    contacts: dict[Liaison, Joint]
     reactions: dict[Liaison, Rows]
 
     def quantity(self, node: Quantity) -> ca.SX:
@@ -93,6 +93,8 @@ class Variables:
     def of_liaison(self, liaison: Liaison, name: str) -> ca.SX:
         """A variable of a liaison; its reaction is that of its first place on its second."""
         geometry = self.geometry[liaison]
+        if isinstance(geometry, PinGeometry):
+            return pin_variable(geometry, name, self.reactions.get(liaison), self.symbols.lam)
         match name:
             case "gap":
                 return geometry.gap
@@ -105,6 +107,7 @@ class Variables:
         normal = lam[rows.normal]
         tangent = lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
         couple = lam[rows.rolling] if rows.rolling >= 0 else ca.SX(0)
+        assert not isinstance(contact, Pin)
         on_second = 1 if contact.line_first else -1
         match name:
             case "normal_force":

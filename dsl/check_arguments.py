@@ -16,7 +16,7 @@ from frot.dsl.evaluation import constant
 from frot.dsl.scope import Array, Scope, did_you_mean, near
 from frot.dsl.source import Span
 
-Bound = checked.Expression | checked.Place | checked.Liaison
+Bound = checked.Expression | checked.Place | checked.SurfacePlace | checked.Liaison
 
 
 @dataclass(slots=True)
@@ -177,7 +177,7 @@ def _value(
     return found
 
 
-def _nature(found: checked.Place) -> str:
+def _nature(found: checked.Place | checked.SurfacePlace) -> str:
     """`point`, `curve` or `surface`, or a plural of them."""
     match found:
         case checked.CurvePlace():
@@ -192,7 +192,7 @@ def _nature(found: checked.Place) -> str:
 
 def _place(
     argument: Argument, node: tree.Expression, what: str, scope: Scope
-) -> checked.Place | None:
+) -> checked.Place | checked.SurfacePlace | None:
     found = place(node, scope)
     if found is None:
         return None
@@ -231,12 +231,16 @@ def _point(argument: Argument, node: tree.Expression, what: str, scope: Scope) -
 def _holder(node: tree.Expression, scope: Scope) -> Bound | None:
     if isinstance(node, tree.Name | tree.Member | tree.Index):
         thing = resolve(node, scope, "place")
+        if thing is None:
+            return None
+        one: object = thing
         if isinstance(thing, Array) and scope.element is not None:
-            thing = thing.items[scope.element[0]] if len(thing.items) == scope.element[1] else thing
-        if thing is None or isinstance(thing, checked.Liaison):
-            return thing
-        if isinstance(thing, checked.Body):
-            return checked.BodyPoint(thing, "G", node.span)
+            index, size = scope.element
+            one = thing.items[index] if len(thing.items) == size else thing
+        if isinstance(one, checked.Liaison):
+            return one
+        if isinstance(one, checked.Body):
+            return checked.BodyPoint(one, "G", node.span)
     scope.log.report("E0205", "expected the name of a liaison or of a body", node.span)
     return None
 

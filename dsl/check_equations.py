@@ -10,7 +10,7 @@ from frot.dsl.check_expressions import NUMERIC, expect, fitting, value_of
 from frot.dsl.connect import connect
 from frot.dsl.describe import describe, written_unit
 from frot.dsl.diagnostics import Label
-from frot.dsl.dimensions import BOOLEAN, INTEGER
+from frot.dsl.dimensions import BOOLEAN, INTEGER, Type
 from frot.dsl.evaluation import constant, nodes
 from frot.dsl.indexing import settle, span_of
 from frot.dsl.records import pairs
@@ -197,8 +197,8 @@ def both_sides(
     return None if fitted is None else [(first, fitted)]
 
 
-def _real(node: checked.Expression) -> checked.Type:
-    return checked.Type("real", node.type.dimension, node.type.shape)
+def _real(node: checked.Expression) -> Type:
+    return Type("real", node.type.dimension, node.type.shape)
 
 
 def assertion(call: tree.Call, scope: Scope) -> checked.Assertion | None:

@@ -298,9 +298,9 @@ def _infix_type(
         if a == BOOLEAN and b == BOOLEAN:
             return BOOLEAN
         return _refuse(node, f"{op!r} joins two conditions", a, b, scope, "E0301")
-    if op in ("==", "<>") and a == b and a.is_scalar:
-        if a.base in ("boolean", "string") or a.enumeration is not None:
-            return BOOLEAN
+    named = a.base in ("boolean", "string") or a.enumeration is not None
+    if op in ("==", "<>") and a == b and a.is_scalar and named:
+        return BOOLEAN
     if a.enumeration is not None or b.enumeration is not None:
         return _refuse(node, f"{op!r} cannot be applied here", a, b, scope, "E0301")
     if a.base not in NUMERIC or b.base not in NUMERIC:

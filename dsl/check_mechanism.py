@@ -180,4 +180,5 @@ def force(node: tree.Force, full_name: str, scope: Scope) -> checked.Force | Non
     found = bind(arguments, kind.arguments, name, node.kind.span, scope)
     if not found.complete:
         return None
-    return checked.Force(full_name, kind, found.values, node.span, node.doc)
+    values = cast("dict[str, checked.Expression | checked.Place | checked.Liaison]", found.values)
+    return checked.Force(full_name, kind, values, node.span, node.doc)

@@ -310,7 +310,7 @@ def kind_of(thing: Thing) -> str:
     return "a value"
 
 
-def place(node: tree.Expression, scope: Scope) -> checked.Place | None:
+def place(node: tree.Expression, scope: Scope) -> checked.Place | checked.SurfacePlace | None:
     """The point, curve, surface or frame an argument names; None after a message."""
     if not isinstance(node, tree.Name | tree.Member | tree.Index):
         scope.log.report("E0205", "expected a body, frame, point or curve", node.span)

@@ -167,7 +167,10 @@ def _initial(
 ) -> None:
     sides = both_sides(left, right, scope)
     for first, second in sides or ():
-        if first.type.base not in ("real", "integer"):
+        is_variable = isinstance(first, checked.Reference) and isinstance(
+            first.target, checked.Variable
+        )
+        if first.type.base not in ("real", "integer") and not is_variable:
             scope.log.report(
                 "E0301",
                 f"an initial equation is between numbers, not {describe(first.type)}",

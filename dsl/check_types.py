@@ -31,6 +31,21 @@ class Kind:
     start: Modifier | None = None
 
 
+def split_call(
+    node: tree.Expression,
+) -> tuple[tree.Expression, tuple[tree.Argument, ...]]:
+    """What is called, and with what; a name alone has no arguments."""
+    return (node.callee, node.arguments) if isinstance(node, tree.Call) else (node, ())
+
+
+def split_type(
+    clause: tree.Component,
+) -> tuple[tree.Expression, tuple[tree.Expression, ...]]:
+    """The type of a clause, and the sizes written after it: `Real[3] x;`."""
+    node = clause.type
+    return (node.operand, node.subscripts) if isinstance(node, tree.Index) else (node, ())
+
+
 def find_class(node: tree.Expression, scope: Scope) -> Class | None:
     """The class that `Name` or `Library.Name` names; None without a message."""
     if isinstance(node, tree.Name):
@@ -63,8 +78,7 @@ def find_type(node: tree.Expression, scope: Scope, is_value: bool) -> Kind | Cla
 
 def _tell_unknown(node: tree.Expression, scope: Scope) -> None:
     written = node.span.text
-    head, *rest = written.split(".")
-    if not scope.knows(head):
+    if not scope.knows(written.split(".")[0]):
         return
     last = written
     names = [*TYPES, *scope.space.visible()]
@@ -101,10 +115,7 @@ def _alias(of: Class, scope: Scope, around: list[Class]) -> Kind | None:
     if literals is not None:
         kind = Type("integer", enumeration=Enumeration(of.name, literals))
         return Kind(kind, of.name)
-    value = node.value
-    arguments: tuple[tree.Argument, ...] = ()
-    if isinstance(value, tree.Call):
-        value, arguments = value.callee, value.arguments
+    value, arguments = split_call(node.value)
     here = Scope(scope.build, Instance("", of, node.span), of.outer)
     name = value.text if isinstance(value, tree.Name) else ""
     base: Kind | Class | None

@@ -178,8 +178,7 @@ def _formal(
         return None
     value = fitting(value, node, kind.type, there, unit=kind.unit)
     # A variable of this type stands for the value: the text of the definition is what is checked.
-    made = checked.Parameter(formal.name.text, kind.type, value, formal.span) if value else None
-    return made
+    return checked.Parameter(formal.name.text, kind.type, value, formal.span) if value else None
 
 
 __all__ = ["check_law", "check_liaison", "check_shape"]

@@ -408,7 +408,7 @@ class SurfacePlace:
         return self.surface.name
 
 
-Place = BodyPoint | BodyGeometry | CurvePlace | SurfacePlace | Frame
+Place = BodyPoint | BodyGeometry | CurvePlace | Frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 from frot.dsl import checked, tree
 from frot.dsl.catalogue import TYPES
 from frot.dsl.check_equations import Leaf, Sink, statement, unfold
@@ -26,6 +28,8 @@ from frot.dsl.scope import Build, Entity, Instance, TooLarge
 from frot.dsl.source import Source, Span
 from frot.dsl.warn import warn
 
+# Frames of Python: nested expressions in declarations that wait for one another.
+_DEEPEST = 10_000
 _MECHANICS = tree.Body | tree.Frame | tree.Curve | tree.Surface | tree.Liaison | tree.Force
 
 
@@ -37,10 +41,14 @@ def check(file: tree.Tree, log: Log, model: str | None = None) -> checked.Model 
     definition = choose(file, model, log)
     if definition is None:
         return None
+    limit = sys.getrecursionlimit()
+    sys.setrecursionlimit(max(limit, _DEEPEST))
     try:
         found = _model(definition, space, libraries, log)
     except TooLarge:
         return None
+    finally:
+        sys.setrecursionlimit(limit)
     return None if log.failed else found
 
 
@@ -98,7 +106,7 @@ def _model(
         tuple(build.assertions),
     )
     if not log.failed:
-        warn(made, result, build)
+        warn(made, build)
     return result
 
 

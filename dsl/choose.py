@@ -7,6 +7,9 @@ from frot.dsl.build_expressions import children
 from frot.dsl.diagnostics import Label, Log
 from frot.dsl.scope import did_you_mean
 
+FLANGES = {"RotationalFlange", "TranslationalFlange"}
+_NESTED = 50
+
 
 def choose(file: tree.Tree, name: str | None, log: Log) -> tree.Definition | None:
     """The model named, or the only one that is not a part of another; None after a message."""
@@ -36,6 +39,12 @@ def choose(file: tree.Tree, name: str | None, log: Log) -> tree.Definition | Non
     if len(whole) == 1:
         return whole[0]
     candidates = free or whole
+    by_name = {d.name.text: d for d in definitions}
+    # What has connectors is a part of something else.
+    complete = [d for d in candidates if not _has_connectors(d, by_name)]
+    if len(complete) == 1:
+        return complete[0]
+    candidates = complete or candidates
     names = ", ".join(d.name.text for d in candidates)
     log.report(
         "E0510",
@@ -66,6 +75,23 @@ def _named(
     notes = (f"there are: {', '.join(names)}",) if names else ()
     log.report("E0207", f"no model {name!r} in the text", file.span, notes=notes, help=help_text)
     return None
+
+
+def _has_connectors(
+    definition: tree.Definition, by_name: dict[str, tree.Definition], depth: int = 0
+) -> bool:
+    """Whether a model, or a base of it, declares connectors."""
+    for element in definition.elements:
+        if isinstance(element, tree.Component):
+            heads = _heads(element.type)
+            kinds = {by_name[h].kind for h in heads if h in by_name}
+            if "connector" in kinds or heads & FLANGES:
+                return True
+        elif isinstance(element, tree.Extends) and depth < _NESTED:
+            bases = [by_name[h] for h in _heads(element.base) if h in by_name]
+            if any(_has_connectors(b, by_name, depth + 1) for b in bases):
+                return True
+    return False
 
 
 def _types_used(definition: tree.Definition) -> set[str]:

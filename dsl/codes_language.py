@@ -121,8 +121,8 @@ _NAMES = {
     ),
     "E0208": Code(
         "declarations in a circle",
-        "Each of these needs the next one, and the last one the first: values of parameters, models "
-        "that hold each other, functions that call each other, bases, types.",
+        "Each of these needs the next one, and the last one the first: values of parameters, "
+        "models that hold each other, functions that call each other, bases, types.",
         "Give one of them a value of its own, or take one of the uses away.",
         snippet("parameter Real a = b + 1;\nparameter Real b = a - 1;"),
     ),
@@ -365,6 +365,43 @@ _LATER = {
     ),
 }
 
+_WARNINGS = {
+    "W0101": Code(
+        "import of which nothing is used",
+        "The import names something that the text never uses.",
+        "Take it away.",
+        "",
+    ),
+    "W0102": Code(
+        "parameter used nowhere",
+        "Nothing depends on this parameter, so that setting it changes nothing.",
+        "Use it, or take it away.",
+        snippet("parameter Length r = 1 m;"),
+    ),
+    "W0103": Code(
+        "component connected to nothing",
+        "The component has connectors, but nothing connects them and nothing names what is in it.",
+        "Connect it, or take it away.",
+        "model Part\n  RotationalFlange a;\nequation\n  a.angle = time/(1 s);\nend Part;\n"
+        "model Example\n  Part part;\nend Example;\n",
+    ),
+    "W0104": Code(
+        "connector with unequal numbers of flows and potentials",
+        "A connection gives one equation for each potential and one for each flow; where these "
+        "are not as many, parts that are connected have too many or too few equations.",
+        "Give every potential its flow.",
+        "connector Port\n  Real a;\n  Real b;\n  flow Real f;\nend Port;\nmodel Example\n"
+        "  Port p;\n  Port q;\nequation\n  connect(p, q);\nend Example;\n",
+    ),
+    "W0105": Code(
+        "world of a component",
+        "Gravity is one for all: the 'world' of the model counts, not those of its components.",
+        "Write 'world(...)' in the model itself.",
+        "planar model Part\n  world(gravity = 0 m/s^2);\nend Part;\nplanar model Example\n"
+        "  Part part;\nend Example;\n",
+    ),
+}
+
 LANGUAGE: Mapping[str, Code] = {
     **_SYNTAX,
     **_NAMES,
@@ -372,4 +409,5 @@ LANGUAGE: Mapping[str, Code] = {
     **_VALUES,
     **_STRUCTURE,
     **_LATER,
+    **_WARNINGS,
 }

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from frot.dsl import checked
+from frot.dsl.dimensions import Type
 from frot.dsl.source import Span
 
 # A variable of a connector, and whether its connector is seen from the model around it.
@@ -144,7 +145,7 @@ def _short(names: Iterable[str]) -> list[str]:
     return found if len(found) <= 6 else [*found[:5], f"{len(found) - 5} more"]
 
 
-def _zero(kind: checked.Type, span: Span) -> checked.Expression:
+def _zero(kind: Type, span: Span) -> checked.Expression:
     from frot.dsl.check_components import zero
 
     return zero(kind, span)

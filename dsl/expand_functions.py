@@ -12,10 +12,10 @@ from frot.dsl import checked, tree
 from frot.dsl.build_expressions import HIGHEST
 from frot.dsl.check_components import role_of, sizes
 from frot.dsl.check_expressions import expression, fitting, value_of
-from frot.dsl.check_types import Kind, find_type
+from frot.dsl.check_types import Kind, find_type, split_type
 from frot.dsl.classes import Class, enter
 from frot.dsl.evaluation import parts
-from frot.dsl.order import names_in
+from frot.dsl.order import in_order, names_in
 from frot.dsl.records import as_record
 from frot.dsl.scope import (
     BUILT_IN,
@@ -35,12 +35,13 @@ NESTED = 100
 
 @dataclass(slots=True)
 class _Function:
-    """The declarations of a function by role, and the values its body gives."""
+    """The declarations of a function by role, the values its body gives, and their order."""
 
     inputs: dict[str, tuple[tree.Component, tree.Declared]] = field(default_factory=dict)
     others: dict[str, tuple[tree.Component, tree.Declared]] = field(default_factory=dict)
     values: dict[str, tree.Expression] = field(default_factory=dict)
     outputs: list[str] = field(default_factory=list)
+    order: list[str] = field(default_factory=list)
     sound: bool = True
 
 
@@ -65,6 +66,8 @@ def expand(of: Class, node: tree.Call, scope: Scope) -> checked.Expression | Rec
     try:
         for name, (clause, item) in read.others.items():
             made.names[name] = _local(name, clause, item, read, inner)
+        for name in read.order:
+            settled(made.names[name], name, made, build)
         (output,) = read.outputs
         found = settled(made.names[output], output, made, build)
     finally:
@@ -126,6 +129,7 @@ def _sorted(of: Class, scope: Scope) -> _Function:
             of.definition.name.span,
             help="write 'output Real y = ...;', or put several values into a record",
         )
+    read.order, _ = in_order({n: tuple(names_in(v)) for n, v in read.values.items()})
     for name, (_, item) in read.others.items():
         if name not in read.values:
             read.sound = False
@@ -199,10 +203,8 @@ def _value(
     there: Scope,
 ) -> checked.Expression | Record | None:
     """The value written in one scope for a name declared in another."""
-    subscripts = item.subscripts
-    type_node = clause.type
-    if isinstance(type_node, tree.Index):
-        type_node, subscripts = type_node.operand, (*type_node.subscripts, *subscripts)
+    type_node, type_sizes = split_type(clause)
+    subscripts = (*type_sizes, *item.subscripts)
     kind = find_type(type_node, inner, True)
     if kind is None:
         return None

@@ -1,26 +1,22 @@
-"""Libraries: the files that `import` names, read once, and found again without reading the language.
+"""Libraries: the files that `import` names, each read once.
 
-`import Library.Name;` looks for `Library.frot`, which holds `package Library` or plain definitions,
-or for a folder `Library` with `Name.frot`: beside the importing file, then around it where that
-file lies in a folder `Library` itself, then among the libraries that come with Frot.
+A file is a package of its definitions, or holds a package of its own name; a folder is a package of
+its files. Where they lie is told in `import_scan.py`.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from dataclasses import dataclass, field
-from importlib.resources import files
 from pathlib import Path
 
 from frot.dsl import tree
 from frot.dsl.classes import Class, Imported, Namespace, library, namespace
 from frot.dsl.diagnostics import Log
+from frot.dsl.import_scan import SUFFIX, locate, member
 from frot.dsl.reading import read_text
 from frot.dsl.scope import did_you_mean
 from frot.dsl.source import Source
 
-SUFFIX = ".frot"
 # Files that import one another in a chain.
 LONGEST = 50
 
@@ -35,7 +31,7 @@ class Folder(Namespace):
     def own(self, name: str) -> Class | None:
         """The member of that name: a folder, a file, or the definition of that name in it."""
         if name not in self.classes:
-            path = _member(self.path, name)
+            path = member(self.path, name)
             assert self.libraries is not None
             found = None if path is None else self.libraries.read(name, path)
             if found is None:
@@ -162,82 +158,6 @@ def _is_member(path: Path) -> bool:
     return path.suffix == SUFFIX or (path.is_dir() and path.stem.isidentifier())
 
 
-# ------------------------------------------------------------------ where things lie
-
-
 def _path(source: Source) -> Path | None:
     """The file of a source; None for a text that has none."""
     return None if source.name.startswith("<") else Path(source.name).absolute()
-
-
-def _member(folder: Path, name: str) -> Path | None:
-    """The file, else the folder, of that name in a folder."""
-    try:
-        file = folder / f"{name}{SUFFIX}"
-        if file.is_file():
-            return file
-        inner = folder / name
-        return inner if inner.is_dir() else None
-    except (OSError, ValueError):
-        return None
-
-
-def locate(head: str, importing: str) -> Path | None:
-    """Where the library lies that a file names; `importing` is that file's name."""
-    here = Path.cwd() if importing.startswith("<") else Path(importing).absolute().parent
-    around = [folder.parent for folder in (here, *here.parents) if folder.name == head]
-    for folder in (here, *around, installed()):
-        found = _member(folder, head)
-        if found is not None:
-            return found
-    return None
-
-
-def installed() -> Path:
-    """The folder of the libraries that come with Frot."""
-    return Path(str(files("frot.models")))
-
-
-# ------------------------------------------------------------------ what a text reads
-
-_IMPORT = re.compile(
-    r'//[^\n]*|/\*.*?\*/|"(?:[^"\\\n]|\\[^\n])*"'
-    r"|\bimport\s+(?P<path>[^\W\d][\w\u0300-\u036f]*(?:\s*\.\s*[^\W\d][\w\u0300-\u036f]*)*)",
-    re.DOTALL,
-)
-
-
-def imported_files(text: str, name: str) -> list[Path]:
-    """The files a text may read by its imports and theirs, found without the grammar."""
-    found: dict[Path, None] = {}
-    pending = [(text, name)]
-    while pending:
-        content, importing = pending.pop()
-        for words in _paths(content):
-            for path in _files(words, importing):
-                if path in found:
-                    continue
-                found[path] = None
-                try:
-                    pending.append((path.read_text(encoding="utf-8", errors="replace"), str(path)))
-                except OSError:
-                    continue
-    return sorted(found)
-
-
-def _paths(text: str) -> Iterator[list[str]]:
-    if "import" not in text:
-        return
-    for match in _IMPORT.finditer(text):
-        if match["path"]:
-            yield [w.strip() for w in match["path"].split(".")]
-
-
-def _files(words: list[str], importing: str) -> Iterator[Path]:
-    path = locate(words[0], importing)
-    for word in words[1:]:
-        if path is None or path.is_file():
-            break
-        path = _member(path, word)
-    if path is not None:
-        yield from sorted(path.rglob(f"*{SUFFIX}")) if path.is_dir() else [path]

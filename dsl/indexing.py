@@ -55,10 +55,11 @@ def _items(
     found = []
     for k in chosen:
         if isinstance(thing, Array):
-            one: Thing | None = as_thing(thing.items[k], node, scope)
+            part: Thing = as_thing(thing.items[k], node, scope)
         else:
-            one = element(thing, k, node.span)  # type: ignore[arg-type]
-        one = _items(one, rest, node, scope)
+            assert isinstance(thing, checked.Expression)
+            part = element(thing, k, node.span)
+        one = _items(part, rest, node, scope)
         if one is None:
             return None
         found.append(one)

@@ -8,7 +8,7 @@ from frot.dsl import tree
 from frot.dsl.check_components import Declared, declare, role_of, sizes
 from frot.dsl.check_geometry import body, curve, frame, surface
 from frot.dsl.check_mechanism import force, liaison
-from frot.dsl.check_types import Kind, find_class, find_type
+from frot.dsl.check_types import Kind, find_class, find_type, split_call, split_type
 from frot.dsl.classes import Class, enter
 from frot.dsl.diagnostics import Label
 from frot.dsl.modifiers import (
@@ -75,7 +75,7 @@ def _part(
         if base is None:
             made.open = True
         elif id(base.definition) not in made.parts:
-            arguments = element.base.arguments if isinstance(element.base, tree.Call) else ()
+            _, arguments = split_call(element.base)
             said = read_modifiers(arguments, scope)
             if not any(b is base.space for b in of.space.bases):
                 of.space.bases.append(base.space)
@@ -89,7 +89,7 @@ def _part(
 
 
 def _base(element: tree.Extends, derived: tuple[Class, ...], scope: Scope) -> Class | None:
-    node = element.base.callee if isinstance(element.base, tree.Call) else element.base
+    node, _ = split_call(element.base)
     around = Scope(scope.build, scope.instance, derived[-1].outer)
     found = find_class(node, scope) or find_class(node, around)
     if found is None:
@@ -155,9 +155,7 @@ def declare_values(
     outer_role: str = "",
 ) -> None:
     """Declare the names of a component clause: values, or components of a class."""
-    node, type_sizes = clause.type, ()
-    if isinstance(node, tree.Index):
-        node, type_sizes = node.operand, node.subscripts  # type: ignore[assignment]
+    node, type_sizes = split_type(clause)
     role = outer_role or role_of(clause)
     flow = any(w.text == "flow" for w in clause.prefixes)
     final = any(w.text == "final" for w in clause.prefixes)

@@ -170,6 +170,13 @@ class _Reader:
         if not self.statement or self.previous is None or not self._in_block():
             return False
         place = self.previous.end
+        for word in ("THEN", "LOOP"):
+            # The word is missing where a line ended, or where what follows is a statement.
+            if self._ends_line(token) and self._fits(word, token.type):
+                messages.missing_word(self.log, self.source, self.previous, word.lower())
+                self.reported += 1
+                self._put(word, place)
+                return self.reported < LIMIT
         opened = self._open_parentheses()
         for missing in range(min(len(opened), 8) + 1):
             closing = ["RPAR"] * missing

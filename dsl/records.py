@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from frot.dsl import checked, tree
 from frot.dsl.check_components import sizes
 from frot.dsl.check_expressions import expression, fitting, value_of
-from frot.dsl.check_types import Kind, find_class, find_type
+from frot.dsl.check_types import Kind, find_class, find_type, split_call, split_type
 from frot.dsl.classes import Class, enter
 from frot.dsl.modifiers import Modifier
 from frot.dsl.scope import Array, Instance, Record, Scope, did_you_mean, settled
@@ -53,15 +54,16 @@ def _members(
     )
     for element in of.elements:
         if isinstance(element, tree.Extends):
-            node = element.base.callee if isinstance(element.base, tree.Call) else element.base
+            node, _ = split_call(element.base)
             base = find_class(node, here)
             if base is not None:
                 yield from _members(base, scope, (*around, of))
         elif isinstance(element, tree.Component):
-            kind = find_type(element.type, here, True)
+            node, type_sizes = split_type(element)
+            kind = find_type(node, here, True)
             for item in element.declared:
                 if kind is not None:
-                    yield item, kind, here
+                    yield replace(item, subscripts=(*type_sizes, *item.subscripts)), kind, here
 
 
 def construct(of: Class, node: tree.Call, scope: Scope) -> Record | None:
@@ -89,7 +91,7 @@ def construct(of: Class, node: tree.Call, scope: Scope) -> Record | None:
     members: dict[str, checked.Expression | Record] = {}
     for name, (item, kind, here) in wanted.items():
         argument_value = given[name].value if name in given else item.value
-        there = scope if name in given else here.inside(**members)  # type: ignore[arg-type]
+        there = scope if name in given else here.inside(**members)
         if argument_value is None:
             message = f"record {of.name!r} needs {name!r}"
             scope.log.report("E0204", message, node.span)

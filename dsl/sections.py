@@ -15,6 +15,7 @@ CALLS = ("connect", "assert")
 _IN_WHEN = ("reinit", "terminate")
 _VALUES_ONLY = ("connector", "record")
 _DEFINED_APART = tree.Import | tree.Alias | tree.Definition
+_IN_VALUES = tree.Component | tree.Extends | tree.Import | tree.Alias | tree.Definition
 
 
 def sort(
@@ -28,7 +29,9 @@ def sort(
     section = ""
     seen: dict[str, Span] = {}
     for element in of.elements:
-        if isinstance(element, tree.Section):
+        if of.kind in _VALUES_ONLY and not isinstance(element, _IN_VALUES):
+            scope.log.report("E0501", f"a {of.kind} holds only variables", element.span)
+        elif isinstance(element, tree.Section):
             section = element.name
             if section in seen:
                 first = Label(seen[section], "first here")
@@ -41,8 +44,6 @@ def sort(
             extends(element)
         elif isinstance(element, _DEFINED_APART):
             _outside_of_sections(element, section, scope)
-        elif of.kind in _VALUES_ONLY and not isinstance(element, tree.Component):
-            scope.log.report("E0501", f"a {of.kind} holds only variables", element.span)
         elif isinstance(element, tree.Equation):
             _equation(element, section, result, scope)
         elif isinstance(element, tree.When | tree.For | tree.IfEquation):

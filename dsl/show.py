@@ -66,7 +66,9 @@ def _inside(node: checked.Expression, rank: int, left: list[int]) -> str:
     match node:
         case checked.Binary(op=op) if _BINDING.get(op, _COMPARISON) < rank:
             return f"({shown})"
-        case checked.Unary() | checked.If() if rank > 1:
+        case checked.Unary() if rank > _BINDING["-"]:
+            return f"({shown})"
+        case checked.If():
             return f"({shown})"
     return shown
 

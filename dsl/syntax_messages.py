@@ -68,6 +68,12 @@ def missing_semicolon(log: Log, source: Source, previous: Lexeme) -> None:
     log.report("E0102", "missing ';' at the end of the statement", span, caret="';' after this")
 
 
+def missing_word(log: Log, source: Source, previous: Lexeme, word: str) -> None:
+    """The word of a block is missing after `previous`."""
+    span = Span(source, previous.end - 1, previous.end)
+    log.report("E0101", f"missing '{word}'", span, caret=f"'{word}' after this")
+
+
 def unclosed(log: Log, source: Source, opened: Sequence[Lexeme], token: Lexeme) -> None:
     """The parentheses `opened` are not closed before `token`."""
     word = _shown(source.text[token.start : token.end])

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from frot.dsl import checked
 from frot.dsl.describe import describe
 from frot.dsl.dimensions import Type
-from frot.dsl.evaluation import Value, evaluate
+from frot.dsl.evaluation import Value, evaluate, nodes
 from frot.dsl.order import in_order
 from frot.dsl.units import Unit, UnknownUnit, parse_unit
 
@@ -30,7 +30,9 @@ def default_values(
         if name not in by_name:
             raise KeyError(name)
         if by_name[name].constant:
-            raise ValueError(f"{name!r} is a constant; it cannot be set")
+            why = by_name[name].structural
+            reason = f"it decides {why}" if why else "it is a constant"
+            raise ValueError(f"{name!r} cannot be set: {reason}")
     needs = {p.name: [q.name for q in _parameters(p.value)] for p in model.parameters}
     order, _ = in_order(needs)
     values: dict[checked.Parameter, object] = {}
@@ -41,22 +43,9 @@ def default_values(
 
 
 def _parameters(root: checked.Expression) -> Iterator[checked.Parameter]:
-    pending: list[checked.Expression] = [root]
-    while pending:
-        node = pending.pop()
-        match node:
-            case checked.Reference(target=checked.Parameter() as parameter):
-                yield parameter
-            case checked.Element(operand=o) | checked.Unary(operand=o):
-                pending.append(o)
-            case checked.Derivative(operand=o):
-                pending.append(o)
-            case checked.Vector(items=items) | checked.Call(arguments=items):
-                pending.extend(items)
-            case checked.Binary(left=left, right=right):
-                pending.extend((left, right))
-            case checked.If(condition=condition, yes=yes, no=no):
-                pending.extend((condition, yes, no))
+    for node in nodes(root):
+        if isinstance(node, checked.Reference) and isinstance(node.target, checked.Parameter):
+            yield node.target
 
 
 def parse_value(text: str, kind: Type) -> Value:

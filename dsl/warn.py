@@ -2,9 +2,126 @@
 
 from __future__ import annotations
 
-from frot.dsl import checked
-from frot.dsl.scope import Build, Instance
+import re
+
+from frot.dsl import checked, tree
+from frot.dsl.classes import Class, Imported
+from frot.dsl.scope import Array, Build, Entity, Instance, Pending, Refused
+from frot.dsl.source import Source, Span
 
 
-def warn(made: list[Instance], model: checked.Model, build: Build) -> None:
-    """Report what a sound model says in vain."""
+def warn(made: list[Instance], build: Build) -> None:
+    """Report what a sound model says in vain, in the file that is checked and not in libraries."""
+    main = build.libraries.sources[0]
+    for imported in build.libraries.imports:
+        _unused_import(imported, main, build)
+    _unused_parameters(made, main, build)
+    for instance in made:
+        for name, entity in instance.names.items():
+            _loose(name, entity, main, build)
+        if instance.name:
+            for call, _ in instance.statements.worlds:
+                _world(call, instance, build)
+    connectors = {id(i.of.definition): i for i in made if i.is_connector}
+    for connector in connectors.values():
+        _unbalanced(connector, main, build)
+
+
+def _unused_import(imported: Imported, main: Source, build: Build) -> None:
+    statement = imported.statement
+    if statement.span.source is not main or imported.used or imported.target is None:
+        return
+    if statement.all:
+        # Other models of the text may need it.
+        if len(re.findall(r"^\s*end\s+\w+\s*;", main.text, re.MULTILINE)) > 1:
+            return
+    else:
+        word = (statement.alias or statement.path[-1]).text
+        if _stands(word, statement.span, main):
+            return
+    build.log.report("W0101", "nothing of this import is used", statement.span)
+
+
+def _stands(word: str, declared: Span, main: Source) -> bool:
+    """Whether a word stands anywhere in the text but in its declaration."""
+    rest = main.text[: declared.start] + main.text[declared.end :]
+    return re.search(rf"\b{re.escape(word)}\b", rest) is not None
+
+
+def _unused_parameters(made: list[Instance], main: Source, build: Build) -> None:
+    """A parameter that nothing names, in any of the components of its class."""
+    unused: dict[Span, checked.Parameter] = {}
+    used: set[Span] = set()
+    for instance in made:
+        if instance.of.kind != "model":
+            continue
+        for entity in instance.names.values():
+            if isinstance(entity, checked.Parameter) and entity.span.source is main:
+                if id(entity) in build.used:
+                    used.add(entity.span)
+                else:
+                    unused.setdefault(entity.span, entity)
+    for span, parameter in unused.items():
+        name = parameter.name.rpartition(".")[2]
+        # A branch of `if` that is not taken, or another model of the text, may name it.
+        if span not in used and not _stands(name, span, main):
+            word = "constant" if parameter.constant else "parameter"
+            build.log.report("W0102", f"{word} {name!r} is used nowhere", span)
+
+
+def _loose(name: str, entity: Entity | Pending | Refused, main: Source, build: Build) -> None:
+    """A component with connectors that nothing connects or names."""
+    one = entity
+    while isinstance(one, Array):
+        one = one.items[0]
+    if not isinstance(one, Instance) or one.of.kind != "model" or one.span.source is not main:
+        return
+    if id(entity) in build.used or not any(
+        isinstance(e, Instance) and e.is_connector for e in one.names.values()
+    ):
+        return
+    if isinstance(entity, Array) and any(id(i) in build.used for i in entity.items):
+        return
+    build.log.report("W0103", f"component {name!r} is connected to nothing", one.span)
+
+
+def _world(call: tree.Call, instance: Instance, build: Build) -> None:
+    build.log.report(
+        "W0105",
+        f"the world of component {instance.name!r} is left out: that of the model holds",
+        call.span,
+    )
+
+
+def _unbalanced(connector: Instance, main: Source, build: Build) -> None:
+    """A connector whose flows are not as many as its potentials."""
+    if connector.of.definition.span.source is not main:
+        return
+    flows, potentials = _counts(connector.of, connector)
+    if flows == potentials:
+        return
+    definition = connector.of.definition
+    build.log.report(
+        "W0104",
+        f"connector {connector.of.name!r} has {flows} flows and {potentials} potentials",
+        definition.name.span,
+    )
+
+
+def _counts(of: Class, connector: Instance) -> tuple[int, int]:
+    """The scalars of a connector: flows, and what is neither flow nor signal."""
+    signals = {
+        item.name.text
+        for element in of.elements
+        if isinstance(element, tree.Component)
+        and any(w.text in ("input", "output") for w in element.prefixes)
+        for item in element.declared
+    }
+    flows = potentials = 0
+    for name, entity in connector.names.items():
+        if isinstance(entity, checked.Variable) and name not in signals:
+            if name in connector.flows:
+                flows += entity.type.count
+            else:
+                potentials += entity.type.count
+    return flows, potentials

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from frot.compiler import find_program, find_toolchain, program_key
 from frot.dsl.diagnostics import FrotError, Log, fail
+from frot.dsl.import_scan import imported_files
 from frot.dsl.reading import read_text
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ class Model:
         self._text, self._file, self._chosen = text, name, model
         self._checked: checked.Model | None = None
         self._toolchain = find_toolchain()
-        self._key = program_key(f"{name}\n{text}", model, self._toolchain)
+        self._key = program_key(_identity(text, name), model, self._toolchain)
         self._program: Program | None = find_program(self._key)
 
     @property
@@ -141,6 +142,15 @@ class Model:
             ) from None
         except (ValueError, RuntimeError, InvalidFmuError) as error:
             raise fail("E0807", f"no FMU can be made: {error}") from None
+
+
+def _identity(text: str, name: str) -> str:
+    """The text with all that it imports: what a program is made from."""
+    parts = [name, text]
+    for path in imported_files(text, name):
+        content = read_text(path, Log())
+        parts += [str(path), content or ""]
+    return "\n".join(parts)
 
 
 def load(path: str | Path, model: str | None = None) -> Model:

@@ -9,6 +9,7 @@ from frot.dsl import Log, Source, dump, load, parse, render_log
 from frot.dsl.diagnostic_data import log_data
 from frot.dsl.diagnostics import FrotError
 from frot.dsl.reading import read_text
+from frot.dsl.show import show_model
 
 
 def report_file(path: str, name: str | None) -> str:
@@ -41,6 +42,9 @@ def _report_data(report: Report) -> dict[str, object]:
     mobility = report.mobility
     return {
         "model": report.model,
+        "variables": report.unknowns,
+        "equations": report.equations,
+        "events": report.events,
         "bodies": [
             {"name": name, "shape": shape, "freedoms": freedoms}
             for name, shape, freedoms in report.bodies
@@ -62,7 +66,7 @@ def emit_stage(path: str, name: str | None, stage: str) -> str:
     elif text is not None:
         model = load(path, log, name)
         if model is not None and not log.failed:
-            printed = dump(model) if stage == "instance" else print_stage(model, stage, log)
+            printed = show_model(model) if stage == "instance" else print_stage(model, stage, log)
     if log.failed or printed is None:
         raise FrotError(log)
     return printed

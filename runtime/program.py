@@ -67,7 +67,9 @@ class Program:
     """A compiled model in a folder: `model.c`, the shared library and this description.
 
     `parameters`, `inputs`, `variables` are in the order of the kernel's arrays; variables begin
-    with the modes of `contacts`. `key` identifies the model's text, the compiler and its flags.
+    with the modes of `contacts`. `conditions` are those of the text, as written. `key` identifies
+    the text, the compiler and its flags.
+    `fixed` are parameters that decide the structure, each with what it decides.
     """
 
     name: str
@@ -83,6 +85,8 @@ class Program:
     compiler: tuple[str, ...]
     flags: tuple[str, ...]
     folder: Path
+    conditions: tuple[str, ...] = ()
+    fixed: tuple[tuple[str, str], ...] = ()
 
     @property
     def library(self) -> Path:
@@ -114,9 +118,11 @@ def read_program(folder: Path) -> Program:
                 for entry in data["variables"]
             ),
             "contacts": tuple(data["contacts"]),
+            "conditions": tuple(data.get("conditions", ())),
             "experiment": ExperimentInfo(**data["experiment"]),
             "compiler": tuple(data["compiler"]),
             "flags": tuple(data["flags"]),
+            "fixed": tuple((name, why) for name, why in data.get("fixed", ())),
             "folder": folder,
         }
     )

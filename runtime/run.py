@@ -174,6 +174,13 @@ def _values(
     values: list[tuple[int, float]] = []
     for name, value in (given or {}).items():
         if name not in index:
+            why = dict(program.fixed).get(name)
+            if why is not None:
+                raise fail(
+                    "E0805",
+                    f"parameter '{name}' cannot be set for a run: it decides {why}",
+                    help="change its value in the text; the model is then compiled again",
+                )
             near = get_close_matches(name, index, 1)
             listed = ", ".join(index) or "none"
             raise fail(
@@ -237,7 +244,7 @@ def _event(engine: Engine, raw: RawEvent) -> Event:
         return Event(raw.t, kind, "", "", "", engine.event_text(raw))
     if kind == "condition":
         names = ("false", "true")
-        liaison = f"condition {raw.contact + 1}"
+        liaison = engine.program.conditions[raw.contact]
     else:
         names = ROLLING if kind.startswith("roll_") else MODES
         liaison = engine.program.contacts[raw.contact]

@@ -41,6 +41,11 @@ static int say_fault(const frot_fmu *fmu, int status, const char *function) {
   return frot_fmu_say(fmu, status, "%s: %s", function, sentence);
 }
 
+static int say_end(const frot_fmu *fmu, const char *function) {
+  return frot_fmu_say(fmu, FROT_FMU_DISCARD, "%s: the model has ended the run at t = %.15g s.",
+                      function, fmu->life.t);
+}
+
 /* Faults that leave the motion up to their instant right. */
 static int ends_early(int fault) {
   switch (fault) {
@@ -50,14 +55,26 @@ static int ends_early(int fault) {
     case FROT_CHATTER:
     case FROT_NAN:
     case FROT_DIVERGE:
+    case FROT_ALGEBRAIC:
+    case FROT_ASSERT:
       return 1;
     default:
       return 0;
   }
 }
 
+/* The text itself ended the run: a good end, which the environment learns as a step discarded. */
+static int stop_at_end(frot_fmu *fmu, const char *function) {
+  fmu->life.phase = FROT_FMU_DISCARDED;
+  fmu->life.status = FROT_FMU_DISCARD;
+  fmu->life.t = fmax(fmu->life.t, frot_time(fmu->state));
+  fmu->values_valid = 0;
+  return say_end(fmu, function);
+}
+
 /* Ends the motion with the kernel's fault. */
 static int stop_at_fault(frot_fmu *fmu, const char *function, int fault) {
+  if (fault == FROT_TERMINATED) return stop_at_end(fmu, function);
   /* The fault may lie in a step that was only tried: values end where the kernel stands. */
   const double t = frot_time(fmu->state);
   if (ends_early(fault)) {
@@ -166,6 +183,10 @@ static int advance(frot_fmu *fmu, double t) {
 
 int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step) {
   frot_fmu_life *life = &fmu->life;
+  if (life->phase == FROT_FMU_DISCARDED && frot_last_fault(fmu->state)->status == FROT_OK) {
+    say_end(fmu, function);
+    return FROT_FMU_DISCARD;
+  }
   if (life->phase == FROT_FMU_DISCARDED || life->phase == FROT_FMU_FAILED)
     return say_fault(fmu, life->status, function);
   if (life->phase != FROT_FMU_STEPPING) return frot_fmu_misplaced(fmu, function);

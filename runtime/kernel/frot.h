@@ -100,7 +100,8 @@ enum frot_rule {
   FROT_POSITIVE = 0,
   FROT_NOT_NEGATIVE = 1,
   FROT_FINITE = 2,
-  FROT_NOT_BELOW_PREVIOUS = 3
+  FROT_NOT_BELOW_PREVIOUS = 3,
+  FROT_NOT_ZERO = 4 /* it is divided by */
 };
 
 /* A value the model must have, with the sentence's subject: "mass of body 'hoop'". */
@@ -130,6 +131,13 @@ typedef struct {
   int first, count, linear, late;
   const char *name, *place; /* the unknowns, and the place of its first equation */
 } frot_block;
+
+/* A condition of the text: its words, and whether a change of it is told as an event. */
+enum frot_told { FROT_TOLD_NEVER = 0, FROT_TOLD_RISING = 1, FROT_TOLD_ALWAYS = 2 };
+typedef struct {
+  const char *text;
+  int told; /* frot_told */
+} frot_condition;
 
 /* What `update` may ask for beside new values. */
 enum frot_outcome_kind { FROT_OUTCOME_TERMINATE = 0, FROT_OUTCOME_FAIL = 1, FROT_OUTCOME_WARN = 2 };
@@ -239,6 +247,7 @@ typedef struct {
   /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t,
    * an input, a discrete variable or y */
   const unsigned char *row_depends;
+  const frot_condition *conditions;      /* n_conditions */
   const unsigned char *condition_strict; /* n_conditions: 1 for < and >, 0 for <= and >= */
   const int *q_speed;                    /* nq: the speed that is the rate of q[k], or -1 */
   /* nq: the first state that is no coordinate and has the dimension of q[k]; k for coordinates */

@@ -9,6 +9,9 @@
 #include "record.h"
 #include "resolve.h"
 
+#define SHRINKING 3 /* gaps in a row, each shorter than the last in the same ratio, ... */
+#define SAME_RATIO 0.01
+#define LIMIT 1e-5      /* ... down to this part of the first one: they have a limit */
 #define CROWD 100       /* rounds at one instant after which the conditions will not settle */
 #define UNCHANGED 1e-13 /* part of its largest size by which a condition may move by rounding */
 #define TOUCH 1e-9      /* part of the usual speed, or of the terms of a gap, that is none */
@@ -36,6 +39,7 @@ static int find_firing(const instant *in, int first) {
     int j = m->when_condition[i];
     int fires = first ? m->when_at_start[i] && d[j] != 0 : in->w->rose[j] != 0;
     in->w->firing[i] = fires;
+    if (fires) in->s->data[in->l.fresh + j] = 1;
     any |= fires;
   }
   return any;
@@ -98,7 +102,7 @@ static void change_conditions(const instant *in) {
     w->rose[j] = changes && holds;
     if (!changes) continue;
     d[j] = holds;
-    frot_note(in->recorder, in->s, in->t, FROT_EVENT_CONDITION, j, !holds, holds, 1);
+    frot_note_condition(m, in->recorder, in->s, in->t, j, holds);
   }
 }
 
@@ -137,6 +141,19 @@ static int update(const instant *in) {
   return moved ? release_contacts(in) : FROT_OK;
 }
 
+/* Whether the text's events crowd before a limit (a ball that bounces): rounding would hide the
+ * last of them, and what follows would be wrong. */
+static int crowds(frot_state *s, double t) {
+  double gap = t - s->text_event;
+  if (!(gap > 0)) return 0;
+  double ratio = s->text_gap > 0 ? gap / s->text_gap : 1;
+  int same = fabs(ratio - s->text_ratio) <= SAME_RATIO * ratio;
+  if (!(ratio < 1) || (s->shrinking > 1 && !same)) s->shrinking = 0;
+  if (s->shrinking++ == 0) s->text_first = gap;
+  s->text_event = t, s->text_gap = gap, s->text_ratio = ratio;
+  return s->shrinking > SHRINKING && gap < LIMIT * s->text_first;
+}
+
 /* Fire `when`s until none fires. *fired: whether any did. */
 static int fire_whens(const instant *in, int first, int *fired) {
   const frot_model *m = in->m;
@@ -145,7 +162,8 @@ static int fire_whens(const instant *in, int first, int *fired) {
   double before[2], after[2];
   *fired = 0;
   for (int round = 0; find_firing(in, first && round == 0); round++) {
-    if (round == CROWD) return frot_fail(s, FROT_CHATTER, in->t, -1, -1, -1, round);
+    if (round == CROWD || (round == 0 && crowds(s, in->t)))
+      return frot_fail(s, FROT_CHATTER, in->t, -1, 0, -1, round);
     int status = FROT_OK;
     if (round == 0) status = frot_energies(m, s, in->w, in->t, in->q, in->v, d, before);
     if (status != FROT_OK) return frot_fail_evaluation(s, in->w, status, in->t);
@@ -177,6 +195,7 @@ int frot_happen(const frot_model *m, frot_state *s, frot_work *w, double t, doub
   if (status != FROT_OK) return status;
   for (int j = 0; j < m->n_conditions; j++)
     w->rose[j] = s->data[l.fired + FROT_GUARDS * m->n_contacts + j] != 0 && d[j] == 0;
+  memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   frot_flip_conditions(m, s, t, recorder);
   if (m->n_whens > 0) status = fire_whens(&in, first, &fired);
   if (status == FROT_TERMINATED) return end_run(&in);

@@ -344,6 +344,22 @@ static int solve_speeds(problem *p, frot_contact_mode *modes) {
   }
 }
 
+/* Where the text says that the search begins. */
+static void guess(const problem *p, double *q, double *v) {
+  const frot_model *m = p->m;
+  frot_layout l = frot_layout_of(m);
+  frot_work *w = p->w;
+  double *discrete = p->s->data + l.d + m->n_conditions + m->n_contacts;
+  w->arg[0] = &p->t, w->arg[1] = p->s->data + l.u, w->arg[2] = p->s->data + l.p;
+  w->res[0] = q, w->res[1] = v, w->res[2] = w->y, w->res[3] = discrete;
+  m->start.call(w->arg, w->res, w->iw, w->w, 0);
+}
+
+static void look_at_conditions(const problem *p) {
+  frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
+  set_conditions(p->m, p->w, p->s->data + frot_layout_of(p->m).d);
+}
+
 /* All values from the guesses, with the conditions as they are; then sets these. */
 static int solve_once(problem *p, double *q, double *v) {
   const frot_model *m = p->m;
@@ -359,9 +375,7 @@ static int solve_once(problem *p, double *q, double *v) {
     side[i] = modes[i].side = 1;
     modes[i].closed = (signed char)!frot_has_normal(&m->contacts[i]);
   }
-  w->arg[0] = &p->t, w->arg[1] = s->data + l.u, w->arg[2] = s->data + l.p;
-  w->res[0] = q, w->res[1] = v, w->res[2] = w->y, w->res[3] = side + nc;
-  m->start.call(w->arg, w->res, w->iw, w->w, 0);
+  guess(p, q, v);
   int status = solve_positions(p, side);
   if (status != FROT_OK) return status;
   set_conditions(m, w, d);
@@ -384,11 +398,17 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
   frot_layout l = frot_layout_of(m);
   problem p = {m, s, w, t, q, v, s->data + l.d, (unsigned char *)w->choice, 0, 0, NULL, 0, 0};
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
+  size_t size = sizeof(double) * (size_t)m->n_conditions;
+  guess(&p, q, v);
+  look_at_conditions(&p);
   for (int round = 0; round < ROUNDS; round++) {
-    size_t size = sizeof(double) * (size_t)m->n_conditions;
     memcpy(w->condition_before, p.d, size);
     int status = solve_once(&p, q, v);
-    if (status != FROT_OK || memcmp(w->condition_before, p.d, size) == 0) return status;
+    /* what has no solution under these conditions may have one under those found there */
+    if (status != FROT_OK) look_at_conditions(&p);
+    if (memcmp(w->condition_before, p.d, size) == 0) return status;
+    s->fault = (frot_fault){FROT_OK, -1, -1, -1, t, 0};
+    s->phase = FROT_CLEARED;
   }
   return frot_fail(s, FROT_CHATTER, t, -1, -1, -1, ROUNDS);
 }

@@ -14,15 +14,14 @@
 
 /* Units in which the changes of the states are measured, into w->unit (nq + nv): their sizes. What
  * is frozen does not change. */
-static void find_units(const frot_model *m, const frot_state *s, frot_work *w, const double *q,
-                       const double *v) {
-  frot_layout l = frot_layout_of(m);
-  const double *frozen = s->data + l.frozen, *scale = s->data + l.scale_x;
+static void find_units(const frot_model *m, frot_work *w, const double *q, const double *v,
+                       const double *sizes, const double *frozen) {
   int first = 0, ends[2] = {m->nq, m->nq + m->nv};
   for (int kind = 0; kind < 2; first = ends[kind], kind++) {
     double largest = 0;
     for (int k = first; k < ends[kind]; k++) {
-      w->unit[k] = fmax(scale[k], fabs(kind == 0 ? q[k] : v[k - m->nq]));
+      w->unit[k] = fabs(kind == 0 ? q[k] : v[k - m->nq]);
+      if (sizes) w->unit[k] = fmax(w->unit[k], sizes[k]);
       largest = fmax(largest, w->unit[k]);
     }
     for (int k = first; k < ends[kind]; k++) {
@@ -81,10 +80,11 @@ static int list_equations(const frot_model *m, frot_state *s, frot_work *w, doub
 
 int frot_project_jointly(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                          double *v, const double *d, const frot_contact_mode *modes,
-                         const unsigned char *stuck, int *moved) {
+                         const unsigned char *stuck, const double *sizes, const double *frozen,
+                         int *moved) {
   int nx = m->nq + m->nv;
   *moved = 0;
-  find_units(m, s, w, q, v);
+  find_units(m, w, q, v, sizes, frozen);
   for (int pass = 0; pass < PASSES; pass++) {
     int n, status = frot_kinematics(m, s, w, t, q, v, d);
     if (status != FROT_OK) return status;

@@ -5,9 +5,11 @@
 #include "state.h"
 
 /* frot_project where the model has invariants: onto these and the relations of the contacts
- * together, by Gauss-Newton steps that change each state least in units of its size so far. */
+ * together, by Gauss-Newton steps that change each state least in units of its size: the larger of
+ * that in `sizes` (nq + nv, may be NULL) and its own. Speeds that are `frozen` (nv) stay. */
 int frot_project_jointly(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                          double *v, const double *d, const frot_contact_mode *modes,
-                         const unsigned char *stuck, int *moved);
+                         const unsigned char *stuck, const double *sizes, const double *frozen,
+                         int *moved);
 
 #endif

@@ -93,7 +93,11 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
                  const double *d, const frot_contact_mode *modes, const unsigned char *stuck,
                  int *moved) {
   *moved = 0;
-  if (m->n_invariants > 0) return frot_project_jointly(m, s, w, t, q, v, d, modes, stuck, moved);
+  if (m->n_invariants > 0) {
+    frot_layout l = frot_layout_of(m);
+    return frot_project_jointly(m, s, w, t, q, v, d, modes, stuck, s->data + l.scale_x,
+                                s->data + l.frozen, moved);
+  }
   if (frot_holding_rows(m, w, modes, stuck, 0) == 0) return FROT_OK;
   int status = frot_metric(m, w);
   if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, moved);
@@ -116,11 +120,16 @@ static double normalized_outside(double *x, const double *basis, int columns, in
 }
 
 /* Marks the speeds that the rows which depend on frozen coordinates alone hold: the unit vector of
- * such a speed lies in their span. Both are taken over L, so that units do not matter. */
+ * such a speed lies in their span. Columns are taken in units of their largest entry, so that units
+ * do not matter: masses say nothing of what holds. */
 static int frozen_by_rows(const frot_model *m, frot_work *w, int n, const double *known,
                           double *frozen) {
-  int nv = m->nv, nm = nv + m->na, nw = nm + m->nc, count = 0, columns = 0;
-  double *basis = w->jacobian, *unit = w->residual;
+  int nv = m->nv, nw = nv + m->na + m->nc, count = 0, columns = 0;
+  double *basis = w->jacobian, *unit = w->residual, *scale = w->right;
+  for (int k = 0; k < nv; k++) {
+    scale[k] = 0;
+    for (int i = 0; i < n; i++) scale[k] = fmax(scale[k], fabs(w->rows[nw * w->row_of[i] + k]));
+  }
   for (int i = 0; i < n; i++) {
     int row = w->row_of[i], usable = !m->row_depends[row * (m->nq + 1) + m->nq];
     for (int k = 0; k < m->nq; k++)
@@ -128,13 +137,11 @@ static int frozen_by_rows(const frot_model *m, frot_work *w, int n, const double
         usable = 0;
     if (!usable) continue;
     double *x = basis + nv * columns;
-    memcpy(x, w->rows + nw * row, sizeof(double) * (size_t)nv);
-    frot_forward(w->factor, nm, nv, x);
+    for (int k = 0; k < nv; k++) x[k] = scale[k] > 0 ? w->rows[nw * row + k] / scale[k] : 0;
     if (normalized_outside(x, basis, columns, nv) > 1e-10) columns++;
   }
   for (int k = 0; k < nv; k++) {
     for (int i = 0; i < nv; i++) unit[i] = i == k;
-    frot_forward(w->factor, nm, nv, unit);
     frozen[k] = known[k] != 0 && normalized_outside(unit, basis, columns, nv) < HELD;
     count += frozen[k] != 0;
   }

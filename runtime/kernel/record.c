@@ -14,6 +14,13 @@ void frot_note(frot_recorder *recorder, frot_state *s, double t, int kind, int c
       (frot_event){t, kind, contact, before, after, solutions, 0};
 }
 
+void frot_note_condition(const frot_model *m, frot_recorder *recorder, frot_state *s, double t,
+                         int condition, int holds) {
+  int told = m->conditions[condition].told;
+  if (told == FROT_TOLD_ALWAYS || (told == FROT_TOLD_RISING && holds))
+    frot_note(recorder, s, t, FROT_EVENT_CONDITION, condition, !holds, holds, 1);
+}
+
 void frot_note_changes(const frot_model *m, frot_state *s, double t,
                        const frot_contact_mode *before, const frot_contact_mode *after,
                        frot_recorder *recorder) {

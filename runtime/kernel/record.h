@@ -8,6 +8,10 @@
 void frot_note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact, int before,
                int after, int solutions);
 
+/* Note that a condition of the text changes, if that is an event to the author. */
+void frot_note_condition(const frot_model *m, frot_recorder *recorder, frot_state *s, double t,
+                         int condition, int holds);
+
 /* Note what differs between the modes before and after an instant. */
 void frot_note_changes(const frot_model *m, frot_state *s, double t,
                        const frot_contact_mode *before, const frot_contact_mode *after,

@@ -320,7 +320,7 @@ void frot_flip_conditions(const frot_model *m, frot_state *s, double t, frot_rec
     if (fired[j] == 0) continue;
     fired[j] = 0;
     d[j] = 1 - d[j];
-    frot_note(recorder, s, t, FROT_EVENT_CONDITION, j, (int)(1 - d[j]), (int)d[j], 1);
+    frot_note_condition(m, recorder, s, t, j, d[j] != 0);
   }
 }
 

@@ -14,6 +14,7 @@
 /* Events at one instant after which the modes will not settle. */
 #define CROWD 100
 #define MONITOR_EVERY 64
+#define INSTANT 1e-9 /* part of the longest step within which events are at one instant */
 /* Longest step where forces depend on time, so that none is passed over while nothing moves. */
 #define PART_OF_RUN 0.01
 
@@ -32,6 +33,7 @@ int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, dou
     int good = rule == FROT_POSITIVE       ? x > 0
                : rule == FROT_NOT_NEGATIVE ? x >= 0
                : rule == FROT_FINITE       ? isfinite(x)
+               : rule == FROT_NOT_ZERO     ? x != 0
                                            : x >= checks[i - 1];
     if (!good || !isfinite(x)) return frot_fail(s, FROT_CHECK, s->t, -1, i, -1, x);
   }
@@ -66,7 +68,8 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
                                           : experiment[2];
   s->h_max = experiment[1] > start ? experiment[1] - start : 1;
   if (m->time_dependent) s->h_max *= PART_OF_RUN;
-  s->ended_recorded = 0;
+  s->ended_recorded = s->shrinking = 0;
+  s->text_event = t, s->text_gap = s->text_ratio = s->text_first = 0;
   s->pending = s->has_slope = s->changed = s->crowded = s->several = s->untold = 0;
   for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
   s->crowded_since = s->left_at = t;
@@ -76,6 +79,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.noise, 0, sizeof(double) * (size_t)(m->nq + m->nv));
   memset(s->data + l.push_v, 0, sizeof(double) * (size_t)m->nv);
+  memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   memset(s->data + l.along, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
   memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.left, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
@@ -138,6 +142,11 @@ static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
 
 int frot_settle(const frot_model *m, frot_state *s, frot_work *w) { return settle(m, s, w, NULL); }
 
+/* Whether a `when` has fired at this instant. */
+static int text_takes_part(const frot_model *m, const frot_state *s, double t) {
+  return m->n_whens > 0 && t - s->text_event <= INSTANT * s->h_max;
+}
+
 /* What the guards fired at the end of the segment bring about. */
 static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
                          frot_recorder *recorder) {
@@ -188,7 +197,8 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
     int status = FROT_OK;
     if (s->pending) {
       if (++s->crowded > CROWD)
-        status = frot_fail(s, FROT_CHATTER, *g.t1, -1, -1, -1, s->crowded);
+        status = frot_fail(s, FROT_CHATTER, *g.t1, -1, text_takes_part(m, s, *g.t1) ? 0 : -1, -1,
+                           s->crowded);
       else
         status = happen_at_end(m, s, w, recorder);
       s->pending = s->has_slope = 0;

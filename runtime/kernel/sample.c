@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "blocks.h"
+#include "invariants.h"
 #include "mechanics.h"
 #include "state.h"
 #include "step.h"
@@ -11,9 +12,13 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   double *x = w->z1;
   frot_interpolate(m, g, t, x);
   frot_guess_unknowns(m, w, g, t);
-  const double *q = x, *v = x + m->nq;
+  double *q = x, *v = x + m->nq;
   long long evaluations = s->statistics.evaluations;
-  int status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, 1);
+  int status = FROT_OK, moved;
+  /* relations between the states hold at every instant looked at, not only at the ends of steps */
+  if (m->n_invariants > 0)
+    status = frot_project_jointly(m, s, w, t, q, v, g->d, g->modes, NULL, NULL, g->frozen, &moved);
+  if (status == FROT_OK) status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, 1);
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
   if (status != FROT_OK) return status;
   frot_inputs(m, s, w, &t, q, v, g->d);

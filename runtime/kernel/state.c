@@ -39,6 +39,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.fired = at, at += l.ng;
   l.left = at, at += 2 * m->n_contacts;
   l.asked = at, at += m->n_outcomes;
+  l.fresh = at, at += m->n_conditions;
   l.modes = at, at += m->n_contacts;
   l.d = at, at += l.nd;
   l.frozen = at, at += m->nv;

@@ -27,7 +27,7 @@ typedef struct {
   int nw, nm, nx, nz, ng, nd, ns; /* nm: order of the metric; ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, u, experiment, unilateral, x, y, slope, scale_x, scale_g, noise, push_v, along,
-      fired, left, asked, modes, d, frozen, segment, size;
+      fired, left, asked, fresh, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -47,6 +47,10 @@ struct frot_state {
   int outcome; /* the `terminate` that ended the run */
   int untold;  /* outcomes wait to be told as events: their times are in `asked`, NaN elsewhere */
   int ended_recorded; /* the last instant of a run that has ended is recorded */
+  int shrinking;      /* times in a row that the text's events followed each other sooner */
+  /* when the last one was, how long after the one before, over the gap before that, and the gap
+   * that the row began with */
+  double text_event, text_gap, text_ratio, text_first;
   double crowded_since;
   double left_at; /* instant at which rest was left last: see `left` */
   double t;       /* time reached */

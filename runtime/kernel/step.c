@@ -28,6 +28,9 @@
 #define GUARD_LOOSEST 1e-3
 #define GUARD_TIGHTEST 1e-6
 #define GUARD_FLOOR 1e-12
+/* A state without speed is not followed below this part of the largest of its kind: what lies
+ * before a front moves by higher orders of the step than any step resolves. */
+#define LEAST_PART 1e-10
 #define LEAST_STEP (16 * DBL_EPSILON)
 #define LOCATE_PASSES 12
 /* The first step, in longest steps: what starts from rest shows its size only as it moves. */
@@ -103,14 +106,16 @@ static int run_stages(const frot_model *m, frot_state *s, frot_work *w, const fr
   return FROT_OK;
 }
 
-/* Size against which the error of coordinate or speed j is measured: the largest it has had, or
- * what the step brings it by what is known at its start. The step's own result is no witness. */
+/* Size against which the error of value j is measured: the largest it has had, or what the step
+ * brings it by what is known at its start. The step's own result is no witness, but where a value
+ * begins at zero without any rate there is no other. */
 static double size_at_start(const frot_model *m, const frot_state *s, const frot_work *w,
                             const frot_layout *l, int j, double h) {
   double size = fmax(s->data[l->scale_x + j], fabs(w->z0[j])), change = h * fabs(w->k[j]);
   if (j < m->nq && m->q_speed[j] < 0) return w->own_size[j];
   if (j < m->nq) change += h * h * fabs(w->k[m->nq + m->q_speed[j]]);
-  return fmax(size, change);
+  size = fmax(size, change);
+  return size > 0 ? size : fabs(w->z1[j] - w->z0[j]);
 }
 
 /* What the step brings the states that are no coordinates, by their slopes at its start. Where that
@@ -136,6 +141,15 @@ static double rounding_of(const frot_model *m, const frot_state *s, const frot_w
   return fmax(known, j < m->nq ? h * rounding : rounding);
 }
 
+/* Size of the largest of the states without speed. */
+static double largest_plain(const frot_model *m, const frot_state *s, const frot_work *w,
+                            const frot_layout *l, double h) {
+  double largest = 0;
+  for (int j = 0; j < m->nq; j++)
+    if (m->q_speed[j] < 0) largest = fmax(largest, size_at_start(m, s, w, l, j, h));
+  return largest;
+}
+
 /* Estimate of the local error over its bound: at most 1 for a good step, NaN for no number. */
 static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                           double h) {
@@ -143,7 +157,7 @@ static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, cons
   size_own_states(m, s, w, l, h);
   double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
   double guard_tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
-  double e5[CHUNK], e3[CHUNK];
+  double e5[CHUNK], e3[CHUNK], least = LEAST_PART * largest_plain(m, s, w, l, h);
   for (int j = 0; j < l->nz; j++) {
     int at = j % CHUNK, size = l->nz - j < CHUNK ? l->nz - j : CHUNK;
     if (at == 0) {
@@ -154,7 +168,9 @@ static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, cons
     if (e5[at] == 0 && e3[at] == 0) continue;
     double bound, fifth = h * e5[at], third = h * e3[at];
     if (j < l->nx) {
-      bound = fmax(tolerance * size_at_start(m, s, w, l, j, h), rounding_of(m, s, w, l, j, h));
+      double size = size_at_start(m, s, w, l, j, h);
+      if (j < m->nq && m->q_speed[j] < 0) size = fmax(size, least);
+      bound = fmax(tolerance * size, rounding_of(m, s, w, l, j, h));
     } else {
       double largest = GUARD_LOOSEST * s->data[l->scale_g + j - l->nx];
       for (int k = 0; k <= DP_STAGES; k++) largest = fmax(largest, fabs(w->k[k * l->nz + j]));
@@ -215,17 +231,31 @@ static void guard_polynomial(const frot_state *s, const frot_work *w, const frot
   }
 }
 
-/* The first guard to fall inside the step, its theta in *theta; -1 when none does. */
-static int first_guard(const frot_state *s, const frot_work *w, const frot_layout *l, double h,
-                       double *theta) {
-  int found = -1;
+/* Whether condition j, at whose coming to hold a `when` fired at the start of the step, is lost at
+ * once: a ball leaves the floor, however little it jumps. Else rounding would hide the jump, and
+ * the next fall with it. */
+static int lost_at_once(const frot_state *s, const frot_layout *l, int j, const double g[7],
+                        double inside) {
+  return s->data[l->fresh + j] != 0 && g[1] - g[0] < -NOISE * inside;
+}
+
+/* The first guard to fall inside the step from t, its theta in *theta; -1 when none does. A guard
+ * that was zero at an event is known no better than its slope times the resolution of time. */
+static int first_guard(const frot_model *m, const frot_state *s, const frot_work *w,
+                       const frot_layout *l, double t, double h, double *theta) {
+  int found = -1, conditions = FROT_GUARDS * m->n_contacts;
   *theta = FROT_NO_ROOT;
   for (int j = 0; j < l->ng; j++) {
     double g[7];
     guard_polynomial(s, w, l, j, h, g);
-    double size = s->data[l->scale_g + j];
-    for (int k = 0; k < 7; k++) size = fmax(size, fabs(g[k]));
-    double at = frot_first_fall(g, GUARD_FLOOR * size);
+    double size = s->data[l->scale_g + j], inside = 0;
+    for (int k = 0; k < 7; k++) inside = fmax(inside, fabs(g[k]));
+    size = fmax(size, inside);
+    double slope = 6 * fabs(g[1] - g[0]) / h;
+    double at = frot_first_fall(g, GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * slope);
+    if (j >= conditions && fabs(g[0]) <= FROT_ZERO * size &&
+        lost_at_once(s, l, j - conditions, g, inside))
+      at = 0;
     if (at < *theta) *theta = at, found = j;
   }
   return found;
@@ -452,7 +482,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   }
 
   double theta;
-  int guard = first_guard(s, w, &l, h, &theta), falls = 0;
+  int guard = first_guard(m, s, w, &l, t, h, &theta), falls = 0;
   if (guard >= 0) {
     if (theta * h <= LEAST_STEP * fmax(fabs(t), h)) return fire_at_start(s, &l, guard);
     status = locate(m, s, w, &l, t, guard, theta, &h, &falls);
@@ -464,6 +494,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   }
   s->statistics.steps++;
   s->statistics.implicit_steps += s->implicit;
+  memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   note_sizes(m, s, w, &l, w->z1);
   if (falls) fire(s, w, &l, guard);
 

@@ -24,8 +24,11 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
   const char *name = contact_name(m, e->contact);
   switch (e->kind) {
     case FROT_EVENT_CONDITION:
-      snprintf(text, size, "condition %d: %s -> %s at t = %.17g", e->contact + 1,
-               e->before ? "true" : "false", e->after ? "true" : "false", e->t);
+      snprintf(text, size,
+               m->conditions[e->contact].told == FROT_TOLD_RISING ? "%s at t = %.17g"
+               : e->after ? "%s: false -> true at t = %.17g"
+                          : "%s: true -> false at t = %.17g",
+               m->conditions[e->contact].text, e->t);
       return;
     case FROT_EVENT_REVERSAL:
       snprintf(text, size, "%s: slip reverses at t = %.17g", name, e->t);
@@ -104,6 +107,8 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       const frot_check *check = &m->checks[f->item];
       const char *rule = check->rule == FROT_POSITIVE       ? "it must be positive"
                          : check->rule == FROT_NOT_NEGATIVE ? "it must not be negative"
+                         : check->rule == FROT_NOT_ZERO
+                             ? "it must not be zero, for an equation is divided by it"
                          : check->rule == FROT_NOT_BELOW_PREVIOUS
                              ? "it must not be below the coefficient of motion"
                              : "it must be a finite number";
@@ -132,6 +137,15 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                name, (int)f->value, f->t);
       return;
     case FROT_CHATTER:
+      if (f->item >= 0) {
+        snprintf(text, size,
+                 "the events of the text do not settle at t = %.17g: they %s; let the text end the "
+                 "run or change what it does there",
+                 f->t,
+                 f->value > 0 ? "bring each other about without end"
+                              : "follow each other ever sooner, without end");
+        return;
+      }
       snprintf(text, size,
                "the modes do not settle at t = %.17g (%d events at one instant): two laws of "
                "friction switch each other; change a coefficient or the starting values a little",

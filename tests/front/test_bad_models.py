@@ -28,9 +28,9 @@ FAULTS = {
     "a zero radius": ("= 0.5 m ", "= 0 m ", "E0401", "radius must be positive; it is 0 m", "7:41"),
     "an unsupported liaison": (
         "contact_ponctuel(ground.line, hoop.rim)",
-        "rotoide(ground, hoop)",
+        "prismatique(ground, hoop)",
         "E0701",
-        "the liaison 'rotoide' is not supported yet",
+        "the liaison 'prismatique' is not supported yet",
         "8:3",
     ),
     "an unsupported law": (

@@ -173,7 +173,7 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
     out: dict[str, tuple[list[ca.SX], list[object]]] = {
         "parameters": (
             [s.p, ca.SX.sym("set", s.p.numel()), s.u],
-            [s.p, NONE, ca.DM(list(m.unilateral)), ca.DM([0.0, m.stop, 1e-10, float('nan')])],
+            [s.p, NONE, ca.DM(list(m.unilateral)), ca.DM([0.0, m.stop, 1e-10, float("nan")])],
         ),
         "start": (
             [s.t, s.u, s.p],
@@ -286,6 +286,9 @@ def source(m: Small, folder: Path) -> str:
         ("int", "p_dependent"): [0] * len(m.parameters),
         ("int", "p_type"): [0] * len(m.parameters),
         ("unsigned char", "row_depends"): _row_depends(m),
+        ("frot_condition", "conditions"): [
+            f'{{"condition {k + 1}", 2}}' for k in range(m.n_conditions)
+        ],
         ("unsigned char", "condition_strict"): [int(x) for x in m.strict],
         ("int", "q_speed"): m.speeds,
         ("int", "q_alike"): list(range(m.nq)),
@@ -370,4 +373,5 @@ def build(m: Small, folder: Path) -> Program:
         contacts=tuple(modes),
         experiment=ExperimentInfo(0.0, m.stop, 1e-10, None, "rest"),
         compiler=toolchain.command, flags=FLAGS, folder=folder,
+        conditions=tuple(f"condition {k + 1}" for k in range(m.n_conditions)),
     )  # fmt: skip

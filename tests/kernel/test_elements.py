@@ -208,9 +208,7 @@ def swing(couple: float, q0: float, w0: float, sign: float, end: float) -> np.nd
 
 def test_a_pin_resists_with_its_own_reaction(run) -> None:
     """The couple mu |R| acts back on R: solved with it, not a step late."""
-    result = run(
-        pin_pendulum("pin", 0.05, 0.05, start=([1.2], [0.0])), stop=0.5, tolerance=1e-13
-    )
+    result = run(pin_pendulum("pin", 0.05, 0.05, start=([1.2], [0.0])), stop=0.5, tolerance=1e-13)
     angle, w = swing(0.05, 1.2, 0.0, -1.0, 0.5)
     assert result["angle"][-1] == pytest.approx(angle, rel=1e-11)
     assert result["w"][-1] == pytest.approx(w, rel=1e-11)
@@ -274,9 +272,13 @@ def test_the_general_core_treats_elements_as_the_symmetric_one_does(run) -> None
     one = run(clutch("clutch_a", 1.0, 5.0, start=([0, 0], [10.0, 0.0]), stop=5.0))
     two = run(
         clutch(
-            "clutch_b", 1.0, 5.0, start=([0, 0], [10.0, 0.0]), stop=5.0,
+            "clutch_b",
+            1.0,
+            5.0,
+            start=([0, 0], [10.0, 0.0]),
+            stop=5.0,
             metric=lambda s: ca.diag(column(2.0, 3.0)),
-        )  # fmt: skip
+        )
     )
     assert [e.kind for e in two.events] == ["stick"]
     assert two.events[0].time == pytest.approx(one.events[0].time, rel=1e-14)

@@ -76,7 +76,11 @@ def test_plain_states_need_no_speeds(run) -> None:
 
 def test_a_model_without_states_tells_the_time(run) -> None:
     model = Small(
-        name="clock", nq=0, variables={"sine": lambda s: ca.sin(s.t)}, rates=lambda s: NONE, stop=5.0
+        name="clock",
+        nq=0,
+        variables={"sine": lambda s: ca.sin(s.t)},
+        rates=lambda s: NONE,
+        stop=5.0,
     )
     result = run(model)
     assert np.allclose(result["sine"], np.sin(result.time), rtol=0, atol=1e-15)
@@ -140,6 +144,7 @@ def test_kepler_s_equation_is_solved_at_every_instant(run) -> None:
 
 def test_a_linear_block_is_exact(run) -> None:
     """A resistor ladder: three currents of one linear block drive a capacitor."""
+
     def ladder(s):
         return [s.y[0] - s.y[1] - s.y[2], 2 * s.y[1] - s.q[0], s.y[0] + 2 * s.y[1] - 10]
 
@@ -200,3 +205,26 @@ def test_noise_alone_does_not_stop_a_plain_state(run) -> None:
     result = run(model, tolerance=1e-6)
     assert result.figures.steps < 2000
 
+
+@pytest.mark.parametrize("n", [60, 1500])
+def test_a_front_runs_through_many_plain_states(run, n) -> None:
+    """Heat in a bar of n cells whose ends are held at 1 and 0, against its matrix exponential."""
+    k, stop = 400.0, 0.02
+    edge = np.r_[k, np.zeros(n - 1)]
+
+    def flow(s):
+        x = ca.vertcat(1, s.q, 0)
+        return k * (x[2:] - 2 * x[1:-1] + x[:-2])
+
+    model = Small(
+        name=f"bar{n}", nq=n, q_speed=[-1] * n, start=([0.0] * n,), rates=flow, stop=stop,
+        variables={f"x{i}": lambda s, i=i: s.q[i] for i in (0, 5, 20, 40)},
+    )  # fmt: skip
+    result = run(model, tolerance=1e-10)
+    i = np.arange(1, n + 1)
+    rates = -4 * k * np.sin(i * np.pi / (2 * (n + 1))) ** 2
+    modes = np.sin(np.outer(i, i) * np.pi / (n + 1)) * math.sqrt(2 / (n + 1))
+    x = modes @ (np.expm1(rates * stop) / rates * (modes @ edge))
+    for j in (0, 5, 20, 40):
+        assert result[f"x{j}"][-1] == pytest.approx(x[j], rel=1e-7, abs=1e-12)
+    assert result.figures.rejected < 60

@@ -1,0 +1,41 @@
+"""Warnings: what is told of a sound model, and that sound examples are silent."""
+
+from pathlib import Path
+
+import pytest
+from frot.dsl import Log, compile_text, load, render_log
+
+EXAMPLES = sorted((Path(__file__).parent / "examples").glob("*.frot"))
+MODELS = sorted((Path(__file__).parents[2] / "models").glob("*.frot"))
+
+
+def warnings(text: str) -> list[tuple[str, str]]:
+    log = Log()
+    assert compile_text(text, log) is not None, render_log(log)
+    return [(d.code, d.message) for d in log]
+
+
+@pytest.mark.parametrize("path", [*EXAMPLES, *MODELS], ids=lambda p: p.stem)
+def test_sound_files_are_silent(path: Path) -> None:
+    log = Log()
+    load(path, log)
+    assert {d.code for d in log} <= {"E0701"}, render_log(log)
+
+
+def test_a_parameter_used_in_one_of_several_components_is_used() -> None:
+    part = "model Part\n parameter Real a = 1;\n parameter Real b = 2;\n Real x = b;\nend Part;\n"
+    whole = "model M\n Part p, q;\n Real y = q.a;\nend M;\n"
+    assert warnings(part + whole) == []
+    assert warnings(part + whole.replace("q.a", "q.b")) == [
+        ("W0102", "parameter 'a' is used nowhere")
+    ]
+
+
+def test_an_unused_import_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "Lib.frot").write_text("model A\nend A;\nmodel B\nend B;\n")
+    model = "model M\n A a;\nend M;\n"
+    assert warnings(f"import Lib.A;\nimport Lib.B;\n{model}") == [
+        ("W0101", "nothing of this import is used")
+    ]
+    assert warnings(f"import Lib.A;\nimport Lib.B;\n{model}model N\n B b;\n M m;\nend N;\n") == []

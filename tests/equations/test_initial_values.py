@@ -1,0 +1,50 @@
+"""First values of models of equations: steady states, values of what is not a state, guesses."""
+
+import pytest
+
+import frot
+
+TANK = """
+model Tank
+  parameter Real inflow = 2;
+  Real level; Real out;
+initial
+  {initial}
+equation
+  der(level) = (inflow - out)/(1 s);
+  out = 0.5*sqrt(max(level, 0));
+  experiment(stop = 1 s, tolerance = 1e-10);
+end Tank;
+"""
+
+
+def test_a_steady_state_is_found_from_a_guess() -> None:
+    result = frot.compile(TANK.format(initial="guess(level = 3); der(level) = 0/(1 s);")).simulate()
+    assert result["level"][0] == pytest.approx(16, rel=1e-9)
+    assert result["level"][-1] == pytest.approx(16, rel=1e-8)
+
+
+def test_the_value_of_an_algebraic_variable_fixes_the_state() -> None:
+    result = frot.compile(TANK.format(initial="guess(level = 1); out = 1;")).simulate()
+    assert result["level"][0] == pytest.approx(4, rel=1e-9)
+
+
+def test_contradicting_statements_are_named() -> None:
+    with pytest.raises(frot.FrotError, match="level = 1"):
+        frot.compile(TANK.format(initial="level = 1; level = 2;")).simulate()
+
+
+def test_start_values_guide() -> None:
+    text = """
+model Root
+  Real x(start = {start}); Real s;
+initial
+  s = 0;
+equation
+  der(s) = 0/(1 s);
+  x^2 - 3*x + 2 = 0;
+  experiment(stop = 1 s);
+end Root;
+"""
+    assert frot.compile(text.format(start=0)).simulate()["x"][0] == pytest.approx(1, abs=1e-12)
+    assert frot.compile(text.format(start=5)).simulate()["x"][0] == pytest.approx(2, abs=1e-12)
