@@ -11,7 +11,7 @@
 #include "sizes.h"
 
 /* Part of the tolerance given to one step: the estimate is that of the order below. */
-#define LOCAL_SHARE 1.0
+#define LOCAL_SHARE 0.5
 #define LEAST_TOLERANCE 1e-14
 /* Error of a solution of the linear system, in units of its terms, that pivoting is missed by. */
 #define MOST_GROWTH 1e-10
@@ -19,7 +19,6 @@
 #define GUARD_LOOSEST 1e-3
 #define GUARD_TIGHTEST 1e-6
 #define GUARD_NODES 7 /* values at k/6 */
-#define CHUNK 4       /* states whose sums are formed together */
 
 /* Rows of w->k: the slopes at both ends, U_1 .. U_8 between, then scratch. */
 #define FIRST_ROW 1
@@ -66,27 +65,39 @@ int frot_implicit_begin(const frot_model *m, frot_state *s, frot_work *w, double
   return frot_jacobian_at(m, s, w, t, w->z0, s->data + l.d);
 }
 
-/* For stage i: z <- z0 + sum a_ij U_j (the last two stages add the U before to the argument before)
- * and right <- sum C_ij U_j. Some states at a time, so that their sums do not wait for each other.
- */
-static void prepare(const frot_layout *l, const frot_work *w, int n, int i, double *z,
+/* Sums over j < count of a[j] U_j and b[j] U_j (and c[j] U_j) for a pair of states, or for one: in
+ * one pass over memory, in registers, and no sum waits for another. */
+typedef struct {
+  double a[2], b[2], c[2];
+} sums;
+
+static inline sums weigh(const double *u, int nz, int pair, const double *a, const double *b,
+                         const double *c, int count) {
+  double a0 = 0, a1 = 0, b0 = 0, b1 = 0, c0 = 0, c1 = 0;
+  for (int j = 0; j < count; j++, u += nz) {
+    double first = u[0], second = u[pair];
+    a0 += a[j] * first, a1 += a[j] * second;
+    b0 += b[j] * first, b1 += b[j] * second;
+    if (c) c0 += c[j] * first, c1 += c[j] * second;
+  }
+  return (sums){{a0, a1}, {b0, b1}, {c0, c1}};
+}
+
+/* For stage i: its argument into z, which holds that of the stage before, and sum C_ij U_j / h
+ * into right. */
+static void prepare(const frot_layout *l, const frot_work *w, int n, int i, double h, double *z,
                     double *right) {
-  const double *u = row(l, w, FIRST_ROW), *last = row(l, w, FIRST_ROW + i - 1);
-  for (int from = 0; from < n; from += CHUNK) {
-    int size = n - from < CHUNK ? n - from : CHUNK;
-    double value[CHUNK] = {0}, sum[CHUNK] = {0};
-    for (int j = 0; j < i; j++) {
-      const double *uj = u + j * l->nz + from;
-      double c = ro_C[i][j], a = i < RO_ROWS ? ro_a[i][j] : 0;
-      if (size == CHUNK) {
-        for (int k = 0; k < CHUNK; k++) value[k] += a * uj[k], sum[k] += c * uj[k];
-      } else {
-        for (int k = 0; k < size; k++) value[k] += a * uj[k], sum[k] += c * uj[k];
-      }
-    }
-    for (int k = 0; k < size; k++) {
-      z[from + k] = i < RO_ROWS ? w->z0[from + k] + value[k] : z[from + k] + last[from + k];
-      right[from + k] = sum[k];
+  static const double none[RO_STAGES] = {0};
+  const double *u = row(l, w, FIRST_ROW), *last = row(l, w, FIRST_ROW + i - 1), *z0 = w->z0;
+  const double *a = i < RO_ROWS ? ro_a[i] : none;
+  double c[RO_STAGES];
+  for (int j = 0; j < i; j++) c[j] = ro_C[i][j] / h;
+  for (int k = 0; k < n; k += 2) {
+    int pair = k + 1 < n;
+    sums s = weigh(u + k, l->nz, pair, a, c, NULL, i);
+    for (int e = 0; e <= pair; e++) {
+      z[k + e] = i < RO_ROWS ? z0[k + e] + s.a[e] : z[k + e] + last[k + e];
+      right[k + e] = s.b[e];
     }
   }
 }
@@ -102,15 +113,14 @@ int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, doubl
   for (int i = 0; i < RO_STAGES; i++) {
     double *slope = i == 0 ? row(&l, w, 0) : row(&l, w, SLOPE_ROW);
     double *right = row(&l, w, RIGHT_ROW), *u = row(&l, w, FIRST_ROW + i);
-    if (i == 0) memset(right, 0, sizeof(double) * (size_t)n);
     if (i > 0) {
-      prepare(&l, w, n, i, z, right);
+      prepare(&l, w, n, i, h, z, right);
       double at = i >= RO_ROWS - 1 ? t + h : t + ro_c[i] * h;
       if ((status = slope_at(m, s, w, &l, at, z, slope)) != FROT_OK) return status;
     }
-    double by_time = h * ro_d[i], per_step = i > 0 ? 1 / h : 0;
-    for (int k = 0; k < n; k++)
-      right[k] = slope[k] + per_step * right[k] + by_time * jacobian.rate[k];
+    double by_time = h * ro_d[i];
+    for (int k = 0; k < n; k++) right[k] = i > 0 ? slope[k] + right[k] : slope[k];
+    for (int k = 0; m->time_dependent && k < n; k++) right[k] += by_time * jacobian.rate[k];
     frot_jacobian_solve(m, w, right, u);
     if (i == 0 && !(frot_jacobian_error(m, w, shift, right, u) < MOST_GROWTH)) return FROT_DIVERGE;
   }
@@ -202,26 +212,20 @@ static int follow_guards(const frot_model *m, frot_state *s, frot_work *w, const
 
 int frot_implicit_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   frot_layout l = frot_layout_of(m);
-  memset(w->f, 0, sizeof(double) * DP_DENSE * (size_t)l.nz);
-  for (int from = 0; from < m->nq; from += CHUNK) {
-    int size = m->nq - from < CHUNK ? m->nq - from : CHUNK;
-    double c[3][CHUNK] = {{0}};
-    for (int j = 0; j < RO_STAGES; j++) {
-      const double *u = w->k + (FIRST_ROW + j) * l.nz + from;
-      for (int i = 0; i < 3; i++) {
-        if (size == CHUNK) {
-          for (int k = 0; k < CHUNK; k++) c[i][k] += ro_h[i][j] * u[k];
-        } else {
-          for (int k = 0; k < size; k++) c[i][k] += ro_h[i][j] * u[k];
-        }
-      }
-    }
-    double *f = w->f + from;
-    for (int k = 0; k < size; k++) {
-      f[k] = w->z1[from + k] - w->z0[from + k];
-      f[l.nz + k] = c[0][k];
-      f[2 * l.nz + k] = c[1][k] + c[2][k];
-      f[3 * l.nz + k] = -c[2][k];
+  for (int i = 0; i < DP_DENSE; i++) { /* what no state fills below */
+    int from = i < 4 ? m->nq : 0;
+    memset(w->f + i * l.nz + from, 0, sizeof(double) * (size_t)(l.nz - from));
+  }
+  const double *u = row(&l, w, FIRST_ROW);
+  double *f = w->f;
+  for (int k = 0; k < m->nq; k += 2) {
+    int pair = k + 1 < m->nq;
+    sums c = weigh(u + k, l.nz, pair, ro_h[0], ro_h[1], ro_h[2], RO_STAGES);
+    for (int e = 0; e <= pair; e++) {
+      f[k + e] = w->z1[k + e] - w->z0[k + e];
+      f[l.nz + k + e] = c.a[e];
+      f[2 * l.nz + k + e] = c.b[e] + c.c[e];
+      f[3 * l.nz + k + e] = -c.c[e];
     }
   }
   return l.ng > 0 ? follow_guards(m, s, w, &l, t, h) : FROT_OK;

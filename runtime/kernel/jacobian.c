@@ -43,10 +43,11 @@ frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *
   j.block_t = take(base, &used, ny);
   j.block_y = take(base, &used, ny * ny);
   j.block_scale = take(base, &used, 2 * ny);
-  j.pivot = doubles ? NULL : w->implicit_pivot;
+  j.growth = doubles ? NULL : w->implicit_pivot;
+  j.pivot = doubles ? NULL : j.growth + 1;
   j.block_pivot = doubles ? NULL : j.pivot + n;
   if (doubles) *doubles = used;
-  if (integers) *integers = (size_t)(n + ny);
+  if (integers) *integers = (size_t)(1 + n + ny);
   return j;
 }
 
@@ -89,7 +90,8 @@ int frot_jacobian_at(const frot_model *m, frot_state *s, frot_work *w, double t,
 int frot_jacobian_factor(const frot_model *m, frot_work *w, double shift) {
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
   int n = m->nq;
-  if (is_sparse(m)) return frot_sparse_factor(&m->pattern, j.entries, shift, j.factors, j.scratch);
+  if (is_sparse(m))
+    return frot_sparse_factor(&m->pattern, j.entries, shift, j.factors, j.scratch, j.growth);
   for (int i = 0; i < n * n; i++) j.factors[i] = -j.entries[i];
   for (int i = 0; i < n; i++) j.factors[n * i + i] += shift;
   return frot_lu(j.factors, n, j.pivot, j.scale);
@@ -108,7 +110,7 @@ void frot_jacobian_solve(const frot_model *m, const frot_work *w, const double *
 double frot_jacobian_error(const frot_model *m, const frot_work *w, double shift, const double *b,
                            const double *x) {
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
-  if (!is_sparse(m)) return 0;
+  if (!is_sparse(m) || !*j.growth) return 0;
   return frot_sparse_error(&m->pattern, j.entries, shift, b, x, j.scratch, j.scratch + m->nq);
 }
 

@@ -14,6 +14,7 @@ typedef struct {
   double *error;   /* nq */
   double *misfit;  /* guards: how far their polynomials are from them */
   double *slope_y, *block_q, *block_t, *block_y, *block_scale; /* with blocks */
+  int *growth;                                                 /* 1: solutions are to be checked */
   int *pivot, *block_pivot;
 } frot_jacobian;
 

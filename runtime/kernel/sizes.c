@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* Size of a state at least, in units of the largest of its dimension. */
-#define LEAST_PART 1e-3
+#define LEAST_PART 1e-2
 
 /* fmax is a call, for what it does with NaN. */
 static double larger(double a, double b) { return a > b ? a : b; }

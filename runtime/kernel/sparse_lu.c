@@ -9,7 +9,8 @@
 #define LEAST_TERM 1e-280
 
 int frot_sparse_factor(const frot_pattern *p, const double *jacobian, double shift, double *lu,
-                       double *x) {
+                       double *x, int *growth) {
+  *growth = 0;
   memset(lu, 0, sizeof(double) * (size_t)p->start[p->n]);
   for (int k = 0; k < p->n; k++) lu[p->diagonal[k]] = shift;
   for (int e = 0; e < p->entries; e++) lu[p->place[e]] -= jacobian[e];
@@ -26,6 +27,7 @@ int frot_sparse_factor(const frot_pattern *p, const double *jacobian, double shi
       int j = p->column[e];
       double factor = x[j] * lu[p->diagonal[j]], before = x[k];
       lu[e] = factor;
+      if (fabs(factor) > 1) *growth = 1;
       for (int u = p->diagonal[j] + 1; u < p->start[j + 1]; u++) x[p->column[u]] -= factor * lu[u];
       size += fabs(x[k] - before);
     }
@@ -47,9 +49,8 @@ void frot_sparse_solve(const frot_pattern *p, const double *lu, const double *b,
   for (int k = p->n - 1; k >= 0; k--) {
     double sum = y[k];
     for (int e = diagonal[k] + 1; e < start[k + 1]; e++) sum -= lu[e] * y[column[e]];
-    y[k] = sum * lu[diagonal[k]];
+    y[k] = x[p->order[k]] = sum * lu[diagonal[k]];
   }
-  for (int k = 0; k < p->n; k++) x[p->order[k]] = y[k];
 }
 
 double frot_sparse_error(const frot_pattern *p, const double *jacobian, double shift,
