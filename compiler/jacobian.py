@@ -67,6 +67,8 @@ def alike(system: Assembled) -> tuple[int, ...]:
     for k, symbol in enumerate(ca.vertsplit(system.q) if system.q.numel() else ()):
         chain, order = chains.place.get(symbol.element_hash(), (-1, 0))
         variable = chains.items[chain].variable if chain >= 0 else None
-        own = system.q_speed[k] >= 0 or variable is None
-        table.append(k if own else first.setdefault((variable.type.dimension, order), k))
+        if variable is None or system.q_speed[k] >= 0:
+            table.append(k)
+        else:
+            table.append(first.setdefault((variable.type.dimension, order), k))
     return tuple(table)
