@@ -193,39 +193,44 @@ def _outputs(residuals: list[_Residual], unknown: ca.SX, y: ca.SX) -> list[ca.SX
 
 
 def _guess(system: Assembled, looking: Lowering, unknown: ca.SX, value: ca.SX) -> ca.SX:
-    """Where the search for the nearest values starts, moved by what the text guesses."""
+    """Where the search for the nearest values starts: `value`, moved by each guess in turn."""
     if not unknown.numel():
         return value
-    zeros = {s.element_hash(): ca.SX(0) for x in (system.q, system.v, system.y) for s in _items(x)}
-    place = {s.element_hash(): k for k, s in enumerate(_items(unknown))}
-    values = _items(value)
+    here = {s.element_hash(): ca.SX(0) for x in (system.q, system.v, system.y) for s in _items(x)}
+    own = {s.element_hash() for s in _items(unknown)}
+    here |= {s.element_hash(): x for s, x in zip(_items(unknown), _items(value), strict=True)}
     for left, right in _guesses(system, looking):
-        inside = [s for s in ca.symvar(left) if s.element_hash() in zeros]
-        own = [s for s in inside if s.element_hash() in place]
-        if not own or (unknown is system.q and len(own) < len(inside)):
+        inside = [s for s in ca.symvar(left) if s.element_hash() in here]
+        moved = [s for s in inside if s.element_hash() in own]
+        if not moved or (unknown is system.q and len(moved) < len(inside)):
             continue
-        slopes = [replace_known(ca.jacobian(left, s), zeros) for s in own]
-        here = replace_known(left, zeros)
+        slopes = [replace_known(ca.jacobian(left, s), here) for s in moved]
+        short = right - replace_known(left, here)
         length = sum((x * x for x in slopes), ca.SX(0))
-        for s, slope in zip(own, slopes, strict=True):
-            move = slope * (right - here) / length
-            values[place[s.element_hash()]] += ca.if_else(length > 0, move, ca.SX(0))
-    return column(values)
+        for s, slope in zip(moved, slopes, strict=True):
+            move = ca.if_else(length > 0, slope * short / length, ca.SX(0))
+            here[s.element_hash()] = here[s.element_hash()] + move
+    return column(here[s.element_hash()] for s in _items(unknown))
 
 
 def _guesses(system: Assembled, looking: Lowering) -> list[tuple[ca.SX, ca.SX]]:
-    """Pairs of a scalar of the states and the value it is guessed to have."""
+    """Pairs of a scalar of the states and the value it is guessed to have, the strongest last.
+
+    A `guess` is stronger than a `start`, and a guess on a state than one on what follows from it.
+    """
     model, settled = system.reduced.mechanism.model, system.reduced.variables.settled
-    pairs: list[tuple[ca.SX, ca.SX]] = []
-    for equation in model.initial:
-        if equation.guess and is_fixed(equation.right):
-            left = system.resolve(settled(looking.lower(equation.left)))
-            pairs += list(zip(scalars(left), scalars(looking.lower(equation.right)), strict=True))
+    starts: list[tuple[ca.SX, ca.SX]] = []
     for variable in model.variables:
         if variable.start is not None and not variable.discrete and is_fixed(variable.start):
             left = system.resolve(system.reduced.text.values[variable])
             right = scalars(looking.lower(variable.start))
             items = scalars(left)
             right = right * len(items) if len(right) == 1 else right
-            pairs += list(zip(items, right, strict=True))
-    return pairs
+            starts += zip(items, right, strict=True)
+    guesses: list[tuple[ca.SX, ca.SX]] = []
+    for equation in model.initial:
+        if equation.guess and is_fixed(equation.right):
+            left = system.resolve(settled(looking.lower(equation.left)))
+            guesses += zip(scalars(left), scalars(looking.lower(equation.right)), strict=True)
+    ordered = [sorted(pairs, key=lambda pair: pair[0].is_symbolic()) for pairs in (starts, guesses)]
+    return [*ordered[0], *ordered[1]]

@@ -48,3 +48,31 @@ end Root;
 """
     assert frot.compile(text.format(start=0)).simulate()["x"][0] == pytest.approx(1, abs=1e-12)
     assert frot.compile(text.format(start=5)).simulate()["x"][0] == pytest.approx(2, abs=1e-12)
+
+
+GUESSED = """
+model Guessed
+  Real x(start = 1); Real y;
+initial
+  {guesses}
+equation
+  der(x) = -x/(1 s);
+  2*y + 0.5*x = 1;
+  experiment(stop = 1 s);
+end Guessed;
+"""
+
+
+@pytest.mark.parametrize(
+    ("guesses", "x"),
+    [
+        ("", 1.0),
+        ("guess(x = 2);", 2.0),
+        ("guess(y = 0);", 2.0),
+        ("guess(x = 3); guess(y = 0);", 3.0),
+    ],
+)
+def test_guesses_do_not_add_up(guesses: str, x: float) -> None:
+    result = frot.compile(GUESSED.format(guesses=guesses)).simulate()
+    assert result["x"][0] == pytest.approx(x, abs=1e-14)
+    assert result["y"][0] == pytest.approx((1 - 0.5 * x) / 2, abs=1e-14)
