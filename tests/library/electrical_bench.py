@@ -163,7 +163,7 @@ BENCH = Bench(
         ),
         "OpAmp": (
             Reference("r_out.v", amplified),
-            Reference("amplifier.out.i", lambda t: -amplified(t) / 4 - mains(t) / 1.7),
+            Reference("amplifier.out.i", lambda t: mains(t) / 1.7 - amplified(t) / 4),
         ),
     },
 )

@@ -18,7 +18,7 @@ class Reference:
 
     variable: str
     exact: Course
-    bound: float = 1e-8
+    bound: float = 1e-11
     jumps: tuple[float, ...] = ()
 
     def error(self, time: Signal, values: Signal) -> float:
