@@ -271,12 +271,18 @@ def _prefix(node: tree.Prefix, scope: Scope) -> checked.Expression | None:
         return None
     if node.op == "+":
         return operand
+    if _is_celsius(operand):
+        # `-5 degC` is a temperature of its own, not the opposite of 5 degC.
+        assert isinstance(operand, checked.Literal)
+        unit = parse_unit(operand.unit)
+        value = 2 * unit.offset - float(operand.value)
+        return checked.Literal(value, operand.type, node.span, operand.unit)
     return checked.Unary(node.op, operand, operand.type, node.span)
 
 
 def _infix(node: tree.Infix, scope: Scope) -> checked.Expression | None:
     left, right = expression(node.left, scope), expression(node.right, scope)
-    if left is None or right is None:
+    if left is None or right is None or not _temperatures_fit(node, left, right, scope):
         return None
     if node.op == "*" and left.type.shape and right.type.shape and _are_matrices(left, right):
         from frot.dsl.arrays import product
@@ -286,6 +292,28 @@ def _infix(node: tree.Infix, scope: Scope) -> checked.Expression | None:
     if kind is None:
         return None
     return checked.Binary(node.op, left, right, kind, node.span)
+
+
+def _is_celsius(node: checked.Expression) -> bool:
+    return isinstance(node, checked.Literal) and node.unit in ("degC", "°C")
+
+
+def _temperatures_fit(
+    node: tree.Infix, left: checked.Expression, right: checked.Expression, scope: Scope
+) -> bool:
+    """Whether no temperature in degrees Celsius stands where a difference is needed."""
+    if node.op not in ("*", "/", "^", "+"):
+        return True
+    for operand in (left, right):
+        if _is_celsius(operand):
+            scope.log.report(
+                "E0302",
+                f"{operand.span.text!r} is an absolute temperature; here a difference is needed",
+                operand.span,
+                help="write a difference of temperatures in K",
+            )
+            return False
+    return True
 
 
 def _are_matrices(left: checked.Expression, right: checked.Expression) -> bool:

@@ -6,7 +6,7 @@ import math
 
 from frot.dsl import checked, tree
 from frot.dsl.catalogue import TYPES, body_members, point_members
-from frot.dsl.classes import Class
+from frot.dsl.classes import Class, Namespace
 from frot.dsl.dimensions import REAL, Type
 from frot.dsl.flanges import flange
 from frot.dsl.scope import Array, Entity, Instance, Record, Refused, Scope, did_you_mean, settled
@@ -105,14 +105,21 @@ def _built_in(node: tree.Name, scope: Scope) -> Thing | None:
 
 
 def _constant_around(node: tree.Name, scope: Scope) -> Thing | None:
-    """A constant of a package that surrounds the class."""
+    """A constant that is imported, or of a package that surrounds the class."""
     from frot.dsl.packages import constant
 
-    space = scope.space.outer
+    space: Namespace | None = scope.space
     while space is not None:
+        places = [space.constants[node.text]] if node.text in space.constants else []
         if space.owner is not None and space.owner.kind == "package":
-            found = constant(space.owner, node.text, scope)
+            places.append((space.owner, node.text))
+        stars = [s.target for s in space.stars if s.target is not None]
+        places += [(s, node.text) for s in stars if s.kind == "package"]
+        for package, name in places:
+            found = constant(package, name, scope)
             if found is not None:
+                for star in space.stars:
+                    star.used = star.used or star.target is package
                 return None if isinstance(found, Refused) else as_thing(found, node, scope)
         space = space.outer
     return None

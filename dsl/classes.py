@@ -31,7 +31,8 @@ class Namespace:
     """The definitions seen from a place of a text; `outer` surrounds it.
 
     `imports` are the names made by `import`, and `stars` the packages whose members are all seen.
-    `lost` are words of statements that could not be read.
+    `constants` are imported ones, each with its package and name there. `lost` are words of
+    statements that could not be read.
     """
 
     source: Source
@@ -39,6 +40,7 @@ class Namespace:
     definitions: dict[str, tree.Definition | tree.Alias] = field(default_factory=dict)
     imports: dict[str, Imported] = field(default_factory=dict)
     stars: list[Imported] = field(default_factory=list)
+    constants: dict[str, tuple[Class, str]] = field(default_factory=dict)
     bases: list[Namespace] = field(default_factory=list)
     classes: dict[str, Class] = field(default_factory=dict)
     lost: frozenset[str] = frozenset()

@@ -66,7 +66,7 @@ _SYNTAX = {
     "E0109": Code(
         "model too large",
         "Components, scalars of arrays, equations and calls of functions are counted while the "
-        "model is made; there are 100 000 at most, a component counted twice.",
+        "model is made; there are 100 000 at most, a component counted three times.",
         "Make the arrays smaller; look for a range or a size that is not meant.",
         snippet("parameter Real x = sum(zeros(1000000));"),
     ),

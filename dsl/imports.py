@@ -72,6 +72,9 @@ class Libraries:
 
     def _import(self, statement: tree.Import, space: Namespace) -> None:
         target = self._target(statement, space)
+        if target is not None and isinstance(target, tuple):
+            space.constants[(statement.alias or statement.path[-1]).text] = target
+            return
         imported = Imported(target, statement)
         self.imports.append(imported)
         if target is None:
@@ -82,7 +85,8 @@ class Libraries:
         else:
             space.imports[(statement.alias or statement.path[-1]).text] = imported
 
-    def _target(self, statement: tree.Import, space: Namespace) -> Class | None:
+    def _target(self, statement: tree.Import, space: Namespace) -> Class | tuple[Class, str] | None:
+        """The definition an import names, or the package and name of a constant."""
         head, *rest = statement.path
         found = space.find(head.text) or self._library(head, space)
         for word in rest:
@@ -90,6 +94,8 @@ class Libraries:
                 return None
             inner = found.space.own(word.text)
             if inner is None:
+                if word is rest[-1] and not statement.all and _holds(found, word.text):
+                    return found, word.text
                 if found.space.knows(word.text):
                     names = _names(found.space)
                     self.log.report(
@@ -146,6 +152,16 @@ class Libraries:
         self.read_imports(file.elements, space)
         self.loading.pop()
         return space.own(name) or library(name, space)
+
+
+def _holds(package: Class, name: str) -> bool:
+    """Whether a package declares a value of that name."""
+    return package.kind == "package" and any(
+        item.name.text == name
+        for element in package.elements
+        if isinstance(element, tree.Component)
+        for item in element.declared
+    )
 
 
 def _names(space: Namespace) -> list[str]:

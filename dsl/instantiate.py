@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from math import prod
 
 from frot.dsl import tree
 from frot.dsl.check_components import Declared, declare, role_of, sizes
@@ -281,6 +282,8 @@ def _components(
         counts = sizes(subscripts, item.name, scope)
         if counts is None:
             return None
+        # Asked before anything is made of it; what is made is counted then.
+        scope.build.room(COMPONENT * prod(counts), item.span)
         parts = {} if modifier is None else modifier.parts
         if of.kind == "record":
             from frot.dsl.records import binding

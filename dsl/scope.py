@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 # check makes of a text stays below some seconds and hundreds of megabytes.
 LARGEST = 100_000
 # What a component and a call take, where an equation takes 1.
-COMPONENT, CALL = 2, 6
+COMPONENT, CALL = 3, 6
 # Declarations of different components that wait for one another.
 LONGEST = 400
 BUILT_IN = ("time", "pi", "ground")
@@ -161,7 +161,11 @@ class Build:
     def grow(self, count: int, span: Span) -> None:
         """Count what is made. Raises TooLarge, after telling it, past LARGEST."""
         self.size += count
-        if self.size > LARGEST:
+        self.room(0, span)
+
+    def room(self, count: int, span: Span) -> None:
+        """Raises TooLarge, after telling it, where `count` more would be past LARGEST."""
+        if self.size + count > LARGEST:
             self.log.report(
                 "E0109",
                 f"the model is too large: more than {LARGEST} scalars, equations and calls",

@@ -177,3 +177,29 @@ def test_dump_shows_a_model() -> None:
     shown = dump(example("backspin_hoop"))
     assert "LawKind coulomb" in shown
     assert "Body hoop (above)" in shown
+
+
+def test_degrees_celsius_are_absolute() -> None:
+    model = compiled(
+        "parameter Temperature a = 20 degC;\nparameter Temperature b = -5 degC;\n"
+        "parameter Temperature c = a - b;\noutput Boolean warm = a > 0 degC;"
+    )
+    assert list(default_values(model).values()) == pytest.approx([293.15, 268.15, 25.0])
+    for written in ("a + 5 degC", "2*20 degC", "a/(1 degC)*a", "1 degC + a"):
+        log = Log()
+        text = f"planar model M\nparameter Temperature a = 1 K;\noutput Temperature b = {written};"
+        assert compile_text(f"{text}\nend M;\n", log) is None
+        assert [d.code for d in log] == ["E0302"], render_log(log)
+
+
+def test_units_are_shown_as_they_are_written() -> None:
+    log = Log()
+    compile_text(
+        "model M\n parameter Length l = 12 mm;\n Length x;\nequation\n l = 2 kN;\n"
+        " x = l + 3 kN;\nend M;\n",
+        log,
+    )
+    assert [d.message for d in log] == [
+        "expected a length (mm), found a force (kN)",
+        "cannot add these: a length (mm) + a force (kN)",
+    ]

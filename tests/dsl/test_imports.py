@@ -66,6 +66,12 @@ def test_every_form_of_import(tmp_path: Path, statement: str, kind: str, inside:
     assert [show(e.left) for e in model.equations] == ["b.x"]
 
 
+@pytest.mark.parametrize("statement", ["import Electrical.*;", "import Electrical.two;"])
+def test_constants_are_imported(tmp_path: Path, statement: str) -> None:
+    write(tmp_path, Electrical=LIBRARY, main=f"{statement}\nmodel M\n Real x = two;\nend M;\n")
+    assert [show(e.right) for e in loaded(tmp_path / "main.frot").equations] == ["Electrical.two"]
+
+
 def test_a_folder_is_a_package_of_its_files(tmp_path: Path) -> None:
     inner = "import Library.Base.Low;\nmodel Part\n extends Low(a = 3);\nend Part;\n"
     write(
