@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 MODE_COLOURS = {"open": "#e8eef4", "stick": "#3a5a78", "slip": "#e9b44c"}
 MOST_CURVES = 7
+MOST_PANELS = 6
 FINE = 2000
 PANELS = (
     ("position", (".position.x", ".position.y", ".angle", ".u")),
@@ -49,6 +50,8 @@ def draw(result: Result) -> Any:
     panels = [(title, _curves(result, values, suffixes)) for title, suffixes in PANELS]
     outputs = [v.name for v in result.program.variables if v.causality == "output"]
     panels = [(title, names) for title, names in [("output", outputs), *panels] if names]
+    if not panels:
+        panels = _by_unit(result, values)
     modes = [v.name for v in result.program.variables if v.type == "mode"]
     heights = [2.0] * len(panels) + [0.3 + 0.22 * len(modes)] * bool(modes)
     figure = Figure(figsize=(9, 1.2 + sum(heights)), layout="constrained")
@@ -65,7 +68,8 @@ def draw(result: Result) -> Any:
             axis.axvline(event, color="#999999", lw=0.6, ls=":")
         hidden = len(names) - MOST_CURVES
         axis.set_ylabel(title if hidden <= 0 else f"{title} ({hidden} not shown)", fontsize=9)
-        axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+        if names:
+            axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
         axis.tick_params(labelsize=8)
         axis.grid(color="#eeeeee", lw=0.6)
         axis.margins(x=0)
@@ -87,6 +91,17 @@ def _curves(result: Result, values: Any, suffixes: tuple[str, ...]) -> list[str]
                 if not any(np.array_equal(curve, other) for other in known):
                     chosen.append(v.name)
     return chosen
+
+
+def _by_unit(result: Result, values: Any) -> list[tuple[str, list[str]]]:
+    """Panels of all variables, a unit each: the shortest paths first, each curve once."""
+    real = [v for v in result.program.variables if v.type == "real"]
+    panels: dict[str, list[str]] = {}
+    for v in sorted(real, key=lambda v: v.name.count(".")):
+        names = panels.setdefault("number" if v.unit.name == "1" else v.unit.name, [])
+        if not any(np.array_equal(values[v.name], values[name]) for name in names):
+            names.append(v.name)
+    return list(panels.items())[:MOST_PANELS] or [("", [])]
 
 
 def _draw_modes(axis: Any, result: Result, names: list[str], times: Floats) -> None:
