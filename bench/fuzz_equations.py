@@ -70,7 +70,7 @@ def solve_linear(
     constant = np.linalg.lstsq(a, b * u.c, rcond=None)[0]
     forced = (swing[:, None] * np.exp(1j * u.w * t)).imag + constant[:, None]
     (alpha, beta), vectors = scipy.linalg.eig(-a, e, homogeneous_eigvals=True)
-    finite = np.abs(beta) > 1e-7 * np.hypot(np.abs(alpha), np.abs(beta))
+    finite = np.abs(beta) > 1e-4 * np.hypot(np.abs(alpha), np.abs(beta))
     rates, modes = alpha[finite] / beta[finite], vectors[:, finite]
     sizes = np.linalg.lstsq(modes, start - forced[:, 0], rcond=None)[0]
     return forced + (modes @ (sizes[:, None] * np.exp(np.outer(rates, t)))).real

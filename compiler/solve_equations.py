@@ -13,6 +13,7 @@ import casadi as ca
 import numpy as np
 from frot.compiler.assembled import Assembled, Block, Invariants
 from frot.compiler.chains import Chains, replace_known
+from frot.compiler.combine import combine
 from frot.compiler.core import Core, make_core
 from frot.compiler.differentiate import (
     Differentiated,
@@ -72,6 +73,8 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
         [*ca.vertsplit(forces[:count]), *left.residuals.values] if count else left.residuals.values,
         [*own, *left.residuals.origins],
     )
+    unknowns = [j for j in everything if j not in left.removed]
+    system = combine(system, count, chains, unknowns)
     found = differentiate(system, count, chains, left.removed, log)
     if found is None:
         return None

@@ -155,3 +155,45 @@ end Pushed;
 """
     with pytest.raises(frot.FrotError, match="E0606"):
         frot.compile(text).simulate(stop=1.0)
+
+
+HIDDEN = """
+model Loop "two capacitors side by side, between nodes of which neither is the ground"
+  import Electrical.*;
+  Capacitor one(C = 1 F); Capacitor two(C = {c} F);
+  Resistor left(R = 0.4 Ohm); Resistor right(R = 1.3 Ohm);
+  Inductor across(L = 1.5 H);
+  CurrentSource source; Ground earth;
+equation
+  source.current = (1 A)*sin(2*time/(1 s));
+  connect(one.n, two.p); connect(one.p, two.n);
+  connect(one.n, left.p); connect(one.p, right.p); connect(one.p, across.p);
+  connect(left.n, earth.p); connect(right.n, earth.p); connect(across.n, earth.p);
+  connect(source.p, one.n); connect(source.n, earth.p);
+  experiment(stop = 3 s, tolerance = 1e-11);
+end Loop;
+"""
+
+
+def test_a_relation_hidden_among_potentials_is_found() -> None:
+    result = frot.compile(HIDDEN.format(c=2)).simulate(parameters={"two.C": 3.0})
+    assert np.abs(result["one.v"] + result["two.v"]).max() < 1e-14
+    direct = HIDDEN.format(c=2).replace("Capacitor two(C = 2 F)", "Conductor two(G = 0)")
+    single = frot.compile(direct).simulate(parameters={"one.C": 4.0})
+    assert np.abs(result["one.v"] - single["one.v"]).max() < 1e-9
+
+
+def test_equations_dependent_in_their_rates_are_of_higher_index() -> None:
+    text = """
+model Dependent
+  Real x; Real y;
+equation
+  der(x) + der(y) = 1/(1 s);
+  der(x) + der(y) = 2/(1 s) - x/(1 s) + sin(time/(1 s))/(1 s);
+  experiment(stop = 2 s, tolerance = 1e-11);
+end Dependent;
+"""
+    result = frot.compile(text).simulate()
+    assert np.abs(result["x"] - 1 - np.sin(result.time)).max() < 1e-12
+    growth = result.time - np.sin(result.time)
+    assert np.abs(result["y"] - result["y"][0] - growth).max() < 1e-9
