@@ -13,7 +13,10 @@ import frot
 
 ROOT = Path(__file__).parents[2]
 README = ROOT / "README.md"
-MODELS = sorted((ROOT / "models").glob("*.frot"))
+TEXTS = sorted((ROOT / "models").glob("*.frot"))
+# Packages are no models: tests/library runs every part of them.
+PACKAGES = [p for p in TEXTS if re.search(r"^package ", p.read_text("utf-8"), re.MULTILINE)]
+MODELS = [p for p in TEXTS if p not in PACKAGES]
 EXAMPLES = ROOT.parent / "shared" / "examples"
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 EVENT = re.compile(r"^  (?P<what>.+) at t = (?P<time>\S+)$", re.MULTILINE)
@@ -90,6 +93,12 @@ def test_every_python_block_of_a_document_runs(
     exec(compile(block.text, block.place, "exec"), {"__name__": "__main__"})
     for name in re.findall(r'(?:save|export_fmu)\("([^"]+)"', block.text):
         assert (tmp_path / name).stat().st_size > 0
+
+
+@pytest.mark.parametrize("path", PACKAGES, ids=lambda p: p.stem)
+def test_every_package_opens_with_what_it_holds(path: Path) -> None:
+    assert path.read_text(encoding="utf-8").startswith("// ")
+    assert (ROOT / "tests" / "library" / f"{path.stem.lower()}_bench.py").is_file()
 
 
 @pytest.mark.parametrize("path", MODELS, ids=lambda p: p.stem)
