@@ -76,16 +76,17 @@ class Log:
 
 
 class FrotError(Exception):
-    """What a user did cannot be carried out; its text is the rendered diagnostics.
+    """What a user did cannot be carried out; its text is the rendered errors.
 
-    `diagnostics` holds them as data.
+    `diagnostics` holds them as data. Warnings wait until the errors are mended.
     """
 
     def __init__(self, log: Log) -> None:
         from frot.dsl.rendering import render_log
 
-        super().__init__(render_log(log))
-        self.diagnostics = tuple(log)
+        errors = Log([d for d in log if d.is_error] or list(log))
+        super().__init__(render_log(errors))
+        self.diagnostics = tuple(errors)
 
 
 def fail(code: str, message: str, *, help: str = "", notes: tuple[str, ...] = ()) -> FrotError:
