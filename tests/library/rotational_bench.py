@@ -182,7 +182,7 @@ BENCH = Bench(
         "Spring": (Reference("swing.angle", SWING.x),),
         "AngleSensor": (Reference("angle_of_swing.y", SWING.x),),
         "Damper": (
-            Reference("braked.angle", lambda t: 0.3 + 2.2 * 0.9 / 0.35 * -np.expm1(-0.35 / 0.9 * t)),
+            Reference("braked.angle", lambda t: 0.3 - 2.2 * 0.9 / 0.35 * np.expm1(-0.35 / 0.9 * t)),
         ),
         "SpeedSensor": (Reference("speed_of_braked.y", lambda t: 2.2 * np.exp(-0.35 / 0.9 * t)),),
         "SpringDamper": (Reference("damped.angle", DAMPED.x),),

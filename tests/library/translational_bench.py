@@ -143,7 +143,9 @@ BENCH = Bench(
         "Spring": (Reference("swing.position", SWING.x),),
         "PositionSensor": (Reference("place_of_swing.y", SWING.x),),
         "Damper": (
-            Reference("braked.position", lambda t: 0.2 + 1.7 * 1.4 / 0.55 * np.expm1(-0.55 / 1.4 * t)),
+            Reference(
+                "braked.position", lambda t: 0.2 + 1.7 * 1.4 / 0.55 * np.expm1(-0.55 / 1.4 * t)
+            ),
         ),
         "SpeedSensor": (Reference("speed_of_braked.y", lambda t: -1.7 * np.exp(-0.55 / 1.4 * t)),),
         "SpringDamper": (Reference("damped.position", DAMPED.x),),
