@@ -118,14 +118,10 @@ BENCH = Bench(
             ),
         ),
         "Integrator": (Reference("integrator.y", lambda t: 0.35 + 1.45 * sine_integral(t)),),
-        "FirstOrder": (
-            Reference("lag.y", lambda t: 2.466 + (-0.4 - 2.466) * np.exp(-t / 0.37)),
-        ),
+        "FirstOrder": (Reference("lag.y", lambda t: 2.466 + (-0.4 - 2.466) * np.exp(-t / 0.37)),),
         "SecondOrder": (Reference("swing.y", swing),),
         "Derivative": (Reference("rate.y", derivative),),
-        "PI": (
-            Reference("pi_block.y", lambda t: 1.7 * (sine(t) - 0.33 + sine_integral(t) / 0.6)),
-        ),
+        "PI": (Reference("pi_block.y", lambda t: 1.7 * (sine(t) - 0.33 + sine_integral(t) / 0.6)),),
         "LimitedPI": (
             Reference("limited.integral", limited_integral),
             Reference("limited.y", limited),

@@ -54,6 +54,8 @@ model RotationalBench
   Stop stop(play = 0.2 rad, k = 60 N.m, c = 1.1 N.m.s);
   Fixed frame;
   Inertia pawl(J = 0.5 kg.m^2);
+  Stop lower(play = 0.15 rad, k = 45 N.m, c = 0.8 N.m.s);
+  Inertia returning(J = 0.4 kg.m^2);
 
   // prescribed motions
   SpeedSource turning;
@@ -74,6 +76,7 @@ initial
   driving.angle = 0.1 rad;  driving.speed = 4.2 rad/s;
   taken.angle = 0 rad;      taken.speed = -0.8 rad/s;
   pawl.angle = 0.05 rad;    pawl.speed = 0.3 rad/s;
+  returning.angle = 0.02 rad; returning.speed = -0.2 rad/s;
   led.angle = 0.4 rad;      led.speed = 0.1 rad/s;
   turning.a.angle = -0.2 rad;
 
@@ -99,6 +102,7 @@ equation
   connect(driving.b, clutch.a); connect(clutch.b, taken.a);
 
   connect(frame.a, stop.a);    connect(stop.b, pawl.a);
+  connect(frame.a, lower.a);   connect(lower.b, returning.a);
 
   turning.speed = 0.6 rad/s*cos(1.7 rad/s*time);
   connect(turning.a, soft.a);  connect(soft.b, led.a);
@@ -172,6 +176,8 @@ def soft_couple_motion(t: Signal) -> Signal:
 SWING = Vibration(m=0.7, c=0, k=2.9, middle=0.5, x=1.1, v=-0.4)
 DAMPED = Vibration(m=1.3, c=0.41, k=5.3, middle=-0.15, x=0.6, v=0.7)
 PAWL = BetweenStops(m=0.5, c=1.1, k=60, play=0.2, x=0.05, v=0.3)
+# The lower stop: the mirror image of a run towards the upper one.
+RETURNING = BetweenStops(m=0.4, c=0.8, k=45, play=0.15, x=-0.02, v=0.2)
 
 BENCH = Bench(
     "Rotational",
@@ -182,7 +188,7 @@ BENCH = Bench(
         "Spring": (Reference("swing.angle", SWING.x),),
         "AngleSensor": (Reference("angle_of_swing.y", SWING.x),),
         "Damper": (
-            Reference("braked.angle", lambda t: 0.3 + 2.2 * 0.9 / 0.35 * -np.expm1(-0.35 / 0.9 * t)),
+            Reference("braked.angle", lambda t: 0.3 - 2.2 * 0.9 / 0.35 * np.expm1(-0.35 / 0.9 * t)),
         ),
         "SpeedSensor": (Reference("speed_of_braked.y", lambda t: 2.2 * np.exp(-0.35 / 0.9 * t)),),
         "SpringDamper": (Reference("damped.angle", DAMPED.x),),
@@ -200,7 +206,11 @@ BENCH = Bench(
             Reference("driving.speed", driving_speed),
             Reference("taken.speed", taken_speed),
         ),
-        "Stop": (Reference("pawl.angle", PAWL.x), Reference("pawl.speed", PAWL.v)),
+        "Stop": (
+            Reference("pawl.angle", PAWL.x),
+            Reference("pawl.speed", PAWL.v),
+            Reference("returning.angle", lambda t: -RETURNING.x(t)),
+        ),
         "SpeedSource": (Reference("led.angle", soft_couple_motion),),
         "AngleSource": (
             Reference("rocked.a.torque", lambda t: -1.2 * 0.3 * 2.1**2 * np.sin(2.1 * t)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -121,7 +122,7 @@ def test_the_rectifier_follows_an_independent_integration() -> None:
     assert len(times) == 10
     bounds = [0.0, *times, 0.1]
     state, rate = np.zeros(1), blocking
-    for begin, end in zip(bounds, bounds[1:], strict=False):
+    for begin, end in pairwise(bounds):
         inside = (result.time >= begin) & (result.time < end)
         found = integrate(rate, state, begin, end, result.time)
         state = found[:, -1]

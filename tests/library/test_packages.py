@@ -7,9 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from test_parts import BENCHES
-
 from frot.dsl import Log, Source, parse, tree
+from test_parts import BENCHES
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("Rotational", "Translational", "Electrical", "Blocks")
@@ -27,9 +26,12 @@ def definitions(package: str) -> list[tree.Definition]:
 
 
 def parts(package: str) -> list[str]:
-    return [
-        d.name.text for d in definitions(package) if d.kind == "model" and not d.has("partial")
-    ]
+    return [d.name.text for d in definitions(package) if d.kind == "model" and not d.has("partial")]
+
+
+def is_set(component: tree.Component) -> bool:
+    """Whether it declares parameters or constants."""
+    return bool({w.text for w in component.prefixes} & {"parameter", "constant"})
 
 
 def declared(definition: tree.Definition) -> Iterator[tree.Declared]:
@@ -77,8 +79,10 @@ def test_every_part_has_a_line_in_the_table_of_its_package(package: str) -> None
     assert sorted(rows) == sorted(parts(package))
     for definition in definitions(package):
         row = rows.get(definition.name.text, "")
-        for element in definition.elements:
-            words = {w.text for w in element.prefixes} if isinstance(element, tree.Component) else ()
-            for one in element.declared if words and words & {"parameter", "constant"} else ():
-                named = re.search(rf"`{one.name.text}\b", row)
-                assert named, f"{definition.name.text}.{one.name.text}"
+        if definition.name.text not in rows:
+            continue
+        for component in definition.elements:
+            if isinstance(component, tree.Component) and is_set(component):
+                for one in component.declared:
+                    named = re.search(rf"`{one.name.text}\b", row)
+                    assert named, f"{definition.name.text}.{one.name.text}"

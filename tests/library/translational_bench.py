@@ -46,6 +46,8 @@ model TranslationalBench
   Stop stop(play = 150 mm, k = 90 N/m, c = 1.7 N.s/m);
   Fixed frame;
   Mass shuttle(m = 0.65 kg);
+  Stop upper(play = 120 mm, k = 70 N/m, c = 1.3 N.s/m);
+  Mass forward(m = 0.55 kg);
 
   // prescribed motions
   SpeedSource moving;
@@ -63,6 +65,7 @@ initial
   upon.position = 0.1 m;     upon.speed = -0.4 m/s;
   crate.position = 0.3 m;    crate.speed = 1.4 m/s;
   shuttle.position = 0.02 m; shuttle.speed = -0.3 m/s;
+  forward.position = 0.01 m; forward.speed = 0.2 m/s;
   led.position = 0.1 m;      led.speed = 0.35 m/s;
   moving.a.displacement = 0.6 m;
 
@@ -81,6 +84,7 @@ equation
   connect(support.a, crate.a);
 
   connect(frame.a, stop.a);    connect(stop.b, shuttle.a);
+  connect(frame.a, upper.a);   connect(upper.b, forward.a);
 
   moving.speed = 0.6 m/s*cos(1.7 rad/s*time);
   connect(moving.a, soft.a);   connect(soft.b, led.a);
@@ -133,6 +137,7 @@ SWING = Vibration(m=0.9, c=0, k=3.7, middle=0.3, x=0.7, v=0.5)
 DAMPED = Vibration(m=0.85, c=0.63, k=7.1, middle=0.25, x=-0.3, v=0.9)
 # The lower stop: the mirror image of a run towards the upper one.
 SHUTTLE = BetweenStops(m=0.65, c=1.7, k=90, play=0.15, x=-0.02, v=0.3)
+FORWARD = BetweenStops(m=0.55, c=1.3, k=70, play=0.12, x=0.01, v=0.2)
 
 BENCH = Bench(
     "Translational",
@@ -143,7 +148,9 @@ BENCH = Bench(
         "Spring": (Reference("swing.position", SWING.x),),
         "PositionSensor": (Reference("place_of_swing.y", SWING.x),),
         "Damper": (
-            Reference("braked.position", lambda t: 0.2 + 1.7 * 1.4 / 0.55 * np.expm1(-0.55 / 1.4 * t)),
+            Reference(
+                "braked.position", lambda t: 0.2 + 1.7 * 1.4 / 0.55 * np.expm1(-0.55 / 1.4 * t)
+            ),
         ),
         "SpeedSensor": (Reference("speed_of_braked.y", lambda t: -1.7 * np.exp(-0.55 / 1.4 * t)),),
         "SpringDamper": (Reference("damped.position", DAMPED.x),),
@@ -158,6 +165,7 @@ BENCH = Bench(
         "Stop": (
             Reference("shuttle.position", lambda t: -SHUTTLE.x(t)),
             Reference("shuttle.speed", lambda t: -SHUTTLE.v(t)),
+            Reference("forward.position", FORWARD.x),
         ),
         "SpeedSource": (
             Reference("moving.a.displacement", lambda t: 0.6 + 0.6 / 1.7 * np.sin(1.7 * t)),
