@@ -164,7 +164,7 @@ class Lowering:
     def _reference(self, node: Reference) -> ca.SX:
         target = node.target
         if isinstance(target, Parameter):
-            if target.constant:
+            if target.constant or not target.type.is_scalar:
                 return self.lower(target.value)
             return self.symbols.parameter(target)
         if isinstance(target, Input):

@@ -21,6 +21,7 @@ def parameters_needed(parameter: Parameter) -> list[Parameter]:
         if isinstance(node, Reference)
         and isinstance(node.target, Parameter)
         and not node.target.constant
+        and node.target.type.is_scalar
     ]
 
 

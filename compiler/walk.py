@@ -23,7 +23,7 @@ from frot.dsl.checked import (
 
 def subexpressions(expression: Expression) -> Iterator[Expression]:
     """The expression and everything in it once, through declared outputs it names."""
-    from frot.dsl.checked import Output
+    from frot.dsl.checked import Output, Parameter
 
     stack = [expression]
     seen: set[int] = set()
@@ -46,6 +46,9 @@ def subexpressions(expression: Expression) -> Iterator[Expression]:
                 stack.extend((node.condition, node.yes, node.no))
             case Reference() if isinstance(node.target, Output):
                 stack.append(node.target.value)
+            case Reference() if isinstance(node.target, Parameter):
+                if not node.target.type.is_scalar:
+                    stack.append(node.target.value)
 
 
 def is_fixed(expression: Expression) -> bool:
