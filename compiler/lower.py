@@ -92,7 +92,10 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
                 ca.SX(0) if system.late else system.power,
             ],
         ),
-        "sizes": (state, [system.force_size, resolve(reduced.load_sizes)]),
+        "sizes": (
+            state,
+            [system.force_size, _without_reactions(resolve(reduced.load_sizes), system)],
+        ),
         "variables": ([*solution, s.energy], [values]),
         "energy": (state, [resolve(reduced.kinetic), resolve(reduced.potential)]),
     }
@@ -135,6 +138,14 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         tuple(bool(parameters_needed(parameter)) for parameter in s.parameters),
         jacobian,
     )
+
+
+def _without_reactions(sizes: ca.SX, system: Assembled) -> ca.SX:
+    """Sizes of loads as the state gives them, without what accelerations and reactions add."""
+    solved = ca.vertcat(system.z, system.lam)
+    if not (sizes.numel() and solved.numel()):
+        return sizes
+    return ca.substitute(sizes, solved, ca.SX.zeros(solved.shape))
 
 
 def state_arguments(system: Assembled) -> list[ca.SX]:

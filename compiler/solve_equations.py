@@ -133,7 +133,11 @@ def _core_components(found: Differentiated, reduced: Reduced) -> tuple[set[int],
     chains = reduced.text.chains
     elements = reduced.text.elements
     lam = ca.vertcat(reduced.symbols.lam, column(e.force for e in elements))
-    mechanism = {k for k, c in enumerate(found.components) if min(c.equations) < found.newton}
+    mechanism = {
+        k
+        for k, c in enumerate(found.components)
+        if min(c.equations) < found.newton or min(c.unknowns) < found.newton
+    }
     sources, sinks = set(mechanism), set(mechanism)
     if lam.numel():
         acted_on = set(ca.jacobian_sparsity(column(found.values), lam).row())
