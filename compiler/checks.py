@@ -53,6 +53,12 @@ def _checks(mechanism: Mechanism) -> Iterator[Check]:
         if not parameter.constant:
             value = Reference(parameter, parameter.type, parameter.span)
             yield Check(FINITE, f"parameter '{parameter.name}'", value, parameter.span)
+    for when in model.whens:
+        for condition in (c for conditions, _ in when.branches for c in conditions):
+            if isinstance(condition, Call) and condition.function == "sample":
+                yield Check(
+                    POSITIVE, "interval of 'sample'", condition.arguments[1], condition.span
+                )
     for body in model.bodies:
         if body.shape is not None:
             owner = f"body '{body.name}'"

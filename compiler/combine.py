@@ -20,6 +20,7 @@ from frot.compiler.order import find_components
 from frot.compiler.symbols import column
 
 NEGLIGIBLE = 1e-10  # of numbers of order one that should be nothing but rounding
+ECHELON = 1e-6  # below it an item of a vector of length one is no pivot
 POINTS = 3  # random places at which a dependence must be the same
 
 
@@ -117,13 +118,24 @@ def _weights(
 
 
 def _sparsest(basis: np.ndarray) -> np.ndarray:
-    """A vector of the space that `basis` spans with as many zeros as can be, its largest item 1."""
+    """The last row of the reduced echelon form of the space that the columns of `basis` span.
+
+    It is the same for every basis of the space.
+    """
     space = basis.T.copy()
-    for k in range(len(space) - 1):
-        at = int(np.argmax(np.abs(space[k])))
-        space[k + 1 :] -= np.outer(space[k + 1 :, at] / space[k, at], space[k])
-    vector = space[-1]
-    return vector / vector[int(np.argmax(np.abs(vector) > 0.5 * np.abs(vector).max()))]
+    row = 0
+    for at in range(space.shape[1]):
+        best = row + int(np.argmax(np.abs(space[row:, at])))
+        if abs(space[best, at]) < ECHELON:
+            continue
+        space[[row, best]] = space[[best, row]]
+        space[row] /= space[row, at]
+        others = np.arange(len(space)) != row
+        space[others] -= np.outer(space[others, at], space[row])
+        row += 1
+        if row == len(space):
+            break
+    return np.asarray(space[-1])
 
 
 def _at_random(values: ca.SX) -> Iterator[np.ndarray]:

@@ -98,6 +98,9 @@ def make_core(
             help="let such a quantity act through a state, as a filter or a spring",
         )
         return None
+    coefficients = _coefficients(reduced, left, known)
+    if not _are_known(coefficients, both, found, reduced, log):
+        return None
     zero = ca.SX.zeros(both.shape)
     force = -ca.substitute(equations, both, zero) if both.numel() else -equations
     sizes = replace_known(resolve_all(reduced.force_size, chains, left.resolver), known)
@@ -123,7 +126,7 @@ def make_core(
         rows=rows,
         bias=bias,
         rate=rate,
-        coefficients=_coefficients(reduced, left, known),
+        coefficients=coefficients,
         known=explicit.resolver.known,
         pivots=tuple(explicit.pivots),
     )
@@ -245,10 +248,40 @@ def _rows(
 
 
 def _coefficients(reduced: Reduced, left: Eliminated, known: dict[int, ca.SX]) -> ca.SX:
-    bounds = column(x for e in reduced.text.elements for x in (e.bound, e.bound_at_rest, ca.SX(0)))
+    bounds = column(
+        x
+        for e in reduced.text.elements
+        for x in (
+            e.bound,
+            ca.if_else(e.bound_at_rest >= e.bound, e.bound_at_rest, ca.SX.nan()),
+            ca.SX(0),
+        )
+    )
     whole = ca.vertcat(reduced.coefficients, bounds)
     resolved = replace_known(resolve_all(whole, reduced.text.chains, left.resolver), known)
     return column(ca.if_else(x >= 0, x, ca.SX.nan()) for x in ca.vertsplit(resolved))
+
+
+def _are_known(
+    coefficients: ca.SX, both: ca.SX, found: Differentiated, reduced: Reduced, log: Log
+) -> bool:
+    """Whether friction is bounded by what is known before it is solved for; else reported."""
+    late = {found.unknown(j).element_hash() for c in found.components for j in c.unknowns}
+    late |= {x.element_hash() for x in (ca.vertsplit(both) if both.numel() else ())}
+    first = coefficients.numel() - 3 * len(reduced.text.elements)
+    for k, value in enumerate(ca.vertsplit(coefficients) if coefficients.numel() else ()):
+        unknown = [x.name() for x in ca.symvar(value) if x.element_hash() in late]
+        if unknown:
+            model = reduced.mechanism.model.span
+            log.report(
+                "E0607",
+                f"a coefficient or bound of friction depends on '{unknown[0]}', which is solved "
+                "for together with friction",
+                reduced.text.elements[(k - first) // 3].span if k >= first else model,
+                help="let such a quantity act through a state, as a filter or a spring",
+            )
+            return False
+    return True
 
 
 def _metric(reduced: Reduced, nv: int, na: int) -> ca.SX:

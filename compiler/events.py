@@ -105,9 +105,9 @@ class _Gatherer:
         # the first sample at or after the start of the run
         start = ca.fmax(ca.ceil((time - first) / interval - 1e-9), 0)
         self.text.add_discrete(count.name(), count, start)
-        due = self.conditions.add(
-            time - (first + count * interval), False, call.span.text, momentary=True
-        )
+        owner = f"{self.moving.owner}: " if self.moving.owner else ""
+        text = owner + call.span.text
+        due = self.conditions.add(time - (first + count * interval), False, text, momentary=True)
         fired = self.fire(due, True)
         self.set(count, fired, count + 1)
         return fired

@@ -204,7 +204,7 @@ class Lowering:
         positive = left - right if node.op in (">", ">=") else right - left
         strict = node.op in ("<", ">")
         if conditions is not None:
-            return conditions.add(positive, strict, node.span.text)
+            return conditions.add(positive, strict, self._told(node.span.text))
         return positive > 0 if strict else positive >= 0
 
     def _call(self, node: Call) -> ca.SX:
@@ -218,16 +218,26 @@ class Lowering:
             for other, written in zip(arguments[1:], node.arguments[1:], strict=True):
                 sign = ">=" if name == "max" else "<="
                 value = self._least(
-                    value, other, conditions, name, f"{text} {sign} {written.span.text}"
+                    value,
+                    other,
+                    conditions,
+                    name,
+                    self._told(f"{text} {sign} {written.span.text}"),
                 )
                 text = f"{name}({text}, {written.span.text})"
             return value
         if conditions is not None and name in ("abs", "sign"):
-            above = conditions.add(arguments[0], False, f"{node.arguments[0].span.text} >= 0")
+            above = conditions.add(
+                arguments[0], False, self._told(f"{node.arguments[0].span.text} >= 0")
+            )
             return (2 * above - 1) * (arguments[0] if name == "abs" else 1)
         if conditions is not None and name in STEPPING:
             self._refuse(f"`{name}` of a value that changes, in a force or coefficient", node)
         return FUNCTIONS[name](*arguments)
+
+    def _told(self, text: str) -> str:
+        """A condition's words, with the component it stands in."""
+        return f"{self.owner}: {text}" if self.owner else text
 
     def _of_events(self, node: Call, arguments: list[ca.SX]) -> ca.SX:
         """Functions that only equations and `when` may hold."""

@@ -92,7 +92,10 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
                 ca.SX(0) if system.late else system.power,
             ],
         ),
-        "sizes": (state, [system.force_size, _of_state(reduced.load_sizes, system)]),
+        "sizes": (
+            state,
+            [system.force_size, _without_reactions(resolve(reduced.load_sizes), system)],
+        ),
         "variables": ([*solution, s.energy], [values]),
         "energy": (state, [resolve(reduced.kinetic), resolve(reduced.potential)]),
     }
@@ -137,6 +140,14 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     )
 
 
+def _without_reactions(sizes: ca.SX, system: Assembled) -> ca.SX:
+    """Sizes of loads as the state gives them, without what accelerations and reactions add."""
+    solved = ca.vertcat(system.z, system.lam)
+    if not (sizes.numel() and solved.numel()):
+        return sizes
+    return ca.substitute(sizes, solved, ca.SX.zeros(solved.shape))
+
+
 def state_arguments(system: Assembled) -> list[ca.SX]:
     """t, q, v, u, p, d, y."""
     s = system.reduced.symbols
@@ -144,15 +155,6 @@ def state_arguments(system: Assembled) -> list[ca.SX]:
     flags = column(system.reduced.conditions.flags)
     d = ca.vertcat(flags, s.sides, no_sides, system.discrete)
     return [s.t, system.q, system.v, s.u, s.p, d, system.y]
-
-
-def _of_state(value: ca.SX, system: Assembled) -> ca.SX:
-    """The value where accelerations, reactions and unknown forces are zero."""
-    solved = ca.vertcat(system.z, system.lam)
-    resolved = system.resolve(value)
-    if not (solved.numel() and resolved.numel()):
-        return resolved
-    return ca.substitute(resolved, solved, ca.SX.zeros(solved.shape))
 
 
 def _clean(outputs: list[ca.SX]) -> list[ca.SX]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-import casadi as ca
-from frot.compiler.lower import Lowered, lower
+from typing import TYPE_CHECKING
+
 from frot.compiler.mechanize import mechanize
-from frot.compiler.reduce import reduce
 from frot.dsl import Log, dump
 from frot.dsl.checked import Model
+
+if TYPE_CHECKING:
+    import casadi as ca
+    from frot.compiler.lower import Lowered
 
 
 def print_stage(model: Model, stage: str, log: Log) -> str | None:
@@ -17,6 +20,9 @@ def print_stage(model: Model, stage: str, log: Log) -> str | None:
         return None
     if stage == "mechanism":
         return dump(mechanism)
+    from frot.compiler.lower import lower
+    from frot.compiler.reduce import reduce
+
     reduced = reduce(mechanism, log)
     lowered = lower(reduced, log) if reduced is not None else None
     if reduced is None or lowered is None:
@@ -79,4 +85,6 @@ def _equations(lowered: Lowered) -> str:
 
 
 def _items(values: ca.SX) -> list[ca.SX]:
+    import casadi as ca
+
     return list(ca.vertsplit(values)) if values.numel() else []

@@ -109,9 +109,7 @@ def make_symbols(mechanism: Mechanism) -> Symbols:
     _, na = auxiliary_places(mechanism)
     rows = contact_rows(mechanism.contacts)
     n_rows = sum(k >= 0 for r in rows for k in (r.normal, r.second, r.tangent, r.rolling))
-    parameters = tuple(
-        p for p in mechanism.model.parameters if not p.constant and p.type.is_scalar
-    )
+    parameters = tuple(p for p in mechanism.model.parameters if not p.constant and p.type.is_scalar)
     inputs = mechanism.model.inputs
     return Symbols(
         t=ca.SX.sym("t"),

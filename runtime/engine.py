@@ -265,7 +265,7 @@ class Engine:
 
     def sample(self, segments: Floats, times: Floats) -> Floats:
         """Values (times x variables) over segments in order; times in ascending order."""
-        values = np.empty((len(times), len(self.program.variables)))
+        values = np.zeros((len(times), len(self.program.variables)))
         status = self._library.frot_sample(
             self._model,
             self._s,
@@ -277,12 +277,21 @@ class Engine:
             _address(values),
         )
         if status != OK:
-            raise fail(
-                "E0904",
-                f"the variables have no value at a time inside the run (status {status})",
-                help="run with a smaller tolerance, and look for a division by zero",
-            )
+            raise self._no_value(values, times, status)
         return values
+
+    def _no_value(self, values: Floats, times: Floats, status: int) -> Exception:
+        """The error of a sample that gave no numbers: the first variable without one is named."""
+        rows, columns = np.nonzero(~np.isfinite(values))
+        what = f"the variables have no value (status {status})"
+        if len(rows):
+            name = self.program.variables[int(columns[0])].name
+            what = f"variable '{name}' has no finite value at t = {times[rows[0]]:.17g}"
+        return fail(
+            "E0904",
+            what,
+            help="look for a division by zero, a root or a logarithm of a negative value",
+        )
 
     def energy(self) -> Floats:
         """Residual of the balance, energy scale, mechanical energy, dissipated, work."""

@@ -147,8 +147,13 @@ int frot_solve_late(const frot_model *m, frot_state *s, frot_work *w, double t, 
   return solve(m, s, w, t, q, v, d, 1);
 }
 
-int frot_fail_evaluation(frot_state *s, const frot_work *w, int status, double t) {
+int frot_fail_evaluation(const frot_model *m, frot_state *s, const frot_work *w, int status,
+                         double t) {
   int item = status == FROT_ALGEBRAIC ? w->block : -1;
-  int other = status == FROT_NAN ? w->block : -1;
-  return frot_fail(s, status, t, -1, item, other, w->block_singular);
+  int other = status == FROT_NAN ? w->block : -1, contact = -1;
+  for (int i = 0; i < m->n_contacts && status == FROT_NAN && other < 0; i++) {
+    const double *k = w->coefficient + 3 * i;
+    if (isnan(k[0] + k[1] + k[2])) contact = i;
+  }
+  return frot_fail(s, status, t, contact, item, other, w->block_singular);
 }

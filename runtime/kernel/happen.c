@@ -114,7 +114,7 @@ static int update(const instant *in) {
   double *d = s->data + in->l.d, *discrete = d + m->n_conditions + m->n_contacts;
   int status =
       frot_solution(m, s, w, in->t, in->q, in->v, d, modes_of(in), s->data + in->l.frozen, 1);
-  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, in->t);
+  if (status != FROT_OK) return frot_fail_evaluation(in->m, s, w, status, in->t);
   double *q = w->ztry, *v = w->ztry + m->nq;
   frot_inputs(m, s, w, &in->t, in->q, in->v, d);
   w->arg[7] = w->a, w->arg[8] = w->lam, w->arg[9] = w->firing;
@@ -127,7 +127,7 @@ static int update(const instant *in) {
   int ended = status == FROT_TERMINATED;
 
   status = frot_kinematics(m, s, w, in->t, in->q, in->v, d);
-  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, in->t);
+  if (status != FROT_OK) return frot_fail_evaluation(in->m, s, w, status, in->t);
   memcpy(w->condition_before, w->condition, sizeof(double) * (size_t)m->n_conditions);
   int moved = memcmp(in->q, q, sizeof(double) * (size_t)m->nq) != 0 ||
               memcmp(in->v, v, sizeof(double) * (size_t)m->nv) != 0;
@@ -135,7 +135,7 @@ static int update(const instant *in) {
   memcpy(in->v, v, sizeof(double) * (size_t)m->nv);
   memcpy(discrete, w->discrete, sizeof(double) * (size_t)m->n_discrete);
   status = frot_kinematics(m, s, w, in->t, in->q, in->v, d);
-  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, in->t);
+  if (status != FROT_OK) return frot_fail_evaluation(in->m, s, w, status, in->t);
   change_conditions(in);
   if (ended) return FROT_TERMINATED;
   return moved ? release_contacts(in) : FROT_OK;
@@ -166,7 +166,7 @@ static int fire_whens(const instant *in, int first, int *fired) {
       return frot_fail(s, FROT_CHATTER, in->t, -1, 0, -1, round);
     int status = FROT_OK;
     if (round == 0) status = frot_energies(m, s, in->w, in->t, in->q, in->v, d, before);
-    if (status != FROT_OK) return frot_fail_evaluation(s, in->w, status, in->t);
+    if (status != FROT_OK) return frot_fail_evaluation(in->m, s, in->w, status, in->t);
     *fired = 1;
     status = update(in);
     if (status != FROT_OK) return status;
@@ -174,7 +174,7 @@ static int fire_whens(const instant *in, int first, int *fired) {
   if (!*fired) return FROT_OK;
   /* what the text gives or takes is no part of the balance of the motion */
   int status = frot_energies(m, s, in->w, in->t, in->q, in->v, d, after);
-  if (status != FROT_OK) return frot_fail_evaluation(s, in->w, status, in->t);
+  if (status != FROT_OK) return frot_fail_evaluation(in->m, s, in->w, status, in->t);
   s->energy += after[0] + after[1] - before[0] - before[1];
   return FROT_OK;
 }

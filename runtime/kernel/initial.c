@@ -196,7 +196,7 @@ static int no_number(const problem *p, int status) {
   for (int i = 0; i < own && p->n > 0 && status == FROT_NAN; i++)
     if (!isfinite(p->w->residual[i]))
       return frot_fail(p->s, FROT_INITIAL, p->t, -1, statement[i], -1, NAN);
-  return frot_fail_evaluation(p->s, p->w, status, p->t);
+  return frot_fail_evaluation(p->m, p->s, p->w, status, p->t);
 }
 
 /* Sum of the squares of the residuals, and whether they are all near rounding. */

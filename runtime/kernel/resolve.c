@@ -393,7 +393,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   memset(flags, 0, 2 * (size_t)nc);
 
   int status = frot_kinematics(m, s, w, t, q, v, d);
-  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, t);
+  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   status = closable(&in, t, first);
   if (status != FROT_OK) return status;
   status = frot_dynamics(m, s, w, t, q, v, d, w->best);
@@ -401,7 +401,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   if (status == FROT_OK) status = settle_speeds(&in, t, q, v);
   if (status == FROT_OK) status = frot_dynamics(m, s, w, t, q, v, d, w->best);
   if (status == FROT_OK) status = frot_metric(m, w);
-  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, t);
+  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
 
   frot_row_loads(m, s, w, t, q, v, d, w->best);
   status = choose_modes(&in, t, first, recorder);

@@ -105,7 +105,7 @@ static int fire_changed_conditions(const frot_model *m, frot_state *s, frot_work
   frot_layout l = frot_layout_of(m);
   const double *x = s->data + l.x, *d = s->data + l.d;
   int status = frot_kinematics(m, s, w, s->t, x, x + m->nq, d);
-  if (status != FROT_OK) return frot_fail_evaluation(s, w, status, s->t);
+  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, s->t);
   for (int j = 0; j < m->n_conditions; j++) {
     int holds = m->condition_strict[j] ? w->condition[j] > 0 : w->condition[j] >= 0;
     s->data[l.fired + FROT_GUARDS * m->n_contacts + j] = holds != (d[j] != 0);

@@ -26,7 +26,7 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   w->res[0] = values;
   m->variables.call(w->arg, w->res, w->iw, w->w, 0);
   for (int i = 0; i < m->n_contacts; i++) values[i] = frot_mode_value(&g->modes[i]);
-  return FROT_OK;
+  return frot_all_finite(values, m->n_variables) ? FROT_OK : FROT_NAN;
 }
 
 int frot_values(const frot_model *m, frot_state *s, frot_work *w, double *values) {
@@ -34,7 +34,7 @@ int frot_values(const frot_model *m, frot_state *s, frot_work *w, double *values
   frot_bind_work(m, w);
   frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
   int status = values_in(m, s, w, &g, s->t, values);
-  if (status != FROT_OK && s->phase == FROT_RUNNING) frot_fail_evaluation(s, w, status, s->t);
+  if (status != FROT_OK && s->phase == FROT_RUNNING) frot_fail_evaluation(m, s, w, status, s->t);
   return status;
 }
 

@@ -397,7 +397,7 @@ static int fail_at(const frot_model *m, frot_state *s, frot_work *w, int status,
   int blamed = -1;
   double largest = 0;
   if (status == FROT_ALGEBRAIC || (status == FROT_NAN && w->block >= 0))
-    return frot_fail_evaluation(s, w, status, t);
+    return frot_fail_evaluation(m, s, w, status, t);
   for (int i = 0; i < m->n_contacts; i++) {
     const double *k = w->coefficient + 3 * i;
     const frot_contact *contact = &m->contacts[i];

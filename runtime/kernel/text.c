@@ -147,9 +147,11 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
         return;
       }
       snprintf(text, size,
-               "the modes do not settle at t = %.17g (%d events at one instant): two laws of "
-               "friction switch each other; change a coefficient or the starting values a little",
-               f->t, (int)f->value);
+               "the modes do not settle at t = %.17g (%d events at one instant): %s; change a "
+               "coefficient or the starting values a little",
+               f->t, (int)f->value,
+               m->n_contacts > 0 ? "conditions or laws of friction switch each other"
+                                 : "conditions switch each other");
       return;
     case FROT_ALGEBRAIC:
       block_text(m, f, text, size);
@@ -169,10 +171,11 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
         return;
       }
       if (f->contact >= 0) {
-        snprintf(text, size,
-                 "liaison '%s': a coefficient is negative or no number at t = %.17g: give it an "
-                 "expression that stays positive",
-                 name, f->t);
+        snprintf(
+            text, size,
+            "'%s': a coefficient or a bound of friction is negative, below that of motion or no "
+            "number at t = %.17g: give it an expression that stays positive",
+            name, f->t);
         return;
       }
       snprintf(

@@ -197,3 +197,46 @@ end Dependent;
     assert np.abs(result["x"] - 1 - np.sin(result.time)).max() < 1e-12
     growth = result.time - np.sin(result.time)
     assert np.abs(result["y"] - result["y"][0] - growth).max() < 1e-9
+
+
+PRESCRIBED = """
+planar model Prescribed
+  body rod: rod(mass = 2 kg, length = 1 m);
+  liaison hinge: pivot(ground, rod.start);
+  Torque motor;
+equation
+  hinge.flange.angle = 0.7*sin(2*time/(1 s));
+  motor = hinge.flange.torque;
+  experiment(stop = 3 s, tolerance = 1e-10);
+end Prescribed;
+"""
+
+
+def test_the_couple_of_a_prescribed_hinge_is_that_of_inverse_dynamics() -> None:
+    result = frot.compile(PRESCRIBED).simulate()
+    angle = 0.7 * np.sin(2 * result.time)
+    exact = 2 / 3 * (-4 * angle) + 2 * 9.81 * 0.5 * np.cos(angle)
+    assert np.abs(result["motor"] - exact).max() < 1e-12 * np.abs(exact).max()
+
+
+HELD = """
+planar model Held "a particle held on a circle by a force of unknown size"
+  body p: particle(mass = 1 kg);
+  Real pull(unit = "N/m");
+  force f: on(p, value = (-pull*p.position.x, -pull*p.position.y));
+initial
+  p.position = (1, 0) m; p.velocity = (0, 0) m/s;
+equation
+  p.position.x^2 + p.position.y^2 = (1 m)^2;
+  experiment(stop = 5 s, tolerance = 1e-10);
+end Held;
+"""
+
+
+def test_a_force_of_unknown_size_holds_a_particle_on_a_circle() -> None:
+    result = frot.compile(HELD).simulate()
+    x, y = result["p.position.x"], result["p.position.y"]
+    speed = result["p.velocity.x"] ** 2 + result["p.velocity.y"] ** 2
+    assert np.abs(np.hypot(x, y) - 1).max() < 1e-13
+    assert np.abs(speed / 2 + 9.81 * y).max() < 1e-8
+    assert np.abs(result["pull"] - (speed - 9.81 * y)).max() < 1e-10 * 9.81 * 3
