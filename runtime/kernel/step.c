@@ -28,9 +28,6 @@
 #define GUARD_LOOSEST 1e-3
 #define GUARD_TIGHTEST 1e-6
 #define GUARD_FLOOR 1e-12
-/* A state without speed is not followed below this part of the largest of its kind: what lies
- * before a front moves by higher orders of the step than any step resolves. */
-#define LEAST_PART 1e-10
 #define LEAST_STEP (16 * DBL_EPSILON)
 #define LOCATE_PASSES 12
 /* The first step, in longest steps: what starts from rest shows its size only as it moves. */
@@ -141,15 +138,6 @@ static double rounding_of(const frot_model *m, const frot_state *s, const frot_w
   return fmax(known, j < m->nq ? h * rounding : rounding);
 }
 
-/* Size of the largest of the states without speed. */
-static double largest_plain(const frot_model *m, const frot_state *s, const frot_work *w,
-                            const frot_layout *l, double h) {
-  double largest = 0;
-  for (int j = 0; j < m->nq; j++)
-    if (m->q_speed[j] < 0) largest = fmax(largest, size_at_start(m, s, w, l, j, h));
-  return largest;
-}
-
 /* Estimate of the local error over its bound: at most 1 for a good step, NaN for no number. */
 static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                           double h) {
@@ -157,7 +145,7 @@ static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, cons
   size_own_states(m, s, w, l, h);
   double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
   double guard_tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
-  double e5[CHUNK], e3[CHUNK], least = LEAST_PART * largest_plain(m, s, w, l, h);
+  double e5[CHUNK], e3[CHUNK];
   for (int j = 0; j < l->nz; j++) {
     int at = j % CHUNK, size = l->nz - j < CHUNK ? l->nz - j : CHUNK;
     if (at == 0) {
@@ -168,9 +156,7 @@ static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, cons
     if (e5[at] == 0 && e3[at] == 0) continue;
     double bound, fifth = h * e5[at], third = h * e3[at];
     if (j < l->nx) {
-      double size = size_at_start(m, s, w, l, j, h);
-      if (j < m->nq && m->q_speed[j] < 0) size = fmax(size, least);
-      bound = fmax(tolerance * size, rounding_of(m, s, w, l, j, h));
+      bound = fmax(tolerance * size_at_start(m, s, w, l, j, h), rounding_of(m, s, w, l, j, h));
     } else {
       double largest = GUARD_LOOSEST * s->data[l->scale_g + j - l->nx];
       for (int k = 0; k <= DP_STAGES; k++) largest = fmax(largest, fabs(w->k[k * l->nz + j]));
