@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
 import casadi as ca
-from frot.compiler.expressions import Conditions, Lowering
+from frot.compiler.expressions import Conditions, Lowering, words
 from frot.compiler.names import component_names
 from frot.compiler.symbols import column
 from frot.compiler.text_symbols import TextSymbols, scalars, shaped
@@ -106,7 +106,7 @@ class _Gatherer:
         start = ca.fmax(ca.ceil((time - first) / interval - 1e-9), 0)
         self.text.add_discrete(count.name(), count, start)
         owner = f"{self.moving.owner}: " if self.moving.owner else ""
-        text = owner + call.span.text
+        text = owner + words(call)
         due = self.conditions.add(time - (first + count * interval), False, text, momentary=True)
         fired = self.fire(due, True)
         self.set(count, fired, count + 1)

@@ -63,6 +63,15 @@ FUNCTIONS: dict[str, Callable[..., ca.SX]] = {
 }
 
 NEVER, RISING, ALWAYS = range(3)
+
+
+def words(node: Expression) -> str:
+    """The author's text on one line; a parenthesis cut off at an end of it is put back."""
+    text = " ".join(node.span.text.split())
+    missing = text.count("(") - text.count(")")
+    return "(" * -missing + text + ")" * missing
+
+
 STEPPING = ("floor", "ceil", "mod")
 OF_EVENTS = ("pre", "edge", "change", "sample", "initial", "friction")
 
@@ -93,7 +102,7 @@ class Conditions:
         self.flags.append(flag)
         self.values.append(value)
         self.strict.append(strict)
-        self.texts.append(" ".join((text + ")" * (text.count("(") - text.count(")"))).split()))
+        self.texts.append(text)
         self.told.append(NEVER if not text else RISING if momentary else ALWAYS)
         return flag
 
@@ -204,7 +213,7 @@ class Lowering:
         positive = left - right if node.op in (">", ">=") else right - left
         strict = node.op in ("<", ">")
         if conditions is not None:
-            return conditions.add(positive, strict, self._told(node.span.text))
+            return conditions.add(positive, strict, self._told(words(node)))
         return positive > 0 if strict else positive >= 0
 
     def _call(self, node: Call) -> ca.SX:
@@ -214,7 +223,7 @@ class Lowering:
         if name in OF_EVENTS:
             return self._of_events(node, arguments)
         if name in ("min", "max"):
-            value, text = arguments[0], node.arguments[0].span.text
+            value, text = arguments[0], words(node.arguments[0])
             for other, written in zip(arguments[1:], node.arguments[1:], strict=True):
                 sign = ">=" if name == "max" else "<="
                 value = self._least(
@@ -222,13 +231,13 @@ class Lowering:
                     other,
                     conditions,
                     name,
-                    self._told(f"{text} {sign} {written.span.text}"),
+                    self._told(f"{text} {sign} {words(written)}"),
                 )
-                text = f"{name}({text}, {written.span.text})"
+                text = f"{name}({text}, {words(written)})"
             return value
         if conditions is not None and name in ("abs", "sign"):
             above = conditions.add(
-                arguments[0], False, self._told(f"{node.arguments[0].span.text} >= 0")
+                arguments[0], False, self._told(f"{words(node.arguments[0])} >= 0")
             )
             return (2 * above - 1) * (arguments[0] if name == "abs" else 1)
         if conditions is not None and name in STEPPING:
