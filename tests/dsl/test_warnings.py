@@ -7,7 +7,8 @@ from frot.dsl import Log, compile_text, load, render_log
 
 HERE = Path(__file__).parent
 EXAMPLES = [*sorted((HERE / "examples").glob("*.frot")), *sorted((HERE / "sound").glob("*.frot"))]
-MODELS = sorted((Path(__file__).parents[2] / "models").glob("*.frot"))
+# Packages begin with a capital; they hold no model of their own.
+MODELS = sorted((Path(__file__).parents[2] / "models").glob("[a-z]*.frot"))
 
 
 def warnings(text: str) -> list[tuple[str, str]]:
