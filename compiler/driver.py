@@ -101,6 +101,7 @@ def build(model: Model, key: str, toolchain: Toolchain, log: Log) -> Program | N
                 compiler=toolchain.command,
                 flags=FLAGS,
                 folder=folder,
+                balanced=bool(model.bodies) and not lowered.system.elements,
                 conditions=tuple(reduced.conditions.texts),
                 fixed=tuple((p.name, p.structural) for p in model.parameters if p.structural),
             ),

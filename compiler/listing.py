@@ -83,7 +83,7 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
     dissipated, work = reduced.symbols.energy[0], reduced.symbols.energy[1]
     yield Listed("energy.kinetic", reduced.kinetic, ENERGY, "kinetic energy of all bodies")
     yield Listed("energy.potential", reduced.potential, ENERGY, "gravity, springs, attractions")
-    yield Listed("energy.dissipated", dissipated, ENERGY, "lost in friction of the liaisons")
+    yield Listed("energy.dissipated", dissipated, ENERGY, "lost in friction since the start")
     yield Listed("energy.work", work, ENERGY, "work done by the other forces since the start")
 
 

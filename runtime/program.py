@@ -69,6 +69,7 @@ class Program:
     `parameters`, `inputs`, `variables` are in the order of the kernel's arrays; variables begin
     with the modes of `contacts`. `conditions` are those of the text, as written. `key` identifies
     the text, the compiler and its flags.
+    `balanced`: all energies are known: there are bodies, and no friction in the equations.
     `fixed` are parameters that decide the structure, each with what it decides.
     """
 
@@ -85,6 +86,7 @@ class Program:
     compiler: tuple[str, ...]
     flags: tuple[str, ...]
     folder: Path
+    balanced: bool = True
     conditions: tuple[str, ...] = ()
     fixed: tuple[tuple[str, str], ...] = ()
 

@@ -214,8 +214,10 @@ class Result(Mapping[str, Floats]):
             f"  {figures.steps} steps ({figures.rejected} rejected), {figures.evaluations} "
             f"evaluations, {1e3 * figures.wall_time:.3g} ms in the kernel"
         )
-        if not any(v.name == "energy.kinetic" for v in self.program.variables):
-            return "\n".join(lines)  # without bodies there is no energy to balance
+        if not self.program.balanced:
+            if balance.dissipated > 0:
+                lines.append(f"  dissipated in friction {balance.dissipated:.6g} J")
+            return "\n".join(lines)
         lines.append(
             f"  energy balance: {balance.residual:.2e} J, {balance.relative:.1e} of "
             f"{balance.scale:.6g} J (dissipated {balance.dissipated:.6g} J)"

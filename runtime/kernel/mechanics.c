@@ -119,8 +119,7 @@ int frot_derivatives(const frot_model *m, frot_state *s, frot_work *w, double t,
   double dissipated = 0;
   for (int i = 0; i < m->n_contacts; i++) {
     const frot_contact *contact = &m->contacts[i];
-    /* the energies of what the text's equations move are not known: nor is this counted */
-    if (!modes[i].closed || contact->bound == FROT_BY_VALUE) continue;
+    if (!modes[i].closed) continue;
     if (modes[i].friction > FROT_STICK)
       dissipated -= w->lam[contact->row_t] * w->rate[contact->row_t];
     if (modes[i].rolling > FROT_STICK)

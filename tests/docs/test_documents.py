@@ -68,7 +68,7 @@ def test_every_model_of_a_document_checks_and_runs(block: Block) -> None:
     model = frot.compile(block.text)
     assert model.name in str(model.report())
     result = model.simulate()
-    assert result.balance.relative < 1e-6
+    assert not result.program.balanced or result.balance.relative < 1e-6
 
 
 @pytest.mark.parametrize("block", printed_runs())
@@ -105,7 +105,7 @@ def test_every_package_opens_with_what_it_holds(path: Path) -> None:
 def test_every_worked_model_runs_as_it_is_and_opens_with_its_physics(path: Path) -> None:
     assert path.read_text(encoding="utf-8").startswith("// ")
     result = frot.load(path).simulate()
-    assert result.balance.relative < 1e-6
+    assert not result.program.balanced or result.balance.relative < 1e-6
     assert result.time[-1] == result.program.experiment.stop
 
 
