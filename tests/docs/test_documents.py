@@ -17,7 +17,9 @@ TEXTS = sorted((ROOT / "models").glob("*.frot"))
 # Packages are no models: tests/library runs every part of them.
 PACKAGES = [p for p in TEXTS if re.search(r"^package ", p.read_text("utf-8"), re.MULTILINE)]
 MODELS = [p for p in TEXTS if p not in PACKAGES]
-EXAMPLES = ROOT.parent / "shared" / "examples"
+# The models of the language's definition, copied.
+EXAMPLES = ROOT / "tests" / "dsl" / "examples"
+GIVEN = [p for p in MODELS if (EXAMPLES / p.name).is_file()]
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 EVENT = re.compile(r"^  (?P<what>.+) at t = (?P<time>\S+)$", re.MULTILINE)
 
@@ -109,11 +111,9 @@ def test_every_worked_model_runs_as_it_is_and_opens_with_its_physics(path: Path)
     assert result.time[-1] == result.program.experiment.stop
 
 
-@pytest.mark.parametrize("path", MODELS, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", GIVEN, ids=lambda p: p.stem)
 def test_a_worked_model_is_the_given_one_of_that_name(path: Path) -> None:
-    given = EXAMPLES / path.name
-    if given.is_file():
-        assert path.read_bytes() == given.read_bytes()
+    assert path.read_bytes() == (EXAMPLES / path.name).read_bytes()
 
 
 def test_the_model_of_the_readme_is_the_one_its_command_runs() -> None:

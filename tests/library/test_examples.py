@@ -16,7 +16,6 @@ from scipy.optimize import brentq
 import frot
 
 MODELS = Path(__file__).parents[2] / "models"
-SHARED = Path(__file__).parents[3] / "shared" / "examples"
 
 State = NDArray[np.float64]
 Rate = Callable[[float, State], list[float]]
@@ -156,9 +155,7 @@ def angular_acceleration(mu: float, i: float, angle: float, speed: float) -> flo
 
 @pytest.mark.parametrize("mu", [0.0, 0.1, 0.35])
 def test_the_geared_motor_follows_an_independent_integration(mu: float) -> None:
-    shared = SHARED / "geared_motor.frot"
-    path = shared if shared.is_file() else MODELS / "geared_motor.frot"
-    text = path.read_text(encoding="utf-8")
+    text = (MODELS / "geared_motor.frot").read_text(encoding="utf-8")
     assert "coulomb(0.1, radius = 8 mm)" in text
     result = frot.compile(text.replace("coulomb(0.1,", f"coulomb({mu},")).simulate(tolerance=1e-11)
 

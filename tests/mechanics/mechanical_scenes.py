@@ -9,7 +9,7 @@ import numpy as np
 
 import frot
 
-REFERENCE = Path(__file__).parents[3] / "shared" / "reference"
+REFERENCE = Path(__file__).parents[1] / "reference" / "mechanics.json"
 
 # Gravity is a force on G so that it can have any direction; `turn` is its angle with the x axis.
 _WEIGHT = """
@@ -437,20 +437,14 @@ class Scenes:
 
 
 def rows(kind: str) -> list[dict]:
-    """Rows of a kind in the worked examples."""
-    every = json.loads((REFERENCE / "worked_examples.json").read_text(encoding="utf-8"))
+    """Rows of a kind in the reference values."""
+    every = json.loads(REFERENCE.read_text(encoding="utf-8"))
     return [row for row in every if row["id"].rsplit("-", 1)[0] == kind]
 
 
 def row(name: str) -> dict:
-    """One row of the worked examples."""
+    """One row of the reference values."""
     return next(r for r in rows(name.rsplit("-", 1)[0]) if r["id"] == name)
-
-
-def scene(name: str) -> dict:
-    """One closed form of scenes.json."""
-    every = json.loads((REFERENCE / "scenes.json").read_text(encoding="utf-8"))
-    return next(s for s in every["scenes"] if s["id"] == name)
 
 
 def near(value: float, expected: float, scale: float | None = None, rel: float = 1e-10) -> bool:

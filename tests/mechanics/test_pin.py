@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import itertools
 import math
+from pathlib import Path
 
 import casadi as ca
 import numpy as np
 import pytest
-from mechanical_scenes import REFERENCE, Scenes, near, row
+from mechanical_scenes import Scenes, near, row
 from pin_scenes import (
     CART,
     FREE_PAIR,
@@ -24,6 +25,7 @@ from scipy.special import ellipk
 
 import frot
 
+MODELS = Path(__file__).parents[2] / "models"
 G, MASS, ARM, INERTIA = 9.81, 1.0, 0.5, 1 / 3  # of the rod of 1 m; ARM from the axis to G
 HANG = -math.pi / 2
 DRY = " with coulomb(0.25, mu_s = 0.3, radius = 40 mm)"
@@ -332,7 +334,7 @@ def test_a_dry_slider_crank_obeys_every_law_at_every_instant(scenes: Scenes) -> 
 
     The crank is so fast that reactions change by 1e6 N/s where the guide changes sides.
     """
-    text = (REFERENCE.parent / "examples" / "slider_crank.frot").read_text(encoding="utf-8")
+    text = (MODELS / "slider_crank.frot").read_text(encoding="utf-8")
     exact, loose = (scenes.run(text, tolerance=tolerance) for tolerance in (1e-12, 1e-9))
     assert near(loose.at(3.0)["O.angle"], exact.at(3.0)["O.angle"], rel=1e-8)
     assert exact.balance.relative < 1e-11
