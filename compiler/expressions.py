@@ -112,7 +112,8 @@ class Lowering:
     """Lowers expressions; `quantity` gives the variables of bodies and liaisons, `rate` d/dt.
 
     `variable` gives the variables of the text, `before` the discrete ones before an event;
-    `friction` makes a friction element of its call, in the component named by `owner`.
+    `friction` makes a friction element of its call, in the component named by `owner`;
+    `without_rate` names what in a value has no derivative that anybody knows.
 
     With `conditions`, every switch that depends on time, inputs or motion becomes a located event;
     without, it is taken as it stands (for what is only looked at: outputs, initial statements).
@@ -126,6 +127,7 @@ class Lowering:
     variable: Callable[[Variable], ca.SX] | None = None
     before: Callable[[Variable], ca.SX] | None = None
     friction: Callable[[Call, list[ca.SX], str], ca.SX] | None = None
+    without_rate: Callable[[ca.SX], list[str]] | None = None
     owner: str = ""
     _done: dict[int, tuple[Expression, ca.SX]] = field(default_factory=dict)
 
@@ -148,7 +150,7 @@ class Lowering:
             case Quantity():
                 return self.quantity(expression)
             case Derivative():
-                return self.rate(self.lower(expression.operand))
+                return self._rate(expression)
             case Element():
                 whole = self.lower(expression.operand)
                 if len(expression.operand.type.shape) == 2:
@@ -169,6 +171,19 @@ class Lowering:
             case Call():
                 return self._call(expression)
         raise TypeError(f"no expression: {expression!r}")
+
+    def _rate(self, node: Derivative) -> ca.SX:
+        value = self.lower(node.operand)
+        unknown = self.without_rate(value) if self.without_rate is not None else []
+        if not unknown:
+            return self.rate(value)
+        self.log.report(
+            "E0606",
+            f"the derivative of {unknown[0]} is not known here",
+            node.span,
+            help="let the value act through a filter, `der(x) = (value - x)/T`, and read `der(x)`",
+        )
+        return value * 0
 
     def _reference(self, node: Reference) -> ca.SX:
         target = node.target

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.assemble import assemble
 from frot.compiler.assembled import Assembled, Block
 from frot.compiler.checks import Check, parameter_checks
+from frot.compiler.explicit import make_explicit
 from frot.compiler.expressions import Lowering
 from frot.compiler.initial_values import Statement, lower_initial
 from frot.compiler.jacobian import Jacobian, make_jacobian, why_explicit
@@ -47,20 +49,27 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     if system is None:
         return None
     s, resolve = reduced.symbols, system.resolve
+    explicit, chains = make_explicit(system), reduced.text.chains
+    settled = reduced.variables.settled
+
+    def formula(value: ca.SX) -> ca.SX:
+        return explicit(resolve(settled(value)))
+
     looking = Lowering(
         s,
         reduced.variables.quantity,
-        reduced.variables.rate,
+        lambda value: chains.rate(formula(value)),
         log,
         variable=reduced.text.values.__getitem__,
         before=reduced.text.values.__getitem__,
+        without_rate=lambda value: chains.without_rate(formula(value)),
     )
     initial = lower_initial(system, looking, log)
     variables = list_variables(system, looking)
-    conditions = _conditions(system, log)
+    conditions = _conditions(system, explicit, log)
     checks = parameter_checks(reduced.mechanism, system.pivots)
     update = lower_update(system, log)
-    values = resolve(reduced.variables.settled(column(v.value for v in variables)))
+    values = resolve(settled(column(v.value for v in variables)))
     if log.failed or not _is_known(values, system, variables, log):
         return None
     given, is_set = ca.SX.sym("given", s.p.numel()), ca.SX.sym("set", s.p.numel())
@@ -162,9 +171,9 @@ def _clean(outputs: list[ca.SX]) -> list[ca.SX]:
     return [ca.densify(x) for x in ca.cse([ca.SX(x) for x in outputs])]
 
 
-def _conditions(system: Assembled, log: Log) -> ca.SX:
+def _conditions(system: Assembled, explicit: Callable[[ca.SX], ca.SX], log: Log) -> ca.SX:
     """The located conditions; one that reads what is solved with or after the core is refused."""
-    values = system.resolve(column(system.reduced.conditions.values))
+    values = explicit(system.resolve(column(system.reduced.conditions.values)))
     later = ca.vertcat(system.z, system.lam, system.y[system.early :])
     if values.numel() and later.numel() and ca.depends_on(values, later):
         log.report(

@@ -89,6 +89,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
             located,
             variable=text.values.__getitem__,
             before=text.values.__getitem__,
+            without_rate=text.chains.without_rate,
         )
         for located in (conditions, None)
     )
@@ -145,7 +146,7 @@ def _text(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
     ):
         chains.add(name, None, symbols=chain, fixed=True)
     chains.forbid_rate(symbols.u, "the input")
-    chains.forbid_rate(symbols.lam, "the reaction")
+    chains.forbid_rate(symbols.lam, "the reaction of")
     return make_text_symbols(mechanism.model.variables, chains)
 
 

@@ -22,7 +22,7 @@ class Symbols:
     `t` time; `q` coordinates (nq), `v` speeds (nv = nq in the plane), `w` and `sw` auxiliary
     coordinates and speeds (na), zero in the motion, along which the reaction of a reduced liaison
     is read; `u` inputs, `p` parameters, `sides` of the contacts (+1 or -1); `a` accelerations (nv),
-    `lam` reactions of the rows, `energy` (dissipated, work).
+    `lam` reactions of the rows by the names of their liaisons, `energy` (dissipated, work).
     """
 
     t: ca.SX
@@ -108,7 +108,12 @@ def make_symbols(mechanism: Mechanism) -> Symbols:
     names = [n for c in mechanism.coordinates for n in coordinate_names(c)]
     _, na = auxiliary_places(mechanism)
     rows = contact_rows(mechanism.contacts)
-    n_rows = sum(k >= 0 for r in rows for k in (r.normal, r.second, r.tangent, r.rolling))
+    reactions = [
+        joint.liaison.name
+        for joint, r in zip(mechanism.contacts, rows, strict=True)
+        for k in (r.normal, r.second, r.tangent, r.rolling)
+        if k >= 0
+    ]
     parameters = tuple(p for p in mechanism.model.parameters if not p.constant and p.type.is_scalar)
     inputs = mechanism.model.inputs
     return Symbols(
@@ -121,7 +126,7 @@ def make_symbols(mechanism: Mechanism) -> Symbols:
         p=column(ca.SX.sym(p.name) for p in parameters),
         sides=ca.SX.sym("side", len(mechanism.contacts)),
         a=column(ca.SX.sym(f"der(der({n}))") for n in names),
-        lam=ca.SX.sym("lam", n_rows),
+        lam=column(ca.SX.sym(n) for n in reactions),
         energy=ca.SX.sym("energy", 2),
         parameters=parameters,
         inputs=inputs,

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from frot.dsl.checked import (
+    Assertion,
+    Assign,
     Binary,
     Call,
     Derivative,
     Element,
+    Equation,
     Expression,
     If,
+    IfEquations,
     Model,
     Parameter,
     Quantity,
     Reference,
+    Reinit,
     Time,
     Unary,
     Vector,
@@ -71,6 +76,8 @@ def read_expressions(model: Model) -> Iterator[Expression]:
     """Every expression of the model that can read a variable of a body or liaison."""
     for output in model.outputs:
         yield output.value
+    yield from _of_equations(model.equations)
+    yield from _of_events(model)
     for equation in model.initial:
         yield from (equation.left, equation.right)
     for force in model.forces:
@@ -80,3 +87,29 @@ def read_expressions(model: Model) -> Iterator[Expression]:
     for liaison in model.liaisons:
         for law in liaison.laws:
             yield from law.arguments.values()
+
+
+def _of_equations(equations: Iterable[Equation | IfEquations]) -> Iterator[Expression]:
+    for equation in equations:
+        if isinstance(equation, Equation):
+            yield from (equation.left, equation.right)
+            continue
+        for condition, inner in equation.branches:
+            if condition is not None:
+                yield condition
+            yield from _of_equations(inner)
+
+
+def _of_events(model: Model) -> Iterator[Expression]:
+    for assertion in model.assertions:
+        yield assertion.condition
+    for conditions, actions in (branch for when in model.whens for branch in when.branches):
+        yield from conditions
+        for action in actions:
+            match action:
+                case Assign(value=value):
+                    yield value
+                case Reinit(target=target, value=value):
+                    yield from (target, value)
+                case Assertion(condition=condition):
+                    yield condition
