@@ -140,6 +140,8 @@ def _direct(found: list[_Residual], system: Assembled) -> tuple[dict[int, ca.SX]
     """The values of states that statements give one by one, and whether all statements do that."""
     states = {s.element_hash() for s in (*_items(system.q), *_items(system.v))}
     moving = states | {s.element_hash() for s in _items(system.y)}
+    known = system.reduced.symbols
+    given = {s.element_hash() for part in (known.t, known.u, known.p) for s in _items(part)}
     values: dict[int, ca.SX] = {}
     complete = True
     for residual in found:
@@ -149,7 +151,12 @@ def _direct(found: list[_Residual], system: Assembled) -> tuple[dict[int, ca.SX]
         if not slope.is_constant() or key in values or key not in states:
             complete = False
             continue
-        values[key] = -ca.substitute(residual.value, inside[0], ca.SX(0)) / slope
+        value = -ca.substitute(residual.value, inside[0], ca.SX(0)) / slope
+        # What conditions switch is known only with the values that they look at.
+        if all(s.element_hash() in given for s in ca.symvar(value)):
+            values[key] = value
+        else:
+            complete = False
     return values, complete
 
 

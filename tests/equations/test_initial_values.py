@@ -1,5 +1,7 @@
 """First values of models of equations: steady states, values of what is not a state, guesses."""
 
+from math import exp
+
 import pytest
 
 import frot
@@ -76,3 +78,36 @@ def test_guesses_do_not_add_up(guesses: str, x: float) -> None:
     result = frot.compile(GUESSED.format(guesses=guesses)).simulate()
     assert result["x"][0] == pytest.approx(x, abs=1e-14)
     assert result["y"][0] == pytest.approx((1 - 0.5 * x) / 2, abs=1e-14)
+
+
+STEADY = """
+model Steady
+  parameter Real high = 2;
+  Real x;
+initial
+  der(x) = 0 1/s;
+equation
+  der(x) = ((if {condition} then 1 else high) - x)/(1 s);
+  experiment(stop = 1 s, tolerance = 1e-10);
+end Steady;
+"""
+
+
+def test_a_steady_state_follows_a_condition_on_time() -> None:
+    # Before 0.5 s the value rests at 1, then it goes to 2 with a time constant of 1 s.
+    result = frot.compile(STEADY.format(condition="time < 0.5 s")).simulate()
+    assert result["x"][0] == 1
+    assert result["x"][-1] == pytest.approx(2 - exp(-0.5), rel=1e-9)
+    assert [e.time for e in result.events] == [0.5]
+
+
+@pytest.mark.parametrize(("high", "start"), [(2.0, 2.0), (3.0, 3.0)])
+def test_a_steady_state_agrees_with_the_condition_that_reads_it(high: float, start: float) -> None:
+    result = frot.compile(STEADY.format(condition="x < -1")).simulate(parameters={"high": high})
+    assert result["x"][[0, -1]] == pytest.approx([start, start], rel=1e-12)
+
+
+def test_a_steady_state_that_contradicts_its_condition_is_told() -> None:
+    with pytest.raises(frot.FrotError) as told:
+        frot.compile(STEADY.format(condition="x > 1.5")).simulate()
+    assert told.value.diagnostics[0].code in ("E0601", "E0903")
