@@ -26,6 +26,7 @@ from frot.dsl.checked import (
     Variable,
     Vector,
 )
+from frot.dsl.source import Span
 
 FUNCTIONS: dict[str, Callable[..., ca.SX]] = {
     name: getattr(ca, name)
@@ -81,7 +82,8 @@ class Conditions:
     """Conditions on time and motion that switch something: `value` > 0 while true.
 
     `strict`: whether the condition is false where its value is zero. `texts` are as the author
-    wrote them, empty for what is no event to him; `told` says when a change is one (frot_told).
+    wrote them, empty for what is no event to him; `told` says when a change is one (frot_told);
+    `spans` are where they stand, None for those the compiler adds.
     """
 
     flags: list[ca.SX] = field(default_factory=list)
@@ -89,8 +91,17 @@ class Conditions:
     strict: list[bool] = field(default_factory=list)
     texts: list[str] = field(default_factory=list)
     told: list[int] = field(default_factory=list)
+    spans: list[Span | None] = field(default_factory=list)
 
-    def add(self, value: ca.SX, strict: bool, text: str = "", *, momentary: bool = False) -> ca.SX:
+    def add(
+        self,
+        value: ca.SX,
+        strict: bool,
+        text: str = "",
+        span: Span | None = None,
+        *,
+        momentary: bool = False,
+    ) -> ca.SX:
         """A flag, 0 or 1, that follows the sign of `value` by located events.
 
         A `momentary` condition is told when it comes to hold only.
@@ -104,6 +115,7 @@ class Conditions:
         self.strict.append(strict)
         self.texts.append(text)
         self.told.append(NEVER if not text else RISING if momentary else ALWAYS)
+        self.spans.append(span)
         return flag
 
 
@@ -228,7 +240,7 @@ class Lowering:
         positive = left - right if node.op in (">", ">=") else right - left
         strict = node.op in ("<", ">")
         if conditions is not None:
-            return conditions.add(positive, strict, self._told(words(node)))
+            return conditions.add(positive, strict, self._told(words(node)), node.span)
         return positive > 0 if strict else positive >= 0
 
     def _call(self, node: Call) -> ca.SX:
@@ -247,12 +259,13 @@ class Lowering:
                     conditions,
                     name,
                     self._told(f"{text} {sign} {words(written)}"),
+                    node.span,
                 )
                 text = f"{name}({text}, {words(written)})"
             return value
         if conditions is not None and name in ("abs", "sign"):
             above = conditions.add(
-                arguments[0], False, self._told(f"{words(node.arguments[0])} >= 0")
+                arguments[0], False, self._told(f"{words(node.arguments[0])} >= 0"), node.span
             )
             return (2 * above - 1) * (arguments[0] if name == "abs" else 1)
         if conditions is not None and name in STEPPING:
@@ -282,9 +295,11 @@ class Lowering:
         return arguments[0] if arguments else ca.SX(0)
 
     @staticmethod
-    def _least(x: ca.SX, y: ca.SX, conditions: Conditions | None, name: str, text: str) -> ca.SX:
+    def _least(
+        x: ca.SX, y: ca.SX, conditions: Conditions | None, name: str, text: str, span: Span
+    ) -> ca.SX:
         below = x - y if name == "max" else y - x
-        flag = conditions.add(below, False, text) if conditions is not None else below >= 0
+        flag = conditions.add(below, False, text, span) if conditions is not None else below >= 0
         return ca.if_else(flag, x, y)
 
     def _refuse(self, what: str, node: Expression) -> None:

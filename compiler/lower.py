@@ -175,14 +175,18 @@ def _conditions(system: Assembled, explicit: Callable[[ca.SX], ca.SX], log: Log)
     """The located conditions; one that reads what is solved with or after the core is refused."""
     values = explicit(system.resolve(column(system.reduced.conditions.values)))
     later = ca.vertcat(system.z, system.lam, system.y[system.early :])
-    if values.numel() and later.numel() and ca.depends_on(values, later):
-        log.report(
-            "E0701",
-            "a condition that reads an acceleration, a reaction or a friction force is not "
-            "supported yet",
-            system.reduced.mechanism.model.span,
-            help="write it in terms of time, positions and velocities",
-        )
+    located = system.reduced.conditions
+    for value, text, span in zip(
+        ca.vertsplit(values) if values.numel() else (), located.texts, located.spans, strict=True
+    ):
+        if later.numel() and ca.depends_on(value, later):
+            log.report(
+                "E0701",
+                f"the condition `{text}` reads an acceleration, a reaction or a friction force "
+                "that dry friction or a contact changes: it is not supported yet",
+                span or system.reduced.mechanism.model.span,
+                help="write it in terms of time, positions and velocities",
+            )
     return values
 
 

@@ -94,7 +94,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         for located in (conditions, None)
     )
     moving.friction = _friction_maker(text)
-    _add_discrete(mechanism.model, text, looking)
+    _add_discrete(mechanism.model, text, symbols, looking, log)
     rates = _rates(mechanism.contacts, variables, kinematics)
     speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
     motion = _masses(mechanism, variables)
@@ -150,9 +150,11 @@ def _text(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
     return make_text_symbols(mechanism.model.variables, chains)
 
 
-def _add_discrete(model: Model, text: TextSymbols, looking: Lowering) -> None:
+def _add_discrete(
+    model: Model, text: TextSymbols, given: Symbols, looking: Lowering, log: Log
+) -> None:
     """The discrete variables with their first values: those of `initial`, of `start`, or zero."""
-    given = {
+    stated = {
         e.left.target: e.right
         for e in model.initial
         if isinstance(e.left, Reference) and isinstance(e.left.target, Variable)
@@ -160,12 +162,27 @@ def _add_discrete(model: Model, text: TextSymbols, looking: Lowering) -> None:
     for variable in model.variables:
         if not variable.discrete:
             continue
-        first = given.get(variable, variable.start)
+        first = stated.get(variable, variable.start)
         symbols = scalars(text.values[variable])
         starts = [ca.SX(0)] if first is None else scalars(looking.lower(first))
+        if first is not None and not all(_is_given(start, given) for start in starts):
+            log.report(
+                "E0602",
+                f"the first value of '{variable.name}', which events set, depends on the motion",
+                first.span,
+                help=f"set it in `when initial() then {variable.name} = ...; end when;`",
+            )
+            return
         starts = starts * len(symbols) if len(starts) == 1 else starts
         for symbol, start in zip(symbols, starts, strict=True):
             text.add_discrete(symbol.name(), symbol, start)
+
+
+def _is_given(value: ca.SX, symbols: Symbols) -> bool:
+    """Whether a value follows from time, parameters and inputs alone."""
+    given = ca.vertcat(symbols.t, symbols.u, symbols.p)
+    known = {x.element_hash() for x in ca.vertsplit(given)}
+    return all(x.element_hash() in known for x in ca.symvar(value))
 
 
 def _friction_maker(text: TextSymbols) -> Callable[[Call, list[ca.SX], str], ca.SX]:

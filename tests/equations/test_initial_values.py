@@ -111,3 +111,26 @@ def test_a_steady_state_that_contradicts_its_condition_is_told() -> None:
     with pytest.raises(frot.FrotError) as told:
         frot.compile(STEADY.format(condition="x > 1.5")).simulate()
     assert told.value.diagnostics[0].code in ("E0601", "E0903")
+
+
+def test_a_first_value_that_only_the_motion_gives_is_told_with_its_remedy() -> None:
+    text = """
+model Stepped
+  Real x; Integer n;
+initial
+  x = 3; {statement}
+equation
+  der(x) = -x/(1 s);
+  when {condition} then n = 7; {other}end when;
+  experiment(stop = 0.5 s);
+end Stepped;
+"""
+    stated = text.format(statement="n = if x > 1 then 2 else 1;", condition="x < 1", other="")
+    with pytest.raises(frot.FrotError, match="'n'") as told:
+        frot.compile(stated).simulate()
+    assert told.value.diagnostics[0].code == "E0602"
+    assert "when initial()" in told.value.diagnostics[0].help
+    set_by = text.format(
+        statement="", condition="x < 1", other="elsewhen initial() then n = if x > 1 then 2 else 1;"
+    )
+    assert frot.compile(set_by).simulate()["n"][-1] == 2
