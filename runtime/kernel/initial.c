@@ -13,6 +13,9 @@
 #define ROUNDS 10   /* of conditions that depend on values that depend on conditions */
 #define AGREES 1e-9 /* largest residual, relative to the terms, of statements that agree */
 #define TOUCHES 1e-9
+/* Change, in sizes of the scene, that no statement asks for: what an equation does not depend on
+ * but for rounding would be moved so far that the rounding there fits. */
+#define FAR 1e10
 #define ROUNDING 1e-14
 
 /* One system to solve: statements, then contact rows. */
@@ -26,6 +29,7 @@ typedef struct {
   int velocity, n;
   const double *factor; /* of the metric of the unknowns that have a speed, of the given order */
   int order, attached;
+  double scene; /* largest value, term and residual where the search begins */
 } problem;
 
 static double *unknown(const problem *p) { return p->velocity ? p->v : p->q; }
@@ -235,12 +239,22 @@ static int take(problem *p) {
   memcpy(w->y_end, w->y, sizeof(double) * (size_t)p->m->ny);
   for (double part = 1; part > LEAST_DAMPING; part *= 0.5) {
     moved = move(p, w->step, x0, part, x, &size);
+    if (part == 1 && moved > FAR * p->scene) break;
     if (moved <= 4 * DBL_EPSILON * size) return 1;
     if (evaluate(p) == FROT_OK && (square(p, &close) <= before || close)) return 0;
     memcpy(w->y, w->y_end, sizeof(double) * (size_t)p->m->ny);
   }
   memcpy(x, x0, sizeof(double) * (size_t)unknown_count(p));
   return 1;
+}
+
+/* The size of what is stated and of the values where the search begins. */
+static double scene_of(const problem *p) {
+  const double *x = unknown(p);
+  double scene = 0;
+  for (int k = 0; k < unknown_count(p); k++) scene = fmax(scene, fabs(x[k]));
+  for (int i = 0; i < p->n; i++) scene = fmax(scene, fmax(fabs(p->w->residual[i]), p->w->size[i]));
+  return scene;
 }
 
 /* Damped Gauss-Newton to the nearest values in the metric. */
@@ -259,7 +273,7 @@ static int solve(problem *p) {
       largest = fmax(largest, fabs(w->residual[i]));
       if (fabs(w->residual[i]) > 2 * DBL_EPSILON * size_of(p, i)) good = 0;
     }
-    if (start < 0) start = largest;
+    if (start < 0) start = largest, p->scene = scene_of(p);
     if (good || p->n == 0) return FROT_OK;
     if (pass > 3 && largest >= last && largest <= AGREES * start) return FROT_OK;
     last = largest;
@@ -273,8 +287,27 @@ static int solve(problem *p) {
   }
 }
 
+/* What a statement says of one unknown alone holds to the last digit: the least change, which moves
+ * all of them, leaves it with rounding. */
+static int keep_stated(problem *p) {
+  double *x = unknown(p);
+  int nx = unknown_count(p), moved = 0;
+  for (int i = 0; i < p->n; i++) {
+    const double *row = p->w->jacobian + nx * i;
+    int only = -1, count = 0;
+    for (int k = 0; k < nx; k++)
+      if (row[k] != 0) only = k, count++;
+    if (count != 1 || p->w->residual[i] == 0) continue;
+    x[only] -= p->w->residual[i] / row[only], moved = 1;
+  }
+  if (!moved) return FROT_OK;
+  int status = evaluate(p);
+  return status == FROT_OK ? FROT_OK : no_number(p, status);
+}
+
 static int solve_and_look(problem *p) {
   int status = solve(p);
+  if (status == FROT_OK && unknown_count(p) > 0) status = keep_stated(p);
   if (status != FROT_OK) return status;
   status = frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
   return status == FROT_OK ? FROT_OK : no_number(p, status);
@@ -396,7 +429,7 @@ static int solve_once(problem *p, double *q, double *v) {
 int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v) {
   frot_layout l = frot_layout_of(m);
-  problem p = {m, s, w, t, q, v, s->data + l.d, (unsigned char *)w->choice, 0, 0, NULL, 0, 0};
+  problem p = {m, s, w, t, q, v, s->data + l.d, (unsigned char *)w->choice, 0, 0, NULL, 0, 0, 0};
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
   size_t size = sizeof(double) * (size_t)m->n_conditions;
   guess(&p, q, v);
