@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import errno
 import functools
 import hashlib
 import json
 import os
 import shutil
+import stat
 import tempfile
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
 
+from frot.compiler.cache_size import UNFINISHED, read_limit, shrink, sweep, used_now
+from frot.compiler.hold import Hold, hold
+from frot.compiler.keeper import Keeper
 from frot.compiler.toolchain import FLAGS, Toolchain
 from frot.dsl.diagnostics import fail
 from frot.runtime.program import MANIFEST, Program, read_program
@@ -19,34 +25,32 @@ from frot.runtime.program import MANIFEST, Program, read_program
 _ROOMS = ("frot.dsl", "frot.dsl.catalogue", "frot.compiler", "frot.runtime", "frot.runtime.kernel")
 SEAL = "seal.json"
 _KINDS = (".py", ".c", ".h", ".lark")
+# What a folder that cannot be written answers; a full disk is another thing.
+_CLOSED = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, errno.EEXIST)
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """A folder of the cache, which nobody removes while this object lives."""
+
+    folder: Path
+    hold: Hold | None
 
 
 def cache_folder() -> Path:
-    """`$FROT_CACHE`, else the user's cache folder; made if need be, FrotError if it cannot be."""
+    """`$FROT_CACHE`, else the user's cache folder; it need not exist."""
     chosen = os.environ.get("FROT_CACHE")
     if chosen:
-        folder = Path(chosen)
-    else:
-        import platformdirs
+        return Path(chosen)
+    import platformdirs
 
-        folder = Path(platformdirs.user_cache_dir("frot", appauthor=False))
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        return folder
-    except OSError:
-        pass
-    # A home that cannot be written (a service, a container) is no reason to fail.
+    return Path(platformdirs.user_cache_dir("frot", appauthor=False))
+
+
+def spare_folder() -> Path:
+    """Where programs go when the cache cannot be written (a service, a container)."""
     user = os.getuid() if hasattr(os, "getuid") else 0
-    folder = Path(tempfile.gettempdir()) / f"frot-{user}"
-    try:
-        folder.mkdir(mode=0o700, exist_ok=True)
-        return folder
-    except OSError as error:
-        raise fail(
-            "E0803",
-            f"no folder for compiled models: {error}",
-            help="set FROT_CACHE to a folder that can be written",
-        ) from None
+    return Path(tempfile.gettempdir()) / f"frot-{user}"
 
 
 @functools.cache
@@ -72,55 +76,103 @@ def program_key(text: str, model: str | None, toolchain: Toolchain) -> str:
 
 def find_program(key: str) -> Program | None:
     """The cached program, or None. A damaged one is removed."""
-    folder = stored("programs", key)
-    if folder is None:
+    kept = stored("programs", key)
+    if kept is None:
         return None
     try:
-        program = read_program(folder)
+        program = read_program(kept.folder)
         if program.key == key:
-            return program
+            return replace(program, hold=kept.hold)
     except (OSError, ValueError, KeyError, TypeError):
         pass
-    shutil.rmtree(folder, ignore_errors=True)
+    shutil.rmtree(kept.folder, ignore_errors=True)
     return None
 
 
-def store(kind: str, key: str, fill: Callable[[Path], None]) -> Path:
-    """Fill a new folder, seal it and put it in place whole, unless another was faster."""
-    parent = cache_folder() / kind
-    target = parent / key
+def store(kind: str, key: str, fill: Callable[[Path], None]) -> Kept:
+    """Fill a new folder, seal it and put it in place whole, unless another was faster.
+
+    Then what is stale goes, and what was used least recently where the cache is too large.
+    FrotError (E0803) if no folder can be written.
+    """
+    cache = cache_folder()
     try:
-        parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=".new-", dir=parent) as made:
+        try:
+            unfinished = _begin(cache / kind)
+        except OSError as error:
+            if error.errno not in _CLOSED:
+                raise
+            cache = _own_spare_folder()
+            unfinished = _begin(cache / kind)
+        with unfinished as made, Keeper(Path(made)):
+            # Held before anything lies in it: a sweeping process takes it for given up otherwise.
+            held = hold(Path(made))
             folder = Path(made) / "content"
             folder.mkdir()
             fill(folder)
             (folder / SEAL).write_text(json.dumps(_digests(folder)), encoding="utf-8")
+            target = cache / kind / key
             try:
                 os.rename(folder, target)
             except OSError:
                 if not target.is_dir():
                     raise
+            del held
     except OSError as error:
         raise fail(
             "E0803",
             f"the compiled model cannot be written: {error}",
             help="free some space, or set FROT_CACHE to another folder",
         ) from None
-    return target
+    kept = Kept(target, hold(target))
+    sweep(cache)
+    shrink(cache, read_limit(cache))
+    return kept
 
 
-def stored(kind: str, key: str) -> Path | None:
-    """The folder put in place under this key, or None. A damaged one is removed."""
-    folder = cache_folder() / kind / key
-    if not folder.is_dir():
-        return None
+def _begin(parent: Path) -> tempfile.TemporaryDirectory[str]:
+    parent.mkdir(parents=True, exist_ok=True)
+    return tempfile.TemporaryDirectory(prefix=UNFINISHED, dir=parent, ignore_cleanup_errors=True)
+
+
+def _own_spare_folder() -> Path:
+    """The spare folder, made if need be; FrotError if it is not ours alone: programs are run."""
+    folder = spare_folder()
+    folder.mkdir(mode=0o700, exist_ok=True)
+    if not _is_ours(folder):
+        raise fail(
+            "E0803",
+            f"no folder for compiled models: '{folder}' belongs to someone else",
+            help="set FROT_CACHE to a folder that can be written",
+        )
+    return folder
+
+
+def _is_ours(folder: Path) -> bool:
+    if not hasattr(os, "getuid"):
+        return True
     try:
-        if json.loads((folder / SEAL).read_text(encoding="utf-8")) == _digests(folder):
-            return folder
-    except (OSError, ValueError):
-        pass
-    shutil.rmtree(folder, ignore_errors=True)
+        found = os.lstat(folder)
+    except OSError:
+        return False
+    return stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o022
+
+
+def stored(kind: str, key: str) -> Kept | None:
+    """The folder put in place under this key, or None. A damaged one is removed."""
+    spare = spare_folder()
+    for cache in (cache_folder(), spare):
+        folder = cache / kind / key
+        if not folder.is_dir() or (cache == spare and not _is_ours(spare)):
+            continue
+        held = hold(folder)
+        try:
+            if json.loads((folder / SEAL).read_text(encoding="utf-8")) == _digests(folder):
+                used_now(folder)
+                return Kept(folder, held)
+        except (OSError, ValueError):
+            pass
+        shutil.rmtree(folder, ignore_errors=True)
     return None
 
 

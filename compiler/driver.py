@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from pathlib import Path
 
-from frot.compiler.cache import own_identity, store, stored, write_manifest
+from frot.compiler.cache import Kept, own_identity, store, stored, write_manifest
 from frot.compiler.mechanize import mechanize
 from frot.compiler.toolchain import FLAGS, Toolchain, compile_objects, link_library
 from frot.compiler.units import unit_of
@@ -43,8 +44,11 @@ def kernel_sources() -> list[Path]:
     return sorted(kernel_folder().glob("*.c"))
 
 
-def build(model: Model, key: str, toolchain: Toolchain, log: Log) -> Program | None:
-    """Run every pass and the C compiler; what the text is to blame for goes to the log."""
+def build(model: Model, file: str, key: str, toolchain: Toolchain, log: Log) -> Program | None:
+    """Run every pass and the C compiler; what the text is to blame for goes to the log.
+
+    `file` is the name of the text in the places of its equations.
+    """
     from frot.compiler.generate import generate
     from frot.compiler.lower import lower
     from frot.compiler.reduce import reduce
@@ -66,13 +70,13 @@ def build(model: Model, key: str, toolchain: Toolchain, log: Log) -> Program | N
         for i in reduced.symbols.inputs
     )
     text = generate(lowered, key, [p.default for p in parameters], [i.default for i in inputs])
-    objects = _kernel_objects(toolchain)
+    kernel = _kernel_objects(toolchain)
 
     def fill(folder: Path) -> None:
         source = folder / MODEL_SOURCE
         source.write_text(text, encoding="utf-8")
         made = compile_objects(toolchain, [source], [kernel_folder()], folder)
-        link_library(toolchain, [*made, *sorted(objects.glob("*.o"))], folder / LIBRARY)
+        link_library(toolchain, [*made, *sorted(kernel.folder.glob("*.o"))], folder / LIBRARY)
         made[0].unlink()
         write_manifest(
             Program(
@@ -104,14 +108,16 @@ def build(model: Model, key: str, toolchain: Toolchain, log: Log) -> Program | N
                 balanced=bool(model.bodies) and not lowered.system.elements,
                 conditions=tuple(reduced.conditions.texts),
                 fixed=tuple((p.name, p.structural) for p in model.parameters if p.structural),
+                file=file,
             ),
             folder,
         )
 
-    return read_program(store("programs", key, fill))
+    kept = store("programs", key, fill)
+    return replace(read_program(kept.folder), hold=kept.hold)
 
 
-def _kernel_objects(toolchain: Toolchain) -> Path:
+def _kernel_objects(toolchain: Toolchain) -> Kept:
     """The kernel's objects, compiled once for all models."""
     digest = hashlib.sha256(
         "\0".join((own_identity(), toolchain.identity, *FLAGS)).encode()

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from frot.compiler.keeper import Keeper
 from frot.dsl.diagnostics import fail
 
 FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off")
@@ -73,19 +74,16 @@ def _toolchain(command: tuple[str, ...]) -> Toolchain:
     return Toolchain(command, " ".join((*command, seal)))
 
 
-def run_compiler(toolchain: Toolchain, arguments: Sequence[str | Path], target: Path) -> None:
-    """Make `target`; FrotError (E0802) with the first lines of the output if it fails."""
+def run_compiler(
+    toolchain: Toolchain, arguments: Sequence[str | Path], target: Path, keeper: Keeper
+) -> None:
+    """Make `target`; FrotError (E0802) with the first lines of the output if it fails.
+
+    What the compiler keeps for itself meanwhile lies beside the target, and goes with it.
+    """
     command = [*toolchain.command, *(str(a) for a in arguments), "-o", str(target)]
     try:
-        done = subprocess.run(
-            command,
-            capture_output=True,
-            text=True,
-            errors="replace",
-            timeout=TIMEOUT,
-            check=False,
-            stdin=subprocess.DEVNULL,
-        )
+        done = keeper.run(command, TIMEOUT, {"TMPDIR": str(target.parent)})
     except FileNotFoundError:
         raise fail("E0801", f"no C compiler: {command[0]} does not exist") from None
     except subprocess.TimeoutExpired:
@@ -127,20 +125,26 @@ def compile_objects(
 
     options = [*flags, *(f"-I{path}" for path in include), "-c"]
     objects = [folder / f"{source.stem}.o" for source in sources]
-    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        list(
-            pool.map(
-                lambda source, target: run_compiler(toolchain, [*options, source], target),
-                sources,
-                objects,
-            )
-        )
+    with Keeper() as keeper, ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        calls = [
+            pool.submit(run_compiler, toolchain, [*options, source], target, keeper)
+            for source, target in zip(sources, objects, strict=True)
+        ]
+        try:
+            for call in calls:
+                call.result()
+        except BaseException:
+            # Ctrl-C too: the pool would wait for those that run and for those in line.
+            pool.shutdown(wait=False, cancel_futures=True)
+            keeper.stop()
+            raise
     return objects
 
 
 def link_library(toolchain: Toolchain, objects: Sequence[Path], target: Path) -> None:
     """Link objects to a shared library."""
-    run_compiler(toolchain, [*objects, *LINK_FLAGS], target)
+    with Keeper() as keeper:
+        run_compiler(toolchain, [*objects, *LINK_FLAGS], target, keeper)
 
 
 def compile_library(
@@ -149,6 +153,6 @@ def compile_library(
     """Compile sources to a shared library of which only marked functions are seen."""
     import tempfile
 
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory(prefix="frot-") as folder, Keeper(Path(folder)):
         objects = compile_objects(toolchain, sources, include, Path(folder), (*FLAGS, HIDDEN))
         link_library(toolchain, objects, target)

@@ -15,18 +15,28 @@ if TYPE_CHECKING:
     from frot.dsl.diagnostics import FrotError
     from frot.model import Model, compile, load
     from frot.runtime.result import Event, Result
-    from frot.runtime.run import SimulationError
+    from frot.runtime.run import Interrupted, SimulationError
 
 _HOMES = {
     "Event": "frot.runtime.result",
     "FrotError": "frot.dsl.diagnostics",
+    "Interrupted": "frot.runtime.run",
     "Model": "frot.model",
     "Result": "frot.runtime.result",
     "SimulationError": "frot.runtime.run",
     "compile": "frot.model",
     "load": "frot.model",
 }
-__all__ = ["Event", "FrotError", "Model", "Result", "SimulationError", "compile", "load"]
+__all__ = [
+    "Event",
+    "FrotError",
+    "Interrupted",
+    "Model",
+    "Result",
+    "SimulationError",
+    "compile",
+    "load",
+]
 
 
 def __getattr__(name: str) -> object:

@@ -1,4 +1,4 @@
-"""The command line: `frot check | simulate | fmu | fmt | explain`."""
+"""The command line: `frot check | simulate | fmu | fmt | explain | cache`."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = int(options.run(options))
         sys.stdout.flush()
         return status
-    except KeyboardInterrupt:
-        print("interrupted", file=sys.stderr)
+    except KeyboardInterrupt as stop:
+        print(str(stop) or "interrupted", file=sys.stderr)
         return EXIT_INTERRUPTED
     except BrokenPipeError:
         # The reader of our output has gone (`frot ... | head`): nobody is left to be told.
@@ -112,6 +112,12 @@ def _parser() -> argparse.ArgumentParser:
 
     explain = _command(commands, "explain", "tell what a message's code means", _explain)
     explain.add_argument("code", metavar="CODE", nargs="?", help="as E0203; without: all codes")
+
+    cache = _command(commands, "cache", "where compiled models are kept, and how large", _cache)
+    cache.add_argument("--clear", action="store_true", help="remove all that is not in use")
+    cache.add_argument(
+        "--limit", metavar="SIZE", help="keep at most so much from now on, as 200MB or 1.5GB"
+    )
     return parser
 
 
@@ -186,10 +192,19 @@ def _number(text: str) -> float:
     return value
 
 
-def _load(options: argparse.Namespace) -> Model:
+def _compiled(options: argparse.Namespace) -> Model:
+    """The model with its program, which is compiled if the cache has none."""
     from frot.model import load
+    from frot.progress import Busy
 
-    return load(options.file, options.model)
+    model = load(options.file, options.model)
+    with Busy(f"compiling {model.name}"):
+        try:
+            model.program()
+        except KeyboardInterrupt:
+            words = f"interrupted while compiling '{model.name}'; nothing half made is left"
+            raise KeyboardInterrupt(words) from None
+    return model
 
 
 def _check(options: argparse.Namespace) -> int:
@@ -229,6 +244,13 @@ def _explain(options: argparse.Namespace) -> int:
     return 0
 
 
+def _cache(options: argparse.Namespace) -> int:
+    from frot.cache_room import tell_cache
+
+    print(tell_cache(options.limit, options.clear))
+    return 0
+
+
 def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
     """Run a command on each file; the error of one does not keep it from the others."""
     from frot.dsl.diagnostics import FrotError
@@ -246,15 +268,15 @@ def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
 def _simulate(options: argparse.Namespace) -> int:
     from frot.dsl.writing import DATA, PICTURES, check_target
     from frot.progress import Progress
-    from frot.runtime import SimulationError
+    from frot.runtime import Interrupted, SimulationError
 
     for target, formats in ((options.output, DATA), (options.plot, PICTURES)):
         if target is not None:
             check_target(target, formats)
-    model = _load(options)
+    model = _compiled(options)
     program = model.program()
     result: Result | None
-    failure: SimulationError | None = None
+    failure: SimulationError | Interrupted | None = None
     with Progress(f"simulating {program.name}") as progress:
         try:
             result = model.simulate(
@@ -266,7 +288,7 @@ def _simulate(options: argparse.Namespace) -> int:
                 inputs=dict(options.input),
                 watch=progress.watch(options.stop or program.experiment.stop),
             )
-        except SimulationError as error:
+        except (SimulationError, Interrupted) as error:
             result, failure = error.result, error
     if result is not None:
         if options.output is not None:
@@ -285,7 +307,7 @@ def _simulate(options: argparse.Namespace) -> int:
 
 
 def _fmu(options: argparse.Namespace) -> int:
-    model = _load(options)
+    model = _compiled(options)
     target = options.output or f"{model.program().name}.fmu"
     model.export_fmu(target, options.fmi)
     print(f"{target}: FMI {options.fmi} co-simulation, checked by FMPy")

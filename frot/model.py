@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,7 +29,7 @@ class Model:
         self._checked: checked.Model | None = None
         self._toolchain = find_toolchain()
         self._key = program_key(_identity(text, name), model, self._toolchain)
-        self._program: Program | None = find_program(self._key)
+        self._program: Program | None = self._named(find_program(self._key))
 
     @property
     def name(self) -> str:
@@ -55,10 +56,15 @@ class Model:
             from frot.compiler import build
 
             log = Log()
-            self._program = build(self.checked(), self._key, self._toolchain, log)
+            built = build(self.checked(), self._file, self._key, self._toolchain, log)
+            self._program = self._named(built)
             if self._program is None:
                 raise FrotError(log)
         return self._program
+
+    def _named(self, program: Program | None) -> Program | None:
+        """The program with places that read as this model's user names the file."""
+        return None if program is None else replace(program, shown=self._file)
 
     def simulate(
         self,
@@ -145,8 +151,11 @@ class Model:
 
 
 def _identity(text: str, name: str) -> str:
-    """The text with all that it imports: what a program is made from."""
-    parts = [name, text]
+    """The text with all that it imports: what a program is made from.
+
+    Not what the text's file is called: places are told under the name its user gives.
+    """
+    parts = [text]
     for path in imported_files(text, name):
         content = read_text(path, Log())
         parts += [str(path), content or ""]

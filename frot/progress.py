@@ -1,8 +1,9 @@
-"""Progress of a long run, on a terminal only."""
+"""Progress of long work, on a terminal only."""
 
 from __future__ import annotations
 
 import sys
+import threading
 import time
 from collections.abc import Callable
 from types import TracebackType
@@ -53,3 +54,46 @@ class Progress:
             self._bar.start()
             self._task = self._bar.add_task(self._title, total=stop)
         self._bar.update(self._task, completed=reached)
+
+
+class Busy:
+    """Shows what is being done once it has taken longer than a moment, and for how long."""
+
+    def __init__(self, title: str) -> None:
+        """`title` says what is done."""
+        self._title = title
+        self._shown: Any = None
+        self._over = False
+        self._lock = threading.Lock()
+        self._timer = threading.Timer(PATIENCE, self._show)
+        self._timer.daemon = True
+
+    def __enter__(self) -> Busy:
+        if sys.stderr.isatty():
+            self._timer.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._timer.cancel()
+        with self._lock:
+            self._over = True
+            if self._shown is not None:
+                self._shown.stop()
+
+    def _show(self) -> None:
+        from rich.console import Console
+        from rich.progress import Progress as Bar
+        from rich.progress import SpinnerColumn, TextColumn, TimeElapsedColumn
+
+        columns = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
+        shown = Bar(*columns, console=Console(stderr=True), transient=True)
+        shown.add_task(self._title)
+        with self._lock:
+            if not self._over:
+                self._shown = shown
+                shown.start()

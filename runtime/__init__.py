@@ -7,10 +7,11 @@ if TYPE_CHECKING:
     from frot.runtime.plotting import plot
     from frot.runtime.program import Program
     from frot.runtime.result import Event, Result
-    from frot.runtime.run import SimulationError, simulate
+    from frot.runtime.run import Interrupted, SimulationError, simulate
 
 _HOMES = {
     "Event": "result",
+    "Interrupted": "run",
     "Program": "program",
     "Result": "result",
     "SimulationError": "run",
@@ -19,6 +20,7 @@ _HOMES = {
 }
 __all__ = [
     "Event",
+    "Interrupted",
     "Program",
     "Result",
     "SimulationError",

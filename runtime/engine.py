@@ -136,12 +136,14 @@ def _load(path: str) -> ct.CDLL:
 class Run:
     """What a call of `Engine.advance` gave: the kernel's status, the segments and the events.
 
-    Status FULL: the steps take more than MOST_MEMORY; the run has not come to its end.
+    Status FULL: the steps take more than MOST_MEMORY; the run has not come to its end. Status
+    STOPPED: by `watch`, or by Ctrl-C where `interrupted`.
     """
 
     status: int
     segments: Floats
     events: list[RawEvent]
+    interrupted: bool = False
 
 
 @contextlib.contextmanager
@@ -220,7 +222,10 @@ class Engine:
         return int(self._library.frot_settle(self._model, self._s, self._w))
 
     def advance(self, t: float, watch: Callable[[float], bool] | None = None) -> Run:
-        """Run to time t. `watch(time)` is called now and then; True stops the run."""
+        """Run to time t. `watch(time)` is called now and then; True stops the run.
+
+        Ctrl-C stops it too, and what `watch` raises is raised.
+        """
         events: list[RawEvent] = []
         chunks: list[Floats] = []
         interrupted: list[BaseException] = []
@@ -256,8 +261,10 @@ class Engine:
             )
             chunks.append(buffer[: recorder.segment_count].copy())
             events.extend(RawEvent.from_buffer_copy(raw[i]) for i in range(recorder.event_count))
-            if interrupted:
+            if any(not isinstance(error, KeyboardInterrupt) for error in interrupted):
                 raise interrupted[0]
+            if interrupted:
+                return Run(STOPPED, np.concatenate(chunks), events, True)
             taken = 8 * self.segment_size * sum(len(chunk) for chunk in chunks)
             if status != FULL or taken > MOST_MEMORY:
                 return Run(status, np.concatenate(chunks), events)
@@ -317,7 +324,8 @@ class Engine:
     @property
     def fault_places(self) -> tuple[str, ...]:
         """`file:line:column` of what the last fault is about."""
-        return tuple(filter(None, self._words(self._library.frot_fault_places).split("\n")))
+        told = self._words(self._library.frot_fault_places).split("\n")
+        return tuple(self.program.place(place) for place in told if place)
 
     def _words(self, function: Callable[..., None]) -> str:
         text = ct.create_string_buffer(_TEXT)

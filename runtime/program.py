@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -71,6 +71,8 @@ class Program:
     the text, the compiler and its flags.
     `balanced`: all energies are known: there are bodies, and no friction in the equations.
     `fixed` are parameters that decide the structure, each with what it decides.
+    `file` is the name the text had when it was compiled, which places in the library begin with;
+    `shown` is the one its user gives it now. `hold` keeps the folder while this object lives.
     """
 
     name: str
@@ -89,6 +91,9 @@ class Program:
     balanced: bool = True
     conditions: tuple[str, ...] = ()
     fixed: tuple[tuple[str, str], ...] = ()
+    file: str = ""
+    shown: str = ""
+    hold: object = field(default=None, compare=False, repr=False)
 
     @property
     def library(self) -> Path:
@@ -100,10 +105,16 @@ class Program:
         """The generated C of the model; exports `const frot_model frot_the_model`."""
         return self.folder / MODEL_SOURCE
 
+    def place(self, compiled: str) -> str:
+        """A place of the library, `file:line:column`, in the words of the user."""
+        head = f"{self.file}:"
+        return f"{self.shown}:{compiled[len(head) :]}" if compiled.startswith(head) else compiled
+
     def to_json(self) -> str:
-        """The manifest, without the folder it lies in."""
-        data = asdict(self)
-        del data["folder"]
+        """The manifest: what holds wherever the program lies and whatever its file is called."""
+        data = asdict(replace(self, hold=None))
+        for name in ("folder", "shown", "hold"):
+            del data[name]
         return json.dumps(data, indent=1, ensure_ascii=False)
 
 

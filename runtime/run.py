@@ -47,6 +47,14 @@ class SimulationError(FrotError):
         self.result = result
 
 
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C in a run. `result` holds the motion up to there, None if there is none."""
+
+    def __init__(self, reached: float, result: Result | None) -> None:
+        super().__init__(f"interrupted at t = {reached:.6g} s")
+        self.result = result
+
+
 def simulate(
     program: Program,
     *,
@@ -74,6 +82,7 @@ def simulate(
         FrotError: Unknown names and bad values (E0805, E0806).
         SimulationError: Values the model cannot have, contradictory initial values, and faults of
             the motion; it holds the result up to the fault.
+        Interrupted: Ctrl-C; it holds the result up to there.
     """
     engine = Engine(program)
     for name, value in _values(parameters, program.parameters, "parameter", program):
@@ -118,6 +127,8 @@ def simulate(
     result = (
         Result(program, engine, grid, run.segments, events, figures) if len(run.segments) else None
     )
+    if run.interrupted:
+        raise Interrupted(end, result)
     if run.status == FULL:
         raise _too_long(result, end)
     if run.status not in _GOOD or result is None:

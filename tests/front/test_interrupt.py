@@ -1,12 +1,16 @@
-"""Ctrl-C: status 130, one line, no traceback, wherever it arrives."""
+"""Ctrl-C: status 130, one line, no traceback, wherever it arrives; what was computed is kept."""
 
+import os
 import signal
 import sys
+import threading
 import time
 from pathlib import Path
 
 import pytest
 from front_door import HOOP, Shell, files_in
+
+import frot
 
 LONG = ("simulate", HOOP, "--stop", "4e6", "-o", "out.csv")
 
@@ -23,15 +27,35 @@ def wait_for_library(pid: int) -> None:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 @pytest.mark.parametrize("after", [0.05, 0.5])
-def test_a_long_run_is_interrupted(after: float, shell: Shell) -> None:
+def test_an_interrupted_run_keeps_what_was_computed(after: float, shell: Shell) -> None:
     shell("simulate", HOOP).succeeds()
-    process = shell.start(*LONG)
+    process = shell.start(*LONG, "--plot", "out.png")
     wait_for_library(process.pid)
     time.sleep(after)
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=30)
-    assert (process.returncode, out, err) == (130, "", "interrupted\n")
-    assert files_in(shell.folder) == set()
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130, err
+    assert files_in(shell.folder) == {"out.csv", "out.png"}
+    rows = (shell.folder / "out.csv").read_text(encoding="utf-8").splitlines()
+    reached = float(rows[-1].split(",")[0])
+    assert 0 < reached < 4e6
+    assert f"BackspinHoop: 0 s to {reached:.6g} s" in out and "written: out.csv" in out
+    assert err == f"interrupted at t = {reached:.6g} s\n"
+
+
+def test_from_python_the_result_comes_with_the_interrupt() -> None:
+    model = frot.load(HOOP)
+    thread = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+    model.program()
+    thread.start()
+    with pytest.raises(KeyboardInterrupt) as stopped:
+        model.simulate(stop=4e7)
+    thread.join()
+    assert isinstance(stopped.value, frot.Interrupted)
+    result = stopped.value.result
+    assert result is not None and 0 < result.time[-1] < 4e7
+    # The hoop rolls on: v = (v0 - r w0)/2, backwards.
+    assert result["hoop.velocity.x"][-1] == pytest.approx((1 - 0.5 * 20) / 2, rel=1e-8)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
