@@ -57,7 +57,6 @@ def _plain(reduced: Reduced) -> Assembled:
         bias=reduced.bias,
         rate=reduced.rate,
         gap=reduced.gap,
-        distance=reduced.distance,
         coefficients=reduced.coefficients,
         power=reduced.power,
         blocks=(),

@@ -68,7 +68,6 @@ class Assembled:
     bias: ca.SX
     rate: ca.SX
     gap: ca.SX
-    distance: ca.SX
     coefficients: ca.SX
     power: ca.SX
     blocks: tuple[Block, ...]

@@ -10,6 +10,7 @@ from frot.compiler.mechanism import Contact, Joint, Pin, is_unilateral, owner_bo
 from frot.compiler.pins import PinGeometry, pin_geometry
 from frot.dsl.checked import World
 
+STANDARD_GRAVITY = 9.81
 DOWN = {"+x": (1, 0), "-x": (-1, 0), "+y": (0, 1), "-y": (0, -1)}
 
 
@@ -17,32 +18,53 @@ DOWN = {"+x": (1, 0), "-x": (-1, 0), "+y": (0, 1), "-y": (0, -1)}
 class Geometry:
     """A contact as functions of the coordinates.
 
-    `line.normal` points to the left of the line's direction for a bilateral point on a line;
-    against gravity, where gravity tells, for a contact that can part. `side` multiplies it by the
-    side the body starts on. `gap` >= 0 while apart. `distance` is the signed distance whose sign
-    chooses the side. `slip` and `roll` are the velocity of the body's material point relative to
-    the line's, along the line's direction, and the relative angular velocity.
+    `line.normal` points to the left of the line's direction; `side`, chosen once, multiplies it by
+    the side of the body. `gap` >= 0 while apart. `witness` are the three numbers the first of which
+    that is not zero has the sign of the side: height of the point or of the rim's centre over the
+    line, part of the normal that is against gravity, height of the body's G. `slip` and `roll` are
+    the velocity of the body's material point relative to the line's, along the line's direction,
+    and the relative angular velocity.
     """
 
     line: Line
     side: ca.SX
     gap: ca.SX
-    distance: ca.SX
+    witness: ca.SX
     slip: ca.SX
     roll: ca.SX
     abscissa: ca.SX
 
 
-def _side_distance(contact: Contact, height: ca.SX, middle: ca.SX) -> ca.SX:
-    """What chooses the side: the ground is below its own line, whatever the start says."""
-    if contact.line.span is None:
-        return ca.SX(1)
-    return height if contact.round is not None else middle
+def _witness(contact: Contact, line: Line, kinematics: Kinematics, world: World) -> ca.SX:
+    """What chooses the side.
+
+    The ground is below its own line, whatever the start says, and a point that cannot leave its
+    line has its normal to the left.
+    """
+    if contact.line.span is None or _keeps_left(contact):
+        return ca.SX.ones(3)
+    centre = kinematics.position(contact.point)
+    middle = kinematics.poses[point_body(contact.point)].origin
+    vectors = (centre - line.through, _upward(world, kinematics), middle - line.through)
+    return ca.vertcat(*(ca.dot(line.normal, vector) for vector in vectors))
 
 
-def down(world: World) -> ca.SX:
-    """Unit vector of gravity."""
-    return ca.SX(ca.DM(DOWN[world.down]))
+def _keeps_left(contact: Contact) -> bool:
+    return contact.liaison.kind.name == "point_courbe" and not is_unilateral(contact.liaison)
+
+
+def gravity(world: World, kinematics: Kinematics) -> ca.SX:
+    """Acceleration of free fall (2)."""
+    given = world.gravity
+    size = ca.SX(STANDARD_GRAVITY) if given is None else kinematics.fixed.lower(given)
+    return size * ca.DM(DOWN[world.down])
+
+
+def _upward(world: World, kinematics: Kinematics) -> ca.SX:
+    """Unit vector against gravity, zero without gravity."""
+    fall = gravity(world, kinematics)
+    size = ca.sqrt(ca.sumsqr(fall))
+    return -fall / ca.if_else(size > 0, size, 1)
 
 
 def joint_geometry(
@@ -74,12 +96,8 @@ def contact_geometry(
     """Geometry and relative velocities of a point or rim on a line."""
     body, base = point_body(contact.point), owner_body(contact.line.owner)
     line = kinematics.line(contact.line)
-    bilateral = contact.liaison.kind.name == "point_courbe" and not is_unilateral(contact.liaison)
-    if bilateral:
+    if _keeps_left(contact):
         side = ca.SX(1)
-    else:
-        upward = ca.if_else(ca.dot(line.normal, down(world)) > 1e-12, -1, 1)
-        line = Line(line.through, line.direction, upward * line.normal)
     centre = kinematics.position(contact.point)
     radius = (
         kinematics.fixed.lower(contact.round.arguments["radius"])
@@ -93,12 +111,11 @@ def contact_geometry(
         kinematics.velocity_at(body, touching) - kinematics.velocity_at(base, touching),
     )
     roll = kinematics.velocity(kinematics.poses[body].angle - kinematics.poses[base].angle)
-    middle = ca.dot(line.normal, kinematics.poses[body].origin - line.through)
     return Geometry(
         line=line,
         side=side,
         gap=side * height - radius,
-        distance=_side_distance(contact, height, middle),
+        witness=_witness(contact, line, kinematics, world),
         slip=slip,
         roll=roll,
         abscissa=ca.dot(line.direction, centre - line.through),

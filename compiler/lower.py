@@ -85,7 +85,8 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         "start": ([s.t, s.u, s.p], initial.start),
         "initial_position": (state, initial.position),
         "initial_velocity": (state, initial.velocity),
-        "kinematics": (state, [system.gap, rows, system.rate, conditions, system.distance]),
+        "kinematics": (state, [system.gap, rows, system.rate, conditions]),
+        "sides": (state, [_witnesses(system)]),
         "dynamics": (
             state,
             [
@@ -147,6 +148,12 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         tuple(bool(parameters_needed(parameter)) for parameter in s.parameters),
         jacobian,
     )
+
+
+def _witnesses(system: Assembled) -> ca.SX:
+    """What chooses the sides; an element of the text has none to choose from."""
+    none = ca.SX.ones(3 * len(system.elements))
+    return ca.vertcat(system.resolve(system.reduced.witness), none)
 
 
 def _without_reactions(sizes: ca.SX, system: Assembled) -> ca.SX:

@@ -30,9 +30,9 @@ class PinGeometry:
         return ca.SX(0)
 
     @property
-    def distance(self) -> ca.SX:
+    def witness(self) -> ca.SX:
         """A pin has no sides to choose from."""
-        return ca.SX(1)
+        return ca.SX.ones(3)
 
 
 def pin_geometry(pin: Pin, kinematics: Kinematics) -> PinGeometry:

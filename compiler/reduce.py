@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.chains import Chains
-from frot.compiler.contacts import Geometry, down, joint_geometry, row_rates
+from frot.compiler.contacts import Geometry, gravity, joint_geometry, row_rates
 from frot.compiler.eliminate import Residuals
 from frot.compiler.events import Events, gather_events
 from frot.compiler.expressions import Conditions, Lowering
@@ -29,8 +29,6 @@ from frot.compiler.variables import Variables
 from frot.dsl import Log
 from frot.dsl.checked import Call, Liaison, Model, Quantity, Reference, Variable
 
-STANDARD_GRAVITY = 9.81
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reduced:
@@ -39,9 +37,9 @@ class Reduced:
     `text`, `equations` and `events` are what the text adds with its variables, which `force` and
     the others may hold too. `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes
     of its terms, `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a +
-    bias is the rows' acceleration), `rate` (n_rows), `gap` and `distance` (n_contacts),
-    `coefficients` (mu, mu_s, delta of each contact), `power` of the loads without potential,
-    `kinetic`, `potential`.
+    bias is the rows' acceleration), `rate` (n_rows), `gap` (n_contacts), `witness` (3
+    each: see contacts.py), `coefficients` (mu, mu_s, delta of each contact), `power` of the loads
+    without potential, `kinetic`, `potential`.
     """
 
     mechanism: Mechanism
@@ -61,7 +59,7 @@ class Reduced:
     bias: ca.SX
     rate: ca.SX
     gap: ca.SX
-    distance: ca.SX
+    witness: ca.SX
     coefficients: ca.SX
     power: ca.SX
     kinetic: ca.SX
@@ -127,7 +125,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         bias=settled(ca.jtimes(rates, places, speeds)),
         rate=settled(rates),
         gap=settled(column(g.gap for g in geometry)),
-        distance=settled(column(g.distance for g in geometry)),
+        witness=settled(column(g.witness for g in geometry)),
         coefficients=settled(coefficients),
         power=settled(loads.power),
         kinetic=settled(motion.kinetic),
@@ -257,12 +255,11 @@ def _masses(mechanism: Mechanism, variables: Variables) -> _Masses:
     kinematics, symbols = variables.kinematics, variables.symbols
     world = mechanism.model.world
     speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
-    gravity = STANDARD_GRAVITY if world.gravity is None else kinematics.fixed.lower(world.gravity)
     mass, force = ca.SX.zeros(speeds.numel(), speeds.numel()), ca.SX.zeros(speeds.numel())
     size, kinetic, potential = ca.SX.zeros(speeds.numel()), ca.SX(0), ca.SX(0)
     for body in mechanism.model.bodies:
         pose = kinematics.poses[body]
-        weight = variables.mass(body) * gravity * down(world)
+        weight = variables.mass(body) * gravity(world, kinematics)
         for velocity, inertia, push in (
             (kinematics.velocity(pose.origin), variables.mass(body), weight),
             (kinematics.velocity(pose.angle), variables.inertia(body), ca.SX.zeros(1)),

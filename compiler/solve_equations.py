@@ -237,7 +237,6 @@ def _finish(
         bias=core.bias,
         rate=core.rate,
         gap=ca.vertcat(reduced.gap, ca.SX.ones(len(reduced.text.elements))),
-        distance=ca.vertcat(reduced.distance, ca.SX.ones(len(reduced.text.elements))),
         coefficients=core.coefficients,
         power=power,
         blocks=tuple(solving.blocks),

@@ -110,7 +110,7 @@ int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, 
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
   frot_inputs(m, s, w, &t, q, v, d);
-  double *res[] = {w->gap, w->rows, w->rate, w->condition, w->distance};
+  double *res[] = {w->gap, w->rows, w->rate, w->condition};
   memcpy(w->res, res, sizeof res);
   m->kinematics.call(w->arg, w->res, w->iw, w->w, 0);
   return FROT_OK;

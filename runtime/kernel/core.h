@@ -18,7 +18,7 @@ void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double 
 int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes);
 
-/* Solve the blocks and evaluate `kinematics` alone: gap, rows, rate, condition, distance. */
+/* Solve the blocks and evaluate `kinematics` alone: gap, rows, rate, condition. */
 int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d);
 

@@ -198,8 +198,12 @@ typedef struct {
   /* initial_velocity -> the same in v: (nv x n_velocity), (ny x n_velocity) */
   frot_callable initial_velocity;
   /* kinematics -> gap (n_contacts), rows J' (nw x n_rows), rate (n_rows), conditions
-   * (n_conditions), distance with sign by which the side is chosen (n_contacts) */
+   * (n_conditions) */
   frot_callable kinematics;
+  /* sides -> what chooses the side of each contact at the start (3 x n_contacts): height of its
+   * point or rim's centre over the line, then what tells where that is zero: the part of the normal
+   * that is against gravity, and the height of the body's G. A side chosen once is kept. */
+  frot_callable sides;
   /* dynamics -> q' (nq), A (nw x nw), h (nw), J' (nw x n_rows), c (n_rows), rate (n_rows), gap
    *   (n_contacts), conditions (n_conditions), coefficients mu mu_s delta (3 x n_contacts), power
    * of the forces that have no potential (1) */

@@ -313,14 +313,77 @@ static int solve_and_look(problem *p) {
   return status == FROT_OK ? FROT_OK : no_number(p, status);
 }
 
+/* Size of the terms of a contact's gap. */
 static double length_size(const frot_model *m, const frot_work *w, int contact, const double *q) {
-  return fabs(w->distance[contact]) + fabs(w->distance[contact] - w->gap[contact]) +
+  return fabs(w->witness[3 * contact]) + fabs(w->gap[contact]) +
          frot_gap_size(m, w, m->contacts[contact].row_n, q);
+}
+
+/* Values of `sides` at the coordinates at which kinematics was evaluated last. */
+static void look_at_sides(const problem *p) {
+  frot_inputs(p->m, p->s, p->w, &p->t, p->q, p->v, p->d);
+  p->w->res[0] = p->w->witness;
+  p->m->sides.call(p->w->arg, p->w->res, p->w->iw, p->w->w, 0);
+}
+
+static int sign_beyond(double x, double rounding) {
+  return x > rounding ? 1 : x < -rounding ? -1 : 0;
+}
+
+/* The sides of the contacts: where the point is or, if `natural` or where that is on the line,
+ * against gravity, else where the body's G is, else to the left. Returns how many change. */
+static int choose_sides(const problem *p, double *side, int natural) {
+  const frot_model *m = p->m;
+  int changes = 0;
+  look_at_sides(p);
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!frot_has_normal(&m->contacts[i])) continue;
+    const double *witness = p->w->witness + 3 * i;
+    double rounding = TOUCHES * length_size(m, p->w, i, p->q);
+    int sign = natural ? 0 : sign_beyond(witness[0], rounding);
+    if (sign == 0) sign = sign_beyond(witness[1], TOUCHES);
+    if (sign == 0) sign = sign_beyond(witness[2], rounding);
+    if (sign == 0) sign = 1;
+    changes += sign != (int)side[i];
+    side[i] = sign;
+  }
+  return changes;
 }
 
 static void set_conditions(const frot_model *m, const frot_work *w, double *d) {
   for (int j = 0; j < m->n_conditions; j++)
     d[j] = m->condition_strict[j] ? w->condition[j] > 0 : w->condition[j] >= 0;
+}
+
+/* Where the text says that the search begins. */
+static void guess(const problem *p, double *q, double *v) {
+  const frot_model *m = p->m;
+  frot_layout l = frot_layout_of(m);
+  frot_work *w = p->w;
+  double *discrete = p->s->data + l.d + m->n_conditions + m->n_contacts;
+  w->arg[0] = &p->t, w->arg[1] = p->s->data + l.u, w->arg[2] = p->s->data + l.p;
+  w->res[0] = q, w->res[1] = v, w->res[2] = w->y, w->res[3] = discrete;
+  m->start.call(w->arg, w->res, w->iw, w->w, 0);
+}
+
+/* The statements alone show on which side of its line each point is meant to be. A stated gap needs
+ * a side before: the natural one or, if the statements contradict that, the one of the guess. */
+static int solve_statements(problem *p, double *side) {
+  const frot_model *m = p->m;
+  frot_state *s = p->s;
+  memset(p->use, 0, (size_t)m->n_contacts);
+  int status = frot_kinematics(m, s, p->w, p->t, p->q, p->v, p->d);
+  if (status != FROT_OK) return no_number(p, status);
+  choose_sides(p, side, 1);
+  status = solve_and_look(p);
+  if (status != FROT_INITIAL) return status;
+  frot_fault first = s->fault;
+  guess(p, p->q, p->v);
+  int again = frot_kinematics(m, s, p->w, p->t, p->q, p->v, p->d) == FROT_OK &&
+              choose_sides(p, side, 0) > 0 && solve_and_look(p) == FROT_OK;
+  s->fault = again ? (frot_fault){FROT_OK, -1, -1, -1, p->t, 0} : first;
+  s->phase = again ? FROT_CLEARED : FROT_FAULTED;
+  return again ? FROT_OK : status;
 }
 
 /* Coordinates; chooses the sides of the contacts. Leaves w->gap there. */
@@ -330,20 +393,21 @@ static int solve_positions(problem *p, double *side) {
   int nc = m->n_contacts;
   const double *unilateral = p->s->data + frot_layout_of(m).unilateral;
   p->velocity = 0;
-  /* The statements alone show on which side of its line each body is meant to be. */
-  memset(p->use, 0, (size_t)nc);
-  int status = solve_and_look(p);
+  int status = solve_statements(p, side);
   if (status != FROT_OK) return status;
-  for (int i = 0; i < nc; i++)
-    if (frot_has_normal(&m->contacts[i]))
-      side[i] = w->distance[i] < -TOUCHES * length_size(m, w, i, p->q) ? -1 : 1;
+  choose_sides(p, side, 0);
   for (int i = 0; i < nc; i++) {
     const frot_contact *contact = &m->contacts[i];
     p->use[i] = frot_has_normal(contact) && !contact->reduced && unilateral[i] == 0;
   }
+  /* what cannot part may move a point over a line: its side is the one where it comes to be */
+  status = solve_and_look(p);
+  if (status != FROT_OK) return status;
+  choose_sides(p, side, 0);
   for (;;) {
     status = solve_and_look(p);
     if (status != FROT_OK) return status;
+    look_at_sides(p);
     int added = 0;
     for (int i = 0; i < nc; i++) {
       if (p->use[i] || m->contacts[i].reduced || !frot_has_normal(&m->contacts[i])) continue;
@@ -375,17 +439,6 @@ static int solve_speeds(problem *p, frot_contact_mode *modes) {
     }
     if (!added) return FROT_OK;
   }
-}
-
-/* Where the text says that the search begins. */
-static void guess(const problem *p, double *q, double *v) {
-  const frot_model *m = p->m;
-  frot_layout l = frot_layout_of(m);
-  frot_work *w = p->w;
-  double *discrete = p->s->data + l.d + m->n_conditions + m->n_contacts;
-  w->arg[0] = &p->t, w->arg[1] = p->s->data + l.u, w->arg[2] = p->s->data + l.p;
-  w->res[0] = q, w->res[1] = v, w->res[2] = w->y, w->res[3] = discrete;
-  m->start.call(w->arg, w->res, w->iw, w->w, 0);
 }
 
 static void look_at_conditions(const problem *p) {

@@ -85,21 +85,11 @@ static void *take(arena *a, size_t count, size_t size) {
 
 /* The scratch that any of the generated functions needs. */
 static frot_callable scratch_of_all(const frot_model *m) {
-  const frot_callable *calls[] = {&m->parameters,
-                                  &m->start,
-                                  &m->initial_position,
-                                  &m->initial_velocity,
-                                  &m->kinematics,
-                                  &m->dynamics,
-                                  &m->spread,
-                                  &m->rates,
-                                  &m->jacobian,
-                                  &m->invariants,
-                                  &m->block_slopes,
-                                  &m->update,
-                                  &m->sizes,
-                                  &m->variables,
-                                  &m->energy};
+  const frot_callable *calls[] = {
+      &m->parameters, &m->start,    &m->initial_position, &m->initial_velocity,
+      &m->kinematics, &m->sides,    &m->dynamics,         &m->spread,
+      &m->rates,      &m->jacobian, &m->invariants,       &m->block_slopes,
+      &m->update,     &m->sizes,    &m->variables,        &m->energy};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
   for (int i = 0; i < count + m->n_blocks; i++) {
@@ -133,7 +123,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(block_step, 2 * nb), TAKE(block_scale, nb * nb + 5 * nb), TAKE(block_pivot, nb);
   TAKE(qd, m->nq), TAKE(mass, l.nw * l.nw), TAKE(h, l.nw), TAKE(rows, l.nw * nr), TAKE(c, nr);
   TAKE(rate, nr), TAKE(gap, nc), TAKE(condition, m->n_conditions), TAKE(coefficient, 3 * nc);
-  TAKE(power, 1), TAKE(distance, nc);
+  TAKE(power, 1), TAKE(witness, 3 * nc);
   TAKE(factor, l.nm * l.nm), TAKE(force, l.nw), TAKE(half_rows, l.nw * nr);
   int ng = m->general ? l.nw : 0;
   TAKE(effect, ng * nr), TAKE(metric, m->general ? l.nm * l.nm : 0), TAKE(lu, ng * ng);

@@ -92,7 +92,8 @@ struct frot_work {
   int *block_pivot;
   double *residual_y; /* ny x equations: transposed Jacobian in y of initial values */
   /* results of `dynamics` and `kinematics` */
-  double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power, *distance;
+  double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
+  double *witness; /* 3 per contact: results of `sides` */
   /* Cholesky factor of the metric; symmetric core: it is the mass matrix, with L^-1 h, L^-1 J' */
   double *factor, *force, *half_rows;
   /* general core: E, metric, factors of A, A^-1 h, A^-1 E */

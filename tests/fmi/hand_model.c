@@ -56,7 +56,12 @@ static int kinematics(const double **arg, double **res, long long *iw, double *w
   if (res[0]) res[0][0] = 0.0;
   if (res[1]) rows(res[1]);
   if (res[2]) res[2][0] = 0.0, res[2][1] = arg[2][0];
-  if (res[4]) res[4][0] = 1.0;
+  return 0;
+}
+
+static int sides(const double **arg, double **res, long long *iw, double *w, int mem) {
+  (void)arg, (void)iw, (void)w, (void)mem;
+  res[0][0] = res[0][1] = res[0][2] = 1.0;
   return 0;
 }
 
@@ -140,6 +145,7 @@ const frot_model frot_the_model = {
     .initial_position = CALL(initial_position),
     .initial_velocity = CALL(initial_velocity),
     .kinematics = CALL(kinematics),
+    .sides = CALL(sides),
     .dynamics = CALL(dynamics),
     .sizes = CALL(sizes),
     .variables = CALL(variables),

@@ -197,7 +197,8 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
                 ca.jacobian(velocity, s.y).T,
             ],
         ),
-        "kinematics": (s.state, [gaps, rows.T, row_rates, conditions, gaps]),
+        "kinematics": (s.state, [gaps, rows.T, row_rates, conditions]),
+        "sides": (s.state, [ca.vec(ca.repmat(gaps.T, 3, 1))]),
         "dynamics": (
             s.state,
             [
