@@ -1,0 +1,337 @@
+"""All admissible motions of a scene at an instant, by looking at every combination of modes.
+
+Unknowns are the accelerations of all bodies and one number a row of reaction. In a combination
+every row has one equation: a relation or a rest (no relative acceleration), or a law of motion.
+Whatever these leave open (redundant liaisons) is chosen by linear programming as far from every
+bound as possible: `margin` is that distance, negative where no choice satisfies the laws.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from judge.mechanics import Floats, Joint, Mechanics
+from judge.scene import Contact, Pin
+
+CLEAR = 1e-6
+MOST = 3000
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """Modes of one liaison: open, or closed with signs of reaction and slips (0: held or none)."""
+
+    closed: bool = True
+    side: int = 1
+    slip: int = 0
+    roll: int = 0
+
+
+@dataclass(slots=True)
+class Motion:
+    """An admissible (margin > 0), borderline or excluded combination."""
+
+    modes: dict[str, Choice]
+    acceleration: Floats
+    reactions: Floats
+    margin: float
+    rank_gap: float
+    size: float
+
+
+@dataclass(frozen=True, slots=True)
+class Still:
+    """What the state says of a liaison: does it touch; the sense of slip and roll (0: none)."""
+
+    touching: bool
+    slip: int
+    roll: int
+
+
+def choices(joint: Joint, still: Still) -> list[Choice]:
+    """The modes to look at."""
+    c = joint.liaison
+    if isinstance(c, Contact) and not c.bilateral and not still.touching:
+        return [Choice(closed=False)]
+    slips = [0] if c.mu is None or joint.mu_s == 0 else ([still.slip] if still.slip else [0, 1, -1])
+    rolls = [0]
+    if isinstance(c, Contact) and c.delta is not None and joint.delta > 0:
+        rolls = [still.roll] if still.roll else [0, 1, -1]
+    sides = [1]
+    if isinstance(c, Contact) and c.bilateral and (c.mu is not None or c.delta is not None):
+        sides = [1, -1]
+    found = [Choice(True, s, t, r) for s in sides for t in slips for r in rolls]
+    if isinstance(c, Contact) and not c.bilateral:
+        found.append(Choice(closed=False))
+    return found
+
+
+def count(now: Mechanics, still: Mapping[str, Still]) -> int:
+    total = 1
+    for name, joint in now.joints.items():
+        total *= len(choices(joint, still[name]))
+    return total
+
+
+def motions(now: Mechanics, still: Mapping[str, Still]) -> Iterator[Motion]:
+    """Every combination with its margin; those without a solution of its equations are left out."""
+    names = list(now.joints)
+    for modes in itertools.product(*(choices(now.joints[n], still[n]) for n in names)):
+        found = motion(now, dict(zip(names, modes, strict=True)), still)
+        if found is not None:
+            yield found
+
+
+class System:
+    """Equations and inequalities of one combination, with rows scaled to size one."""
+
+    def __init__(self, now: Mechanics, modes: Mapping[str, Choice], still: Mapping[str, Still]):
+        self.now = now
+        self.columns: list[tuple[str, str]] = []
+        for name, joint in now.joints.items():
+            if modes[name].closed:
+                self.columns += [(name, w) for w in acting(joint)]
+        n, k = now.n, len(self.columns)
+        self.index = {key: n + i for i, key in enumerate(self.columns)}
+        self.matrix = np.zeros((n + k, n + k))
+        self.right = np.zeros(n + k)
+        self.bends: list[tuple[int, str, float]] = []  # rows whose law holds a norm
+        self.inequalities: list[tuple[Floats, float, float]] = []
+        self.matrix[:n, :n] = np.diag(now.mass)
+        self.right[:n] = now.load
+        for (name, word), at in self.index.items():
+            self.matrix[:n, at] = -now.joints[name].rows[word].jacobian
+        for name, joint in now.joints.items():
+            self._liaison(joint, modes[name], still[name])
+
+    def _rest(self, at: int, joint: Joint, word: str) -> None:
+        row = joint.rows[word]
+        self.matrix[at, : self.now.n] = row.jacobian
+        self.right[at] = -row.bias
+
+    def _at_least(self, terms: Mapping[int, float], constant: float, size: float) -> None:
+        line = np.zeros(len(self.right))
+        for at, x in terms.items():
+            line[at] += x
+        self.inequalities.append((line, constant, size))
+
+    def _acceleration(self, joint: Joint, word: str, sign: int, size: float) -> None:
+        """Sign * (J a + c) >= 0."""
+        row = joint.rows[word]
+        terms = {i: sign * x for i, x in enumerate(row.jacobian) if x != 0}
+        self._at_least(terms, sign * row.bias, size)
+
+    def _liaison(self, joint: Joint, mode: Choice, still: Still) -> None:
+        name, c, now = joint.liaison.name, joint.liaison, self.now
+        # sizes: of an acceleration of this row, and of a force on it, by the loads of its bodies
+        word = "n" if isinstance(c, Contact) else "x"
+        quick = accelerations(now)
+        speeding = float(joint.rows[word].reach @ quick + joint.rows[word].bias_size)
+        if not mode.closed:
+            self._acceleration(joint, "n", 1, speeding)
+            return
+        weight = force_size(now, joint)
+        if isinstance(c, Pin):
+            for w in ("x", "y"):
+                self._rest(self.index[name, w], joint, w)
+            if c.mu is not None:
+                self._law(joint, "c", mode.slip, still.slip, None, joint.mu, joint.mu_s, weight)
+            return
+        normal = self.index[name, "n"]
+        self._rest(normal, joint, "n")
+        bounded = c.mu is not None or c.delta is not None
+        if not c.bilateral or bounded:
+            self._at_least({normal: mode.side}, 0.0, weight)
+        side = (normal, mode.side)
+        if c.mu is not None:
+            self._law(joint, "t", mode.slip, still.slip, side, joint.mu, joint.mu_s, weight)
+        if c.delta is not None:
+            self._law(joint, "r", mode.roll, still.roll, side, joint.delta, joint.delta, weight)
+
+    def _law(
+        self,
+        joint: Joint,
+        word: str,
+        way: int,
+        moving: int,
+        normal: tuple[int, int] | None,
+        bound: float,
+        rest: float,
+        weight: float,
+    ) -> None:
+        name = joint.liaison.name
+        at = self.index[name, word]
+        if way == 0:
+            self._rest(at, joint, word)
+            if normal is not None:
+                size = rest * weight if rest > 0 else weight
+                for sign in (1, -1):
+                    self._at_least({normal[0]: rest * normal[1], at: sign}, 0.0, size)
+            return
+        self.matrix[at, at] = 1
+        if normal is not None:
+            self.matrix[at, normal[0]] += way * bound * normal[1]
+        else:
+            self.bends.append((at, name, way * bound))
+        if not moving:
+            row = joint.rows[word]
+            size = float(row.reach @ accelerations(self.now) + row.bias_size)
+            self._acceleration(joint, word, way, size)
+
+
+def acting(joint: Joint) -> list[str]:
+    c = joint.liaison
+    if isinstance(c, Pin):
+        return ["x", "y"] + (["c"] if c.mu is not None else [])
+    return ["n"] + (["t"] if c.mu is not None else []) + (["r"] if c.delta is not None else [])
+
+
+def accelerations(now: Mechanics) -> Floats:
+    """Sizes of the accelerations that the loads and the motion can bring about."""
+    quick = now.load_size / now.mass
+    spread = np.max(quick.reshape(-1, 3)[:, :2], initial=0.0)
+    lengths = [j.size for j in now.joints.values()]
+    reach = max(lengths, default=1.0)
+    spread = max(spread, float(np.max(quick[2::3], initial=0.0)) * reach * 1e-3)
+    for joint in now.joints.values():
+        spread = max(spread, *(r.bias_size for w, r in joint.rows.items() if w not in "cr"))
+    quick = quick.copy()
+    quick[0::3] = np.maximum(quick[0::3], spread)
+    quick[1::3] = np.maximum(quick[1::3], spread)
+    return quick
+
+
+def force_size(now: Mechanics, joint: Joint) -> float:
+    """Size of the forces at the bodies of a joint."""
+    word = "n" if "n" in joint.rows else "x"
+    touched = np.abs(joint.rows[word].jacobian) > 0
+    if "y" in joint.rows:
+        touched |= np.abs(joint.rows["y"].jacobian) > 0
+    touched[2::3] = False
+    quick = accelerations(now)
+    return float(np.max((now.mass * quick)[touched], initial=0.0))
+
+
+def motion(
+    now: Mechanics, modes: Mapping[str, Choice], still: Mapping[str, Still]
+) -> Motion | None:
+    """Solve one combination; None where its equations contradict each other."""
+    system = System(now, modes, still)
+    rows = np.maximum(np.max(np.abs(system.matrix), axis=1), 1e-300)
+    matrix = system.matrix / rows[:, None]
+    columns = np.maximum(np.max(np.abs(matrix), axis=0), 1e-300)
+    matrix = matrix / columns
+    # a second pass evens masses that differ by many orders of magnitude
+    again = np.maximum(np.max(np.abs(matrix), axis=1), 1e-300)
+    matrix, rows = matrix / again[:, None], rows * again
+    right = system.right / rows
+    u, s, vt = np.linalg.svd(matrix)
+    rank = int(np.sum(s > 1e-11 * s[0]))
+    gap = float(s[rank - 1] / s[0])
+
+    def solve(r: Floats) -> Floats:
+        return vt[:rank].T @ ((u.T @ r)[:rank] / s[:rank])
+
+    z = solve(right)
+    if system.bends:
+        z = _bend(system, z, solve, rows, columns)
+        if z is None:
+            return None
+        right = matrix @ z if rank == len(s) else right
+    wrong = np.abs(matrix @ z - right)
+    size = np.abs(matrix) @ np.abs(z) + np.abs(right)
+    if np.any(wrong > 1e-7 * (size + 1e-300)) and rank < len(s):
+        return None
+    free = vt[rank:].T
+    margin, z = _margin(system, z / columns, free / columns[:, None], modes)
+    n = now.n
+    return Motion(dict(modes), z[:n], z[n:], margin, gap, float(np.max(np.abs(z[n:]), initial=0.0)))
+
+
+def _bend(system: System, z: Floats, solve, rows: Floats, columns: Floats) -> Floats | None:  # type: ignore[no-untyped-def]
+    """Pins in motion: c + way * mu * radius * norm(R) = 0, by Newton's method."""
+    base = z
+    units = []
+    for at, _, _ in system.bends:
+        e = np.zeros(len(z))
+        e[at] = 1 / rows[at]
+        units.append(solve(e))
+    units_matrix = np.array(units).T
+    c = np.zeros(len(system.bends))
+    for _ in range(60):
+        now = (base + units_matrix @ c) / columns
+        f, jacobian = np.zeros(len(c)), np.eye(len(c))
+        for k, (_, name, bound) in enumerate(system.bends):
+            at = [system.index[name, w] for w in "xy"]
+            r = now[at]
+            size = float(np.hypot(*r))
+            f[k] = c[k] + bound * size
+            if size > 0:
+                jacobian[k] += bound * (r @ (units_matrix[at] / columns[at][:, None])) / size
+        step = np.linalg.lstsq(jacobian, f, rcond=None)[0]
+        c = c - step
+        if np.max(np.abs(step)) <= 1e-14 * max(np.max(np.abs(c)), 1e-300):
+            break
+    else:
+        if not np.max(np.abs(step)) <= 1e-9 * np.max(np.abs(c)):
+            return None
+    return base + units_matrix @ c
+
+
+def _margin(
+    system: System, z: Floats, free: Floats, modes: Mapping[str, Choice]
+) -> tuple[float, Floats]:
+    """The smallest of all inequalities over their sizes, at best."""
+    lines = [
+        (line / size, constant / size) for line, constant, size in system.inequalities if size > 0
+    ]
+    curved = [
+        (name, joint)
+        for name, joint in system.now.joints.items()
+        if isinstance(joint.liaison, Pin) and joint.liaison.mu is not None and modes[name].slip == 0
+    ]
+
+    def bound_of_pins(z: Floats) -> list[float]:
+        found = []
+        for name, joint in curved:
+            x, y, c = (z[system.index[name, w]] for w in "xyc")
+            size = max(force_size(system.now, joint), abs(np.hypot(x, y)))
+            if joint.mu_s * size > 0:
+                found.append(float((joint.mu_s * np.hypot(x, y) - abs(c)) / (joint.mu_s * size)))
+        return found
+
+    if free.shape[1] == 0 or not lines:
+        values = [float(line @ z + constant) for line, constant in lines] + bound_of_pins(z)
+        return min(values, default=1.0), z
+    from scipy.optimize import linprog
+
+    # maximise e: line (z + free y) + constant >= e, e <= 1
+    scale = np.maximum(np.max(np.abs(np.array([line @ free for line, _ in lines])), axis=0), 1e-300)
+    free = free / scale
+    a = np.array([np.append(-(line @ free), 1.0) for line, _ in lines])
+    b = np.array([line @ z + constant for line, constant in lines])
+    k = free.shape[1]
+    found = linprog(
+        np.append(np.zeros(k), -1.0), a, b, bounds=[(-1e9, 1e9)] * k + [(None, 1.0)], method="highs"
+    )
+    if found.status != 0:
+        return -np.inf, z
+    z = z + free @ found.x[:k]
+    return min([float(found.x[k]), *bound_of_pins(z)]), z
+
+
+def distinct(found: list[Motion], now: Mechanics) -> list[Motion]:
+    """One of each: motions are the same where their accelerations are."""
+    kept: list[Motion] = []
+    quick = accelerations(now)
+    for one in found:
+        size = np.maximum(quick, np.abs(one.acceleration))
+        if not any(
+            np.all(np.abs(one.acceleration - k.acceleration) <= 1e-6 * size + 1e-300) for k in kept
+        ):
+            kept.append(one)
+    return kept

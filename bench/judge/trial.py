@@ -1,0 +1,141 @@
+"""One run of a setting, judged; and the worker that does many of one text in its own process."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+import traceback
+from dataclasses import asdict, dataclass, field
+
+import numpy as np
+
+import frot
+from judge.anything import FAMILIES as ANYTHING
+from judge.check import Judge
+from judge.family import Family, Setting, Structure
+from judge.machines import FAMILIES as MACHINES
+from judge.tables import FAMILIES as TABLES
+from judge.verdict import (
+    EXACT,
+    REFUTED,
+    SILENT,
+    SLOW,
+    Verdict,
+    judge_several,
+    judge_stop,
+)
+from judge.write import write
+
+FAMILIES: dict[str, Family] = {f.name: f for f in (*ANYTHING, *MACHINES, *TABLES)}
+
+
+@dataclass(slots=True)
+class Record:
+    """What became of one run; `key` is seed, family, structure, setting."""
+
+    key: tuple[int, str, int, int]
+    verdict: str
+    why: list[str] = field(default_factory=list)
+    seconds: float = 0.0
+    worst: dict[str, float] = field(default_factory=dict)
+
+
+def structure_of(seed: int, family: str, number: int) -> Structure:
+    rng = np.random.default_rng([seed, list(FAMILIES).index(family), number])
+    return FAMILIES[family].make(rng)
+
+
+def setting_of(structure: Structure, seed: int, family: str, number: int, setting: int) -> Setting:
+    rng = np.random.default_rng([seed, list(FAMILIES).index(family), number, setting + 1])
+    return structure.draw(rng)
+
+
+def try_setting(
+    model: frot.Model, structure: Structure, setting: Setting, seed: int, limit: float
+) -> Verdict:
+    """Run and judge; `limit` is processor time of the run in seconds."""
+    deadline = time.process_time() + limit
+    late: list[int] = []
+
+    def watch(_: float) -> bool:
+        if time.process_time() > deadline:
+            late.append(1)
+        return bool(late)
+
+    error: frot.FrotError | None = None
+    result: frot.Result | None = None
+    try:
+        result = model.simulate(
+            stop=setting.stop, tolerance=setting.tolerance, parameters=setting.values, watch=watch
+        )
+    except frot.SimulationError as stop:
+        error, result = stop, stop.result
+    except frot.FrotError as refused:
+        error = refused
+    if late:
+        reached = (
+            ""
+            if result is None
+            else f" reached {result.time[-1]!r} of {setting.stop!r} s, {result.figures.steps} steps"
+        )
+        return Verdict(SLOW, [f"more than {limit:g} s:{reached}"])
+    if error is not None and result is None:
+        return Verdict(REFUTED, [f"no start: {_told(error)[1]}"])
+    assert result is not None
+    rng = np.random.default_rng(seed)
+    judge = Judge(structure.scene, setting.values, result, setting.tolerance)
+    found = judge.examine(rng)
+    found.faults += judge_several(judge)
+    stop = Verdict(EXACT)
+    if error is not None:
+        code, text = _told(error)
+        stop = judge_stop(judge, code, text, float(result.time[-1]))
+    elif abs(result.time[-1] - setting.stop) > 1e-12 * abs(setting.stop):
+        found.faults.append(f"ends early: at {result.time[-1]!r} of {setting.stop!r}")
+    if found.faults:
+        return Verdict(SILENT, found.faults + stop.why, found.worst)
+    return Verdict(stop.kind, stop.why, found.worst)
+
+
+def _told(error: frot.FrotError) -> tuple[str, str]:
+    first = error.diagnostics[0]
+    return first.code, f"{first.code}: {first.message}"
+
+
+def work(job: dict[str, object]) -> None:
+    """Do settings of one text and write a line of JSON for each."""
+    seed, family, number = int(job["seed"]), str(job["family"]), int(job["number"])  # type: ignore[call-overload]
+    structure = structure_of(seed, family, number)
+    text = write(structure.scene)
+
+    def tell(kind: str, **what: object) -> None:
+        print(json.dumps({"kind": kind, **what}), flush=True)
+
+    try:
+        model = frot.compile(text)
+        model.program()
+    except frot.FrotError as refused:
+        tell("text", why=str(refused))
+        return
+    tell("compiled")
+    for k in job["settings"]:  # type: ignore[attr-defined]
+        tell("begin", setting=k)
+        setting = setting_of(structure, seed, family, number, k)
+        begun = time.process_time()
+        try:
+            verdict = try_setting(model, structure, setting, k, float(job["limit"]))  # type: ignore[arg-type]
+        except Exception:
+            verdict = Verdict("broken", [traceback.format_exc(limit=-4)])
+        record = Record(
+            (seed, family, number, k),
+            verdict.kind,
+            verdict.why,
+            time.process_time() - begun,
+            verdict.worst,
+        )
+        tell("record", record=asdict(record))
+
+
+if __name__ == "__main__":
+    work(json.loads(sys.stdin.read()))

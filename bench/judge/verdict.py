@@ -1,0 +1,189 @@
+"""What a run was: exact, refused and confirmed, refused and refuted, a silent fault, too slow.
+
+A stop is judged at the state it was told at: every combination of modes is looked at. Where one is
+admissible clearly, or stays so a little later along its own motion, the stop is refuted.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from judge.check import Judge
+from judge.mechanics import Joint, Mechanics
+from judge.motions import CLEAR, Motion, Still, accelerations, count, distinct, motion, motions
+from judge.scene import Contact, Pin
+
+EXACT, CONFIRMED, REFUTED, SILENT, SLOW, UNCLEAR = (
+    "exact",
+    "refused, confirmed",
+    "refused, refuted",
+    "silent fault",
+    "too slow",
+    "unclear",
+)
+VERDICTS = (EXACT, CONFIRMED, REFUTED, SILENT, SLOW, UNCLEAR)
+MOST = 4000
+BUDGET = 8.0
+HUGE = 1e4
+
+
+@dataclass(slots=True)
+class Verdict:
+    """`kind` of VERDICTS, and why."""
+
+    kind: str
+    why: list[str] = field(default_factory=list)
+    worst: dict[str, float] = field(default_factory=dict)
+
+
+def still_of(judge: Judge, now: Mechanics, loose: float) -> dict[str, Still]:
+    """Which liaisons touch and which slips are zero, to `loose` of their sizes."""
+    still = {}
+    for name, joint in now.joints.items():
+        word = "c" if isinstance(joint.liaison, Pin) else "t"
+        touching = abs(joint.gap) <= loose * max(judge.length, joint.size)
+        if touching and isinstance(joint.liaison, Contact) and not joint.liaison.bilateral:
+            rate = joint.rows["n"].rate
+            touching = rate <= loose * judge.usual(joint.rows["n"])
+        slip = sense(judge, now, joint, word, loose)
+        roll = sense(judge, now, joint, "r", loose) if word == "t" else 0
+        still[name] = Still(touching, slip, roll)
+    return still
+
+
+def sense(judge: Judge, now: Mechanics, joint: Joint, word: str, loose: float) -> int:
+    r = joint.rows[word]
+    if abs(r.rate) <= loose * judge.usual(r):
+        return 0
+    return 1 if r.rate > 0 else -1
+
+
+def later(
+    judge: Judge, now: Mechanics, found: Motion, still: Mapping[str, Still], t: float
+) -> float:
+    """The margin of the same modes a little later, along the motion they give."""
+    quick = accelerations(now)
+    pace = math.inf
+    for k in range(now.n):
+        if abs(found.acceleration[k]) > 1e-9 * quick[k] or abs(now.speed[k]) > 0:
+            length = 1.0 if k % 3 == 2 else judge.length
+            speed, a = abs(now.speed[k]), abs(found.acceleration[k])
+            pace = min(
+                pace,
+                length / speed if speed > 0 else math.inf,
+                math.sqrt(length / a) if a > 0 else math.inf,
+            )
+    end = float(judge.result.time[-1]) - float(judge.result.time[0])
+    h = 1e-4 * (pace if math.isfinite(pace) else max(end, 1e-300))
+    place = now.place + h * now.speed + h * h / 2 * found.acceleration
+    speed = now.speed + h * found.acceleration
+    state = {}
+    for b in judge.scene.bodies:
+        k = now.at[b.name]
+        state[b.name] = (*place[k : k + 3], *speed[k : k + 3])
+
+    def look(word: str) -> float:
+        if word == "time":
+            return t + h
+        if word in judge.values:
+            return judge.values[word]
+        body, what, axis = word.split(".")
+        return float(state[body][(0 if what == "position" else 3) + "xy".index(axis)])
+
+    then = Mechanics(judge.scene, look, state, now.sides)
+    moved = {}
+    for name, joint in then.joints.items():
+        mode, before = found.modes[name], still[name]
+        word = "c" if isinstance(joint.liaison, Pin) else "t"
+        slip = before.slip or (mode.slip and (1 if joint.rows[word].rate > 0 else -1))
+        roll = before.roll
+        if word == "t" and not roll:
+            roll = mode.roll and (1 if joint.rows["r"].rate > 0 else -1)
+        if mode.slip and slip != mode.slip:
+            return -1.0
+        moved[name] = replace(before, slip=slip, roll=roll)
+    again = motion(then, found.modes, moved)
+    return -1.0 if again is None else again.margin
+
+
+def judge_stop(judge: Judge, code: str, text: str, t: float) -> Verdict:
+    """Is there truly no admissible motion where a run stopped?"""
+    now = judge.mechanics(t)
+    loose = max(1e3 * judge.tol, 1e-9)
+    if code == "E0905":
+        for name, joint in now.joints.items():
+            if (
+                f"'{name}'" in text
+                and joint.rows["n"].rate < 0
+                and abs(joint.gap) <= loose * max(judge.length, joint.size)
+            ):
+                return Verdict(CONFIRMED, [code])
+        return Verdict(REFUTED, [f"{code}: no body meets another at t = {t!r}"])
+    still = still_of(judge, now, loose)
+    impacts = [
+        n for n, j in now.joints.items() if still[n].touching and _approaches(judge, now, j, loose)
+    ]
+    if impacts:
+        return Verdict(CONFIRMED, [f"{code}, impact at {', '.join(impacts)}"])
+    good: list[Motion] = []
+    deadline = time.process_time() + BUDGET
+    for m in motions(now, still):
+        if m.margin > CLEAR or (m.margin > -CLEAR and later(judge, now, m, still, t) > -1e-9):
+            good.append(m)
+            if len(good) > 3:
+                break
+        if time.process_time() > deadline:
+            if not good:
+                return Verdict(UNCLEAR, [f"{code} at t = {t!r}: {count(now, still)} combinations"])
+            break
+    if not good:
+        return Verdict(CONFIRMED, [code])
+    usual = np.max(now.mass * accelerations(now))
+    if all(m.size > HUGE * usual for m in good):
+        return Verdict(CONFIRMED, [f"{code}, reactions grow without bound"])
+    many = len(distinct(good, now))
+    told = "; ".join(_modes(m) for m in distinct(good, now)[:3])
+    return Verdict(REFUTED, [f"{code} at t = {t!r}: {many} admissible: {told}; {text}"])
+
+
+def _approaches(judge: Judge, now: Mechanics, joint: Joint, loose: float) -> bool:
+    """Whether a contact that can part is about to be hit."""
+    c, row = joint.liaison, joint.rows.get("n")
+    if not isinstance(c, Contact) or c.bilateral or row is None:
+        return False
+    return row.rate < -loose * judge.usual(row)
+
+
+def _modes(m: Motion) -> str:
+    words = []
+    for name, c in m.modes.items():
+        words.append(
+            f"{name} "
+            + (
+                "open"
+                if not c.closed
+                else ("stick" if c.slip == 0 else f"slip{c.slip:+d}")
+                + (f" roll{c.roll:+d}" if c.roll else "")
+                + ("" if c.side > 0 else " side-")
+            )
+        )
+    return ", ".join(words) + f" (margin {m.margin:.1e})"
+
+
+def judge_several(judge: Judge, most: int = 3) -> list[str]:
+    """Instants told to have several motions must have several that differ."""
+    wrong = []
+    for e in [e for e in judge.result.events if e.kind == "several"][:most]:
+        now = judge.mechanics(e.time)
+        still = still_of(judge, now, max(1e3 * judge.tol, 1e-9))
+        if count(now, still) > MOST:
+            continue
+        found = distinct([m for m in motions(now, still) if m.margin > -CLEAR], now)
+        if len(found) < 2:
+            wrong.append(f"several: '{e.text}', but {len(found)} differ in their accelerations")
+    return wrong
