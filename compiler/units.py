@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from frot.dsl.dimensions import Dimension, dimension
+from frot.dsl.turns import factor_between, rate_of_kind, rate_of_unit
 from frot.dsl.units import parse_unit
 from frot.runtime.program import Unit
 
@@ -47,4 +48,5 @@ def unit_of(of: Dimension, quantity: str = "", written: str = "") -> Unit:
     parsed = parse_unit(written)
     if parsed is None or parsed.dimension != of:
         return Unit(name, exponents)
-    return Unit(name, exponents, written, float(parsed.factor))
+    turn = factor_between(rate_of_unit(written, of), rate_of_kind(quantity, "", of))
+    return Unit(name, exponents, written, float(parsed.factor * turn))

@@ -15,6 +15,7 @@ from frot.dsl.indexing import element, whole_number
 from frot.dsl.modifiers import Modifier
 from frot.dsl.scope import Record, Scope
 from frot.dsl.source import Span
+from frot.dsl.turns import as_rate
 
 Value = checked.Parameter | checked.Input | checked.Output | checked.Variable
 ROLES = ("parameter", "constant", "input", "output")
@@ -101,7 +102,7 @@ def given_value(
             for index, _ in modifier.picks[-depth:]:
                 found = element(found, index, found.span)
             break
-    return fitting(found, node, kind.type, there, unit=kind.unit), node
+    return fitting(found, node, kind.type, there, unit=kind.unit, rate=kind.rate), node
 
 
 def _raw(node: tree.Expression, kind: Kind, scope: Scope) -> checked.Expression | None:
@@ -121,7 +122,9 @@ def _in_unit(found: checked.Expression, kind: Kind) -> checked.Expression:
         case checked.Literal(value=float() as value, unit="") if found.type.dimension.is_one:
             assert kind.factor is not None
             one = Type("real", kind.type.dimension)
-            return checked.Literal(value * kind.factor, one, found.span, kind.unit)
+            # The factor of a rate is already that of its kind.
+            unit = "" if kind.rate else kind.unit
+            return checked.Literal(value * kind.factor, one, found.span, unit)
         case checked.Unary(op="-", operand=checked.Literal() as inner):
             made = _in_unit(inner, kind)
             return checked.Unary("-", made, made.type, found.span)
@@ -140,7 +143,7 @@ def _bound(what: Declared, kind: Kind, scope: Scope) -> tuple[checked.Expression
     if found is not None and _stretches(found, kind):
         found = _stretched(found, kind)
     if found is not None:
-        found = fitting(found, what.item.value, kind.type, scope, unit=kind.unit)
+        found = fitting(found, what.item.value, kind.type, scope, unit=kind.unit, rate=kind.rate)
     return found, _unit(what.item.value, found), True
 
 
@@ -283,7 +286,10 @@ def _output(what: Declared, kind: Kind, scope: Scope) -> checked.Output | None:
         )
         return None
     unit = _unit(item.value, value) or kind.unit
-    return checked.Output(item.name.text, whole, value, item.span, item.doc, unit, kind.name)
+    of_rate = as_rate(value, kind.rate, scope)
+    if of_rate is None:
+        return None
+    return checked.Output(item.name.text, whole, of_rate, item.span, item.doc, unit, kind.name)
 
 
 def _variable(what: Declared, kind: Kind, is_output: bool, scope: Scope) -> checked.Variable | None:

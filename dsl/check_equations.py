@@ -17,6 +17,7 @@ from frot.dsl.records import pairs
 from frot.dsl.scope import Record, Scope
 from frot.dsl.sections import called_name
 from frot.dsl.source import Span
+from frot.dsl.turns import rate_of
 
 Made = checked.Equation | checked.IfEquations
 Leaf = tuple[tree.Equation | tree.When | tree.IfEquation, Scope]
@@ -196,7 +197,8 @@ def both_sides(
     if wanted.base in NUMERIC and wanted.enumeration is None and second.type.base == "real":
         # A whole number may stand on the left of a sum of others.
         wanted = wanted if isinstance(first, checked.Reference) else _real(first)
-    fitted = fitting(second, right, wanted, scope, unit=written_unit(first))
+    unit, rate = written_unit(first), rate_of(first)
+    fitted = fitting(second, right, wanted, scope, unit=unit, rate=rate)
     return None if fitted is None else [(first, fitted)]
 
 

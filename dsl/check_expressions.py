@@ -14,6 +14,7 @@ from frot.dsl.describe import describe, pair, written_unit
 from frot.dsl.dimensions import BOOLEAN, INTEGER, REAL, STRING, Type
 from frot.dsl.scope import Instance, Record, Scope
 from frot.dsl.source import Span
+from frot.dsl.turns import as_rate, rates_alike
 from frot.dsl.units import Unit, UnknownUnit, parse_unit
 
 NUMERIC = ("real", "integer")
@@ -49,13 +50,14 @@ def fitting(
     *,
     others: tuple[Type, ...] = (),
     unit: str = "",
+    rate: str = "",
 ) -> checked.Expression | None:
     """The expression, or its item for one of an array declaration; None after a message.
 
-    `unit` is the one the author wrote for what is expected.
+    `unit` is the one the author wrote for what is expected, `rate` the kind of rate it is.
     """
     if any(agrees(found.type, k) for k in (kind, *others)):
-        return found
+        return as_rate(found, rate, scope)
     if kind.base == "integer" and kind.enumeration is None and is_whole(found):
         return fitting(as_integer(found), node, kind, scope, others=others, unit=unit)
     if scope.element is not None and found.type.shape[:1] == scope.element[1:]:
@@ -63,7 +65,7 @@ def fitting(
 
         item = element(found, scope.element[0], found.span)
         if any(agrees(item.type, k) for k in (kind, *others)):
-            return item
+            return as_rate(item, rate, scope)
     whole = kind.base == "integer" and agrees(found.type, Type(shape=kind.shape))
     wanted, shown = pair(kind, found.type, unit, written_unit(found))
     wanted = " or ".join((wanted, *(describe(k) for k in others)))
@@ -291,7 +293,8 @@ def _infix(node: tree.Infix, scope: Scope) -> checked.Expression | None:
     kind = _infix_type(node, left, right, scope)
     if kind is None:
         return None
-    return checked.Binary(node.op, left, right, kind, node.span)
+    sides = rates_alike(left, right, scope) if node.op not in ("*", "/", "^") else (left, right)
+    return None if sides is None else checked.Binary(node.op, *sides, kind, node.span)
 
 
 def _is_celsius(node: checked.Expression) -> bool:

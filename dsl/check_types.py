@@ -12,6 +12,7 @@ from frot.dsl.describe import describe
 from frot.dsl.dimensions import Enumeration, Type
 from frot.dsl.modifiers import Modifier, merge, read_modifiers
 from frot.dsl.scope import Instance, Scope, did_you_mean
+from frot.dsl.turns import factor_between, rate_of_kind, rate_of_unit
 
 _LONGEST = 50
 ATTRIBUTES = ("start", "unit")
@@ -29,6 +30,11 @@ class Kind:
     unit: str = ""
     factor: float | None = None
     start: Modifier | None = None
+
+    @property
+    def rate(self) -> str:
+        """The kind of rate it is: a frequency, an angular velocity, or an empty text."""
+        return rate_of_kind(self.name, self.unit, self.type.dimension)
 
 
 def split_call(
@@ -198,7 +204,9 @@ def modified(kind: Kind, modifiers: dict[str, Modifier], scope: Scope) -> Kind |
                 "E0301", f"the unit of {describe(type_)} is not that of {wrong}", given.value.span
             )
             return None
+        meant = rate_of_kind(kind.name, "", found.dimension)
+        turn = factor_between(rate_of_unit(given.value.value, found.dimension), meant)
         type_ = Type("real", found.dimension, type_.shape)
-        unit, factor = given.value.value, found.factor
+        unit, factor = given.value.value, found.factor * turn
     start = merge(modifiers.get("start"), kind.start, scope)
     return Kind(type_, kind.name, unit, factor, start)

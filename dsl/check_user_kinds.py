@@ -176,7 +176,7 @@ def _formal(
     value = expression(node, there)
     if value is None:
         return None
-    value = fitting(value, node, kind.type, there, unit=kind.unit)
+    value = fitting(value, node, kind.type, there, unit=kind.unit, rate=kind.rate)
     # A variable of this type stands for the value: the text of the definition is what is checked.
     return checked.Parameter(formal.name.text, kind.type, value, formal.span) if value else None
 

@@ -12,6 +12,7 @@ from frot.dsl.dimensions import BOOLEAN
 from frot.dsl.scope import Scope
 from frot.dsl.sections import called_name
 from frot.dsl.source import Span
+from frot.dsl.turns import rate_of, rate_of_kind
 
 Action = checked.Assign | checked.Reinit | checked.Terminate | checked.Assertion
 
@@ -133,7 +134,8 @@ def _assign(leaf: tree.Equation, scope: Scope) -> checked.Assign | None:
     value = expression(leaf.right, scope)
     if variable is None or value is None:
         return None
-    fitted = fitting(value, leaf.right, variable.type, scope, unit=variable.unit)
+    rate = rate_of_kind(variable.quantity, variable.unit, variable.type.dimension)
+    fitted = fitting(value, leaf.right, variable.type, scope, unit=variable.unit, rate=rate)
     return None if fitted is None else checked.Assign(variable, fitted, leaf.span)
 
 
@@ -162,8 +164,8 @@ def _reinit(call: tree.Call, scope: Scope) -> checked.Reinit | None:
     value = expression(call.arguments[1].value, scope)
     if value is None:
         return None
-    unit = written_unit(target)
-    fitted = fitting(value, call.arguments[1].value, target.type, scope, unit=unit)
+    unit, rate = written_unit(target), rate_of(target)
+    fitted = fitting(value, call.arguments[1].value, target.type, scope, unit=unit, rate=rate)
     return None if fitted is None else checked.Reinit(target, fitted, call.span)
 
 

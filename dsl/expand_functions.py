@@ -223,7 +223,7 @@ def _value(
     shape = sizes(subscripts, item.name, inner)
     if found is None or shape is None:
         return None
-    return fitting(found, node, _typed(kind, shape).type, there, unit=kind.unit)
+    return fitting(found, node, _typed(kind, shape).type, there, unit=kind.unit, rate=kind.rate)
 
 
 def _typed(kind: Kind, shape: tuple[int, ...]) -> Kind:

@@ -113,7 +113,7 @@ def _member(
     found = expression(node, there)
     if found is None or shape is None:
         return None
-    return fitting(found, node, kind.type.of_shape(shape), there, unit=kind.unit)
+    return fitting(found, node, kind.type.of_shape(shape), there, unit=kind.unit, rate=kind.rate)
 
 
 def as_record(

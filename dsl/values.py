@@ -11,6 +11,7 @@ from frot.dsl.describe import describe
 from frot.dsl.dimensions import Type
 from frot.dsl.evaluation import Value, evaluate, nodes
 from frot.dsl.order import in_order
+from frot.dsl.turns import factor_between, rate_of_kind, rate_of_unit
 from frot.dsl.units import Unit, UnknownUnit, parse_unit
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S*)\s*")
@@ -48,10 +49,11 @@ def _parameters(root: checked.Expression) -> Iterator[checked.Parameter]:
             yield node.target
 
 
-def parse_value(text: str, kind: Type) -> Value:
+def parse_value(text: str, kind: Type, quantity: str = "", si: str = "") -> Value:
     """The SI value written as `0.2`, `12 mm`, `20 deg`, `false` or `(1, 0) m`.
 
-    A bare number is in SI. Raises ValueError with a sentence.
+    A bare number is in SI. `quantity` is the name of its type, or `si` its unit in SI: they tell a
+    frequency from an angular velocity. Raises ValueError with a sentence.
     """
     text = text.strip()
     if kind.base == "string":
@@ -61,14 +63,16 @@ def parse_value(text: str, kind: Type) -> Value:
             raise ValueError(f"expected true or false, found {text!r}")
         return text == "true"
     if not kind.is_scalar:
-        return _vector(text, kind)
+        return _vector(text, kind, quantity, si)
     found = _NUMBER.fullmatch(text)
     if found is None:
         raise ValueError(f"expected {describe(kind)}, found {text!r}")
     value = float(found[1])
     if found[2]:
         unit = _unit(found[2], kind)
-        value = value * unit.factor + unit.offset
+        meant = rate_of_kind(quantity, si, kind.dimension)
+        turn = factor_between(rate_of_unit(found[2], kind.dimension), meant)
+        value = value * unit.factor * turn + unit.offset
     if not math.isfinite(value):
         raise ValueError(f"the number {text!r} is too large")
     if kind.base == "integer" and not value.is_integer():
@@ -88,7 +92,7 @@ def _unit(text: str, kind: Type) -> Unit:
     return unit
 
 
-def _vector(text: str, kind: Type) -> Value:
+def _vector(text: str, kind: Type, quantity: str, si: str) -> Value:
     found = re.fullmatch(r"\((.*)\)\s*(\S*)", text)
     if found is None:
         raise ValueError(f"expected {describe(kind)} as '(1, 0)', found {text!r}")
@@ -97,4 +101,4 @@ def _vector(text: str, kind: Type) -> Value:
         raise ValueError(f"expected {kind.shape[0]} items, found {len(items)}")
     tail = f" {found[2]}" if found[2] else ""
     item = Type(kind.base, kind.dimension, kind.shape[1:])
-    return tuple(parse_value(i.strip() + tail, item) for i in items)
+    return tuple(parse_value(i.strip() + tail, item, quantity, si) for i in items)

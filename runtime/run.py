@@ -245,7 +245,7 @@ def _from_text(info: ParameterInfo, text: str) -> float:
     from frot.dsl.dimensions import Dimension, Type
 
     of = Dimension(tuple(Fraction(e) for e in info.unit.exponents[:7]))
-    return float(parse_value(text, Type(info.type, of)))  # type: ignore[arg-type]
+    return float(parse_value(text, Type(info.type, of), si=info.unit.name))  # type: ignore[arg-type]
 
 
 def _event(engine: Engine, raw: RawEvent) -> Event:
