@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from frot.compiler.mechanism import Mechanism, Mobility, is_unilateral, mobility
 from frot.compiler.mechanize import mechanize
 from frot.dsl import Log
 from frot.dsl.check_equations import count
-from frot.dsl.checked import BodyGeometry, BodyPoint, CurvePlace, Liaison, Model, Place
+from frot.dsl.checked import (
+    BodyGeometry,
+    BodyPoint,
+    CurvePlace,
+    Equation,
+    Liaison,
+    Model,
+    Place,
+)
+from frot.dsl.connections import UNCONNECTED
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +34,10 @@ class LiaisonLine:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """Mobility and liaisons of a model; `str()` gives the text."""
+    """Mobility and liaisons of a model; `str()` gives the text.
+
+    `unconnected` are connectors through which nothing flows, because nothing is connected there.
+    """
 
     model: str
     unknowns: int
@@ -33,6 +46,7 @@ class Report:
     bodies: tuple[tuple[str, str, int], ...]
     liaisons: tuple[LiaisonLine, ...]
     mobility: Mobility
+    unconnected: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         m = self.mobility
@@ -69,7 +83,10 @@ class Report:
         if not (self.unknowns or self.equations or self.events):
             return []
         events = f", events {self.events}" if self.events else ""
-        return [f"  variables {self.unknowns}, equations {self.equations}{events}"]
+        lines = [f"  variables {self.unknowns}, equations {self.equations}{events}"]
+        if self.unconnected:
+            lines.append(f"  connected to nothing: {', '.join(self.unconnected)}")
+        return lines
 
 
 def make_report(model: Model, log: Log) -> Report | None:
@@ -94,7 +111,14 @@ def make_report(model: Model, log: Log) -> Report | None:
         ),
         tuple(_line(liaison, mechanism) for liaison in mechanism.model.liaisons),
         mobility(mechanism),
+        tuple(dict.fromkeys(_unconnected(model))),
     )
+
+
+def _unconnected(model: Model) -> Iterator[str]:
+    for equation in model.equations:
+        if isinstance(equation, Equation) and equation.connection.startswith(UNCONNECTED):
+            yield equation.connection.removeprefix(UNCONNECTED)
 
 
 def _line(liaison: Liaison, mechanism: Mechanism) -> LiaisonLine:

@@ -11,6 +11,7 @@ from frot.dsl.check_arguments import bind, word
 from frot.dsl.check_equations import both_sides
 from frot.dsl.check_values import known
 from frot.dsl.describe import describe, quantity
+from frot.dsl.diagnostics import Label
 from frot.dsl.dimensions import REAL
 from frot.dsl.evaluation import constant
 from frot.dsl.scope import Scope, did_you_mean
@@ -30,6 +31,7 @@ _WORDS = {
     "on_indeterminate": ("rest", "continue", "stop"),
 }
 TOLERANCES = (1e-14, 1e-1)
+_STANDARD = 9.81  # m/s^2
 
 
 def _split(
@@ -59,6 +61,23 @@ def world(call: tree.Call, scope: Scope) -> checked.World:
         down = _direction(words["down"].value, scope) or down
     gravity = found.values.get("gravity")
     return checked.World(gravity, down, call.span)  # type: ignore[arg-type]
+
+
+def same_world(found: checked.World, holds: checked.World, component: str, scope: Scope) -> None:
+    """Tell a component whose world is not that of the model: there is one world for all."""
+    gravities = [
+        _STANDARD if w.gravity is None else known(w.gravity, scope) for w in (found, holds)
+    ]
+    if found.down == holds.down and gravities[0] == gravities[1]:
+        return
+    assert found.span is not None
+    scope.log.report(
+        "E0521",
+        f"the world of component {component!r} is not that of the model",
+        found.span,
+        labels=(Label(holds.span, "that of the model"),) if holds.span is not None else (),
+        help="write this 'world(...)' in the model itself, or take it away here",
+    )
 
 
 def _direction(node: tree.Expression, scope: Scope) -> str | None:

@@ -13,6 +13,7 @@ from frot.dsl.check_sections import (
     default_world,
     experiment,
     initial_statement,
+    same_world,
     world,
 )
 from frot.dsl.check_when import mark_discrete, when
@@ -22,7 +23,7 @@ from frot.dsl.collecting import without_collection
 from frot.dsl.connections import Connections
 from frot.dsl.diagnostics import Log
 from frot.dsl.dimensions import REAL, Type
-from frot.dsl.imports import Libraries
+from frot.dsl.imports import Libraries, tell_clashes
 from frot.dsl.instantiate import entities, instantiate, settle_all
 from frot.dsl.open_flows import open_flows
 from frot.dsl.scope import Build, Entity, Instance, TooLarge
@@ -74,6 +75,10 @@ def _model(
         _give_laws(instance)
     statements = root.statements
     the_world = [world(call, scope) for call, scope in statements.worlds]
+    holds = the_world[-1] if the_world else default_world(planar)
+    for instance in made:
+        for call, scope in instance.statements.worlds if instance.name else ():
+            same_world(world(call, scope), holds, instance.name, scope)
     equations = _equations(made, build)
     experiments = [experiment(call, scope) for call, scope in statements.experiments]
     found = [*_constants(build), *entities(root)]
@@ -89,7 +94,7 @@ def _model(
         of_kind(checked.Parameter),  # type: ignore[arg-type]
         of_kind(checked.Input),  # type: ignore[arg-type]
         of_kind(checked.Output),  # type: ignore[arg-type]
-        the_world[-1] if the_world else default_world(planar),
+        holds,
         build.ground,
         of_kind(checked.Body),  # type: ignore[arg-type]
         of_kind(checked.Frame),  # type: ignore[arg-type]
@@ -107,6 +112,7 @@ def _model(
         tuple(build.whens),
         tuple(build.assertions),
     )
+    tell_clashes(libraries)
     if not log.failed:
         warn(made, build)
     return result

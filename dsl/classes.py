@@ -84,12 +84,17 @@ class Namespace:
         if imported is not None:
             imported.used = True
             return imported.target
+        first: Imported | None = None
         for star in self.stars:
             found = star.target.space.own(name) if star.target is not None else None
-            if found is not None:
-                star.used = True
-                return found
-        return None
+            if found is None:
+                continue
+            star.used = True
+            if first is None:
+                first, result = star, found
+            elif found is not result:
+                star.clashes.setdefault(name, first)
+        return None if first is None else result
 
     def visible(self) -> Iterator[str]:
         """Every name of a class that is seen from here."""
@@ -108,11 +113,15 @@ class Namespace:
 
 @dataclass(slots=True, eq=False, repr=False)
 class Imported:
-    """An import: what it names, None where it was not found (that was told)."""
+    """An import: what it names, None where it was not found (that was told).
+
+    `clashes` are names asked for that an earlier `import P.*;` gives too.
+    """
 
     target: Class | None
     statement: tree.Import
     used: bool = False
+    clashes: dict[str, Imported] = field(default_factory=dict)
 
 
 @dataclass(slots=True, eq=False, repr=False)

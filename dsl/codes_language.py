@@ -139,6 +139,13 @@ _NAMES = {
         "Put what both need into a file of its own.",
         "",
     ),
+    "E0212": Code(
+        "name in two packages",
+        "Two imports 'Package.*' give a definition of this name; which one is meant is not said.",
+        "Import the one by its name, 'import Package.Name;', which goes before all '.*'.",
+        "package P\n  model R\n  end R;\nend P;\npackage Q\n  model R\n  end R;\nend Q;\n"
+        "model Example\n  import P.*;\n  import Q.*;\n  R r;\nend Example;\n",
+    ),
 }
 
 _TYPES = {
@@ -344,6 +351,22 @@ _STRUCTURE = {
         "Write the variable itself.",
         "model Example\n  Real x;\nequation\n  x = pre(x) + time/(1 s);\nend Example;\n",
     ),
+    "E0520": Code(
+        "bases that disagree",
+        "A base that is reached in two ways stands in the component once; the two ways give one of "
+        "its names different values.",
+        "Say the same in both, or set the name where the model is used.",
+        "partial model A\n  parameter Real k = 1;\n  output Real y = k;\nend A;\n"
+        "partial model B\n  extends A(k = 2);\nend B;\npartial model C\n  extends A(k = 3);\n"
+        "end C;\nmodel Example\n  extends B;\n  extends C;\nend Example;\n",
+    ),
+    "E0521": Code(
+        "world of a component",
+        "Gravity is one for all: a component cannot have a world other than that of the model.",
+        "Write 'world(...)' in the model itself.",
+        "planar model Part\n  world(gravity = 0 m/s^2);\nend Part;\nplanar model Example\n"
+        "  Part part;\nend Example;\n",
+    ),
     "E0511": Code(
         "law on a body that cannot obey it",
         "The law bounds a couple, but the body of this liaison does not turn.",
@@ -392,13 +415,6 @@ _WARNINGS = {
         "Give every potential its flow.",
         "connector Port\n  Real a;\n  Real b;\n  flow Real f;\nend Port;\nmodel Example\n"
         "  Port p;\n  Port q;\nequation\n  connect(p, q);\nend Example;\n",
-    ),
-    "W0105": Code(
-        "world of a component",
-        "Gravity is one for all: the 'world' of the model counts, not those of its components.",
-        "Write 'world(...)' in the model itself.",
-        "planar model Part\n  world(gravity = 0 m/s^2);\nend Part;\nplanar model Example\n"
-        "  Part part;\nend Example;\n",
     ),
 }
 

@@ -13,6 +13,9 @@ from frot.dsl import checked
 from frot.dsl.dimensions import Type
 from frot.dsl.source import Span
 
+# What a connector that nobody connects is told by.
+UNCONNECTED = "nothing is connected to "
+
 # A variable of a connector, and whether its connector is seen from the model around it.
 Face = tuple[int, bool]
 Entity = checked.Variable | checked.Input | checked.Output | checked.Parameter | checked.Expression
@@ -115,7 +118,7 @@ class Connections:
                 name = variable.name.rpartition(".")[0]
                 left = checked.Reference(variable, variable.type, span)
                 zero = _zero(variable.type, span)
-                text = f"nothing is connected to {name}"
+                text = f"{UNCONNECTED}{name}"
                 found.append(checked.Equation(left, zero, span, _owner(name), text))
         for equation in found:
             grow(1, equation.span)

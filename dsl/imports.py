@@ -11,7 +11,7 @@ from pathlib import Path
 
 from frot.dsl import tree
 from frot.dsl.classes import Class, Imported, Namespace, library, namespace
-from frot.dsl.diagnostics import Log
+from frot.dsl.diagnostics import Label, Log
 from frot.dsl.import_scan import SUFFIX, locate, member
 from frot.dsl.reading import read_text
 from frot.dsl.scope import did_you_mean
@@ -152,6 +152,20 @@ class Libraries:
         self.read_imports(file.elements, space)
         self.loading.pop()
         return space.own(name) or library(name, space)
+
+
+def tell_clashes(libraries: Libraries) -> None:
+    """Report names that were asked for and that two packages give by `.*`."""
+    for imported in libraries.imports:
+        for name, other in imported.clashes.items():
+            packages = [i.target.name for i in (other, imported) if i.target is not None]
+            libraries.log.report(
+                "E0212",
+                f"{name!r} is in both {packages[0]!r} and {packages[1]!r}: which one is not said",
+                imported.statement.span,
+                labels=(Label(other.statement.span, "here too"),),
+                help=f"import the one that is meant by its name: 'import {packages[0]}.{name};'",
+            )
 
 
 def _holds(package: Class, name: str) -> bool:

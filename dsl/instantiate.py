@@ -19,6 +19,7 @@ from frot.dsl.modifiers import (
     merged,
     picked,
     read_modifiers,
+    tell_conflict,
     tell_unknown,
 )
 from frot.dsl.order import in_order, names_in
@@ -71,15 +72,19 @@ def _part(
 ) -> None:
     """Declare what a class, or a base of one, says; each base once."""
     scope = Scope(build, made, enter(of, build.libraries))
-    made.parts.add(id(of.definition))
+    made.parts[id(of.definition)] = modifiers
 
     def extends(element: tree.Extends) -> None:
         base = _base(element, (*derived, of), scope)
         if base is None:
             made.open = True
-        elif id(base.definition) not in made.parts:
-            _, arguments = split_call(element.base)
-            said = read_modifiers(arguments, scope)
+            return
+        _, arguments = split_call(element.base)
+        said = read_modifiers(arguments, scope)
+        if id(base.definition) in made.parts:
+            first = made.parts[id(base.definition)]
+            tell_conflict(base, first, merged(modifiers, said, scope), element.span, scope)
+        else:
             if not any(b is base.space for b in of.space.bases):
                 of.space.bases.append(base.space)
             _part(base, made, merged(modifiers, said, scope), role, build, (*derived, of))

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from frot.dsl import checked, tree
+from frot.dsl.classes import Class
 from frot.dsl.diagnostics import Label
 from frot.dsl.scope import Instance, Record, Scope, did_you_mean
 from frot.dsl.source import Span
@@ -162,3 +163,44 @@ def tell_unknown(modifiers: Mapping[str, Modifier], instance: Instance, scope: S
                 notes=() if help_text else (f"there are: {listed}",),
                 help=help_text,
             )
+
+
+def tell_conflict(
+    base: Class,
+    first: Mapping[str, Modifier],
+    second: Mapping[str, Modifier],
+    span: Span,
+    scope: Scope,
+) -> None:
+    """Report what two ways to one base say differently of it: it stands in the component once."""
+    for path, one, other in _differences(first, second, ""):
+        said = [_said(one), _said(other)]
+        said.sort(key=lambda text: not text)
+        scope.log.report(
+            "E0520",
+            f"the base {base.name!r} is there once, but its {path!r} is given {said[0]} and "
+            + (f"{said[1]}" if said[1] else "left as it is"),
+            other.span if other is not None else span,
+            labels=(Label(one.span, "the other way"),) if one is not None and other else (),
+            help=f"say the same of {path!r} in both, or set it where both are used",
+        )
+        return
+
+
+def _differences(
+    first: Mapping[str, Modifier], second: Mapping[str, Modifier], around: str
+) -> Iterator[tuple[str, Modifier | None, Modifier | None]]:
+    for name in {**first, **second}:
+        one, other = first.get(name), second.get(name)
+        path = f"{around}.{name}" if around else name
+        if _said(one) != _said(other):
+            yield path, one, other
+        parts = [{} if m is None else m.parts for m in (one, other)]
+        yield from _differences(parts[0], parts[1], path)
+
+
+def _said(modifier: Modifier | None) -> str:
+    """The value a modifier gives, as it is written."""
+    if modifier is None or modifier.value is None:
+        return ""
+    return " ".join(modifier.value.span.text.split())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from frot.dsl.classes import Class, Namespace
     from frot.dsl.connections import Connections
     from frot.dsl.imports import Libraries
+    from frot.dsl.modifiers import Modifier
 
 # Scalars, components, equations, rounds of loops and expanded calls of one model, together: what a
 # check makes of a text stays below some seconds and hundreds of megabytes.
@@ -55,7 +56,7 @@ class Instance:
     """A component, or the model itself (`name` empty), or a package with its constants.
 
     `name` is dotted. `of` is its class, `around` the classes of what it is in and its own, `parts`
-    the identities of the definitions it is made of. `flows` names the flow variables of a
+    the identities of the definitions it is made of, with what modifies them. `flows` names the flow variables of a
     connector. `open`: names may come from a base that was not found, so that missing ones are not
     told. `written` tells where each name is declared.
     """
@@ -68,7 +69,7 @@ class Instance:
     open: bool = False
     written: dict[str, Span] = field(default_factory=dict)
     around: tuple[Class, ...] = ()
-    parts: set[int] = field(default_factory=set)
+    parts: dict[int, Mapping[str, Modifier]] = field(default_factory=dict)
     statements: Statements = field(default_factory=Statements)
 
     @property

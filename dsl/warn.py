@@ -21,9 +21,6 @@ def warn(made: list[Instance], build: Build) -> None:
     for instance in made:
         for name, entity in instance.names.items():
             _loose(name, entity, main, build)
-        if instance.name:
-            for call, _ in instance.statements.worlds:
-                _world(call, instance, build)
     connectors = {id(i.of.definition): i for i in made if i.is_connector}
     for connector in connectors.values():
         _unbalanced(connector, main, build)
@@ -81,14 +78,6 @@ def _loose(name: str, entity: Entity | Pending | Refused, main: Source, build: B
     if isinstance(entity, Array) and any(id(i) in build.used for i in entity.items):
         return
     build.log.report("W0103", f"component {name!r} is connected to nothing", one.span)
-
-
-def _world(call: tree.Call, instance: Instance, build: Build) -> None:
-    build.log.report(
-        "W0105",
-        f"the world of component {instance.name!r} is left out: that of the model holds",
-        call.span,
-    )
 
 
 def _unbalanced(connector: Instance, main: Source, build: Build) -> None:

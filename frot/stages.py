@@ -53,6 +53,7 @@ def _report_data(report: Report) -> dict[str, object]:
         "freedoms": mobility.freedoms,
         "relations": {"bilateral": mobility.bilateral, "unilateral": mobility.unilateral},
         "degrees_of_freedom": mobility.degrees_of_freedom,
+        "unconnected": list(report.unconnected),
     }
 
 

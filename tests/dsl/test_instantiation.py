@@ -290,7 +290,7 @@ partial model Right
 end Right;
 model Both
   extends Left;
-  extends Right(x(start = 3));
+  extends Right;
 end Both;
 """
     )
