@@ -9,8 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from fmu_host import DISCARD, OK, Host, unpack_library
-from frot.compiler.toolchain import compile_library, find_toolchain
+from fmu_host import DISCARD, OK, Host, compile_library, unpack_library
 from frot.runtime import fmi
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "kernel"))
@@ -29,7 +28,7 @@ MODEL: Small = ball(
 def endings(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Path]:
     folder = tmp_path_factory.mktemp("ending")
     program = build(MODEL, folder / "model")
-    libraries, compiler = {}, functools.partial(compile_library, find_toolchain())
+    libraries, compiler = {}, functools.partial(compile_library, generated="model.c")
     for number in (2, 3):
         archive, version = folder / f"Ending{number}.fmu", f"{number}.0"
         fmi.export(program, archive, version, compiler)

@@ -1,9 +1,8 @@
-"""One cache of compiled models for the session, apart from the user's; commands run in-process."""
+"""An empty folder for each test, and commands run in it."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,17 +10,6 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 
 from front_door import Door, Shell
-
-
-@pytest.fixture(scope="session")
-def warm_cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("cache")
-
-
-@pytest.fixture(autouse=True)
-def _own_cache(warm_cache: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    monkeypatch.setenv("FROT_CACHE", str(warm_cache))
-    yield
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
@@ -93,9 +93,10 @@ class Shell:
     """Runs commands in processes of their own, with their own environment."""
 
     folder: Path
+    always: Mapping[str, str | Path] = field(default_factory=dict)
 
     def environment(self, **changes: str | Path) -> dict[str, str]:
-        return {**os.environ, **{k: str(v) for k, v in changes.items()}}
+        return {**os.environ, **{k: str(v) for k, v in {**self.always, **changes}.items()}}
 
     def __call__(self, *words: object, **changes: str | Path) -> Answer:
         return self.run([sys.executable, "-m", "frot.command_line", *words], **changes)

@@ -20,10 +20,21 @@ def cache(folder: Path) -> Path:
 
 
 @pytest.fixture(scope="session")
-def filled(warm_cache: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def hasty(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A compiler that does not optimise: what is looked at is when it is called."""
+    return script(tmp_path_factory.mktemp("hasty") / "hasty-cc", 'exec cc "$@" -O0')
+
+
+@pytest.fixture
+def shell(folder: Path, hasty: Path) -> Shell:
+    return Shell(folder, {"FROT_CC": hasty})
+
+
+@pytest.fixture(scope="session")
+def filled(hasty: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A cache that holds the hoop alone; to be copied."""
     made = tmp_path_factory.mktemp("filled")
-    ran(Shell(made)("simulate", HOOP, FROT_CACHE=made))
+    ran(Shell(made, {"FROT_CC": hasty})("simulate", HOOP, FROT_CACHE=made))
     return made
 
 
@@ -41,7 +52,7 @@ def counting(folder: Path) -> tuple[Path, Path]:
     """A compiler that notes each call, and the file of its notes."""
     notes = folder / "calls"
     notes.touch()
-    return script(folder / "counting-cc", f'echo "$@" >> "{notes}"\nexec cc "$@"'), notes
+    return script(folder / "counting-cc", f'echo "$@" >> "{notes}"\nexec cc "$@" -O0'), notes
 
 
 def test_a_second_run_and_other_parameters_start_no_compiler(shell: Shell, cache: Path) -> None:

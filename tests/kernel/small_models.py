@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import casadi as ca
+from c_objects import c_objects
 from frot.compiler.driver import kernel_folder, kernel_sources
-from frot.compiler.toolchain import FLAGS, compile_objects, find_toolchain, link_library
+from frot.compiler.toolchain import FLAGS, find_toolchain, link_library
 from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo
 
 NONE = ca.SX(0, 1)
@@ -354,13 +355,10 @@ def build(m: Small, folder: Path) -> Program:
     """Compile the model together with the kernel."""
     folder.mkdir(parents=True, exist_ok=True)
     toolchain = find_toolchain()
-    objects = folder.parent / "kernel-objects"
-    if not objects.exists():
-        objects.mkdir()
-        compile_objects(toolchain, kernel_sources(), [kernel_folder()], objects)
     (folder / "model.c").write_text(source(m, folder))
-    made = compile_objects(toolchain, [folder / "model.c"], [kernel_folder()], folder)
-    link_library(toolchain, [*made, *sorted(objects.glob("*.o"))], folder / "program.so")
+    sources = [folder / "model.c", *kernel_sources()]
+    objects = c_objects(sources, [kernel_folder()], FLAGS)
+    link_library(toolchain, objects, folder / "program.so")
     one = Unit("1")
     modes = [f"element {i + 1}" for i in range(len(m.elements))]
     return Program(

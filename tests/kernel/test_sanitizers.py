@@ -7,6 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from c_objects import c_objects
 from frot.compiler.driver import kernel_folder, kernel_sources
 from frot.runtime.program import Program
 from small_models import Small, source
@@ -29,10 +30,8 @@ def drive(model: Path, stop: float, folder: Path) -> None:
     """Compile the driver with a model and run it."""
     binary = folder / "drive"
     sources = [Path(__file__).parent / "drive.c", model, *kernel_sources()]
-    subprocess.run(
-        ["cc", *FLAGS, f"-I{kernel_folder()}", *map(str, sources), "-o", str(binary), "-lm"],
-        check=True,
-    )
+    objects = c_objects(sources, [kernel_folder()], FLAGS)
+    subprocess.run(["cc", *FLAGS, *map(str, objects), "-o", str(binary), "-lm"], check=True)
     done = subprocess.run(
         [binary, str(stop)],
         capture_output=True,
