@@ -93,8 +93,10 @@ def hoop_on_line(
         roll = 0 if roll_zero else _sign(w)
         slips = (0, 1, -1) if slip_zero else (slip,)
         rolls = (0, 1, -1) if roll_zero and delta > 0 else (roll or 1,)
+        nearest = -math.inf
         for slip, roll in itertools.product(slips, rolls):
             a, b, margin = _accelerations(m, r, inertia, pull, press, mu, delta, slip, roll)
+            nearest = max(nearest, margin)
             good = margin > 0
             if slip_zero and slip:
                 good = good and slip * (a + r * b) > 0
@@ -104,7 +106,10 @@ def hoop_on_line(
                 motion.margin = min(motion.margin, margin)
                 break
         else:
-            raise AssertionError("no admissible motion")
+            # A friction or couple exactly at its bound: rounding decides which motion goes on.
+            assert abs(nearest) < 1e-12, "no admissible motion"
+            motion.margin = 0.0
+            return motion
         motion.phases.append(Phase(t, s, v, angle, w, a, b, slip, roll))
         until = []
         turning = w if roll and delta > 0 else 0.0
