@@ -19,6 +19,7 @@ from judge.scene import Contact, Pin, Scene
 
 EXACT = 1e-8
 SLACK = 300.0
+FORMED = 1e-4
 OPEN, STICK, SLIP = 0, 1, 2
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
 
@@ -516,8 +517,22 @@ class Loads:
         for k in range(0, now.n, 3):
             size[k : k + 2] = np.max(size[k : k + 2])
             size[k + 2] = max(size[k + 2], size[k] * arms[k + 2])
-        self.rest, self.size = rest, size
+        self.rest, self.size = rest, size + self._formed(size)
         self.acceleration_size = self._acceleration_size()
+
+    def _formed(self, size: Floats) -> Floats:
+        """A reaction that happens to be small is the difference of what forms it.
+
+        That is the effective mass of its row times the accelerations; `FORMED` of it counts.
+        """
+        now, quick, more = self.now, size / self.now.mass, np.zeros(self.now.n)
+        for name, told in self.reactions.items():
+            for word in told:
+                r = now.joints[name].rows[word]
+                response = float(np.sum(r.jacobian**2 / now.mass))
+                if response > 0:
+                    more += r.reach * FORMED * (r.reach @ quick + r.bias_size) / response
+        return more
 
     def _acceleration_size(self) -> Floats:
         """Accelerations of a body are as exact as the terms they come from."""

@@ -165,6 +165,9 @@ class System:
     ) -> None:
         name = joint.liaison.name
         at = self.index[name, word]
+        if rest == 0:  # a law that bounds nothing
+            self.matrix[at, at] = 1
+            return
         if way == 0:
             self._rest(at, joint, word)
             if normal is not None:

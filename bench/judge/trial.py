@@ -6,6 +6,7 @@ import json
 import sys
 import time
 import traceback
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 
 import numpy as np
@@ -13,6 +14,7 @@ import numpy as np
 import frot
 from judge.anything import FAMILIES as ANYTHING
 from judge.check import Judge
+from judge.compare import compare
 from judge.family import Family, Setting, Structure
 from judge.machines import FAMILIES as MACHINES
 from judge.tables import FAMILIES as TABLES
@@ -55,20 +57,31 @@ def try_setting(
     model: frot.Model, structure: Structure, setting: Setting, seed: int, limit: float
 ) -> Verdict:
     """Run and judge; `limit` is processor time of the run in seconds."""
-    deadline = time.process_time() + limit
     late: list[int] = []
 
-    def watch(_: float) -> bool:
-        if time.process_time() > deadline:
-            late.append(1)
-        return bool(late)
+    def run(values: Mapping[str, float], tolerance: float) -> frot.Result:
+        deadline = time.process_time() + limit
+
+        def watch(_: float) -> bool:
+            if time.process_time() > deadline:
+                late.append(1)
+            return bool(late)
+
+        return model.simulate(
+            stop=setting.stop, tolerance=tolerance, parameters=values, watch=watch
+        )
+
+    def whole(values: Mapping[str, float], tolerance: float) -> frot.Result | None:
+        try:
+            other = run(values, tolerance)
+        except frot.FrotError:
+            return None
+        return None if late else other
 
     error: frot.FrotError | None = None
     result: frot.Result | None = None
     try:
-        result = model.simulate(
-            stop=setting.stop, tolerance=setting.tolerance, parameters=setting.values, watch=watch
-        )
+        result = run(setting.values, setting.tolerance)
     except frot.SimulationError as stop:
         error, result = stop, stop.result
     except frot.FrotError as refused:
@@ -93,6 +106,8 @@ def try_setting(
         stop = judge_stop(judge, code, text, float(result.time[-1]))
     elif abs(result.time[-1] - setting.stop) > 1e-12 * abs(setting.stop):
         found.faults.append(f"ends early: at {result.time[-1]!r} of {setting.stop!r}")
+    elif setting.compare and setting.tolerance > 1e-11:
+        found.faults += compare(structure.scene, setting, result, whole, seed)
     if found.faults:
         return Verdict(SILENT, found.faults + stop.why, found.worst)
     return Verdict(stop.kind, stop.why, found.worst)
