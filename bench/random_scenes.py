@@ -147,7 +147,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=3000, help="runs in all")
     parser.add_argument("--only", nargs="*", default=[], choices=list(FAMILIES), help="families")
-    parser.add_argument("--limit", type=float, default=4.0, help="processor time of a run, in s")
+    parser.add_argument("--limit", type=float, default=3.0, help="processor time of a run, in s")
     parser.add_argument("--failures", type=Path, help="a folder for the texts of all failures")
     parser.add_argument("--show", metavar="FAMILY/TEXT/SETTING", help="print that one and judge it")
     parser.add_argument("--quiet", action="store_true", help="no texts of failures, no file")

@@ -382,7 +382,37 @@ class Maker:
 
 
 def anything(rng: Random) -> Structure:
-    return Maker(rng).make()
+    """A scene that can move and whose liaisons do not say the same twice."""
+    while True:
+        made = Maker(rng).make()
+        if _moves(made, rng):
+            return made
+
+
+def _moves(made: Structure, rng: Random) -> bool:
+    values = made.draw(rng).values
+    s = made.scene
+
+    def look(word: str) -> float:
+        if word in values:
+            return values[word]
+        if word == "time":
+            return 0.0
+        body, what, axis = word.split(".")
+        return values[f"{axis if what == 'position' else 'uv'['xy'.index(axis)]}0_{body}"]
+
+    state = {b.name: tuple(values.get(f"{k}0_{b.name}", 0.0) for k in "xyauvw") for b in s.bodies}
+    now = Mechanics(s, look, state, {c.name: 1 for c in s.contacts})
+    rows = [
+        joint.rows[w].jacobian / (joint.rows[w].reach + (joint.rows[w].reach == 0))
+        for joint in now.joints.values()
+        for w in (("x", "y") if isinstance(joint.liaison, Pin) else ("n",))
+    ]
+    if not rows:
+        return True
+    freedom = sum(3 if b.turns else 2 for b in s.bodies)
+    rank = int(np.linalg.matrix_rank(np.array(rows), tol=1e-9))
+    return rank == len(rows) < freedom
 
 
 FAMILIES = (Family("anything", anything, 8, 25, "1 to 6 bodies, any liaisons, laws and forces"),)

@@ -173,6 +173,8 @@ class Judge:
                 side if (force @ joint.normal) * told["n"] * (1 if c.swapped else -1) > 0 else -side
             )
         times = np.linspace(begin, float(self.result.time[-1]), 64)
+        if f"{c.name}.gap" not in self.result:
+            return side
         gaps = self.result.at(times)[f"{c.name}.gap"]
         far = float(times[int(np.argmax(np.abs(gaps)))])
         return side if self.mechanics(far).joints[c.name].gap * np.max(np.abs(gaps)) >= 0 else -side

@@ -20,11 +20,11 @@ from judge.machines import FAMILIES as MACHINES
 from judge.tables import FAMILIES as TABLES
 from judge.verdict import (
     EXACT,
-    REFUTED,
     SILENT,
     SLOW,
     Verdict,
     judge_several,
+    judge_start,
     judge_stop,
 )
 from judge.write import write
@@ -94,7 +94,7 @@ def try_setting(
         )
         return Verdict(SLOW, [f"more than {limit:g} s:{reached}"])
     if error is not None and result is None:
-        return Verdict(REFUTED, [f"no start: {_told(error)[1]}"])
+        return judge_start(structure.scene, setting, *_told(error))
     assert result is not None
     rng = np.random.default_rng(seed)
     judge = Judge(structure.scene, setting.values, result, setting.tolerance)

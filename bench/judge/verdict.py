@@ -14,9 +14,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from judge.check import Judge
-from judge.mechanics import Joint, Mechanics
+from judge.family import Setting
+from judge.mechanics import Floats, Joint, Mechanics
 from judge.motions import CLEAR, Motion, Still, accelerations, count, distinct, motion, motions
-from judge.scene import Contact, Pin
+from judge.scene import Contact, Pin, Scene
 
 EXACT, CONFIRMED, REFUTED, SILENT, SLOW, UNCLEAR = (
     "exact",
@@ -39,6 +40,39 @@ class Verdict:
     kind: str
     why: list[str] = field(default_factory=list)
     worst: dict[str, float] = field(default_factory=dict)
+
+
+class Start:
+    """The start a scene states in its parameters x0_, y0_, a0_, u0_, v0_, w0_, as an outcome."""
+
+    def __init__(self, scene: Scene, values: Mapping[str, float], span: float) -> None:
+        self.time, self.events = np.array([0.0, span]), ()
+        self._row = {}
+        for b in scene.bodies:
+            words = ("position.x", "position.y", "angle", "velocity.x", "velocity.y")
+            for key, word in zip("xyauvw", (*words, "angular_velocity"), strict=True):
+                if b.turns or key not in "aw":
+                    self._row[f"{b.name}.{word}"] = np.full(2, values[f"{key}0_{b.name}"])
+
+    def at(self, t: Floats) -> Mapping[str, Floats]:
+        return {k: np.full(len(t), x[0]) for k, x in self._row.items()}
+
+    def __getitem__(self, name: str) -> Floats:
+        return self._row[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._row
+
+
+def judge_start(scene: Scene, setting: Setting, code: str, text: str) -> Verdict:
+    """A run that does not start, where the scene knows its start: E0601 is never right there."""
+    if not code.startswith("E09"):
+        return Verdict(REFUTED, [f"no start: {text}"])
+    try:
+        start = Start(scene, setting.values, setting.stop)
+        return judge_stop(Judge(scene, setting.values, start, setting.tolerance), code, text, 0.0)
+    except KeyError:
+        return Verdict(UNCLEAR, [f"no start: {text}"])
 
 
 def still_of(judge: Judge, now: Mechanics, loose: float) -> dict[str, Still]:
