@@ -15,6 +15,7 @@ import sys
 import time
 from collections import Counter, defaultdict
 from collections.abc import Iterator
+from dataclasses import asdict
 from pathlib import Path
 from threading import Timer
 
@@ -149,6 +150,7 @@ def main() -> int:
     parser.add_argument("--only", nargs="*", default=[], choices=list(FAMILIES), help="families")
     parser.add_argument("--limit", type=float, default=3.0, help="processor time of a run, in s")
     parser.add_argument("--failures", type=Path, help="a folder for the texts of all failures")
+    parser.add_argument("--records", type=Path, help="a file of all verdicts, a line of JSON each")
     parser.add_argument("--show", metavar="FAMILY/TEXT/SETTING", help="print that one and judge it")
     parser.add_argument("--quiet", action="store_true", help="no texts of failures, no file")
     given = parser.parse_args()
@@ -162,6 +164,9 @@ def main() -> int:
     for family, number, settings in jobs(given.seed, given.count, given.only):
         found = run_job(given.seed, family, number, settings, given.limit)
         records += found
+        if given.records:
+            with given.records.open("a") as file:
+                file.writelines(json.dumps(asdict(r)) + "\n" for r in found)
         counts = Counter(r.verdict for r in found)
         say(f"{family} {number}: " + ", ".join(f"{n} {k}" for k, n in counts.items()))
         for r in found:

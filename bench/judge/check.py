@@ -409,6 +409,8 @@ class Judge:
             a, b = cuts[k], cuts[k + 1]
             span = (b - a) * min(1.0, 10 ** rng.uniform(-2.0, 0.0))
             a = float(rng.uniform(a, b - span)) if b - span > a else a
+            if self.spins() > 0:  # no rule follows many turns
+                span = min(span, 1.0 / self.spins())
             b = min(a + span, math.nextafter(b, -math.inf))
             if b - a > 1e-9 * max(abs(a), abs(b), end - begin):
                 self.integral(a, b)
@@ -442,7 +444,7 @@ class Judge:
                     size = max(size, self.speed[f"{body.name}.w"])
                 elif ".velocity" in of:
                     size = max(size, self.speed[body.name])
-                allowed = SLACK * self.tol * size + 1e-12 * size + 10 * abs(one - two)
+                allowed = SLACK * self.tol * size + 1e-12 * size + 100 * abs(one - two)
                 self.found.hold(
                     f"integral of {rate.split('.')[1]}", change - two, allowed, a, f"{of} to {b!r}"
                 )

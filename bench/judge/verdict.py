@@ -55,6 +55,7 @@ class Start:
                     self._row[f"{b.name}.{word}"] = np.full(2, values[f"{key}0_{b.name}"])
 
     def at(self, t: Floats) -> Mapping[str, Floats]:
+        """The same at all times."""
         return {k: np.full(len(t), x[0]) for k, x in self._row.items()}
 
     def __getitem__(self, name: str) -> Floats:
