@@ -12,7 +12,7 @@ from frot.dsl import Log
 def assemble(reduced: Reduced, log: Log) -> Assembled | None:
     """The kernel's system; what cannot be solved is reported."""
     model = reduced.mechanism.model
-    has_text = bool(model.variables or model.equations or reduced.text.discrete)
+    has_text = bool(model.variables or model.equations or reduced.text.memory)
     if has_text or _reads_solution(reduced):
         return solve_equations(reduced, log)
     return _plain(reduced)

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
 import casadi as ca
-from frot.compiler.expressions import Conditions, Lowering, words
+from frot.compiler.before import Before
+from frot.compiler.expressions import NEVER, RISING, Conditions, Lowering, words
 from frot.compiler.names import component_names
 from frot.compiler.symbols import column
 from frot.compiler.text_symbols import TextSymbols, scalars, shaped
@@ -49,11 +50,13 @@ class Jump:
 class Events:
     """Conditions that fire (indices into the located conditions), and what follows.
 
-    `fired` are symbols, one for each entry of `conditions`; `values` are the discrete values after
-    the event in the order of the text's discrete symbols; `asked[k]` is 1 where outcome k is.
+    `fired` are symbols, one for each entry of `conditions`, `before` those of the discrete values
+    before the event; `values` are the ones after it, in the order of the text's memory; `asked[k]`
+    is 1 where outcome k is.
     """
 
     fired: list[ca.SX] = field(default_factory=list)
+    before: list[ca.SX] = field(default_factory=list)
     conditions: list[int] = field(default_factory=list)
     at_start: list[bool] = field(default_factory=list)
     values: list[ca.SX] = field(default_factory=list)
@@ -71,22 +74,26 @@ class _Gatherer:
         self.text, self.conditions = text, conditions
         self.moving, self.looking = moving, looking
         self.events = Events()
+        self.before: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value before
         self.after: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value after
         self.new: dict[int, ca.SX] = {}  # discrete symbol -> its value after, in those symbols
 
-    def fire(self, condition: ca.SX, at_start: bool) -> ca.SX:
+    def fire(self, condition: ca.SX, at_start: bool, text: str, span: Span) -> ca.SX:
         """A symbol that is 1 at the event at which `condition`, 0 or 1, comes to hold."""
         symbol = ca.SX.sym(f"fired_{len(self.events.fired)}")
         index = next(
             (i for i, f in enumerate(self.conditions.flags) if ca.is_equal(f, condition)), -1
         )
         if index < 0:
-            self.conditions.add(condition - 0.5, True)
-            index = len(self.conditions.flags) - 1
+            flag = self.conditions.add(condition - 0.5, True, self._told(text), span, NEVER)
+            index = next(i for i, f in enumerate(self.conditions.flags) if ca.is_equal(f, flag))
         self.events.fired.append(symbol)
         self.events.conditions.append(index)
         self.events.at_start.append(at_start)
         return symbol
+
+    def _told(self, text: str) -> str:
+        return f"{self.moving.owner}: {text}" if self.moving.owner else text
 
     def condition(self, expression: Expression) -> ca.SX:
         """What fires for one condition of a `when`."""
@@ -95,8 +102,9 @@ class _Gatherer:
         if isinstance(expression, Call) and expression.function == "sample":
             return self._sample(expression)
         if isinstance(expression, Call) and expression.function == "initial":
-            return self._once()
-        return self.fire(self.moving.lower(expression), False)
+            return self._once(expression)
+        self.moving.look_at(expression)
+        return self.fire(self.moving.lower(expression), False, words(expression), expression.span)
 
     def _sample(self, call: Call) -> ca.SX:
         first, interval = (self.moving.lower(a) for a in call.arguments)
@@ -104,25 +112,31 @@ class _Gatherer:
         count = ca.SX.sym(f"samples_{len(self.text.discrete)}")
         # the first sample at or after the start of the run
         start = ca.fmax(ca.ceil((time - first) / interval - 1e-9), 0)
-        self.text.add_discrete(count.name(), count, start)
-        owner = f"{self.moving.owner}: " if self.moving.owner else ""
-        text = owner + words(call)
-        due = self.conditions.add(time - (first + count * interval), False, text, momentary=True)
-        fired = self.fire(due, True)
-        self.set(count, fired, count + 1)
+        was = self._counted(count, start)
+        text = self._told(words(call))
+        due = self.conditions.add(time - (first + count * interval), False, text, call.span, RISING)
+        fired = self.fire(due, True, text, call.span)
+        self.set(count, fired, was + 1)
         return fired
 
-    def _once(self) -> ca.SX:
+    def _once(self, call: Call) -> ca.SX:
         begun = ca.SX.sym(f"begun_{len(self.text.discrete)}")
-        self.text.add_discrete(begun.name(), begun, ca.SX(0))
-        fired = self.fire(1 - begun, True)
+        self._counted(begun, ca.SX(0))
+        fired = self.fire(1 - begun, True, words(call), call.span)
         self.set(begun, fired, ca.SX(1))
         return fired
+
+    def _counted(self, symbol: ca.SX, start: ca.SX) -> ca.SX:
+        """Add a discrete value; its value before the event."""
+        self.text.add_discrete(symbol.name(), symbol, start)
+        was = ca.SX.sym(f"{symbol.name()} before")
+        self.before[symbol.element_hash()] = was
+        return was
 
     def set(self, symbol: ca.SX, active: ca.SX, value: ca.SX) -> None:
         """Where `active`, the discrete value is `value` after the event."""
         key = symbol.element_hash()
-        self.new[key] = ca.if_else(active, value, self.new.get(key, symbol))
+        self.new[key] = ca.if_else(active, value, self.new.get(key, self.before[key]))
 
     def when(self, when: When) -> None:
         """One `when` with its branches; the first that fires excludes the others."""
@@ -166,9 +180,11 @@ class _Gatherer:
     def assertion(self, assertion: Assertion) -> None:
         """A condition that must always hold: it is watched."""
         self.moving.owner = assertion.owner
+        self.moving.look_at(assertion.condition)
         broken = 1 - self.moving.lower(assertion.condition)
         kind = WARN if assertion.level == "warning" else FAIL
-        self._ask(Outcome(kind, assertion.message, assertion.span), self.fire(broken, True))
+        fired = self.fire(broken, True, words(assertion.condition), assertion.span)
+        self._ask(Outcome(kind, assertion.message, assertion.span), fired)
 
 
 def gather_events(
@@ -182,15 +198,21 @@ def gather_events(
     """Lower every `when` and `assert`. `looking` is given the discrete values after the event."""
     gatherer = _Gatherer(text, conditions, moving, looking)
     after: dict[Variable, ca.SX] = {}
+    before: dict[Variable, ca.SX] = {}
     for variable in model.variables:
         if not variable.discrete:
             continue
         shape = variable.type.shape
-        named = [ca.SX.sym(f"{n} after") for n in component_names(variable.name, shape)]
-        after[variable] = shaped(named, shape)
-        for symbol, new in zip(scalars(text.values[variable]), named, strict=True):
+        names = component_names(variable.name, shape)
+        news, olds = ([ca.SX.sym(f"{n} {w}") for n in names] for w in ("after", "before"))
+        after[variable], before[variable] = shaped(news, shape), shaped(olds, shape)
+        for symbol, new, old in zip(scalars(text.values[variable]), news, olds, strict=True):
             gatherer.after[symbol.element_hash()] = new
+            gatherer.before[symbol.element_hash()] = old
     looking.variable = lambda v: after[v] if v.discrete else text.values[v]
+    assert moving.before is not None
+    looking.before = Before(text, before.__getitem__, moving.before.first)
+    looking.known = conditions
     for when in model.whens:
         gatherer.when(when)
     for assertion in model.assertions:
@@ -204,8 +226,11 @@ def _settle(gatherer: _Gatherer, log: Log, model: Model) -> None:
     text, events = gatherer.text, gatherer.events
     symbols = [d.symbol for d in text.discrete]
     keys = [s.element_hash() for s in symbols]
+    events.before = [gatherer.before[k] for k in keys] + [
+        ca.SX.sym(f"{h.name} before") for h in text.held
+    ]
     own = {gatherer.after[k].element_hash(): k for k in keys if k in gatherer.after}
-    value = {k: gatherer.new.get(k, s) for k, s in zip(keys, symbols, strict=True)}
+    value = {k: gatherer.new.get(k, gatherer.before[k]) for k in keys}
     needs = {
         k: {own[s.element_hash()] for s in ca.symvar(v) if s.element_hash() in own}
         for k, v in value.items()
@@ -225,7 +250,7 @@ def _settle(gatherer: _Gatherer, log: Log, model: Model) -> None:
     settled: dict[int, ca.SX] = {}
     for k in order:
         settled[k] = _put(value[k], gatherer.after, settled)
-    events.values = [settled[k] for k in keys]
+    events.values = [settled[k] for k in keys] + [h.value for h in text.held]
     events.asked = [_put(a, gatherer.after, settled) for a in events.asked]
     events.jumps = [
         (active, Jump(j.target, _put(j.value, gatherer.after, settled), j.span))

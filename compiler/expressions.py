@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 import casadi as ca
+from frot.compiler.before import Before, whole
 from frot.compiler.symbols import Symbols
 from frot.compiler.walk import is_fixed
 from frot.dsl import Log
@@ -82,53 +83,59 @@ class Conditions:
     """Conditions on time and motion that switch something: `value` > 0 while true.
 
     `strict`: whether the condition is false where its value is zero. `texts` are as the author
-    wrote them, empty for what is no event to him; `told` says when a change is one (frot_told);
-    `spans` are where they stand, None for those the compiler adds.
+    wrote them, at `spans`; `told` says when a change is an event to him (frot_told). In their last
+    order the first `located` change by the motion, the `timed` after them by time alone.
     """
 
     flags: list[ca.SX] = field(default_factory=list)
     values: list[ca.SX] = field(default_factory=list)
     strict: list[bool] = field(default_factory=list)
     texts: list[str] = field(default_factory=list)
-    told: list[int] = field(default_factory=list)
     spans: list[Span | None] = field(default_factory=list)
+    told: list[int] = field(default_factory=list)
+    located: int = 0
+    timed: int = 0
 
     def add(
-        self,
-        value: ca.SX,
-        strict: bool,
-        text: str = "",
-        span: Span | None = None,
-        *,
-        momentary: bool = False,
+        self, value: ca.SX, strict: bool, text: str, span: Span | None, told: int = ALWAYS
     ) -> ca.SX:
-        """A flag, 0 or 1, that follows the sign of `value` by located events.
-
-        A `momentary` condition is told when it comes to hold only.
-        """
-        for flag, known, kind in zip(self.flags, self.values, self.strict, strict=True):
-            if kind == strict and ca.is_equal(known, value, 20):
-                return flag  # the same switch, written or read twice
+        """A flag, 0 or 1, that follows the sign of `value` by located events."""
+        found = self.find(value, strict)
+        if found is not None:
+            return found  # the same switch, written or read twice
         flag = ca.SX.sym(f"condition_{len(self.flags)}")
         self.flags.append(flag)
         self.values.append(value)
         self.strict.append(strict)
         self.texts.append(text)
-        self.told.append(NEVER if not text else RISING if momentary else ALWAYS)
         self.spans.append(span)
+        self.told.append(told)
         return flag
+
+    def find(self, value: ca.SX, strict: bool) -> ca.SX | None:
+        """The flag of a condition."""
+        for flag, known, kind in zip(self.flags, self.values, self.strict, strict=True):
+            if kind == strict and ca.is_equal(known, value, 20):
+                return flag
+        return None
+
+    def reorder(self, order: list[int]) -> None:
+        """Put the conditions into another order."""
+        for items in (self.flags, self.values, self.strict, self.texts, self.spans, self.told):
+            items[:] = [items[k] for k in order]  # type: ignore[index]
 
 
 @dataclass(slots=True)
 class Lowering:
     """Lowers expressions; `quantity` gives the variables of bodies and liaisons, `rate` d/dt.
 
-    `variable` gives the variables of the text, `before` the discrete ones before an event;
+    `variable` gives the variables of the text, `before` those before an event;
     `friction` makes a friction element of its call, in the component named by `owner`;
     `without_rate` names what in a value has no derivative that anybody knows.
 
     With `conditions`, every switch that depends on time, inputs or motion becomes a located event;
-    without, it is taken as it stands (for what is only looked at: outputs, initial statements).
+    without, it is taken as it stands (for what is only looked at: outputs, initial statements), but
+    for those `known`, of which it is known what holds.
     """
 
     symbols: Symbols
@@ -136,12 +143,18 @@ class Lowering:
     rate: Callable[[ca.SX], ca.SX]
     log: Log
     conditions: Conditions | None = None
+    known: Conditions | None = None
     variable: Callable[[Variable], ca.SX] | None = None
-    before: Callable[[Variable], ca.SX] | None = None
+    before: Before | None = None
     friction: Callable[[Call, list[ca.SX], str], ca.SX] | None = None
     without_rate: Callable[[ca.SX], list[str]] | None = None
     owner: str = ""
     _done: dict[int, tuple[Expression, ca.SX]] = field(default_factory=dict)
+
+    def look_at(self, *expressions: Expression) -> None:
+        """Say which expressions are lowered next as one."""
+        if self.before is not None:
+            self.before.look_at(expressions)
 
     def lower(self, expression: Expression) -> ca.SX:
         """The CasADi value: a scalar, a column or a matrix. Shared parts are lowered once."""
@@ -241,6 +254,9 @@ class Lowering:
         strict = node.op in ("<", ">")
         if conditions is not None:
             return conditions.add(positive, strict, self._told(words(node)), node.span)
+        flag = None if self.known is None else self.known.find(positive, strict)
+        if flag is not None:
+            return flag
         return positive > 0 if strict else positive >= 0
 
     def _call(self, node: Call) -> ca.SX:
@@ -278,14 +294,9 @@ class Lowering:
 
     def _of_events(self, node: Call, arguments: list[ca.SX]) -> ca.SX:
         """Functions that only equations and `when` may hold."""
-        name, operand = node.function, node.arguments[0] if node.arguments else None
-        if name == "pre" and isinstance(operand, Reference):
-            target = operand.target
-            if isinstance(target, Variable) and target.discrete and self.before is not None:
-                return self.before(target)
-            return arguments[0]
-        if name == "pre":
-            return arguments[0]
+        name = node.function
+        if name in ("pre", "change", "edge"):
+            return self._of_jumps(node, arguments[0])
         if name == "friction" and self.friction is not None:
             return self.friction(node, arguments, self.owner)
         if name == "friction":
@@ -293,6 +304,26 @@ class Lowering:
         else:
             self._refuse(f"`{name}` other than as the condition of a 'when'", node)
         return arguments[0] if arguments else ca.SX(0)
+
+    def _of_jumps(self, node: Call, now: ca.SX) -> ca.SX:
+        """`pre`, `change` and `edge`; where nothing happens, there is no difference."""
+        if self.before is None:
+            return now if node.function == "pre" else ca.SX(0)
+        named = whole(node.arguments[0])
+        if named is None:
+            if node.function == "pre":
+                return now
+            was = self.before.hold(now, words(node.arguments[0]), ca.SX(0), node.span)
+        else:
+            variable, indices = named
+            was = self.before.variable(variable, node.span)
+            for index in indices:
+                was = was[index, :].T if was.size2() > 1 else was[index]
+        if node.function == "pre":
+            return was
+        if node.function == "edge":
+            return now * (1 - was)
+        return 1 - _product(ca.eq(a, b) for a, b in zip(_items(now), _items(was), strict=True))
 
     @staticmethod
     def _least(
@@ -304,3 +335,14 @@ class Lowering:
 
     def _refuse(self, what: str, node: Expression) -> None:
         self.log.report("E0701", f"{what} is not supported yet", node.span)
+
+
+def _items(value: ca.SX) -> list[ca.SX]:
+    return list(ca.vertsplit(ca.vec(value)))
+
+
+def _product(items: Iterable[ca.SX]) -> ca.SX:
+    result = ca.SX(1)
+    for item in items:
+        result = result * item
+    return result

@@ -79,6 +79,11 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "loads",
             [_record(_text(f.name), _text(_place(f.span))) for f in reduced.mechanism.forces],
         ),
+        _array(
+            "frot_held",
+            "held",
+            [_record(_text(h.name), _text(_place(h.span))) for h in reduced.text.held],
+        ),
         _array("int", "position_statement", [str(i) for i in lowered.position_statement]),
         _array("int", "velocity_statement", [str(i) for i in lowered.velocity_statement]),
         _array("int", "p_dependent", [str(int(x)) for x in lowered.dependent]),
@@ -92,9 +97,12 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "frot_condition",
             "conditions",
             [
-                _record(_text(text), told)
-                for text, told in zip(
-                    reduced.conditions.texts, reduced.conditions.told, strict=True
+                _record(_text(text), told, _text(_place(span)))
+                for text, told, span in zip(
+                    reduced.conditions.texts,
+                    reduced.conditions.told,
+                    reduced.conditions.spans,
+                    strict=True,
                 )
             ],
         ),
@@ -140,6 +148,9 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_rows": system.lam.numel(),
         "n_contacts": len(contacts) + len(system.elements),
         "n_discrete": system.discrete.numel(),
+        "n_held": len(reduced.text.held),
+        "n_located": reduced.conditions.located,
+        "n_timed": reduced.conditions.timed,
         "n_blocks": len(system.blocks),
         "n_invariants": len(system.invariants.origins),
         "n_whens": len(reduced.events.fired),
@@ -168,6 +179,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "checks",
             "statements",
             "loads",
+            "held",
             "position_statement",
             "velocity_statement",
             "p_dependent",
@@ -216,11 +228,12 @@ def _pattern_arrays(lowered: Lowered) -> list[str]:
 
 def _depends_on_time(lowered: Lowered) -> bool:
     """Whether anything moves or switches by time alone."""
-    time = lowered.reduced.symbols.t
-    system = lowered.system
+    reduced, system = lowered.reduced, lowered.system
+    time = reduced.symbols.t
+    located = reduced.conditions.values[: reduced.conditions.located]
     moved = (
         *(system.force, system.matrix, system.rows, system.bias, system.coefficients, system.gap),
-        *(system.rates, system.resolve(column(lowered.reduced.conditions.values))),
+        *(system.rates, system.resolve(column(located))),
         *(b.residual for b in system.blocks),
     )
     return any(x.numel() and ca.depends_on(x, time) for x in moved)

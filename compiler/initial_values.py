@@ -50,7 +50,7 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
     statements = [_statement(e) for e in model.initial]
     found: list[_Residual] = []
     for index, equation in enumerate(model.initial):
-        if not equation.guess and not _sets_discrete(equation):
+        if not equation.guess and not _sets_memory(equation, system):
             found += _residuals(index, equation, system, looking, log)
     guess = {
         "q": _guess(system, looking, system.q, ca.SX.zeros(system.q.shape)),
@@ -75,7 +75,7 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
     position = [r for r, m in zip(found, moving, strict=True) if not m]
     velocity = [r for r, m in zip(found, moving, strict=True) if m]
     y_start = _guess(system, looking, system.y, ca.SX.zeros(system.y.shape))
-    discrete = column(d.start for d in system.reduced.text.discrete)
+    discrete = column(d.start for d in system.reduced.text.memory)
     return Initial(
         [guess["q"], guess["v"], y_start, discrete],
         _outputs(position, system.q, system.y),
@@ -93,11 +93,14 @@ def _statement(equation: InitialEquation) -> Statement:
     return Statement(text, equation.span, unit_of(equation.left.type.dimension).name)
 
 
-def _sets_discrete(equation: InitialEquation) -> bool:
+def _sets_memory(equation: InitialEquation, system: Assembled) -> bool:
+    """Whether a statement gives what changes at events only its first value."""
     left = equation.left
-    return (
-        isinstance(left, Reference) and isinstance(left.target, Variable) and left.target.discrete
-    )
+    if not (isinstance(left, Reference) and isinstance(left.target, Variable)):
+        return False
+    own = scalars(system.reduced.text.values[left.target])
+    held = system.reduced.text.held
+    return left.target.discrete or any(ca.is_equal(h.value, x) for h in held for x in own)
 
 
 def _residuals(

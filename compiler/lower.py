@@ -18,6 +18,7 @@ from frot.compiler.lower_events import lower_update
 from frot.compiler.lower_parameters import lower_parameters, parameters_needed
 from frot.compiler.reduce import Reduced
 from frot.compiler.symbols import column
+from frot.compiler.timing import sort_conditions
 from frot.dsl import Log
 
 
@@ -61,12 +62,11 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         lambda value: chains.rate(formula(value)),
         log,
         variable=reduced.text.values.__getitem__,
-        before=reduced.text.values.__getitem__,
         without_rate=lambda value: chains.without_rate(formula(value)),
     )
     initial = lower_initial(system, looking, log)
     variables = list_variables(system, looking)
-    conditions = _conditions(system, explicit, log)
+    conditions, timers = sort_conditions(system, _conditions(system, explicit, log))
     checks = parameter_checks(reduced.mechanism, system.pivots)
     update = lower_update(system, log)
     values = resolve(settled(column(v.value for v in variables)))
@@ -97,7 +97,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
                 system.bias,
                 system.rate,
                 system.gap,
-                conditions,
+                conditions[: reduced.conditions.located],
                 system.coefficients,
                 ca.SX(0) if system.late else system.power,
             ],
@@ -129,7 +129,10 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     if system.early:
         outputs["block_slopes"] = (state, _block_slopes(system))
     if update is not None:
-        outputs["update"] = ([*solution, column(reduced.events.fired)], update)
+        events = reduced.events
+        outputs["update"] = ([*solution, column(events.fired), column(events.before)], update)
+    if reduced.conditions.timed:
+        outputs["timers"] = ([s.u, s.p, state[5]], timers)
     functions = {
         name: ca.Function(f"frot_{name}_at", arguments, _clean(results))
         for name, (arguments, results) in outputs.items()

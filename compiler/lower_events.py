@@ -11,7 +11,7 @@ from frot.dsl import Log
 def lower_update(system: Assembled, log: Log) -> list[ca.SX] | None:
     """Q and v after the event, the discrete values, the outcomes asked for; None if none can be."""
     events = system.reduced.events
-    if not events.fired:
+    if not events.fired and not system.reduced.text.held:
         return None
     states = [x for part in (system.q, system.v) if part.numel() for x in ca.vertsplit(part)]
     place = {x.element_hash(): k for k, x in enumerate(states)}

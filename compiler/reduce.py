@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import casadi as ca
+from frot.compiler.before import Before
 from frot.compiler.chains import Chains
 from frot.compiler.contacts import Geometry, gravity, joint_geometry, row_rates
 from frot.compiler.eliminate import Residuals
@@ -86,13 +87,18 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
             log,
             located,
             variable=text.values.__getitem__,
-            before=text.values.__getitem__,
             without_rate=text.chains.without_rate,
         )
         for located in (conditions, None)
     )
     moving.friction = _friction_maker(text)
-    _add_discrete(mechanism.model, text, symbols, looking, log)
+    first = _first_values(mechanism.model, text, symbols, looking, log)
+    moving.before = Before(text, text.values.__getitem__, first)
+    for variable in mechanism.model.variables:
+        if variable.discrete:
+            symbols_of = scalars(text.values[variable])
+            for symbol, start in zip(symbols_of, first(variable), strict=True):
+                text.add_discrete(symbol.name(), symbol, start)
     rates = _rates(mechanism.contacts, variables, kinematics)
     speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
     motion = _masses(mechanism, variables)
@@ -148,32 +154,30 @@ def _text(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
     return make_text_symbols(mechanism.model.variables, chains)
 
 
-def _add_discrete(
+def _first_values(
     model: Model, text: TextSymbols, given: Symbols, looking: Lowering, log: Log
-) -> None:
-    """The discrete variables with their first values: those of `initial`, of `start`, or zero."""
+) -> Callable[[Variable], list[ca.SX]]:
+    """Gives the first values of what jumps: those of `initial`, of `start`, or zero."""
     stated = {
         e.left.target: e.right
         for e in model.initial
         if isinstance(e.left, Reference) and isinstance(e.left.target, Variable)
     }
-    for variable in model.variables:
-        if not variable.discrete:
-            continue
-        first = stated.get(variable, variable.start)
-        symbols = scalars(text.values[variable])
-        starts = [ca.SX(0)] if first is None else scalars(looking.lower(first))
-        if first is not None and not all(_is_given(start, given) for start in starts):
+
+    def first(variable: Variable) -> list[ca.SX]:
+        count = text.values[variable].numel()
+        value = stated.get(variable, variable.start)
+        starts = [ca.SX(0)] if value is None else scalars(looking.lower(value))
+        if value is not None and not all(_is_given(start, given) for start in starts):
             log.report(
                 "E0602",
                 f"the first value of '{variable.name}', which events set, depends on the motion",
-                first.span,
+                value.span,
                 help=f"set it in `when initial() then {variable.name} = ...; end when;`",
             )
-            return
-        starts = starts * len(symbols) if len(starts) == 1 else starts
-        for symbol, start in zip(symbols, starts, strict=True):
-            text.add_discrete(symbol.name(), symbol, start)
+        return starts * count if len(starts) == 1 else starts
+
+    return first
 
 
 def _is_given(value: ca.SX, symbols: Symbols) -> bool:

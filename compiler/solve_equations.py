@@ -220,7 +220,7 @@ def _finish(
         y=y,
         z=core.z,
         lam=core.lam,
-        discrete=column(d.symbol for d in reduced.text.discrete),
+        discrete=column(d.symbol for d in reduced.text.memory),
         names=core.names,
         q_speed=core.q_speed,
         na=s.w.numel(),

@@ -37,14 +37,34 @@ class Discrete:
     start: ca.SX
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Held:
+    """What `value` was in the last round at an event: its symbol, and its value at the start."""
+
+    name: str
+    symbol: ca.SX
+    start: ca.SX
+    value: ca.SX
+    span: Span
+
+
 @dataclass(slots=True, eq=False)
 class TextSymbols:
-    """`values` gives the symbols of each variable, in the shape of its type."""
+    """`values` gives the symbols of each variable, in the shape of its type.
+
+    `discrete` is what a `when` sets, `held` what values were before.
+    """
 
     chains: Chains
     values: dict[Variable, ca.SX] = field(default_factory=dict)
     discrete: list[Discrete] = field(default_factory=list)
+    held: list[Held] = field(default_factory=list)
     elements: list[FrictionElement] = field(default_factory=list)
+
+    @property
+    def memory(self) -> list[Discrete | Held]:
+        """All that changes at events only, in the order of the kernel."""
+        return [*self.discrete, *self.held]
 
     def add_discrete(self, name: str, symbol: ca.SX, start: ca.SX) -> None:
         """A discrete value, one of the text or one the compiler counts with."""

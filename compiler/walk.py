@@ -28,8 +28,6 @@ from frot.dsl.checked import (
 
 def subexpressions(expression: Expression) -> Iterator[Expression]:
     """The expression and everything in it once, through declared outputs it names."""
-    from frot.dsl.checked import Output, Parameter
-
     stack = [expression]
     seen: set[int] = set()
     while stack:
@@ -38,22 +36,30 @@ def subexpressions(expression: Expression) -> Iterator[Expression]:
             continue
         seen.add(id(node))
         yield node
-        match node:
-            case Derivative() | Element() | Unary():
-                stack.append(node.operand)
-            case Vector():
-                stack.extend(node.items)
-            case Binary():
-                stack.extend((node.left, node.right))
-            case Call():
-                stack.extend(node.arguments)
-            case If():
-                stack.extend((node.condition, node.yes, node.no))
-            case Reference() if isinstance(node.target, Output):
-                stack.append(node.target.value)
-            case Reference() if isinstance(node.target, Parameter):
-                if not node.target.type.is_scalar:
-                    stack.append(node.target.value)
+        stack.extend(parts(node))
+        parameter = node.target if isinstance(node, Reference) else None
+        if isinstance(parameter, Parameter) and not parameter.type.is_scalar:
+            stack.append(parameter.value)
+
+
+def parts(node: Expression) -> tuple[Expression, ...]:
+    """What an expression is made of; of a declared output, its value."""
+    from frot.dsl.checked import Output
+
+    match node:
+        case Derivative() | Element() | Unary():
+            return (node.operand,)
+        case Vector():
+            return node.items
+        case Binary():
+            return (node.left, node.right)
+        case Call():
+            return node.arguments
+        case If():
+            return (node.condition, node.yes, node.no)
+        case Reference() if isinstance(node.target, Output):
+            return (node.target.value,)
+    return ()
 
 
 def is_fixed(expression: Expression) -> bool:

@@ -98,7 +98,7 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   if (!frot_all_finite(w->mass, nw * nw) || !frot_all_finite(w->h, nw) ||
       !frot_all_finite(w->rows, nw * nr) || !frot_all_finite(w->c, nr) ||
       !frot_all_finite(w->qd, m->nq) || !frot_all_finite(w->coefficient, 3 * m->n_contacts) ||
-      !frot_all_finite(w->condition, m->n_conditions) || !frot_all_finite(w->gap, m->n_contacts) ||
+      !frot_all_finite(w->condition, m->n_located) || !frot_all_finite(w->gap, m->n_contacts) ||
       !frot_all_finite(w->power, 1))
     return FROT_NAN;
   int n = active_rows(m, w, modes);

@@ -120,6 +120,11 @@ typedef struct {
   const char *name, *place;
 } frot_load;
 
+/* A discrete value that is what another one was before. */
+typedef struct {
+  const char *of, *place;
+} frot_held;
+
 /* A strong component of the text's equations that no explicit formula solves. Its unknowns are
  * y[first .. first + count). residual(t, q, v, u, p, d, y [, z, lam]) -> r (count), dr/dy by
  * columns (count x count), size of the terms of r (count). `linear`: r is linear in its own
@@ -132,11 +137,12 @@ typedef struct {
   const char *name, *place; /* the unknowns, and the place of its first equation */
 } frot_block;
 
-/* A condition of the text: its words, and whether a change of it is told as an event. */
+/* A condition of the text: its words and place, and whether a change of it is told as an event. */
 enum frot_told { FROT_TOLD_NEVER = 0, FROT_TOLD_RISING = 1, FROT_TOLD_ALWAYS = 2 };
 typedef struct {
   const char *text;
   int told; /* frot_told */
+  const char *place;
 } frot_condition;
 
 /* What `update` may ask for beside new values. */
@@ -178,9 +184,13 @@ typedef struct {
   const char *key; /* identity of the compiled model; kept in saved states */
   int nq, nv, na, nc, nu, np, ny, n_rows, n_contacts, n_conditions, n_discrete;
   int n_blocks, n_invariants, n_whens, n_outcomes;
-  int general;        /* A is any matrix and `spread` gives E and the metric */
-  int late_rates;     /* q' or the power depend on y of late blocks, z or lam: `rates` gives them */
-  int time_dependent; /* forces, coefficients or conditions depend on time */
+  /* the first n_located conditions change by the motion; the n_timed after them are linear in time
+   * and depend on nothing else that moves; the rest change at events only */
+  int n_located, n_timed;
+  int n_held;     /* the last n_held discrete values are what others were before: see `update` */
+  int general;    /* A is any matrix and `spread` gives E and the metric */
+  int late_rates; /* q' or the power depend on y of late blocks, z or lam: `rates` gives them */
+  int time_dependent; /* forces, coefficients or located conditions depend on time */
   int method;         /* frot_method of the text */
   int has_jacobian;   /* 1: the implicit method can run: no speeds, no rows, q' not late */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
@@ -205,7 +215,7 @@ typedef struct {
    * that is against gravity, and the height of the body's G. A side chosen once is kept. */
   frot_callable sides;
   /* dynamics -> q' (nq), A (nw x nw), h (nw), J' (nw x n_rows), c (n_rows), rate (n_rows), gap
-   *   (n_contacts), conditions (n_conditions), coefficients mu mu_s delta (3 x n_contacts), power
+   *   (n_contacts), conditions (n_located), coefficients mu mu_s delta (3 x n_contacts), power
    * of the forces that have no potential (1) */
   frot_callable dynamics;
   /* spread -> E (nw x n_rows), metric ((nv + na) x (nv + na), symmetric positive definite: what
@@ -225,10 +235,15 @@ typedef struct {
   /* block_slopes -> residual of the blocks that are not late (ny_early), its transposed Jacobians
    * in q (nq x ny_early), in v (nv x ny_early), in y (ny_early x ny_early): for initial values */
   frot_callable block_slopes;
-  /* update(..., y, z (nw), lam (n_rows), fired (n_whens: 1 for each `when` that fires)) -> q (nq)
-   * and v (nv) after reinit, discrete variables (n_discrete), outcomes (n_outcomes: 1 where asked)
-   */
+  /* update(..., y, z (nw), lam (n_rows), fired (n_whens: 1 for each `when` that fires), before
+   *   (n_discrete)) -> q (nq) and v (nv) after reinit, discrete values (n_discrete), outcomes
+   *   (n_outcomes: 1 where asked). In d stand the discrete values after the event as far as they
+   * are known, in `before` those before. The last n_held values follow another value: they are what
+   *   it was before. */
   frot_callable update;
+  /* timers(u, p, d) -> slopes of the timed conditions in time, their values at time zero (n_timed).
+   *   Called where n_timed > 0. */
+  frot_callable timers;
   /* sizes -> sum of the sizes of the terms of h (nw), which may cancel in h; size of each applied
    *   force (n_loads) */
   frot_callable sizes;
@@ -244,6 +259,7 @@ typedef struct {
   const frot_check *checks;
   const frot_statement *statements;
   const frot_load *loads;
+  const frot_held *held;         /* n_held */
   const int *position_statement; /* n_position: statement of each scalar equation */
   const int *velocity_statement; /* n_velocity */
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
@@ -264,8 +280,10 @@ typedef struct {
 } frot_model;
 
 typedef struct {
-  int status;               /* frot_status */
-  int contact, item, other; /* contact; check or statement; second statement: -1 where none */
+  int status; /* frot_status */
+  /* contact; check, statement, or of FROT_CHATTER a condition or, counted on, a held value; second
+   * statement or condition: -1 where none */
+  int contact, item, other;
   double t, value;
 } frot_fault;
 

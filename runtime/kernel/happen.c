@@ -1,20 +1,19 @@
 #include "happen.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "blocks.h"
+#include "conditions.h"
 #include "mechanics.h"
 #include "record.h"
 #include "resolve.h"
 
 #define SHRINKING 3 /* gaps in a row, each shorter than the last in the same ratio, ... */
 #define SAME_RATIO 0.01
-#define LIMIT 1e-5      /* ... down to this part of the first one: they have a limit */
-#define CROWD 100       /* rounds at one instant after which the conditions will not settle */
-#define UNCHANGED 1e-13 /* part of its largest size by which a condition may move by rounding */
-#define TOUCH 1e-9      /* part of the usual speed, or of the terms of a gap, that is none */
+#define LIMIT 1e-5 /* ... down to this part of the first one: they have a limit */
+#define CROWD 100  /* rounds at one instant after which the events will not settle */
+#define TOUCH 1e-9 /* part of the usual speed, or of the terms of a gap, that is none */
 
 typedef struct {
   const frot_model *m;
@@ -88,55 +87,85 @@ static int take_outcomes(const instant *in) {
   return ends ? FROT_TERMINATED : FROT_OK;
 }
 
-/* Conditions that the new values change; those of them that come to hold are in w->rose. */
-static void change_conditions(const instant *in) {
+/* Tell what has changed since w->condition_before; what has come to hold is in w->rose. */
+static void tell_conditions(const instant *in) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
-  double *d = in->s->data + in->l.d;
-  const double *scale = in->s->data + in->l.scale_g + FROT_GUARDS * m->n_contacts;
+  const double *d = in->s->data + in->l.d;
   for (int j = 0; j < m->n_conditions; j++) {
-    double value = w->condition[j], before = w->condition_before[j];
-    double rounding = UNCHANGED * scale[j] + 4 * DBL_EPSILON * fmax(fabs(value), fabs(before));
-    int holds = m->condition_strict[j] ? value > 0 : value >= 0;
-    int changes = holds != (d[j] != 0) && fabs(value - before) > rounding;
-    w->rose[j] = changes && holds;
-    if (!changes) continue;
-    d[j] = holds;
-    frot_note_condition(m, in->recorder, in->s, in->t, j, holds);
+    int holds = d[j] != 0, held = w->condition_before[j] != 0;
+    w->rose[j] = holds && !held;
+    if (holds != held) frot_note_condition(m, in->recorder, in->s, in->t, j, holds);
   }
 }
 
-/* Call `update` for the `when`s of w->firing and apply what it gives. */
-static int update(const instant *in) {
+/* The first condition whose `when` fires, or the first held value that changes: for a fault. */
+static int first_cause(const instant *in) {
+  const frot_model *m = in->m;
+  for (int i = 0; i < m->n_whens; i++)
+    if (in->w->firing[i] != 0) return m->when_condition[i];
+  const double *held = in->s->data + in->l.d + in->l.nd - m->n_held;
+  for (int k = 0; k < m->n_held; k++)
+    if (held[k] != in->w->held[k]) return m->n_conditions + k;
+  return 0;
+}
+
+/* Call `update` at the values known; a discrete value after the event may need others, through the
+ * equations: it is called again until they agree. Coordinates and speeds after `reinit` into q and
+ * v, what the held values will be into w->held. */
+static int find_values(const instant *in, double *q, double *v) {
   const frot_model *m = in->m;
   frot_state *s = in->s;
   frot_work *w = in->w;
   double *d = s->data + in->l.d, *discrete = d + m->n_conditions + m->n_contacts;
-  int status =
-      frot_solution(m, s, w, in->t, in->q, in->v, d, modes_of(in), s->data + in->l.frozen, 1);
-  if (status != FROT_OK) return frot_fail_evaluation(in->m, s, w, status, in->t);
+  size_t size = sizeof(double) * (size_t)(m->n_discrete - m->n_held);
+  memcpy(w->discrete_before, discrete, sizeof(double) * (size_t)m->n_discrete);
+  for (int pass = 0; pass < CROWD; pass++) {
+    int status =
+        frot_solution(m, s, w, in->t, in->q, in->v, d, modes_of(in), s->data + in->l.frozen, 1);
+    if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, in->t);
+    frot_inputs(m, s, w, &in->t, in->q, in->v, d);
+    w->arg[7] = w->a, w->arg[8] = w->lam, w->arg[9] = w->firing, w->arg[10] = w->discrete_before;
+    w->res[0] = q, w->res[1] = v, w->res[2] = w->discrete, w->res[3] = w->outcome;
+    m->update.call(w->arg, w->res, w->iw, w->w, 0);
+    if (!frot_all_finite(q, m->nq + m->nv) || !frot_all_finite(w->discrete, m->n_discrete))
+      return frot_fail(s, FROT_NAN, in->t, -1, -1, -1, 0);
+    if (pass == 0)
+      memcpy(w->held, w->discrete + (m->n_discrete - m->n_held),
+             sizeof(double) * (size_t)m->n_held);
+    if (memcmp(discrete, w->discrete, size) == 0) return FROT_OK;
+    memcpy(discrete, w->discrete, size);
+    status = frot_settle_conditions(m, s, w, in->t, in->q, in->v);
+    if (status != FROT_OK) return status;
+  }
+  return frot_fail(s, FROT_CHATTER, in->t, -1, first_cause(in), -1, CROWD);
+}
+
+/* Apply what the `when`s of w->firing do; *changed: whether anything was to be done. */
+static int update(const instant *in, int fires, int *changed) {
+  const frot_model *m = in->m;
+  frot_state *s = in->s;
+  frot_work *w = in->w;
   double *q = w->ztry, *v = w->ztry + m->nq;
-  frot_inputs(m, s, w, &in->t, in->q, in->v, d);
-  w->arg[7] = w->a, w->arg[8] = w->lam, w->arg[9] = w->firing;
-  w->res[0] = q, w->res[1] = v, w->res[2] = w->discrete, w->res[3] = w->outcome;
-  m->update.call(w->arg, w->res, w->iw, w->w, 0);
-  if (!frot_all_finite(q, m->nq + m->nv) || !frot_all_finite(w->discrete, m->n_discrete))
-    return frot_fail(s, FROT_NAN, in->t, -1, -1, -1, 0);
+  double *held = s->data + in->l.d + in->l.nd - m->n_held;
+  size_t held_size = sizeof(double) * (size_t)m->n_held;
+  *changed = 0;
+  memcpy(w->condition_before, s->data + in->l.d, sizeof(double) * (size_t)m->n_conditions);
+  int status = find_values(in, q, v);
+  if (status != FROT_OK) return status;
+  *changed = fires || memcmp(held, w->held, held_size) != 0;
+  if (!*changed) return FROT_OK;
   status = take_outcomes(in);
   if (status != FROT_OK && status != FROT_TERMINATED) return status;
   int ended = status == FROT_TERMINATED;
-
-  status = frot_kinematics(m, s, w, in->t, in->q, in->v, d);
-  if (status != FROT_OK) return frot_fail_evaluation(in->m, s, w, status, in->t);
-  memcpy(w->condition_before, w->condition, sizeof(double) * (size_t)m->n_conditions);
   int moved = memcmp(in->q, q, sizeof(double) * (size_t)m->nq) != 0 ||
               memcmp(in->v, v, sizeof(double) * (size_t)m->nv) != 0;
   memcpy(in->q, q, sizeof(double) * (size_t)m->nq);
   memcpy(in->v, v, sizeof(double) * (size_t)m->nv);
-  memcpy(discrete, w->discrete, sizeof(double) * (size_t)m->n_discrete);
-  status = frot_kinematics(m, s, w, in->t, in->q, in->v, d);
-  if (status != FROT_OK) return frot_fail_evaluation(in->m, s, w, status, in->t);
-  change_conditions(in);
+  memcpy(held, w->held, held_size);
+  status = frot_settle_conditions(m, s, w, in->t, in->q, in->v);
+  if (status != FROT_OK) return status;
+  tell_conditions(in);
   if (ended) return FROT_TERMINATED;
   return moved ? release_contacts(in) : FROT_OK;
 }
@@ -154,24 +183,28 @@ static int crowds(frot_state *s, double t) {
   return s->shrinking > SHRINKING && gap < LIMIT * s->text_first;
 }
 
-/* Fire `when`s until none fires. *fired: whether any did. */
-static int fire_whens(const instant *in, int first, int *fired) {
+/* Fire `when`s until none fires and no held value changes. *happened: whether any did. */
+static int fire_whens(const instant *in, int first, int *happened) {
   const frot_model *m = in->m;
   frot_state *s = in->s;
   const double *d = s->data + in->l.d;
   double before[2], after[2];
-  *fired = 0;
-  for (int round = 0; find_firing(in, first && round == 0); round++) {
-    if (round == CROWD || (round == 0 && crowds(s, in->t)))
-      return frot_fail(s, FROT_CHATTER, in->t, -1, 0, -1, round);
+  *happened = 0;
+  for (int round = 0;; round++) {
+    int fires = find_firing(in, first && round == 0), changed = 0;
+    if (!fires && m->n_held == 0) break;
+    if (round == CROWD) return frot_fail(s, FROT_CHATTER, in->t, -1, first_cause(in), -1, round);
+    if (round == 0 && fires && crowds(s, in->t))
+      return frot_fail(s, FROT_CHATTER, in->t, -1, first_cause(in), -1, FROT_EVER_SOONER);
     int status = FROT_OK;
     if (round == 0) status = frot_energies(m, s, in->w, in->t, in->q, in->v, d, before);
     if (status != FROT_OK) return frot_fail_evaluation(in->m, s, in->w, status, in->t);
-    *fired = 1;
-    status = update(in);
+    status = update(in, fires, &changed);
+    *happened |= changed;
     if (status != FROT_OK) return status;
+    if (!changed) break;
   }
-  if (!*fired) return FROT_OK;
+  if (!*happened) return FROT_OK;
   /* what the text gives or takes is no part of the balance of the motion */
   int status = frot_energies(m, s, in->w, in->t, in->q, in->v, d, after);
   if (status != FROT_OK) return frot_fail_evaluation(in->m, s, in->w, status, in->t);
@@ -181,24 +214,40 @@ static int fire_whens(const instant *in, int first, int *fired) {
 
 static int end_run(const instant *in) {
   in->s->phase = FROT_ENDED;
-  memset(in->s->data + in->l.fired, 0, sizeof(double) * (size_t)in->l.ng);
+  memset(in->s->data + in->l.fired, 0, sizeof(double) * (size_t)in->l.nf);
   return FROT_TERMINATED;
+}
+
+/* Change the conditions that fired, and those that follow from them. */
+static int change_conditions(const instant *in, int first) {
+  const frot_model *m = in->m;
+  frot_state *s = in->s;
+  double *d = s->data + in->l.d, *fired = s->data + in->l.fired + FROT_GUARDS * m->n_contacts;
+  if (m->n_conditions == 0) return FROT_OK;
+  int status = frot_note_conditions(m, s, in->w, in->t, in->q, in->v);
+  if (status != FROT_OK) return status;
+  memcpy(in->w->condition_before, d, sizeof(double) * (size_t)m->n_conditions);
+  for (int j = 0; j < m->n_conditions; j++) {
+    if (fired[j] != 0) d[j] = 1 - d[j];
+    fired[j] = 0;
+  }
+  memset(s->data + in->l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
+  if (!first) status = frot_settle_conditions(m, s, in->w, in->t, in->q, in->v);
+  if (status == FROT_OK) tell_conditions(in);
+  return status;
 }
 
 int frot_happen(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                 int first, frot_recorder *recorder) {
-  frot_layout l = frot_layout_of(m);
-  instant in = {m, s, w, l, t, q, v, recorder};
-  const double *d = s->data + l.d;
-  int fired = 0, status = FROT_OK;
+  instant in = {m, s, w, w->layout, t, q, v, recorder};
+  int happened = 0, status = FROT_OK;
   if (first) status = frot_resolve(m, s, w, t, q, v, 1, recorder);
+  if (status == FROT_OK) status = change_conditions(&in, first);
   if (status != FROT_OK) return status;
-  for (int j = 0; j < m->n_conditions; j++)
-    w->rose[j] = s->data[l.fired + FROT_GUARDS * m->n_contacts + j] != 0 && d[j] == 0;
-  memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
-  frot_flip_conditions(m, s, t, recorder);
-  if (m->n_whens > 0) status = fire_whens(&in, first, &fired);
+  if (m->n_whens > 0 || m->n_held > 0) status = fire_whens(&in, first, &happened);
   if (status == FROT_TERMINATED) return end_run(&in);
-  if (status != FROT_OK) return status;
-  return first && !fired ? FROT_OK : frot_resolve(m, s, w, t, q, v, first, recorder);
+  if (status == FROT_OK && (!first || happened))
+    status = frot_resolve(m, s, w, t, q, v, first, recorder);
+  if (status == FROT_OK) frot_find_due(m, s, w);
+  return status;
 }

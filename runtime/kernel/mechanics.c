@@ -80,7 +80,7 @@ void frot_guards(const frot_model *m, const frot_state *s, frot_work *w, const d
     memcpy(guard + FROT_GUARDS * i, g, sizeof g);
     if (scale) memcpy(scale + FROT_GUARDS * i, size, sizeof size);
   }
-  for (int j = 0; j < m->n_conditions; j++) {
+  for (int j = 0; j < m->n_located; j++) {
     int at = FROT_GUARDS * m->n_contacts + j;
     guard[at] = d[j] != 0 ? w->condition[j] : -w->condition[j];
     if (scale) scale[at] = fabs(guard[at]);

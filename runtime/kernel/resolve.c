@@ -312,18 +312,6 @@ static void note_left(const frot_model *m, frot_state *s, double t) {
   s->left_at = t;
 }
 
-/* Conditions whose guards fired change. */
-void frot_flip_conditions(const frot_model *m, frot_state *s, double t, frot_recorder *recorder) {
-  frot_layout l = frot_layout_of(m);
-  double *d = s->data + l.d, *fired = s->data + l.fired + FROT_GUARDS * m->n_contacts;
-  for (int j = 0; j < m->n_conditions; j++) {
-    if (fired[j] == 0) continue;
-    fired[j] = 0;
-    d[j] = 1 - d[j];
-    frot_note_condition(m, recorder, s, t, j, d[j] != 0);
-  }
-}
-
 /* What is known of the speeds: a slip that has come to zero is zero exactly, if its law can hold
  * it. Moves coordinates and speeds onto what holds. */
 static int settle_speeds(instant *in, double t, double *q, double *v) {
@@ -411,7 +399,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   frot_find_frozen(m, w, modes, frozen);
   for (int k = 0; k < m->nv; k++)
     if (frozen[k] != 0) v[k] = 0;
-  memset(fired, 0, sizeof(double) * (size_t)l.ng);
+  memset(fired, 0, sizeof(double) * (size_t)l.nf);
   /* The guards of another mode have another size. */
   for (int i = 0; i < nc; i++)
     if (memcmp(&modes[i], &w->before[i], sizeof *modes) != 0)

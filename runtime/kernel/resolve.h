@@ -7,9 +7,6 @@
 /* Relative size below which a velocity, a gap or a reaction counts as zero at an event. */
 #define FROT_ZERO 1e-11
 
-/* Change the conditions whose guards fired, and note it. */
-void frot_flip_conditions(const frot_model *m, frot_state *s, double t, frot_recorder *recorder);
-
 /* Find the modes that follow time t at coordinates q and speeds v (both may be moved onto the
  * relations that hold, by rounding only), from the modes held in the state and the guards fired.
  *

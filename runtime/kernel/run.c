@@ -14,7 +14,6 @@
 /* Events at one instant after which the modes will not settle. */
 #define CROWD 100
 #define MONITOR_EVERY 64
-#define INSTANT 1e-9 /* part of the longest step within which events are at one instant */
 /* Longest step where forces depend on time, so that none is passed over while nothing moves. */
 #define PART_OF_RUN 0.01
 
@@ -81,7 +80,8 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   memset(s->data + l.push_v, 0, sizeof(double) * (size_t)m->nv);
   memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   memset(s->data + l.along, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
-  memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
+  memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.nf);
+  s->due = INFINITY;
   memset(s->data + l.left, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
   memset(s->data + l.frozen, 0, sizeof(double) * (size_t)m->nv);
   double *x = s->data + l.x;
@@ -128,7 +128,7 @@ static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
   x = s->data + l.x;
   int status = frot_settle_parameters(m, s, w, NULL);
   if (status != FROT_OK) return status;
-  memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.ng);
+  memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.nf);
   status = fire_changed_conditions(m, s, w);
   if (status != FROT_OK) return status;
   double events = s->energy; /* what the text's events change is added there */
@@ -142,9 +142,12 @@ static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
 
 int frot_settle(const frot_model *m, frot_state *s, frot_work *w) { return settle(m, s, w, NULL); }
 
-/* Whether a `when` has fired at this instant. */
-static int text_takes_part(const frot_model *m, const frot_state *s, double t) {
-  return m->n_whens > 0 && t - s->text_event <= INSTANT * s->h_max;
+/* The condition of the text that fires now, -1 where none does. */
+static int condition_at_fault(const frot_model *m, const frot_state *s) {
+  const double *fired = s->data + frot_layout_of(m).fired + FROT_GUARDS * m->n_contacts;
+  for (int j = 0; j < m->n_conditions; j++)
+    if (fired[j] != 0) return j;
+  return -1;
 }
 
 /* What the guards fired at the end of the segment bring about. */
@@ -197,8 +200,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
     int status = FROT_OK;
     if (s->pending) {
       if (++s->crowded > CROWD)
-        status = frot_fail(s, FROT_CHATTER, *g.t1, -1, text_takes_part(m, s, *g.t1) ? 0 : -1, -1,
-                           s->crowded);
+        status = frot_fail(s, FROT_CHATTER, *g.t1, -1, condition_at_fault(m, s), -1, s->crowded);
       else
         status = happen_at_end(m, s, w, recorder);
       s->pending = s->has_slope = 0;

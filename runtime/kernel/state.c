@@ -14,7 +14,8 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.nm = m->nv + m->na;
   l.nw = l.nm + m->nc;
   l.nx = m->nq + m->nv + FROT_QUADRATURES;
-  l.ng = FROT_GUARDS * m->n_contacts + m->n_conditions;
+  l.ng = FROT_GUARDS * m->n_contacts + m->n_located;
+  l.nf = FROT_GUARDS * m->n_contacts + m->n_conditions;
   l.nz = l.nx + l.ng;
   l.nd = m->n_conditions + m->n_contacts + m->n_discrete;
   l.ns = 3 + m->n_contacts + l.nd + m->nv + 2 * m->ny + l.nx + DP_DENSE * l.nx;
@@ -36,7 +37,8 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.noise = at, at += m->nq + m->nv;
   l.push_v = at, at += m->nv;
   l.along = at, at += 2 * m->n_contacts;
-  l.fired = at, at += l.ng;
+  l.fired = at, at += l.nf;
+  l.due = at, at += m->n_timed;
   l.left = at, at += 2 * m->n_contacts;
   l.asked = at, at += m->n_outcomes;
   l.fresh = at, at += m->n_conditions;
@@ -85,11 +87,12 @@ static void *take(arena *a, size_t count, size_t size) {
 
 /* The scratch that any of the generated functions needs. */
 static frot_callable scratch_of_all(const frot_model *m) {
-  const frot_callable *calls[] = {
-      &m->parameters, &m->start,    &m->initial_position, &m->initial_velocity,
-      &m->kinematics, &m->sides,    &m->dynamics,         &m->spread,
-      &m->rates,      &m->jacobian, &m->invariants,       &m->block_slopes,
-      &m->update,     &m->sizes,    &m->variables,        &m->energy};
+  const frot_callable *calls[] = {&m->parameters,       &m->start,      &m->initial_position,
+                                  &m->initial_velocity, &m->kinematics, &m->sides,
+                                  &m->dynamics,         &m->spread,     &m->rates,
+                                  &m->jacobian,         &m->invariants, &m->block_slopes,
+                                  &m->update,           &m->sizes,      &m->variables,
+                                  &m->energy,           &m->timers};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
   for (int i = 0; i < count + m->n_blocks; i++) {
@@ -147,7 +150,9 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(slopes_y, asked * asked + 3 * asked), TAKE(slopes_pivot, asked), TAKE(unit, wide);
   TAKE(position_factor, m->nv * m->nv);
   TAKE(rose, m->n_conditions), TAKE(firing, m->n_whens), TAKE(outcome, m->n_outcomes);
-  TAKE(condition_before, m->n_conditions), TAKE(discrete, m->n_discrete);
+  TAKE(condition_before, m->n_conditions), TAKE(condition_known, m->n_conditions);
+  TAKE(timer, 2 * m->n_timed), TAKE(discrete, m->n_discrete);
+  TAKE(discrete_before, m->n_discrete), TAKE(held, m->n_held);
   TAKE(trial, nc), TAKE(best, nc), TAKE(before, nc);
   TAKE(best_acceleration, nr), TAKE(choice, 4 * nc), TAKE(component, nc);
   return a.used;

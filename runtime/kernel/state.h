@@ -6,7 +6,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 2
+#define FROT_LAYOUT_VERSION 3
 #define FROT_KEY 72
 #define FROT_GUARDS 5      /* guards of a contact: see guards.c */
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
@@ -24,10 +24,10 @@ typedef struct {
 
 /* Offsets in doubles from the head of state->data, and sizes. Computed from the model. */
 typedef struct {
-  int nw, nm, nx, nz, ng, nd, ns; /* nm: order of the metric; ns: doubles of a segment */
-  int early;                      /* unknowns of the blocks that are not late */
+  int nw, nm, nx, nz, ng, nf, nd, ns; /* nm: order of the metric; ns: doubles of a segment */
+  int early;                          /* unknowns of the blocks that are not late */
   int set, given, p, u, experiment, unilateral, x, y, slope, scale_x, scale_g, noise, push_v, along,
-      fired, left, asked, fresh, modes, d, frozen, segment, size;
+      fired, due, left, asked, fresh, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -55,6 +55,7 @@ struct frot_state {
   double left_at; /* instant at which rest was left last: see `left` */
   double t;       /* time reached */
   double h;       /* next step */
+  double due;     /* when time next changes a condition, INFINITY if never */
   double h_max;
   double tolerance;
   double energy; /* kinetic + potential at the start, corrected for changes from outside */
@@ -119,7 +120,9 @@ struct frot_work {
   double *values, *jacobian, *residual, *size, *step; /* initial values and projection */
   double *slopes, *slopes_y, *unit, *position_factor; /* initial values: see initial.c */
   int *slopes_pivot;
-  double *rose, *firing, *outcome, *condition_before, *discrete; /* events of the text */
+  /* events of the text: see conditions.h and happen.c */
+  double *rose, *firing, *outcome, *condition_before, *condition_known, *timer;
+  double *discrete, *discrete_before, *held;
   frot_contact_mode *trial, *best, *before;
   double *best_acceleration;
   int *choice, *component;

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "blocks.h"
+#include "conditions.h"
 #include "implicit.h"
 #include "mechanics.h"
 #include "probe.h"
@@ -438,14 +439,21 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   double t = *g.t1, longest = s->h_max;
   if (s->implicit && !m->time_dependent) longest *= LONG_REST; /* nothing can be passed over */
   double h = fmin(s->h, longest);
+  if (s->due <= t) {
+    frot_fire_due(m, s);
+    return FROT_OK;
+  }
   int status = start_slope(m, s, w, &l, t), rejections = 0, stiff = 0;
   if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
   if (!m->time_dependent && is_still(m, w)) h = LONG_REST * s->h_max;
   if (s->implicit) status = frot_implicit_begin(m, s, w, t);
   if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
+  double planned = s->h;
+  int to_due = h >= s->due - t; /* the step ends where time changes a condition */
+  if (to_due) h = s->due - t;
   double power = s->implicit ? -1.0 / 5 : -1.0 / 8;
   for (;;) {
-    if (!(h > LEAST_STEP * fmax(fabs(t), 1e-3 * s->h_max)))
+    if (!to_due && !(h > LEAST_STEP * fmax(fabs(t), 1e-3 * s->h_max)))
       return fail_at(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, t, h);
     status = run_stages(m, s, w, &l, t, h);
     double ratio = status == FROT_OK ? error_ratio(m, s, w, &l, h) : NAN;
@@ -458,11 +466,13 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
       if (status == FROT_OK) {
         double factor = ratio > 0 ? 0.9 * pow(ratio, power) : 6;
         s->h = fmin(h * fmin(fmax(factor, 1.0 / 3), rejections ? 1 : 6), longest);
+        if (to_due) s->h = fmax(s->h, planned);
         break;
       }
       ratio = NAN;
     }
     s->statistics.rejected++;
+    to_due = 0;
     if (++rejections % PATIENCE == 0) measure_noise(m, s, w, &l, t);
     h *= ratio > 1 && ratio < 1e300 ? fmax(0.9 * pow(ratio, power), 1.0 / 3) : 0.25;
   }
@@ -472,6 +482,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   if (guard >= 0) {
     if (theta * h <= LEAST_STEP * fmax(fabs(t), h)) return fire_at_start(s, &l, guard);
     status = locate(m, s, w, &l, t, guard, theta, &h, &falls);
+    to_due = 0;
     if (status == FROT_OK) {
       measure(m, s, w, &l, w->z1);
       status = make_dense(m, s, w, &l, t, h);
@@ -483,8 +494,9 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   note_sizes(m, s, w, &l, w->z1);
   if (falls) fire(s, w, &l, guard);
+  if (to_due) frot_fire_due(m, s);
 
-  *g.t0 = t, *g.t1 = t + h, *g.h = h;
+  *g.t0 = t, *g.t1 = to_due ? s->due : t + h, *g.h = h;
   copy_modes(s, &l, m, &g);
   memcpy(g.y0, s->data + l.y, sizeof(double) * (size_t)m->ny);
   memcpy(g.y1, w->y_end, sizeof(double) * (size_t)m->ny);

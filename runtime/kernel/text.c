@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "conditions.h"
 #include "state.h"
 
 static const char *mode_name(int mode) {
@@ -95,6 +96,35 @@ static void block_text(const frot_model *m, const frot_fault *f, char *text, siz
              name, f->t);
 }
 
+/* Words of a condition or, counted on from them, of a value that depends on what it was before. */
+static const char *cause_name(const frot_model *m, int item) {
+  if (item < m->n_conditions) return m->conditions[item].text;
+  return item < m->n_conditions + m->n_held ? m->held[item - m->n_conditions].of : "";
+}
+
+static const char *cause_place(const frot_model *m, int item) {
+  const char *place = item < m->n_conditions               ? m->conditions[item].place
+                      : item < m->n_conditions + m->n_held ? m->held[item - m->n_conditions].place
+                                                           : NULL;
+  return place ? place : "";
+}
+
+/* Events of the text that do not settle. */
+static void chatter_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
+  const char *name = cause_name(m, f->item), *other = f->other >= 0 ? cause_name(m, f->other) : "";
+  const char *what = f->value == FROT_NO_TRUTH ? "no truth of it agrees with what follows from it"
+                     : f->value == FROT_EVER_SOONER
+                         ? "it comes ever sooner, without end"
+                         : "its events bring each other about without end";
+  const char *mark = name[0] ? "`" : "", *mark2 = other[0] ? "`" : "";
+  snprintf(
+      text, size,
+      "the events of the text do not settle at t = %.17g: %s%s%s%s%s%s%s%s%s; let the text end "
+      "the run or change what it does there",
+      f->t, mark, name, mark, other[0] ? " and " : "", mark2, other, mark2, name[0] ? ": " : "",
+      what);
+}
+
 void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_t size) {
   const frot_fault *f = &s->fault;
   const char *name = contact_name(m, f->contact);
@@ -137,21 +167,15 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                name, (int)f->value, f->t);
       return;
     case FROT_CHATTER:
-      if (f->item >= 0) {
+      if (f->item >= 0)
+        chatter_text(m, f, text, size);
+      else
         snprintf(text, size,
-                 "the events of the text do not settle at t = %.17g: they %s; let the text end the "
-                 "run or change what it does there",
-                 f->t,
-                 f->value > 0 ? "bring each other about without end"
-                              : "follow each other ever sooner, without end");
-        return;
-      }
-      snprintf(text, size,
-               "the modes do not settle at t = %.17g (%d events at one instant): %s; change a "
-               "coefficient or the starting values a little",
-               f->t, (int)f->value,
-               m->n_contacts > 0 ? "conditions or laws of friction switch each other"
-                                 : "conditions switch each other");
+                 "the modes do not settle at t = %.17g (%d events at one instant): %s; change a "
+                 "coefficient or the starting values a little",
+                 f->t, (int)f->value,
+                 m->n_contacts > 0 ? "conditions or laws of friction switch each other"
+                                   : "conditions switch each other");
       return;
     case FROT_ALGEBRAIC:
       block_text(m, f, text, size);
@@ -217,6 +241,8 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
 void frot_fault_places(const frot_model *m, const frot_state *s, char *text, size_t size) {
   const frot_fault *f = &s->fault;
   const char *places[3] = {"", "", ""};
+  if (f->status == FROT_CHATTER && f->item >= 0) places[0] = cause_place(m, f->item);
+  if (f->status == FROT_CHATTER && f->other >= 0) places[1] = cause_place(m, f->other);
   if (f->status == FROT_CHECK && f->item >= 0) places[0] = m->checks[f->item].place;
   if (f->status == FROT_NAN && f->item >= 0) places[0] = m->loads[f->item].place;
   if (f->status == FROT_NAN && f->other >= 0) places[0] = m->blocks[f->other].place;

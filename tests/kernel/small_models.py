@@ -239,7 +239,10 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
         out["block_slopes"] = (s.state, [r, *slopes])
     if m.update:
         values = [ca.vertcat(x) if isinstance(x, list) else x for x in m.update(s)]
-        out["update"] = ([*s.state, s.z, s.lam, s.fired], [column(x) for x in values])
+        # what an update reads of the discrete values is what they were before
+        guessed = ca.vertcat(s.conditions, s.sides, ca.SX.sym("guess", m.n_discrete))
+        arguments = [*s.state[:5], guessed, s.y, s.z, s.lam, s.fired, s.discrete]
+        out["update"] = (arguments, [column(x) for x in values])
     for i, b in enumerate(m.blocks):
         r = ca.vertcat(*b.residual(s))
         own = s.y[b.first : b.first + b.count]
@@ -308,7 +311,8 @@ def source(m: Small, folder: Path) -> str:
     sizes = {
         "nq": m.nq, "nv": m.nv, "na": m.na, "nc": m.nc, "nu": len(m.inputs),
         "np": len(m.parameters), "ny": m.ny, "n_rows": m.n_rows, "n_contacts": len(m.elements),
-        "n_conditions": m.n_conditions, "n_discrete": m.n_discrete, "n_blocks": len(m.blocks),
+        "n_conditions": m.n_conditions, "n_located": m.n_conditions,
+        "n_discrete": m.n_discrete, "n_blocks": len(m.blocks),
         "n_invariants": made["invariants"].numel_out(0) if m.invariants else 0,
         "n_whens": len(m.whens), "n_outcomes": len(m.outcomes), "general": int(m.general),
         "late_rates": int(m.late_rates is not None), "time_dependent": int(m.time_dependent),

@@ -1,0 +1,97 @@
+#include "conditions.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "blocks.h"
+#include "core.h"
+
+#define UNCHANGED 1e-13 /* part of its largest size by which a condition may move by rounding */
+/* Conditions that depend on each other are changed all at once as many times as their chain can be
+ * long, then the first that is wrong alone (least index: K. Murty, Linear Complementarity, 1988,
+ * ch. 4, which ends where they are those of ideal switches). */
+#define ALL_AT_ONCE 3
+#define ONE_BY_ONE 20
+/* Instants that differ by rounding of their sums are one. */
+#define SAME_INSTANT (4 * DBL_EPSILON)
+
+int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
+                         const double *q, const double *v) {
+  if (m->n_conditions == 0) return FROT_OK;
+  int status = frot_kinematics(m, s, w, t, q, v, s->data + w->layout.d);
+  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
+  memcpy(w->condition_known, w->condition, sizeof(double) * (size_t)m->n_conditions);
+  return FROT_OK;
+}
+
+/* Whether the value of condition j is the one its flag was decided with. */
+static int is_known(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
+  double value = w->condition[j], known = w->condition_known[j];
+  if (j >= m->n_located) return value == known;
+  double size = s->data[w->layout.scale_g + FROT_GUARDS * m->n_contacts + j];
+  double rounding = UNCHANGED * size + 4 * DBL_EPSILON * fmax(fabs(value), fabs(known));
+  return fabs(value - known) <= rounding;
+}
+
+/* Decide the conditions from their values, the first that changes alone if `alone`. Returns the
+ * last one changed, -1 if none. */
+static int decide(const frot_model *m, const frot_state *s, frot_work *w, double *d, int alone) {
+  int changed = -1;
+  for (int j = 0; j < m->n_conditions; j++) {
+    if (is_known(m, s, w, j)) continue;
+    double value = w->condition[j];
+    int holds = m->condition_strict[j] ? value > 0 : value >= 0;
+    if (holds != (d[j] != 0)) {
+      if (alone && changed >= 0) continue;
+      d[j] = holds;
+      changed = j;
+    }
+    w->condition_known[j] = value;
+  }
+  return changed;
+}
+
+int frot_settle_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
+                           const double *q, const double *v) {
+  double *d = s->data + w->layout.d;
+  int together = m->n_conditions + ALL_AT_ONCE, most = together + ONE_BY_ONE * (together + 1);
+  int changed = -1, other = -1;
+  for (int pass = 0; pass < most; pass++) {
+    int status = frot_kinematics(m, s, w, t, q, v, d);
+    if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
+    int last = decide(m, s, w, d, pass >= together);
+    if (last < 0) return FROT_OK;
+    if (last != changed) other = changed, changed = last;
+  }
+  return frot_fail(s, FROT_CHATTER, t, -1, changed, other, FROT_NO_TRUTH);
+}
+
+void frot_find_due(const frot_model *m, frot_state *s, frot_work *w) {
+  s->due = INFINITY;
+  if (m->n_timed == 0) return;
+  const double *d = s->data + w->layout.d;
+  double *due = s->data + w->layout.due, *slope = w->timer, *at_zero = w->timer + m->n_timed;
+  w->arg[0] = s->data + w->layout.u, w->arg[1] = s->data + w->layout.p, w->arg[2] = d;
+  w->res[0] = slope, w->res[1] = at_zero;
+  m->timers.call(w->arg, w->res, w->iw, w->w, 0);
+  for (int j = 0; j < m->n_timed; j++) {
+    int falls = d[m->n_located + j] != 0 ? slope[j] < 0 : slope[j] > 0;
+    due[j] = falls ? -at_zero[j] / slope[j] : INFINITY;
+    if (isnan(due[j])) due[j] = INFINITY;
+    s->due = fmin(s->due, due[j]);
+  }
+  double last = s->due;
+  for (int j = 0; j < m->n_timed; j++)
+    if (due[j] > last && due[j] <= s->due + SAME_INSTANT * fabs(s->due)) last = due[j];
+  s->due = last;
+}
+
+void frot_fire_due(const frot_model *m, frot_state *s) {
+  frot_layout l = frot_layout_of(m);
+  const double *due = s->data + l.due;
+  double *fired = s->data + l.fired + FROT_GUARDS * m->n_contacts + m->n_located;
+  for (int j = 0; j < m->n_timed; j++)
+    if (due[j] <= s->due) fired[j] = 1;
+  s->pending = 1;
+}

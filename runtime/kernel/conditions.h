@@ -1,0 +1,33 @@
+/* The conditions of the text: which hold at an instant, and when time alone changes them.
+ *
+ * A condition by motion changes where its value passes through zero inside a step: the guards
+ * follow it, and its flag says what holds right after. One by time changes at an instant known
+ * before; one by events follows the discrete values and the other conditions. */
+#ifndef FROT_CONDITIONS_H
+#define FROT_CONDITIONS_H
+
+#include "state.h"
+
+/* What does not settle, in the value of a fault FROT_CHATTER of the text: conditions that have no
+ * truth together, events that follow each other ever sooner; else how many rounds it took. */
+#define FROT_NO_TRUTH (-1)
+#define FROT_EVER_SOONER 0
+
+/* Note the values of the conditions at (t, q, v), before anything happens at this instant: as long
+ * as a value stays, so does what is known of its condition. */
+int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
+                         const double *q, const double *v);
+
+/* Look at every condition anew with the values at (t, q, v), until none changes. Leaves what
+ * `kinematics` gives there in w. FROT_OK or the status of the fault recorded: conditions that
+ * change each other without end are FROT_CHATTER. */
+int frot_settle_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
+                           const double *q, const double *v);
+
+/* Find the instant at which time next changes a condition, into s->due. */
+void frot_find_due(const frot_model *m, frot_state *s, frot_work *w);
+
+/* Fire the conditions that time changes at s->due. */
+void frot_fire_due(const frot_model *m, frot_state *s);
+
+#endif

@@ -1,0 +1,198 @@
+"""What happens at one instant: relations looked at anew, timers and ticks at their exact times."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import frot
+
+TIMED_STATES = """
+model Machine
+  Integer state(start = 1);
+  Time entered(start = 0 s);
+  parameter Time first = 1 s, stay = 0.7 s;
+  Real x;
+initial
+  x = 0;
+equation
+  der(x) = 1 1/s;
+  {branches}
+  experiment(stop = {stop} s);
+end Machine;
+"""
+WHENS = {
+    "elsewhen": """
+  when state == 1 and time > first then
+    state = 2;
+    entered = time;
+  elsewhen state == 2 and time > entered + stay then
+    state = 3;
+    entered = time;
+  end when;""",
+    "pre": """
+  when pre(state) == 1 and time > first then
+    state = 2;
+    entered = time;
+  elsewhen pre(state) == 2 and time > pre(entered) + stay then
+    state = 3;
+    entered = time;
+  end when;""",
+    "separate": """
+  when time > first then
+    entered = time;
+  end when;
+  when entered > 0 s and time > entered + stay then
+    state = 3;
+  end when;""",
+    "the other order": """
+  when state == 2 and time > entered + stay then
+    state = 3;
+    entered = time;
+  elsewhen state == 1 and time > first then
+    state = 2;
+    entered = time;
+  end when;""",
+    "of an equation": """
+  state = if pre(state) == 1 and time > first then 2
+    else if pre(state) == 2 and time > pre(entered) + stay then 3 else pre(state);
+  when change(state) then
+    entered = time;
+  end when;""",
+}
+
+
+def times_of_change(result: frot.Result, name: str) -> list[float]:
+    """The ends of the steps at which a value that jumps has another value than before."""
+    starts = result._segments[:, 0]
+    values = result.at(np.unique(np.clip(starts, 0, result.time[-1])))[name]
+    at = np.unique(starts)[1:][np.diff(values) != 0]
+    return list(at)
+
+
+@pytest.mark.parametrize("way", WHENS)
+@pytest.mark.parametrize("scale", [1.0, 1e-9, 1e9])
+def test_a_timed_state_lasts_as_long_as_it_says(way: str, scale: float) -> None:
+    model = frot.compile(TIMED_STATES.format(branches=WHENS[way], stop=3 * scale))
+    given = {"first": scale, "stay": 0.7 * scale}
+    result = model.simulate(parameters=given)
+    last = scale + 0.7 * scale
+    assert times_of_change(result, "state")[-1] == last
+    assert result["state"][-1] == 3
+    assert result.at(last * (1 - 1e-12))["state"] < 3
+
+
+ALARM = """
+model Alarm
+  Boolean armed(start = false);
+  Real x, ta(start = -1);
+initial
+  x = 0;
+equation
+  der(x) = 1 1/s;
+  when x > 1 then
+    reinit(x, 0);
+    armed = true;
+  end when;
+  when armed and x > 0.5 then
+    ta = time/(1 s);
+  end when;
+  experiment(stop = 1.8 s);
+end Alarm;
+"""
+
+
+def test_a_reinit_is_seen_by_the_conditions_of_the_same_instant() -> None:
+    assert frot.compile(ALARM).simulate()["ta"][-1] == pytest.approx(1.5, rel=1e-12)
+
+
+SAMPLED_ERROR = """
+model Sampled
+  Real held(start = 0), error, sum(start = 0);
+equation
+  error = 1 - held;
+  when sample(0 s, 1 s) then
+    held = pre(held) + 0.25;
+    sum = pre(sum) + error;
+  end when;
+  experiment(stop = 2.5 s);
+end Sampled;
+"""
+
+
+def test_an_equation_between_sampled_values_holds_in_the_tick_itself() -> None:
+    """Errors 0.75, 0.5, 0.25 in the three ticks."""
+    assert frot.compile(SAMPLED_ERROR).simulate()["sum"][-1] == 1.5
+
+
+HYSTERESIS = """
+model Hysteresis
+  Real T(start = 15);
+  Boolean heat(start = true);
+  Integer on(start = 0), off(start = 0), turns;
+  parameter Real low = 18, high = 22;
+initial
+  T = 15;
+equation
+  heat = not pre(heat) and T < low or pre(heat) and T <= high;
+  turns = pre(turns) + (if change(heat) then 1 else 0);
+  der(T) = ((if heat then 30 else 0) - (T - 10))*0.1 1/s;
+  when heat then
+    on = pre(on) + 1;
+  end when;
+  when edge(not heat) then
+    off = pre(off) + 1;
+  end when;
+  experiment(stop = 100 s, tolerance = 1e-10);
+end Hysteresis;
+"""
+
+
+def test_a_two_point_controller_by_an_equation_of_its_own() -> None:
+    """From 15 to 22 towards 40, then down to 18 towards 10 and up again."""
+    result = frot.compile(HYSTERESIS).simulate()
+    first, down, up = (10 * np.log(q) for q in (25 / 18, 12 / 8, 22 / 18))
+    expected = [first]
+    while expected[-1] < 100:
+        expected.append(expected[-1] + (down if len(expected) % 2 else up))
+    found = times_of_change(result, "heat")
+    assert found == pytest.approx(expected[:-1], rel=1e-9)
+    assert result["turns"][-1] == len(found)
+    assert (result["on"][-1], result["off"][-1]) == (len(found) // 2, (len(found) + 1) // 2)
+
+
+def test_truths_that_never_agree_are_told_by_name() -> None:
+    text = """
+model Liar
+  Boolean b;
+equation
+  b = not pre(b);
+  experiment(stop = 1 s);
+end Liar;
+"""
+    with pytest.raises(frot.FrotError, match=r"E0903.*`b`") as told:
+        frot.compile(text).simulate()
+    assert ":5:" in str(told.value)
+
+
+TICKS = """
+model Ticks
+  Integer k(start = 0);
+  parameter Time start = 0.1 s, interval = 0.1 s;
+equation
+  when sample(start, interval) then
+    k = pre(k) + 1;
+  end when;
+  experiment(stop = 1 s);
+end Ticks;
+"""
+
+
+@pytest.mark.parametrize(("start", "interval", "count"), [(0.1, 0.1, 10), (0.0, 1e-9, 1000)])
+def test_ticks_lie_where_they_belong(start: float, interval: float, count: int) -> None:
+    stop = start + (count - 1) * interval
+    given = {"start": start, "interval": interval}
+    result = frot.compile(TICKS).simulate(stop=stop, parameters=given)
+    told = range(0 if start > 0 else 1, count)  # a tick at the start is no event
+    assert [e.time for e in result.events] == [start + k * interval for k in told]
+    assert result["k"][-1] == count
