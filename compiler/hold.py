@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 try:
@@ -19,8 +20,9 @@ class Hold:
     def __init__(self, handle: int) -> None:
         self._handle = handle
 
-    def __del__(self) -> None:
-        os.close(self._handle)
+    def __del__(self, close: Callable[[int], None] = os.close) -> None:
+        # The module may be gone by then, where a program ends with a model in hand.
+        close(self._handle)
 
 
 def hold(folder: Path, alone: bool = False) -> Hold | None:
