@@ -7,16 +7,17 @@ if TYPE_CHECKING:
     from frot.compiler.cache import find_program, program_key
     from frot.compiler.dae import Dae, make_dae
     from frot.compiler.driver import build
+    from frot.compiler.objects import compile_library
     from frot.compiler.printing import print_stage
     from frot.compiler.report import Report, make_report
-    from frot.compiler.toolchain import Toolchain, compile_library, find_toolchain
+    from frot.compiler.toolchain import Toolchain, find_toolchain
 
 _HOMES = {
     "Dae": "dae",
     "Report": "report",
     "Toolchain": "toolchain",
     "build": "driver",
-    "compile_library": "toolchain",
+    "compile_library": "objects",
     "find_program": "cache",
     "find_toolchain": "toolchain",
     "make_dae": "dae",

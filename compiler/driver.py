@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from pathlib import Path
 
-from frot.compiler.cache import Kept, own_identity, store, stored, write_manifest
+from frot.compiler.cache import store, write_manifest
 from frot.compiler.mechanize import mechanize
+from frot.compiler.objects import kept_objects
 from frot.compiler.toolchain import FLAGS, Toolchain, compile_objects, link_library
 from frot.compiler.units import unit_of
 from frot.compiler.walk import as_number
@@ -70,7 +70,7 @@ def build(model: Model, file: str, key: str, toolchain: Toolchain, log: Log) -> 
         for i in reduced.symbols.inputs
     )
     text = generate(lowered, key, [p.default for p in parameters], [i.default for i in inputs])
-    kernel = _kernel_objects(toolchain)
+    kernel = kept_objects(toolchain, kernel_sources(), [kernel_folder()], FLAGS)
 
     def fill(folder: Path) -> None:
         source = folder / MODEL_SOURCE
@@ -115,18 +115,6 @@ def build(model: Model, file: str, key: str, toolchain: Toolchain, log: Log) -> 
 
     kept = store("programs", key, fill)
     return replace(read_program(kept.folder), hold=kept.hold)
-
-
-def _kernel_objects(toolchain: Toolchain) -> Kept:
-    """The kernel's objects, compiled once for all models."""
-    digest = hashlib.sha256(
-        "\0".join((own_identity(), toolchain.identity, *FLAGS)).encode()
-    ).hexdigest()
-
-    def fill(folder: Path) -> None:
-        compile_objects(toolchain, kernel_sources(), [kernel_folder()], folder)
-
-    return stored("kernels", digest) or store("kernels", digest, fill)
 
 
 def _unit(declared: Parameter | Input) -> Unit:

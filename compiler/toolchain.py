@@ -145,14 +145,3 @@ def link_library(toolchain: Toolchain, objects: Sequence[Path], target: Path) ->
     """Link objects to a shared library."""
     with Keeper() as keeper:
         run_compiler(toolchain, [*objects, *LINK_FLAGS], target, keeper)
-
-
-def compile_library(
-    toolchain: Toolchain, sources: Sequence[Path], include: Sequence[Path], target: Path
-) -> None:
-    """Compile sources to a shared library of which only marked functions are seen."""
-    import tempfile
-
-    with tempfile.TemporaryDirectory(prefix="frot-") as folder, Keeper(Path(folder)):
-        objects = compile_objects(toolchain, sources, include, Path(folder), (*FLAGS, HIDDEN))
-        link_library(toolchain, objects, target)
