@@ -13,8 +13,13 @@
  * ch. 4, which ends where they are those of ideal switches). */
 #define ALL_AT_ONCE 3
 #define ONE_BY_ONE 20
+#define CROSSINGS 8 /* doublings of a rounding of time */
 /* Instants that differ by rounding of their sums are one. */
 #define SAME_INSTANT (4 * DBL_EPSILON)
+
+static int holds(const frot_model *m, const frot_work *w, int j) {
+  return m->condition_strict[j] ? w->condition[j] > 0 : w->condition[j] >= 0;
+}
 
 int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
                          const double *q, const double *v) {
@@ -23,6 +28,33 @@ int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, doubl
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   memcpy(w->condition_known, w->condition, sizeof(double) * (size_t)m->n_conditions);
   return FROT_OK;
+}
+
+/* Whether a located condition that fires is still on the side on which it was. */
+static int is_short(const frot_model *m, const frot_state *s, const frot_work *w) {
+  const double *d = s->data + w->layout.d;
+  const double *fired = s->data + w->layout.fired + FROT_GUARDS * m->n_contacts;
+  for (int j = 0; j < m->n_located; j++)
+    if (fired[j] != 0 && holds(m, w, j) == (d[j] != 0)) return 1;
+  return 0;
+}
+
+int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v) {
+  const double *slope = s->data + w->layout.slope;
+  double moved = 0, step = DBL_EPSILON * fmax(fabs(t), 1e-3 * s->h_max);
+  double *there = w->ztry;
+  if (!is_short(m, s, w)) return FROT_OK;
+  for (int k = 0; k < CROSSINGS; k++, step *= 2) {
+    moved += step;
+    for (int j = 0; j < m->nq; j++) there[j] = q[j] + moved * slope[j];
+    for (int j = 0; j < m->nv; j++) there[m->nq + j] = v[j] + moved * slope[m->nq + j];
+    if (frot_kinematics(m, s, w, t, there, there + m->nq, s->data + w->layout.d) != FROT_OK) break;
+    if (is_short(m, s, w)) continue;
+    memcpy(q, there, sizeof(double) * (size_t)m->nq);
+    memcpy(v, there + m->nq, sizeof(double) * (size_t)m->nv);
+    break;
+  }
+  return frot_note_conditions(m, s, w, t, q, v); /* one that has no rate does not cross */
 }
 
 /* Whether the value of condition j is the one its flag was decided with. */
@@ -40,14 +72,13 @@ static int decide(const frot_model *m, const frot_state *s, frot_work *w, double
   int changed = -1;
   for (int j = 0; j < m->n_conditions; j++) {
     if (is_known(m, s, w, j)) continue;
-    double value = w->condition[j];
-    int holds = m->condition_strict[j] ? value > 0 : value >= 0;
-    if (holds != (d[j] != 0)) {
+    int now = holds(m, w, j);
+    if (now != (d[j] != 0)) {
       if (alone && changed >= 0) continue;
-      d[j] = holds;
+      d[j] = now;
       changed = j;
     }
-    w->condition_known[j] = value;
+    w->condition_known[j] = w->condition[j];
   }
   return changed;
 }

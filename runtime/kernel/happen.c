@@ -160,6 +160,7 @@ static int update(const instant *in, int fires, int *changed) {
   int ended = status == FROT_TERMINATED;
   int moved = memcmp(in->q, q, sizeof(double) * (size_t)m->nq) != 0 ||
               memcmp(in->v, v, sizeof(double) * (size_t)m->nv) != 0;
+  s->jumped |= moved;
   memcpy(in->q, q, sizeof(double) * (size_t)m->nq);
   memcpy(in->v, v, sizeof(double) * (size_t)m->nv);
   memcpy(held, w->held, held_size);
@@ -227,6 +228,9 @@ static int change_conditions(const instant *in, int first) {
   int status = frot_note_conditions(m, s, in->w, in->t, in->q, in->v);
   if (status != FROT_OK) return status;
   memcpy(in->w->condition_before, d, sizeof(double) * (size_t)m->n_conditions);
+  s->jumped = 0;
+  if (!first) status = frot_cross(m, s, in->w, in->t, in->q, in->v);
+  if (status != FROT_OK) return status;
   for (int j = 0; j < m->n_conditions; j++) {
     if (fired[j] != 0) d[j] = 1 - d[j];
     fired[j] = 0;

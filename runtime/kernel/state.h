@@ -39,6 +39,7 @@ struct frot_state {
   int has_slope; /* slope holds the derivatives at the end of the current segment */
   int changed;   /* parameters or inputs were set since the last frot_settle */
   int crowded;   /* events since the time last moved on */
+  int jumped;    /* the last event of the text moved coordinates or speeds */
   int several;   /* admissible motions at the start, until this is told as an event */
   int several_at;
   int implicit;                /* the next step is made by the implicit method */

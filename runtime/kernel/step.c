@@ -29,6 +29,13 @@
 #define GUARD_LOOSEST 1e-3
 #define GUARD_TIGHTEST 1e-6
 #define GUARD_FLOOR 1e-12
+/* Part of its largest size by which a condition is off zero by rounding: far below GUARD_FLOOR, so
+ * that what counts as fallen does not fall again. */
+#define CONDITION_ZERO 4e-15
+/* Part of its size in the next step by which a condition moves that has no rate. */
+#define FLAT 1e-10
+/* Part of the way to where a condition seems to be zero, beyond which there is no value. */
+#define NEARLY 0.9
 #define LEAST_STEP (16 * DBL_EPSILON)
 #define LOCATE_PASSES 12
 /* The first step, in longest steps: what starts from rest shows its size only as it moves. */
@@ -218,12 +225,23 @@ static void guard_polynomial(const frot_state *s, const frot_work *w, const frot
   }
 }
 
-/* Whether condition j, at whose coming to hold a `when` fired at the start of the step, is lost at
- * once: a ball leaves the floor, however little it jumps. Else rounding would hide the jump, and
- * the next fall with it. */
+/* The value below which guard j, at zero to rounding at time t, counts as fallen. */
+static double fallen(const frot_model *m, const frot_state *s, const frot_layout *l, int j,
+                     double t, double slope) {
+  double size = s->data[l->scale_g + j];
+  if (j < FROT_GUARDS * m->n_contacts) return FROT_ZERO * size;
+  return CONDITION_ZERO * size + 8 * DBL_EPSILON * fabs(t) * fabs(slope);
+}
+
+/* Whether condition j is lost at the start of the step, where it is zero. One at whose coming to
+ * hold a `when` fired may be lost however little it moves: a ball leaves the floor, and rounding
+ * would hide the jump and the next fall with it. What a `reinit` has left at zero without a rate
+ * does not hold there: it may come to hold again. */
 static int lost_at_once(const frot_state *s, const frot_layout *l, int j, const double g[7],
-                        double inside) {
-  return s->data[l->fresh + j] != 0 && g[1] - g[0] < -NOISE * inside;
+                        double inside, int falls) {
+  double rise = g[1] - g[0];
+  if (s->data[l->fresh + j] == 0) return falls && g[0] <= 0 && rise < 0;
+  return rise < (s->jumped ? FLAT : -NOISE) * inside;
 }
 
 /* The first guard to fall inside the step from t, its theta in *theta; -1 when none does. A guard
@@ -241,7 +259,7 @@ static int first_guard(const frot_model *m, const frot_state *s, const frot_work
     double slope = 6 * fabs(g[1] - g[0]) / h;
     double at = frot_first_fall(g, GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * slope);
     if (j >= conditions && fabs(g[0]) <= FROT_ZERO * size &&
-        lost_at_once(s, l, j - conditions, g, inside))
+        lost_at_once(s, l, j - conditions, g, inside, at < FROT_NO_ROOT))
       at = 0;
     if (at < *theta) *theta = at, found = j;
   }
@@ -276,7 +294,10 @@ static int locate(const frot_model *m, frot_state *s, frot_work *w, const frot_l
   }
   *h = at;
   /* A dip that never reaches zero is no event; the shorter step stands all the same. */
-  *falls = value <= 1e-9 * s->data[l->scale_g + j];
+  double close = 1e-9 * s->data[l->scale_g + j];
+  if (j >= FROT_GUARDS * m->n_contacts)
+    close = GUARD_FLOOR * s->data[l->scale_g + j] + 8 * DBL_EPSILON * fabs(t) * fabs(slope);
+  *falls = value <= close;
   return FROT_OK;
 }
 
@@ -417,20 +438,51 @@ static int is_still(const frot_model *m, const frot_work *w) {
   return 1;
 }
 
-static int fire_at_start(frot_state *s, const frot_layout *l, int guard) {
+static int fire_at_start(frot_state *s, const frot_work *w, const frot_layout *l, int guard) {
   s->data[l->fired + guard] = 1;
+  memcpy(s->data + l->slope, w->k, sizeof(double) * (size_t)l->nz);
   s->pending = 1;
   return FROT_OK;
 }
 
 /* Guards that have come to zero together with the first one at the end of the step. */
-static void fire(frot_state *s, const frot_work *w, const frot_layout *l, int first) {
+static void fire(const frot_model *m, frot_state *s, const frot_work *w, const frot_layout *l,
+                 int first, double t, double h) {
   const double *end = w->k + DP_STAGES * l->nz + l->nx, *start = w->k + l->nx;
   for (int j = 0; j < l->ng; j++) {
-    double limit = FROT_ZERO * s->data[l->scale_g + j];
+    double g[7];
+    guard_polynomial(s, w, l, j, h, g);
+    double limit = fallen(m, s, l, j, t + h, 6 * (g[6] - g[5]) / h);
     if (j == first || (end[j] <= limit && start[j] > limit)) s->data[l->fired + j] = 1;
   }
   s->pending = 1;
+}
+
+/* After a stage that gave no number (its values in w->z1): a condition may have passed through zero
+ * before it, beyond which its branch has no value, as a root. The first such one, -1 if none; *part
+ * is the part of the step h from t after which it seems to be zero. */
+static int condition_passed(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                            double t, double h, double *part) {
+  const double *d = s->data + l->d, *start = w->k + l->nx + FROT_GUARDS * m->n_contacts;
+  int passed = -1;
+  if (m->n_located == 0 || !frot_all_finite(w->z1, m->nq + m->nv)) return -1;
+  memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
+  if (frot_kinematics(m, s, w, w->t, w->z1, w->z1 + m->nq, d) != FROT_OK) return -1;
+  *part = 1;
+  for (int j = 0; j < m->n_located; j++) {
+    double value = d[j] != 0 ? w->condition[j] : -w->condition[j];
+    if (!(value < 0 && start[j] >= 0)) continue;
+    double at = (w->t - t) / h * start[j] / (start[j] - value);
+    if (at <= *part) *part = at, passed = j;
+  }
+  return passed;
+}
+
+/* Whether condition j is zero at the start of the step as far as steps of length h can tell. */
+static int is_at_zero(const frot_model *m, const frot_state *s, const frot_work *w,
+                      const frot_layout *l, int j) {
+  int guard = FROT_GUARDS * m->n_contacts + j;
+  return fabs(w->k[l->nx + guard]) <= GUARD_FLOOR * fmax(s->data[l->scale_g + guard], 1e-300);
 }
 
 int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
@@ -449,13 +501,19 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   if (s->implicit) status = frot_implicit_begin(m, s, w, t);
   if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
   double planned = s->h;
+  int passed = -1;              /* condition beyond which the last try had no value */
   int to_due = h >= s->due - t; /* the step ends where time changes a condition */
   if (to_due) h = s->due - t;
   double power = s->implicit ? -1.0 / 5 : -1.0 / 8;
   for (;;) {
-    if (!to_due && !(h > LEAST_STEP * fmax(fabs(t), 1e-3 * s->h_max)))
+    if (!to_due && !(h > LEAST_STEP * fmax(fabs(t), 1e-3 * s->h_max))) {
+      if (passed >= 0 && is_at_zero(m, s, w, &l, passed))
+        return fire_at_start(s, w, &l, FROT_GUARDS * m->n_contacts + passed);
       return fail_at(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, t, h);
+    }
     status = run_stages(m, s, w, &l, t, h);
+    double part = 1;
+    passed = status == FROT_NAN ? condition_passed(m, s, w, &l, t, h, &part) : -1;
     double ratio = status == FROT_OK ? error_ratio(m, s, w, &l, h) : NAN;
     if (ratio <= 1) {
       stiff = frot_is_stiff(m, s, w, h);
@@ -474,13 +532,15 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
     s->statistics.rejected++;
     to_due = 0;
     if (++rejections % PATIENCE == 0) measure_noise(m, s, w, &l, t);
-    h *= ratio > 1 && ratio < 1e300 ? fmax(0.9 * pow(ratio, power), 1.0 / 3) : 0.25;
+    h *= ratio > 1 && ratio < 1e300 ? fmax(0.9 * pow(ratio, power), 1.0 / 3)
+         : passed >= 0              ? fmin(fmax(NEARLY * part, 0.01), NEARLY)
+                                    : 0.25;
   }
 
   double theta;
   int guard = first_guard(m, s, w, &l, t, h, &theta), falls = 0;
   if (guard >= 0) {
-    if (theta * h <= LEAST_STEP * fmax(fabs(t), h)) return fire_at_start(s, &l, guard);
+    if (theta * h <= LEAST_STEP * fmax(fabs(t), h)) return fire_at_start(s, w, &l, guard);
     status = locate(m, s, w, &l, t, guard, theta, &h, &falls);
     to_due = 0;
     if (status == FROT_OK) {
@@ -493,7 +553,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   s->statistics.implicit_steps += s->implicit;
   memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   note_sizes(m, s, w, &l, w->z1);
-  if (falls) fire(s, w, &l, guard);
+  if (falls) fire(m, s, w, &l, guard, t, h);
   if (to_due) frot_fire_due(m, s);
 
   *g.t0 = t, *g.t1 = to_due ? s->due : t + h, *g.h = h;

@@ -196,3 +196,125 @@ def test_ticks_lie_where_they_belong(start: float, interval: float, count: int) 
     told = range(0 if start > 0 else 1, count)  # a tick at the start is no event
     assert [e.time for e in result.events] == [start + k * interval for k in told]
     assert result["k"][-1] == count
+
+
+TWICE = """
+model Count
+  Integer a(start = 0), b(start = 0);
+  Real x(start = 0);
+  parameter Real gap = 3e-12;
+equation
+  der(x) = 1 1/s;
+  when x > 1 then
+    a = pre(a) + 1;
+  end when;
+  when x > 1 + gap then
+    b = pre(b) + 1;
+  end when;
+  experiment(stop = 2 s, tolerance = 1e-10);
+end Count;
+"""
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-15, 1e-14, 3e-13, 3e-12, 1e-9])
+def test_conditions_close_to_each_other_come_once_each_and_truly_hold(gap: float) -> None:
+    result = frot.compile(TWICE).simulate(parameters={"gap": gap})
+    assert (result["a"][-1], result["b"][-1]) == (1, 1)
+    rises = [e for e in result.events if e.after == "true"]
+    assert len(rises) == len(result.events)
+    assert result.at(rises[-1].time)["x"] >= 1 + gap - 1e-15
+
+
+TANK = """
+model Tank
+  Real h(start = 1);
+initial
+  h = 1;
+equation
+  der(h) = if h > 0 then -sqrt(h)*(1 1/s) else 0 1/s;
+  experiment(stop = 3 s);
+end Tank;
+"""
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-12])
+def test_a_tank_runs_empty_with_zero_rate(tolerance: float) -> None:
+    """Torricelli: h = (1 - t/2)^2; an error of h moves the end by twice its root."""
+    result = frot.compile(TANK).simulate(tolerance=tolerance)
+    exact = np.where(result.time < 2, (1 - result.time / 2) ** 2, 0)
+    assert np.abs(result["h"] - exact).max() < tolerance
+    assert [e.time for e in result.events] == pytest.approx([2], abs=2 * np.sqrt(tolerance))
+
+
+ROOTS = """
+model Roots
+  Real x, y, root;
+  parameter Real rate = 1;
+initial
+  x = 1;
+  y = 0;
+equation
+  root = if x > 0 then sqrt(x) else -sqrt(-x);
+  der(x) = -rate*(1 1/s);
+  der(y) = root*(1 1/s);
+  experiment(stop = 3 s, tolerance = 1e-10);
+end Roots;
+"""
+
+
+@pytest.mark.parametrize("rate", [1.0, 0.37, 1e3])
+def test_a_root_is_drawn_on_both_sides_of_its_switch(rate: float) -> None:
+    """y = 2/3 (1 - |x|^1.5)/rate."""
+    result = frot.compile(ROOTS).simulate(parameters={"rate": rate})
+    size = (2 / 3) * rate**0.5 * 3**1.5
+    exact = 2 / 3 * (1 - np.abs(result["x"]) ** 1.5) / rate
+    assert np.abs(result["y"] - exact).max() < 1e-9 * size
+    assert [e.time for e in result.events] == pytest.approx([1 / rate], rel=1e-12)
+
+
+DEAD_BALL = """
+model Bouncing
+  parameter Real e = 0;
+  Length h(start = 1 m); Velocity v;
+initial
+  h = 1 m; v = 0 m/s;
+equation
+  der(h) = v;
+  der(v) = -9.81 m/s^2;
+  when h < 0 m then
+    reinit(v, -e*pre(v));
+  end when;
+  experiment(stop = 3 s, tolerance = 1e-9);
+end Bouncing;
+"""
+
+
+@pytest.mark.parametrize("e", [0, 1e-16, 1e-12, 1e-8, 1e-3, 0.1])
+def test_a_ball_without_jump_does_not_fall_through_the_floor(e: float) -> None:
+    with pytest.raises(frot.FrotError, match=r"E0903.*`h < 0 m`") as told:
+        frot.compile(DEAD_BALL).simulate(parameters={"e": e})
+    limit = (2 / 9.81) ** 0.5 * (1 + 2 * e / (1 - e))
+    assert told.value.result.time[-1] == pytest.approx(limit, rel=1e-3)
+
+
+SLIDING = """
+model Sliding
+  Real x, y;
+initial
+  x = 1;
+  y = 0.3;
+equation
+  der(x) = ({law})*(1 1/s) + 0.1*y/(1 s);
+  der(y) = -x/(1 s);
+  experiment(stop = 3 s);
+end Sliding;
+"""
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-12])
+@pytest.mark.parametrize(
+    "law", ["if x > 0 then -1 else 1", "if x > 0 then -1 else if x < 0 then 1 else 0"]
+)
+def test_branches_that_drive_each_other_back_are_told(law: str, tolerance: float) -> None:
+    with pytest.raises(frot.FrotError, match=r"E0903.*`x [<>] 0`"):
+        frot.compile(SLIDING.format(law=law)).simulate(tolerance=tolerance)
