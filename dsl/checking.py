@@ -29,6 +29,7 @@ from frot.dsl.open_flows import open_flows
 from frot.dsl.scope import Build, Entity, Instance, TooLarge
 from frot.dsl.source import Source, Span
 from frot.dsl.warn import warn
+from frot.dsl.warn_angles import warn_angles
 
 # Frames of Python: nested expressions in declarations that wait for one another.
 _DEEPEST = 10_000
@@ -115,6 +116,7 @@ def _model(
     tell_clashes(libraries)
     if not log.failed:
         warn(made, build)
+        warn_angles(result, log)
     return result
 
 

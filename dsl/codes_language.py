@@ -416,6 +416,13 @@ _WARNINGS = {
         "connector Port\n  Real a;\n  Real b;\n  flow Real f;\nend Port;\nmodel Example\n"
         "  Port p;\n  Port q;\nequation\n  connect(p, q);\nend Example;\n",
     ),
+    "W0105": Code(
+        "angle of more than a turn without a unit",
+        "An angle written as a bare number is in radians; one of more than a turn was surely meant "
+        "in degrees.",
+        "Write the unit: '30 deg', or '30 rad'.",
+        snippet("body bar: rod(mass = 1 kg, length = 1 m);", "bar.angle = 30;"),
+    ),
 }
 
 LANGUAGE: Mapping[str, Code] = {

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from frot.dsl.diagnostics import Diagnostic
     from frot.model import Model
     from frot.runtime.result import Result
 
@@ -204,6 +205,7 @@ def _compiled(options: argparse.Namespace) -> Model:
         except KeyboardInterrupt:
             words = f"interrupted while compiling '{model.name}'; nothing half made is left"
             raise KeyboardInterrupt(words) from None
+    _tell(model.warnings)
     return model
 
 
@@ -315,12 +317,17 @@ def _fmu(options: argparse.Namespace) -> int:
 
 
 def _complain(error: Exception) -> None:
-    from frot.dsl import render
     from frot.dsl.diagnostics import FrotError
 
     assert isinstance(error, FrotError)
+    _tell(error.diagnostics)
+
+
+def _tell(diagnostics: Sequence[Diagnostic]) -> None:
+    from frot.dsl import render
+
     colour = sys.stderr.isatty()
-    for diagnostic in error.diagnostics:
+    for diagnostic in diagnostics:
         print(render(diagnostic, colour), file=sys.stderr)
 
 

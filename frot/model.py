@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from frot.compiler import find_program, find_toolchain, program_key
-from frot.dsl.diagnostics import FrotError, Log, fail
+from frot.dsl.diagnostics import Diagnostic, FrotError, Log, fail
 from frot.dsl.import_scan import imported_files
 from frot.dsl.reading import read_text
 
@@ -24,9 +24,13 @@ class Model:
     """A model of a `.frot` text. Made by `load` or `compile`."""
 
     def __init__(self, text: str, name: str, model: str | None) -> None:
-        """`name` is the file's, for messages; `model` chooses one of several in the text."""
+        """`name` is the file's, for messages; `model` chooses one of several in the text.
+
+        `warnings` are those of the text, told when it is checked: not where it is compiled already.
+        """
         self._text, self._file, self._chosen = text, name, model
         self._checked: checked.Model | None = None
+        self.warnings: tuple[Diagnostic, ...] = ()
         self._toolchain = find_toolchain()
         self._key = program_key(_identity(text, name), model, self._toolchain)
         self._program: Program | None = self._named(find_program(self._key))
@@ -48,6 +52,7 @@ class Model:
             if checked_model is None or log.failed:
                 raise FrotError(log)
             self._checked = checked_model
+            self.warnings = tuple(log)
         return self._checked
 
     def program(self) -> Program:

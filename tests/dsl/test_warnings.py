@@ -41,3 +41,30 @@ def test_an_unused_import_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         ("W0101", "nothing of this import is used")
     ]
     assert warnings(f"import Lib.A;\nimport Lib.B;\n{model}model N\n B b;\n M m;\nend N;\n") == []
+
+
+@pytest.mark.parametrize(
+    ("declaration", "statement", "told"),
+    [
+        ("parameter Angle a = 30;", "bar.angle = a;", "30"),
+        ("parameter Angle a = -45.5;", "bar.angle = a;", "-45.5"),
+        ("", "bar.angle = 90;", "90"),
+        ("", "guess(bar.angle = 90);", "90"),
+        ("frame f on bar at (0, 0) m rotated(angle = 90);", "f.position = (0, 0) m;", "90"),
+        ("", "bar.angle = 0.7;", ""),
+        ("", "bar.angle = 30 deg;", ""),
+        ("", "bar.angle = 30 rad;", ""),
+        ("parameter Angle a = 2*pi*3;", "bar.angle = a;", ""),
+        ("parameter Real n = 30;", "bar.angle = n*(1 deg);", ""),
+    ],
+)
+def test_an_angle_that_was_meant_in_degrees_is_told(
+    declaration: str, statement: str, told: str
+) -> None:
+    text = (
+        f"planar model M\n body bar: rod(mass = 1 kg, length = 1 m);\n {declaration}\n"
+        f"initial\n {statement}\nend M;\n"
+    )
+    found = warnings(text)
+    assert [code for code, _ in found] == (["W0105"] if told else [])
+    assert all(f"is {told} rad" in message for _, message in found)
