@@ -10,7 +10,7 @@ from frot.compiler.eliminate import Pivot
 from frot.compiler.mechanism import Mechanism
 from frot.compiler.walk import is_fixed
 from frot.dsl.catalogue import Argument
-from frot.dsl.checked import Call, Expression, Liaison, Place, Reference
+from frot.dsl.checked import Call, Expression, Liaison, Parameter, Place, Reference
 from frot.dsl.dimensions import REAL
 from frot.dsl.source import Span
 
@@ -27,10 +27,12 @@ class Check:
     span: Span | None
 
 
-def parameter_checks(mechanism: Mechanism, pivots: Sequence[Pivot] = ()) -> tuple[Check, ...]:
+def parameter_checks(
+    mechanism: Mechanism, parameters: Sequence[Parameter], pivots: Sequence[Pivot] = ()
+) -> tuple[Check, ...]:
     """Every check that depends on parameters alone, in the order of the text.
 
-    `pivots` are divisors that came from solving equations for an unknown.
+    `parameters` are scalars, `pivots` divisors that came from solving equations for an unknown.
     """
     first = {p.value.element_hash(): p for p in reversed(pivots)}
     divisors = (
@@ -44,15 +46,14 @@ def parameter_checks(mechanism: Mechanism, pivots: Sequence[Pivot] = ()) -> tupl
         for p in pivots
         if first[p.value.element_hash()] is p
     )
-    return (*_checks(mechanism), *divisors)
+    return (*_checks(mechanism, parameters), *divisors)
 
 
-def _checks(mechanism: Mechanism) -> Iterator[Check]:
+def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[Check]:
     model = mechanism.model
-    for parameter in model.parameters:
-        if not parameter.constant:
-            value = Reference(parameter, parameter.type, parameter.span)
-            yield Check(FINITE, f"parameter '{parameter.name}'", value, parameter.span)
+    for parameter in parameters:
+        value = Reference(parameter, parameter.type, parameter.span)
+        yield Check(FINITE, f"parameter '{parameter.name}'", value, parameter.span)
     for when in model.whens:
         for condition in (c for conditions, _ in when.branches for c in conditions):
             if isinstance(condition, Call) and condition.function == "sample":

@@ -147,7 +147,7 @@ def _assemble(lowered: Lowered) -> Dae:
         solve=_solve(alg, z, [s.t, x, s.u, s.p, mode], any(_bounds_couple(c) for c in contacts)),
         reset=ca.Function("reset", arguments, [_reset(reduced, contact_modes)], names, ["x_after"]),
         u0=_column(as_number(evaluate(i.start, values)) for i in s.inputs),
-        p0=_column(as_number(values[p]) for p in s.parameters),
+        p0=_column(as_number(evaluate(p.value, values)) for p in s.parameters),
     )
 
 

@@ -62,7 +62,9 @@ def build(model: Model, file: str, key: str, toolchain: Toolchain, log: Log) -> 
         return None
     values = default_values(model, {})
     parameters = tuple(
-        ParameterInfo(p.name, p.type.base, _unit(p), as_number(values[p]), p.doc, dependent)
+        ParameterInfo(
+            p.name, p.type.base, _unit(p), as_number(evaluate(p.value, values)), p.doc, dependent
+        )
         for p, dependent in zip(reduced.symbols.parameters, lowered.dependent, strict=True)
     )
     inputs = tuple(

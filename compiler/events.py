@@ -9,8 +9,8 @@ import casadi as ca
 from frot.compiler.before import Before
 from frot.compiler.expressions import NEVER, RISING, Conditions, Lowering, words
 from frot.compiler.names import component_names
-from frot.compiler.symbols import column
-from frot.compiler.text_symbols import TextSymbols, scalars, shaped
+from frot.compiler.symbols import column, shaped
+from frot.compiler.text_symbols import TextSymbols, scalars
 from frot.dsl import Log
 from frot.dsl.checked import (
     Assertion,

@@ -212,12 +212,10 @@ class Lowering:
 
     def _reference(self, node: Reference) -> ca.SX:
         target = node.target
-        if isinstance(target, Parameter):
-            if target.constant or not target.type.is_scalar:
-                return self.lower(target.value)
-            return self.symbols.parameter(target)
-        if isinstance(target, Input):
-            return self.symbols.u[self.symbols.inputs.index(target)]
+        if isinstance(target, Parameter) and target.constant:
+            return self.lower(target.value)
+        if isinstance(target, Parameter | Input):
+            return self.symbols.value(target)
         if isinstance(target, Variable):
             assert self.variable is not None
             return self.variable(target)

@@ -67,7 +67,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     initial = lower_initial(system, looking, log)
     variables = list_variables(system, looking)
     conditions, timers = sort_conditions(system, _conditions(system, explicit, log))
-    checks = parameter_checks(reduced.mechanism, system.pivots)
+    checks = parameter_checks(reduced.mechanism, s.parameters, system.pivots)
     update = lower_update(system, log)
     values = resolve(settled(column(v.value for v in variables)))
     if log.failed or not _is_known(values, system, variables, log):
@@ -148,7 +148,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         initial.position_statement,
         initial.velocity_statement,
         _row_depends(system),
-        tuple(bool(parameters_needed(parameter)) for parameter in s.parameters),
+        tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
         jacobian,
     )
 

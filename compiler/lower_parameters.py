@@ -7,21 +7,19 @@ from frot.compiler.chains import replace_known
 from frot.compiler.checks import Check
 from frot.compiler.expressions import Lowering
 from frot.compiler.reduce import Reduced
-from frot.compiler.symbols import column
+from frot.compiler.symbols import Symbols, column
 from frot.compiler.walk import subexpressions
 from frot.dsl.checked import Parameter, Reference
 from frot.dsl.order import in_order
 
 
-def parameters_needed(parameter: Parameter) -> list[Parameter]:
-    """The parameters, constants apart, that a parameter's value names."""
+def parameters_needed(parameter: Parameter, symbols: Symbols) -> list[Parameter]:
+    """The scalar parameters, constants apart, that a parameter's value names."""
     return [
-        node.target
+        one
         for node in subexpressions(parameter.value)
-        if isinstance(node, Reference)
-        and isinstance(node.target, Parameter)
-        and not node.target.constant
-        and node.target.type.is_scalar
+        if isinstance(node, Reference) and isinstance(node.target, Parameter)
+        for one in symbols.items.get(node.target, ())
     ]
 
 
@@ -36,7 +34,7 @@ def lower_parameters(
     """The outputs of the kernel's `parameters`; friction elements are never unilateral."""
     s = reduced.symbols
     place = {p.name: i for i, p in enumerate(s.parameters)}
-    needs = {p.name: [q.name for q in parameters_needed(p)] for p in s.parameters}
+    needs = {p.name: [q.name for q in parameters_needed(p, s)] for p in s.parameters}
     order, _ = in_order(needs)
     known: dict[int, ca.SX] = {}
     for name in order:

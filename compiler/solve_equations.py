@@ -29,7 +29,7 @@ from frot.compiler.reduce import Reduced
 from frot.compiler.symbols import column
 from frot.compiler.tear import tear
 from frot.compiler.walk import as_number
-from frot.dsl import Log, default_values
+from frot.dsl import Log, default_values, evaluate
 
 
 @dataclass(slots=True, eq=False)
@@ -46,7 +46,7 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
     """The kernel's system of a mechanism and the equations of its text; faults are reported."""
     chains, s = reduced.text.chains, reduced.symbols
     values = default_values(reduced.mechanism.model, {})
-    defaults = ca.DM(np.array([as_number(values[p]) for p in s.parameters]))
+    defaults = ca.DM(np.array([as_number(evaluate(p.value, values)) for p in s.parameters]))
     newton, count = _newton(reduced), s.v.numel()
     own = [Origin(reduced.mechanism.model.span, "the equations of motion", "")] * count
     raw = Residuals(

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import casadi as ca
+from frot.compiler.flatten import T, by_input, tunable
 from frot.compiler.mechanism import (
     Joint,
     Mechanism,
@@ -23,6 +24,7 @@ class Symbols:
     coordinates and speeds (na), zero in the motion, along which the reaction of a reduced liaison
     is read; `u` inputs, `p` parameters, `sides` of the contacts (+1 or -1); `a` accelerations (nv),
     `lam` reactions of the rows by the names of their liaisons, `energy` (dissipated, work).
+    `parameters` and `inputs` are scalars in the order of p and u; `items` are those of each array.
     """
 
     t: ca.SX
@@ -38,14 +40,12 @@ class Symbols:
     energy: ca.SX
     parameters: tuple[Parameter, ...]
     inputs: tuple[Input, ...]
-    _place: dict[Parameter, int] = field(default_factory=dict)
+    items: dict[Parameter, tuple[Parameter, ...]]
+    _values: dict[Parameter | Input, ca.SX] = field(default_factory=dict)
 
-    def __post_init__(self) -> None:
-        self._place.update({p: i for i, p in enumerate(self.parameters)})
-
-    def parameter(self, parameter: Parameter) -> ca.SX:
-        """The symbol of a parameter."""
-        return self.p[self._place[parameter]]
+    def value(self, of: Parameter | Input) -> ca.SX:
+        """A parameter or an input in the shape of its type, or one scalar of it."""
+        return self._values[of]
 
     @property
     def auxiliary(self) -> ca.SX:
@@ -114,20 +114,44 @@ def make_symbols(mechanism: Mechanism) -> Symbols:
         for k in (r.normal, r.second, r.tangent, r.rolling)
         if k >= 0
     ]
-    parameters = tuple(p for p in mechanism.model.parameters if not p.constant and p.type.is_scalar)
-    inputs = mechanism.model.inputs
+    items, of_input = tunable(mechanism.model.parameters), by_input(mechanism.model.inputs)
+    values: dict[Parameter | Input, ca.SX] = {}
+    p, u = _scalars(items, values), _scalars(of_input, values)
     return Symbols(
         t=ca.SX.sym("t"),
         q=column(ca.SX.sym(n) for n in names),
         v=column(ca.SX.sym(f"der({n})") for n in names),
         w=ca.SX.sym("w", na),
         sw=ca.SX.sym("sw", na),
-        u=column(ca.SX.sym(i.name) for i in inputs),
-        p=column(ca.SX.sym(p.name) for p in parameters),
+        u=column(u),
+        p=column(p),
         sides=ca.SX.sym("side", len(mechanism.contacts)),
         a=column(ca.SX.sym(f"der(der({n}))") for n in names),
         lam=column(ca.SX.sym(n) for n in reactions),
         energy=ca.SX.sym("energy", 2),
-        parameters=parameters,
-        inputs=inputs,
+        parameters=tuple(one for group in items.values() for one in group),
+        inputs=tuple(one for group in of_input.values() for one in group),
+        items=items,
+        _values=values,
     )
+
+
+def _scalars(
+    items: Mapping[T, tuple[T, ...]], values: dict[Parameter | Input, ca.SX]
+) -> list[ca.SX]:
+    """A symbol for each scalar; `values` learns those of each of them, and of each array."""
+    found: list[ca.SX] = []
+    for whole, group in items.items():
+        symbols = [ca.SX.sym(one.name) for one in group]
+        found += symbols
+        values.update(zip(group, symbols, strict=True))
+        values[whole] = shaped(symbols, whole.type.shape)
+    return found
+
+
+def shaped(items: list[ca.SX], shape: tuple[int, ...]) -> ca.SX:
+    """A scalar, a column, or a matrix from its items by rows."""
+    if not shape:
+        return items[0]
+    whole = ca.vertcat(*items) if items else ca.SX.zeros(0)
+    return ca.reshape(whole, shape[1], shape[0]).T if len(shape) == 2 else whole

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import casadi as ca
 from frot.compiler.chains import Chains
 from frot.compiler.names import component_names
+from frot.compiler.symbols import shaped
 from frot.dsl.checked import Variable
 from frot.dsl.source import Span
 
@@ -82,14 +83,6 @@ def make_text_symbols(variables: tuple[Variable, ...], chains: Chains) -> TextSy
                 chains.add(name, variable.span, variable, (symbol,))
         text.values[variable] = shaped(symbols, variable.type.shape)
     return text
-
-
-def shaped(items: list[ca.SX], shape: tuple[int, ...]) -> ca.SX:
-    """A scalar, a column, or a matrix from its items by rows."""
-    if not shape:
-        return items[0]
-    whole = ca.vertcat(*items) if items else ca.SX.zeros(0)
-    return ca.reshape(whole, shape[1], shape[0]).T if len(shape) == 2 else whole
 
 
 def scalars(value: ca.SX) -> list[ca.SX]:

@@ -27,7 +27,7 @@ from frot.dsl.checked import (
 
 
 def subexpressions(expression: Expression) -> Iterator[Expression]:
-    """The expression and everything in it once, through declared outputs it names."""
+    """The expression and everything in it once, through outputs and constants it names."""
     stack = [expression]
     seen: set[int] = set()
     while stack:
@@ -38,7 +38,7 @@ def subexpressions(expression: Expression) -> Iterator[Expression]:
         yield node
         stack.extend(parts(node))
         parameter = node.target if isinstance(node, Reference) else None
-        if isinstance(parameter, Parameter) and not parameter.type.is_scalar:
+        if isinstance(parameter, Parameter) and parameter.constant:
             stack.append(parameter.value)
 
 

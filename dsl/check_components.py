@@ -128,6 +128,11 @@ def _in_unit(found: checked.Expression, kind: Kind) -> checked.Expression:
         case checked.Unary(op="-", operand=checked.Literal() as inner):
             made = _in_unit(inner, kind)
             return checked.Unary("-", made, made.type, found.span)
+        case checked.Vector(items=items) if found.type.dimension.is_one:
+            whole = [_in_unit(item, kind) for item in items]
+            if all(item.type.dimension == kind.type.dimension for item in whole):
+                one = Type("real", kind.type.dimension, found.type.shape)
+                return checked.Vector(tuple(whole), one, found.span)
     return found
 
 

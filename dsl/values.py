@@ -93,12 +93,30 @@ def _unit(text: str, kind: Type) -> Unit:
 
 
 def _vector(text: str, kind: Type, quantity: str, si: str) -> Value:
-    found = re.fullmatch(r"\((.*)\)\s*(\S*)", text)
+    found = split_items(text)
     if found is None:
         raise ValueError(f"expected {describe(kind)} as '(1, 0)', found {text!r}")
-    items = found[1].split(",")
+    items, unit = found
     if len(items) != kind.shape[0]:
         raise ValueError(f"expected {kind.shape[0]} items, found {len(items)}")
-    tail = f" {found[2]}" if found[2] else ""
+    tail = f" {unit}" if unit else ""
     item = Type(kind.base, kind.dimension, kind.shape[1:])
     return tuple(parse_value(i.strip() + tail, item, quantity, si) for i in items)
+
+
+def split_items(text: str) -> tuple[list[str], str] | None:
+    """The items of `(a, b) unit`, `{a, b}` or `[a, b]`, and the unit; None for another text."""
+    text = text.strip().replace("{", "(").replace("}", ")").replace("[", "(").replace("]", ")")
+    found = re.fullmatch(r"\((.*)\)\s*([^\s()]*)", text)
+    if found is None:
+        return None
+    items, depth = [""], 0
+    for character in found[1]:
+        depth += (character == "(") - (character == ")")
+        if depth < 0:
+            return None
+        if character == "," and depth == 0:
+            items.append("")
+        else:
+            items[-1] += character
+    return ([item.strip() for item in items], found[2]) if depth == 0 else None

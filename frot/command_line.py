@@ -84,13 +84,13 @@ def _parser() -> argparse.ArgumentParser:
     _file(simulate)
     _model(simulate)
     _settings(simulate)
-    simulate.add_argument("--start", type=_number, metavar="T", help="start time in s")
-    simulate.add_argument("--stop", type=_number, metavar="T", help="stop time in s")
+    simulate.add_argument("--start", type=_time, metavar="T", help="start time in s")
+    simulate.add_argument("--stop", type=_time, metavar="T", help="stop time in s")
     simulate.add_argument(
         "--tolerance", type=_number, metavar="X", help="local error, from 1e-14 to 0.1"
     )
     simulate.add_argument(
-        "--interval", type=_number, metavar="T", help="distance of the output times in s"
+        "--interval", type=_time, metavar="T", help="distance of the output times in s"
     )
     simulate.add_argument(
         "-o", "--output", metavar="FILE", help="write all variables to .csv, .json or .npz"
@@ -191,6 +191,19 @@ def _number(text: str) -> float:
     if not math.isfinite(value):
         raise argparse.ArgumentTypeError(f"'{text}' is not a finite number")
     return value
+
+
+def _time(text: str) -> float:
+    """A time in s, or with its unit: `2`, `2 min`."""
+    if not (text[:1].isdigit() and text[-1:].isalpha()):
+        return _number(text)
+    from frot.dsl import parse_value
+    from frot.dsl.catalogue import TYPES
+
+    try:
+        return float(parse_value(text, TYPES["Time"]))  # type: ignore[arg-type]
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def _compiled(options: argparse.Namespace) -> Model:

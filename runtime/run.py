@@ -18,8 +18,9 @@ from frot.runtime.engine import (
     Floats,
     RawEvent,
 )
-from frot.runtime.program import ParameterInfo, Program
+from frot.runtime.program import Program
 from frot.runtime.result import KINDS, MODES, ROLLING, Event, Figures, Result
+from frot.runtime.settings import read_option, read_settings
 
 DEFAULT_POINTS = 500
 MOST_POINTS = 10_000_000
@@ -58,10 +59,10 @@ class Interrupted(KeyboardInterrupt):
 def simulate(
     program: Program,
     *,
-    stop: float | None = None,
-    start: float | None = None,
-    tolerance: float | None = None,
-    interval: float | None = None,
+    stop: float | str | None = None,
+    start: float | str | None = None,
+    tolerance: float | str | None = None,
+    interval: float | str | None = None,
     parameters: Mapping[str, object] | None = None,
     inputs: Mapping[str, object] | None = None,
     watch: Callable[[float], bool] | None = None,
@@ -70,11 +71,12 @@ def simulate(
 
     Args:
         program: The compiled model.
-        stop: End of the run.
-        start: Begin of the run.
+        stop: End of the run, in s or as a text with its unit, "2 min".
+        start: Begin of the run, likewise.
         tolerance: Local error relative to each state's scale, from 1e-14 to 0.1.
-        interval: Distance of the output times; by default a 500th of the run.
-        parameters: Values by name: numbers in SI, or texts with a unit such as "20 deg".
+        interval: Distance of the output times, likewise; by default a 500th of the run.
+        parameters: Values by name: numbers in SI, or texts with a unit such as "20 deg"; of an
+            array all items, `"mu": [0.1, 0.2]`, or single ones, `"mu[2]": 0.2`.
         inputs: Constant values of the inputs, as for `parameters`.
         watch: Called now and then with the time reached; True ends the run there.
 
@@ -84,10 +86,15 @@ def simulate(
             the motion; it holds the result up to the fault.
         Interrupted: Ctrl-C; it holds the result up to there.
     """
+    stop, start, interval = (
+        read_option(name, value, "s")
+        for name, value in (("stop", stop), ("start", start), ("interval", interval))
+    )
+    tolerance = read_option("tolerance", tolerance, "1")
     engine = Engine(program)
-    for name, value in _values(parameters, program.parameters, "parameter", program):
+    for name, value in read_settings(parameters, program.parameters, "parameter", program):
         engine.set_parameter(name, value)
-    for name, value in _values(inputs, program.inputs, "input", program):
+    for name, value in read_settings(inputs, program.inputs, "input", program):
         engine.set_input(name, value)
     status, experiment = engine.settle_parameters()
     if status != OK:
@@ -171,81 +178,6 @@ def _grid(begin: float, end: float, interval: float) -> Floats:
     times = begin + np.arange(round(count * (1 + 1e-12)) + 1) * interval
     near = 1e-9 * interval
     return np.append(times[times < end - near], end)
-
-
-def _values(
-    given: Mapping[str, object] | None,
-    known: tuple[ParameterInfo, ...],
-    what: str,
-    program: Program,
-) -> list[tuple[int, float]]:
-    from difflib import get_close_matches
-
-    index = {p.name: k for k, p in enumerate(known)}
-    values: list[tuple[int, float]] = []
-    for name, value in (given or {}).items():
-        if name not in index:
-            why = dict(program.fixed).get(name)
-            if why is not None:
-                raise fail(
-                    "E0805",
-                    f"parameter '{name}' cannot be set for a run: it decides {why}",
-                    help="change its value in the text; the model is then compiled again",
-                )
-            near = get_close_matches(name, index, 1)
-            listed = ", ".join(index) or "none"
-            raise fail(
-                "E0805",
-                f"model '{program.name}' has no {what} '{name}'",
-                notes=(f"{what}s: {listed}",),
-                help=f"did you mean '{near[0]}'?" if near else "",
-            )
-        values.append((index[name], parameter_value(known[index[name]], value)))
-    return values
-
-
-def parameter_value(info: ParameterInfo, value: object) -> float:
-    """A value in SI from a number, a truth value or a text such as `12 mm`; FrotError if bad."""
-    try:
-        if isinstance(value, str):
-            number = _from_text(info, value)
-        elif isinstance(value, (bool, int, float, np.number, np.bool_)):
-            number = float(value)
-        else:
-            raise ValueError(f"{value!r} is not a number")
-        if info.type == "boolean" and number not in (0.0, 1.0):
-            raise ValueError(f"{value!r} is not true or false")
-        if info.type == "integer" and number != round(number):
-            raise ValueError(f"{value!r} is not an integer")
-        if not math.isfinite(number):
-            raise ValueError(f"{value!r} is not a finite number")
-    except ValueError as error:
-        raise fail("E0806", f"bad value of '{info.name}': {error}", help=_expected(info)) from None
-    return number
-
-
-def _expected(info: ParameterInfo) -> str:
-    if info.type == "boolean":
-        return "write true or false"
-    if info.type == "integer":
-        return "write a whole number"
-    if info.unit.name == "1":
-        return "write a number"
-    return f"write a number in {info.unit.name}, or one with its unit"
-
-
-def _from_text(info: ParameterInfo, text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        pass
-    from fractions import Fraction
-
-    from frot.dsl import parse_value
-    from frot.dsl.dimensions import Dimension, Type
-
-    of = Dimension(tuple(Fraction(e) for e in info.unit.exponents[:7]))
-    return float(parse_value(text, Type(info.type, of), si=info.unit.name))  # type: ignore[arg-type]
 
 
 def _event(engine: Engine, raw: RawEvent) -> Event:

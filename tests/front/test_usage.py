@@ -30,7 +30,7 @@ def test_every_command_explains_itself(command: tuple[str, ...], door: Door) -> 
         (("simulate", HOOP, "--stop", "late"), "'late' is not a number"),
         (("simulate", HOOP, "--stop", "nan"), "'nan' is not a finite number"),
         (("simulate", HOOP, "--stop", "inf"), "'inf' is not a finite number"),
-        (("simulate", HOOP, "--stop", "3 s"), "'3 s' is not a number"),
+        (("simulate", HOOP, "--stop", "3 kg"), "expected a time (s), found a mass (kg)"),
         (("fmu", HOOP, "--fmi", "1.0"), "invalid choice: '1.0'"),
         (("check", HOOP, "--emit", "soup"), "invalid choice: 'soup'"),
     ],
