@@ -126,11 +126,12 @@ def simulate(
         end = min(engine.fault.t, engine.time)
     elif run.status != OK:
         end = engine.time
+    reached = end if run.status != OK else max(end, engine.time)
     kept = times[times < end]
     grid = np.append(kept, end) if run.status != OK else times
     counts = engine.statistics
     figures = Figures(counts.steps, counts.rejected, counts.evaluations, wall)
-    events = tuple(_event(engine, raw) for raw in run.events if raw.t <= end)
+    events = tuple(_event(engine, raw) for raw in run.events if raw.t <= reached)
     result = (
         Result(program, engine, grid, run.segments, events, figures) if len(run.segments) else None
     )

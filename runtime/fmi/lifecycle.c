@@ -181,6 +181,15 @@ static int advance(frot_fmu *fmu, double t) {
   return status;
 }
 
+/* Runs to time t; an instant of the text that differs from it by the rounding of communication
+ * points belongs to it, so that a value sampled there is seen there. */
+static int advance_to_point(frot_fmu *fmu, double t, double scale) {
+  const int status = advance(fmu, fmax(t, frot_time(fmu->state)));
+  const double next = frot_next_instant(fmu->state);
+  if (status != FROT_OK || next > t + ROUNDING * scale) return status;
+  return advance(fmu, next);
+}
+
 int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step) {
   frot_fmu_life *life = &fmu->life;
   if (life->phase == FROT_FMU_DISCARDED && frot_last_fault(fmu->state)->status == FROT_OK) {
@@ -208,7 +217,7 @@ int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step
   int status = settle(fmu, function);
   if (status != FROT_FMU_OK) return status;
   fmu->values_valid = 0;
-  status = advance(fmu, t);
+  status = advance_to_point(fmu, t, scale);
   if (status != FROT_OK) return stop_at_fault(fmu, function, status);
   life->t = t;
   return FROT_FMU_OK;

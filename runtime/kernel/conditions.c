@@ -14,8 +14,6 @@
 #define ALL_AT_ONCE 3
 #define ONE_BY_ONE 20
 #define CROSSINGS 8 /* doublings of a rounding of time */
-/* Instants that differ by rounding of their sums are one. */
-#define SAME_INSTANT (4 * DBL_EPSILON)
 
 static int holds(const frot_model *m, const frot_work *w, int j) {
   return m->condition_strict[j] ? w->condition[j] > 0 : w->condition[j] >= 0;
@@ -114,7 +112,7 @@ void frot_find_due(const frot_model *m, frot_state *s, frot_work *w) {
   }
   double last = s->due;
   for (int j = 0; j < m->n_timed; j++)
-    if (due[j] > last && due[j] <= s->due + SAME_INSTANT * fabs(s->due)) last = due[j];
+    if (due[j] > last && due[j] <= s->due + FROT_SAME_INSTANT(s->due)) last = due[j];
   s->due = last;
 }
 

@@ -357,8 +357,8 @@ int frot_start(const frot_model *model, frot_state *state, frot_work *work, doub
  */
 int frot_settle(const frot_model *model, frot_state *state, frot_work *work);
 
-/* Run until time t is inside the current segment. The recorder may be NULL. On FROT_FULL call
- * again. */
+/* Run until time t is inside the current segment: an instant that differs from t by rounding is t.
+ * The recorder may be NULL. On FROT_FULL call again. */
 int frot_advance(const frot_model *model, frot_state *state, frot_work *work, double t,
                  frot_recorder *recorder, frot_monitor monitor, void *context);
 
@@ -369,7 +369,7 @@ int frot_values(const frot_model *model, frot_state *state, frot_work *work, dou
 int frot_segment_values(const frot_model *model, frot_state *state, frot_work *work,
                         const double *segment, double t, double *values);
 /* The same at many times in order, over recorded segments in order; values: count rows. A time
- * belongs to the last segment that begins at or before it. */
+ * belongs to the last segment that begins at or before it, or after it by rounding. */
 int frot_sample(const frot_model *model, frot_state *state, frot_work *work, const double *segments,
                 long long segment_count, const double *times, long long count, double *values);
 
@@ -378,6 +378,8 @@ int frot_sample(const frot_model *model, frot_state *state, frot_work *work, con
 int frot_energy(const frot_model *model, frot_state *state, frot_work *work, double balance[5]);
 
 double frot_time(const frot_state *state);
+/* The next instant at which time by itself changes something, INFINITY if there is none. */
+double frot_next_instant(const frot_state *state);
 const frot_fault *frot_last_fault(const frot_state *state);
 const frot_statistics *frot_run_statistics(const frot_state *state);
 

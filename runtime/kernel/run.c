@@ -192,7 +192,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
     if (status == FROT_TERMINATED) return end_of_run(m, s, recorder);
     if (status != FROT_OK) return status;
   }
-  while (*g.t1 <= t) {
+  while (*g.t1 <= t + FROT_SAME_INSTANT(t)) {
     if (recorder && (recorder->event_count + frot_events_at_once(m) > recorder->event_capacity ||
                      (recorder->segments && recorder->segment_count >= recorder->segment_capacity)))
       return FROT_FULL;
@@ -223,7 +223,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
       return FROT_STOPPED;
     }
   }
-  s->t = t;
+  s->t = fmax(t, *g.t0);
   return FROT_OK;
 }
 

@@ -51,9 +51,10 @@ int frot_sample(const frot_model *m, frot_state *s, frot_work *w, const double *
   if (segment_count <= 0) return FROT_MISUSE;
   for (long long i = 0; i < count; i++) {
     /* a segment begins with its first time */
-    while (at + 1 < segment_count && segments[(at + 1) * size] <= times[i]) at++;
-    int status =
-        frot_segment_values(m, s, w, segments + at * size, times[i], values + i * m->n_variables);
+    double end = times[i] + FROT_SAME_INSTANT(times[i]);
+    while (at + 1 < segment_count && segments[(at + 1) * size] <= end) at++;
+    double t = fmax(times[i], segments[at * size]);
+    int status = frot_segment_values(m, s, w, segments + at * size, t, values + i * m->n_variables);
     if (status != FROT_OK) return status;
   }
   return FROT_OK;

@@ -256,5 +256,10 @@ double frot_get_input(const frot_model *m, const frot_state *s, int index) {
 }
 
 double frot_time(const frot_state *s) { return s->t; }
+
+double frot_next_instant(const frot_state *s) {
+  return s->phase == FROT_RUNNING ? s->due : INFINITY;
+}
+
 const frot_fault *frot_last_fault(const frot_state *s) { return &s->fault; }
 const frot_statistics *frot_run_statistics(const frot_state *s) { return &s->statistics; }

@@ -2,6 +2,9 @@
 #ifndef FROT_STATE_H
 #define FROT_STATE_H
 
+#include <float.h>
+#include <math.h>
+
 #include "dormand_prince.h"
 #include "frot.h"
 
@@ -129,6 +132,9 @@ struct frot_work {
   int *choice, *component;
   double t; /* where dynamics was last evaluated */
 };
+
+/* Times that differ by less are one instant: both are sums, rounded in different ways. */
+#define FROT_SAME_INSTANT(t) (4 * DBL_EPSILON * fabs(t))
 
 frot_layout frot_layout_of(const frot_model *model);
 /* Set the pointers of a scratch block into itself. */
