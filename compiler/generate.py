@@ -67,6 +67,11 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             [_record(c.rule, _text(c.subject), _text(_place(c.span))) for c in lowered.checks],
         ),
         _array(
+            "frot_carried",
+            "carried",
+            [_record(_text(c.body), _text(c.by), _text(_place(c.span))) for c in lowered.carried],
+        ),
+        _array(
             "frot_statement",
             "statements",
             [
@@ -162,6 +167,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "late_rates": int(system.late),
         "n_conditions": len(reduced.conditions.flags),
         "time_dependent": int(_depends_on_time(lowered)),
+        "n_carried": len(lowered.carried),
         "n_checks": len(lowered.checks),
         "n_position": len(lowered.position_statement),
         "n_velocity": len(lowered.velocity_statement),
@@ -177,6 +183,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "u_default",
             "contacts",
             "checks",
+            "carried",
             "statements",
             "loads",
             "held",

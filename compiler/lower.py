@@ -17,6 +17,7 @@ from frot.compiler.listing import Listed, list_variables
 from frot.compiler.lower_events import lower_update
 from frot.compiler.lower_parameters import lower_parameters, parameters_needed
 from frot.compiler.reduce import Reduced
+from frot.compiler.supports import Carried, carried_bodies
 from frot.compiler.symbols import column
 from frot.compiler.timing import sort_conditions
 from frot.dsl import Log
@@ -34,6 +35,7 @@ class Lowered:
     system: Assembled
     functions: dict[str, ca.Function]
     blocks: tuple[ca.Function, ...]
+    carried: tuple[Carried, ...]
     checks: tuple[Check, ...]
     variables: tuple[Listed, ...]
     statements: tuple[Statement, ...]
@@ -111,6 +113,9 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     }
     if system.general:
         outputs["spread"] = (state, [system.spread, system.metric])
+    carried = carried_bodies(system)
+    if carried:
+        outputs["places"] = (state, [column(body.value for body in carried)])
     jacobian = make_jacobian(system)
     if reduced.mechanism.model.experiment.method == "implicit" and jacobian is None:
         log.report(
@@ -142,6 +147,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         system,
         functions,
         tuple(_block(k, b, system) for k, b in enumerate(system.blocks)),
+        carried,
         checks,
         variables,
         initial.statements,

@@ -123,4 +123,21 @@ TOOLS: Mapping[str, Code] = {
         "Give start values near the solution, or keep the motion away from there.",
         "",
     ),
+    "E0908": Code(
+        "a change in a run is refused",
+        "A parameter or an input that is changed in a run takes effect at once, but no body is "
+        "moved at once: the change would put a body into a line, take apart a liaison that cannot "
+        "part, or carry a body along with its pin, its line or a relation of the text. The old "
+        "values stay, and the run can go on.",
+        "Make the change before the start. A contact that can part opens where its line is taken "
+        "away, so let what is lowered be able to part; let the text move a support as a function "
+        "of time.",
+        "// refused in a run, while the ball rests: setting h to 1 mm\n"
+        "planar model Raised\n"
+        "  parameter Length h = 0 m;\n"
+        "  body ball: particle(mass = 1 kg);\n"
+        "  curve floor on ground: line(through = (0 m, h), direction = (1, 0));\n"
+        "  liaison support: contact_ponctuel(ball, floor);\n"
+        "end Raised;\n",
+    ),
 }

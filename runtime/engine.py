@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 OK, FULL, STOPPED, TERMINATED = 0, 1, 2, 3
+# A change of parameters or inputs that was taken back, and the message that tells it.
+REFUSALS = {10: "E0401", 24: "E0908"}
 INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
 _TEXT = 1024
 # Bytes of recorded steps after which a run is told to be too long.
@@ -218,8 +220,23 @@ class Engine:
         return int(self._library.frot_start(self._model, self._s, self._w, t, ct.byref(options)))
 
     def settle(self) -> int:
-        """Let changed parameters and inputs take effect at the time reached."""
-        return int(self._library.frot_settle(self._model, self._s, self._w))
+        """Let changed parameters and inputs take effect at the time reached.
+
+        Raises:
+            FrotError: The change cannot be made (E0401, E0908); the old values stay.
+        """
+        return self._unless_refused(int(self._library.frot_settle(self._model, self._s, self._w)))
+
+    def _unless_refused(self, status: int) -> int:
+        """The status of a call in a run, unless a change was taken back."""
+        if status in REFUSALS:
+            raise fail(
+                REFUSALS[status],
+                self.fault_text,
+                notes=tuple(f"at {place}" for place in self.fault_places),
+                help="the run can go on with the old values; make the change before the start",
+            )
+        return status
 
     def advance(self, t: float, watch: Callable[[float], bool] | None = None) -> Run:
         """Run to time t. `watch(time)` is called now and then; True stops the run.
@@ -254,9 +271,11 @@ class Engine:
             buffer = np.empty((capacity, self.segment_size))
             raw = (RawEvent * (256 + self._library.frot_events_at_once(self._model)))()
             recorder = Recorder(_address(buffer), capacity, 0, raw, len(raw), 0)
-            status = int(
-                self._library.frot_advance(
-                    self._model, self._s, self._w, t, ct.byref(recorder), callback, None
+            status = self._unless_refused(
+                int(
+                    self._library.frot_advance(
+                        self._model, self._s, self._w, t, ct.byref(recorder), callback, None
+                    )
                 )
             )
             chunks.append(buffer[: recorder.segment_count].copy())

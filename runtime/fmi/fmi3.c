@@ -179,7 +179,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     return (fmi3Status)frot_fmu_refuse(fmu, __func__, "a pointer to an answer is NULL");
   const int status = frot_fmu_step(fmu, __func__, currentCommunicationPoint, communicationStepSize);
   /* The motion cannot go on, with any step. */
-  *terminateSimulation = status == FROT_FMU_DISCARD;
+  *terminateSimulation = fmu->life.phase == FROT_FMU_DISCARDED;
   *lastSuccessfulTime = fmu->life.t;
   return (fmi3Status)status;
 }

@@ -142,8 +142,11 @@ int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function) {
   return status;
 }
 
+/* A change that the kernel takes back is discarded: the instance goes on with the old values. */
 static int settle(frot_fmu *fmu, const char *function) {
   const int status = frot_settle(fmu->model, fmu->state, fmu->work);
+  if (status == FROT_CHECK || status == FROT_REFUSED)
+    return say_fault(fmu, FROT_FMU_DISCARD, function);
   return status == FROT_OK ? FROT_FMU_OK : stop_at_fault(fmu, function, status);
 }
 
@@ -157,7 +160,7 @@ int frot_fmu_ready(frot_fmu *fmu, const char *function, int role) {
   else if (fmu->life.phase == FROT_FMU_STEPPING)
     status = settle(fmu, function);
   /* The call is an error even where the step it belongs to would be one that ends early. */
-  if (status != FROT_FMU_OK) return FROT_FMU_ERROR;
+  if (status != FROT_FMU_OK) return fmu->life.phase == FROT_FMU_STEPPING ? status : FROT_FMU_ERROR;
   if (role != FROT_FMU_VARIABLE) return FROT_FMU_OK;
   if (frot_values(fmu->model, fmu->state, fmu->work, fmu->values) != FROT_OK)
     return say_fault(fmu, FROT_FMU_ERROR, function);
@@ -234,7 +237,8 @@ int frot_fmu_terminate(frot_fmu *fmu, const char *function) {
   }
   /* Values stay readable after the end, those set since the last step included. */
   if (fmu->life.phase == FROT_FMU_STEPPING && !fmu->values_valid) {
-    if (settle(fmu, function) != FROT_FMU_OK) return FROT_FMU_ERROR;
+    if (settle(fmu, function) != FROT_FMU_OK && fmu->life.phase != FROT_FMU_STEPPING)
+      return FROT_FMU_ERROR;
   }
   fmu->life.phase = FROT_FMU_TERMINATED;
   return FROT_FMU_OK;

@@ -40,7 +40,20 @@ enum frot_status {
   FROT_TOO_LARGE = 20, /* too many coupled friction elements change at once */
   FROT_MISUSE = 21,    /* a call out of order or with bad arguments */
   FROT_ALGEBRAIC = 22, /* a block of equations has no solution, or a singular one */
-  FROT_ASSERT = 23     /* an `assert` of the text does not hold */
+  FROT_ASSERT = 23,    /* an `assert` of the text does not hold */
+  FROT_REFUSED = 24    /* a change from outside cannot be made in a run; the old values stay */
+};
+
+/* Why a change is refused: `other` of the fault. Of contacts, then of bodies that are carried
+ * (item: which), last of relations of the text (item: its statement). */
+enum frot_why {
+  FROT_PARTS = 0,   /* a liaison that cannot part would be apart */
+  FROT_ENTERS = 1,  /* a body would be inside a line */
+  FROT_MEETS = 2,   /* bodies would meet with speed */
+  FROT_JERKS = 3,   /* a liaison that cannot part would part with speed, or carry a body along */
+  FROT_CARRIES = 4, /* a body would be carried along at once */
+  FROT_TURNS = 5,   /* and turned */
+  FROT_BREAKS = 6   /* a relation of the text would not hold any more */
 };
 
 /* Modes of the relative motion a law of friction bounds. */
@@ -109,6 +122,13 @@ typedef struct {
   int rule;
   const char *subject, *place;
 } frot_check;
+
+/* A body whose place depends on parameters, inputs or unknowns of blocks at given states. `by`: the
+ * liaison that carries it, or "" where the equations of the text prescribe its motion. */
+#define FROT_PLACE 5 /* x, y and angle of the body, velocity (x, y) of what carries it */
+typedef struct {
+  const char *body, *by, *place;
+} frot_carried;
 
 /* A statement of the section `initial`. */
 typedef struct {
@@ -183,7 +203,7 @@ typedef struct {
   const char *name;
   const char *key; /* identity of the compiled model; kept in saved states */
   int nq, nv, na, nc, nu, np, ny, n_rows, n_contacts, n_conditions, n_discrete;
-  int n_blocks, n_invariants, n_whens, n_outcomes;
+  int n_blocks, n_invariants, n_whens, n_outcomes, n_carried;
   /* the first n_located conditions change by the motion; the n_timed after them are linear in time
    * and depend on nothing else that moves; the rest change at events only */
   int n_located, n_timed;
@@ -214,6 +234,8 @@ typedef struct {
    * point or rim's centre over the line, then what tells where that is zero: the part of the normal
    * that is against gravity, and the height of the body's G. A side chosen once is kept. */
   frot_callable sides;
+  /* places -> FROT_PLACE values of each carried body. Called where n_carried > 0. */
+  frot_callable places;
   /* dynamics -> q' (nq), A (nw x nw), h (nw), J' (nw x n_rows), c (n_rows), rate (n_rows), gap
    *   (n_contacts), conditions (n_located), coefficients mu mu_s delta (3 x n_contacts), power
    * of the forces that have no potential (1) */
@@ -257,7 +279,8 @@ typedef struct {
   const double *u_default; /* nu */
   const frot_contact *contacts;
   const frot_check *checks;
-  const frot_statement *statements;
+  const frot_carried *carried;
+  const frot_statement *statements; /* those of the invariants are the last */
   const frot_load *loads;
   const frot_held *held;         /* n_held */
   const int *position_statement; /* n_position: statement of each scalar equation */
@@ -354,7 +377,7 @@ int frot_start(const frot_model *model, frot_state *state, frot_work *work, doub
                const frot_options *options);
 
 /* Let values set since the last call take effect at the time reached. Does nothing if none differs.
- */
+ * FROT_CHECK and FROT_REFUSED: the old values stay, and the run can go on with them. */
 int frot_settle(const frot_model *model, frot_state *state, frot_work *work);
 
 /* Run until time t is inside the current segment: an instant that differs from t by rounding is t.

@@ -10,6 +10,7 @@
 #include "state.h"
 #include "step.h"
 #include "stiffness.h"
+#include "supports.h"
 
 /* Events at one instant after which the modes will not settle. */
 #define CROWD 100
@@ -60,6 +61,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->t = t;
   int status = frot_settle_parameters(m, s, w, NULL);
   if (status != FROT_OK) return status;
+  frot_hold_given(m, s);
   const double *experiment = s->data + l.experiment;
   double start = isnan(experiment[0]) ? 0 : experiment[0];
   s->tolerance = s->options.tolerance > 0 ? s->options.tolerance
@@ -113,9 +115,25 @@ static int fire_changed_conditions(const frot_model *m, frot_state *s, frot_work
   return FROT_OK;
 }
 
+/* Let the new values take effect on what holds at the states x; a change that cannot be is taken
+ * back. */
+static int change_given(const frot_model *m, frot_state *s, frot_work *w, const double *x,
+                        frot_recorder *recorder) {
+  const double *q = x, *v = x + m->nq;
+  int status = frot_note_supports(m, s, w, s->t, q, v);
+  if (status == FROT_OK) status = frot_settle_parameters(m, s, w, NULL);
+  if (status == FROT_OK) status = frot_check_supports(m, s, w, s->t, q, v, recorder);
+  if (status == FROT_CHECK || status == FROT_REFUSED)
+    frot_take_back(m, s, w);
+  else if (status == FROT_OK)
+    frot_hold_given(m, s);
+  return status;
+}
+
 static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
   if (s->phase == FROT_ENDED) return FROT_TERMINATED;
-  if (s->phase != FROT_RUNNING || !s->changed) return s->fault.status;
+  if (s->phase != FROT_RUNNING) return s->fault.status;
+  if (!s->changed) return FROT_OK;
   frot_bind_work(m, w);
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
@@ -124,11 +142,10 @@ static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
   frot_guess_unknowns(m, w, &g, s->t);
   double before = energy_now(m, s, w, x);
   s->changed = 0;
+  int status = change_given(m, s, w, x, recorder);
+  if (status != FROT_OK) return status;
   memcpy(s->data + l.x, x, sizeof(double) * (size_t)l.nx);
   x = s->data + l.x;
-  int status = frot_settle_parameters(m, s, w, NULL);
-  if (status != FROT_OK) return status;
-  memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.nf);
   status = fire_changed_conditions(m, s, w);
   if (status != FROT_OK) return status;
   double events = s->energy; /* what the text's events change is added there */

@@ -26,6 +26,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.set = at, at += m->np;
   l.given = at, at += m->np;
   l.p = at, at += m->np;
+  l.kept = at, at += 2 * m->np + m->nu;
   l.u = at, at += m->nu;
   l.experiment = at, at += 4;
   l.unilateral = at, at += m->n_contacts;
@@ -87,12 +88,24 @@ static void *take(arena *a, size_t count, size_t size) {
 
 /* The scratch that any of the generated functions needs. */
 static frot_callable scratch_of_all(const frot_model *m) {
-  const frot_callable *calls[] = {&m->parameters,       &m->start,      &m->initial_position,
-                                  &m->initial_velocity, &m->kinematics, &m->sides,
-                                  &m->dynamics,         &m->spread,     &m->rates,
-                                  &m->jacobian,         &m->invariants, &m->block_slopes,
-                                  &m->update,           &m->sizes,      &m->variables,
-                                  &m->energy,           &m->timers};
+  const frot_callable *calls[] = {&m->parameters,
+                                  &m->start,
+                                  &m->initial_position,
+                                  &m->initial_velocity,
+                                  &m->kinematics,
+                                  &m->sides,
+                                  &m->places,
+                                  &m->dynamics,
+                                  &m->spread,
+                                  &m->rates,
+                                  &m->jacobian,
+                                  &m->invariants,
+                                  &m->block_slopes,
+                                  &m->update,
+                                  &m->sizes,
+                                  &m->variables,
+                                  &m->energy,
+                                  &m->timers};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
   for (int i = 0; i < count + m->n_blocks; i++) {
@@ -127,6 +140,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(qd, m->nq), TAKE(mass, l.nw * l.nw), TAKE(h, l.nw), TAKE(rows, l.nw * nr), TAKE(c, nr);
   TAKE(rate, nr), TAKE(gap, nc), TAKE(condition, m->n_conditions), TAKE(coefficient, 3 * nc);
   TAKE(power, 1), TAKE(witness, 3 * nc);
+  TAKE(stood, nc + nr + 2 * (FROT_PLACE * m->n_carried + ni));
   TAKE(factor, l.nm * l.nm), TAKE(force, l.nw), TAKE(half_rows, l.nw * nr);
   int ng = m->general ? l.nw : 0;
   TAKE(effect, ng * nr), TAKE(metric, m->general ? l.nm * l.nm : 0), TAKE(lu, ng * ng);

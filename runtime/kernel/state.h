@@ -29,8 +29,8 @@ typedef struct {
 typedef struct {
   int nw, nm, nx, nz, ng, nf, nd, ns; /* nm: order of the metric; ns: doubles of a segment */
   int early;                          /* unknowns of the blocks that are not late */
-  int set, given, p, u, experiment, unilateral, x, y, slope, scale_x, scale_g, noise, push_v, along,
-      fired, due, left, asked, fresh, modes, d, frozen, segment, size;
+  int set, given, p, kept, u, experiment, unilateral, x, y, slope, scale_x, scale_g, noise, push_v,
+      along, fired, due, left, asked, fresh, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -99,6 +99,7 @@ struct frot_work {
   /* results of `dynamics` and `kinematics` */
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
   double *witness; /* 3 per contact: results of `sides` */
+  double *stood;   /* see supports.c */
   /* Cholesky factor of the metric; symmetric core: it is the mass matrix, with L^-1 h, L^-1 J' */
   double *factor, *force, *half_rows;
   /* general core: E, metric, factors of A, A^-1 h, A^-1 E */

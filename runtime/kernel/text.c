@@ -4,6 +4,7 @@
 
 #include "conditions.h"
 #include "state.h"
+#include "supports.h"
 
 static const char *mode_name(int mode) {
   return mode == FROT_MODE_OPEN ? "open" : mode == FROT_MODE_STICK ? "stick" : "slip";
@@ -183,6 +184,9 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
     case FROT_ASSERT:
       snprintf(text, size, "%s (assertion failed at t = %.17g)", m->outcomes[f->item].text, f->t);
       return;
+    case FROT_REFUSED:
+      frot_refusal_text(m, f, text, size);
+      return;
     case FROT_NAN:
       if (f->other >= 0) {
         snprintf(text, size, "the equations for %s give no finite number at t = %.17g",
@@ -248,6 +252,7 @@ void frot_fault_places(const frot_model *m, const frot_state *s, char *text, siz
   if (f->status == FROT_NAN && f->other >= 0) places[0] = m->blocks[f->other].place;
   if (f->status == FROT_ALGEBRAIC && f->item >= 0) places[0] = m->blocks[f->item].place;
   if (f->status == FROT_ASSERT && f->item >= 0) places[0] = m->outcomes[f->item].place;
+  if (f->status == FROT_REFUSED) places[0] = frot_refusal_place(m, f);
   if (f->status == FROT_INITIAL) {
     if (f->item >= 0) places[0] = m->statements[f->item].place;
     if (f->other >= 0) places[1] = m->statements[f->other].place;
