@@ -16,7 +16,7 @@ COMMENT, UNIT = "COMMENT", "UNIT"
 SIGN, RANGE, APART = "SIGN", "RANGE", "APART"
 _OPERAND = frozenset(["IDENT", "NUMBER", UNIT, "STRING", "RPAR", "RSQB", "TRUE", "FALSE"])
 _COMMENTS = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
-_WITH_UNIT = re.compile(r"(\S+)([ \t]+)(.+)", re.DOTALL)
+_WITH_UNIT = re.compile(r"(\S+)(\s+)(.+)", re.DOTALL)
 
 
 @dataclass(slots=True)

@@ -27,6 +27,7 @@ from frot.dsl.scope import (
     BUILT_IN,
     COMPONENT,
     REFUSED,
+    RESERVED,
     Array,
     Build,
     Entity,
@@ -357,8 +358,8 @@ def _mechanical(
 def _add(name: tree.Word, pending: Pending, scope: Scope) -> bool:
     """Give a name its declaration; a name of the language or one used twice is told."""
     instance = scope.instance
-    if name.text in BUILT_IN:
-        message = f"{name.text!r} is a name of the language; choose another"
+    if name.text in BUILT_IN or name.text in RESERVED:
+        message = f"{name.text!r} is a word of the language; choose another name"
         scope.log.report("E0502", message, name.span)
         return False
     first = instance.written.get(name.text)

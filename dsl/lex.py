@@ -15,6 +15,13 @@ if TYPE_CHECKING:
 
 JUNK = "JUNK"
 END = "$END"
+# Words that may be names too: as words of the language they are followed by another word.
+_NOUNS = frozenset(
+    """body corps curve surface frame repère repere repe\u0300re force effort liaison joint law loi
+    shape input output flow parameter constant model connector record function package type planar
+    partial kinematic geometric""".split()  # noqa: SIM905
+)
+_BLANK = re.compile(r"(?:\s|//[^\n]*|/\*.*?\*/)*", re.DOTALL)
 _REGEXPS = ("WS", "COMMENT", "QUANTITY", "NUMBER", "STRING", "IDENT")
 
 
@@ -49,9 +56,12 @@ class Lexer:
                 continue
             start, end = found.span()
             if kind == "IDENT":
-                return self._word(found[0], accepted), start, end
+                return self._word(found[0], accepted, text, end), start, end
             if kind == "SYMBOL":
                 name = self.symbols[found[0]]
+                if text.startswith("/*", start):
+                    # A comment that ends is matched before: this one does not.
+                    return JUNK, start, start + 2
                 if name == "RPAR" and "CLOSE_UNIT" in accepted:
                     unit = self._close_unit.match(text, offset)
                     if unit is not None:
@@ -62,8 +72,14 @@ class Lexer:
             assert kind is not None
             return kind, start, end
 
-    def _word(self, word: str, accepted: Container[str]) -> str:
+    def _word(self, word: str, accepted: Container[str], text: str, end: int) -> str:
         keyword = self.keywords.get(word)
         if keyword is None or (keyword not in accepted and "IDENT" in accepted):
             return "IDENT"
+        if word in _NOUNS and "IDENT" in accepted:
+            # `force = 2*k;` names a variable: a declaration goes on with a word.
+            after = _BLANK.match(text, end)
+            following = text[after.end() : after.end() + 1] if after is not None else ""
+            if following and not (following.isalpha() or following == "_"):
+                return "IDENT"
         return keyword

@@ -26,6 +26,11 @@ COMPONENT, CALL = 3, 6
 # Declarations of different components that wait for one another.
 LONGEST = 400
 BUILT_IN = ("time", "pi", "ground")
+# Words that cannot begin an equation or stand in an expression, so that no variable has them.
+RESERVED = frozenset(
+    """and or not if then else elseif elsewhen end equation initial true false for loop when
+    extends import final""".split()  # noqa: SIM905
+)
 _CANDIDATES = 2000
 
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import difflib
+import re
+import unicodedata
 from collections.abc import Sequence
 from typing import Protocol
 
 from frot.dsl.diagnostics import Label, Log
+from frot.dsl.lex import JUNK
 from frot.dsl.source import Source, Span
 
 
@@ -52,6 +55,28 @@ _SAY = {
     "IN": "'in'",
     "RSQB": "']'",
 }
+
+
+# Signs of other keyboards and of word processors, and what is meant by them.
+_MEANT = {
+    **dict.fromkeys("\u2212\u2010\u2011\u2012\u2013\u2014\uff0d", "-"),
+    **dict.fromkeys("×·⋅∙∗＊", "*"),
+    **dict.fromkeys("÷∕⁄", "/"),
+    **dict.fromkeys("“”„«»″＂", '"'),
+    **dict.fromkeys("，、", ","),
+    "；": ";",
+    "：": ":",
+    "（": "(",
+    "）": ")",
+    "＝": "=",
+    "＋": "+",
+    "≤": "<=",
+    "≥": ">=",
+    "≠": "<>",
+    "⩵": "==",
+}
+_COMMA = re.compile(r"(\d+),(\d+)")
+_IN_UNIT = dict.fromkeys("·⋅", ", or '.' in a unit: 'N.m'")
 
 
 def _shown(text: str) -> str:
@@ -122,11 +147,8 @@ def unexpected(
     text = source.text
     word = text[token.start : token.end]
     span = _span(source, token)
-    if token.type == "JUNK":
+    if token.type == JUNK:
         _junk(log, source, token)
-    elif word == "*" and previous is not None and text[previous.start : token.end] == "/*":
-        opening = Span(source, previous.start, token.end)
-        log.report("E0107", "this comment is not closed", opening, help="close it with '*/'")
     elif (
         previous is not None
         and previous.type == "NUMBER"
@@ -140,10 +162,45 @@ def unexpected(
             Span(source, previous.start, token.end),
             help=f"for a unit leave a space: '{number} {word}'; for a product: '{number}*{word}'",
         )
+    elif token.type == "COLON" and text.startswith(":=", token.start):
+        log.report(
+            "E0101",
+            "':=' is no sign of this language",
+            Span(source, token.start, token.start + 2),
+            help="values and equations are written with '='",
+        )
+    elif (comma := _decimal_comma(text, previous, token)) is not None:
+        log.report(
+            "E0101",
+            "a comma in a number",
+            Span(source, comma.start(), comma.end()),
+            help=f"the decimal sign is a point: '{comma[1]}.{comma[2]}'",
+        )
+    elif "IDENT" in expected and word.isidentifier() and token.type not in ("IDENT", JUNK):
+        log.report(
+            "E0101",
+            f"{word!r} is a word of the language: it cannot be a name",
+            span,
+            help=f"choose another name, as '{word}_' or '{word}1'",
+        )
     elif token.type == "END" and not in_block and not statement:
         log.report("E0105", "'end' without a model to end", span)
     else:
         _misplaced(log, source, previous, token, expected, statement)
+
+
+def _decimal_comma(text: str, previous: Lexeme | None, token: Lexeme) -> re.Match[str] | None:
+    """The number `0,3` whose comma, or what follows it, is the token."""
+    for comma in (token, previous):
+        if comma is None or comma.type != "COMMA":
+            continue
+        first = comma.start
+        while first > 0 and text[first - 1].isdigit():
+            first -= 1
+        found = _COMMA.match(text, first)
+        if found is not None and found.end(1) == comma.start:
+            return found
+    return None
 
 
 def _junk(log: Log, source: Source, token: Lexeme) -> None:
@@ -152,6 +209,16 @@ def _junk(log: Log, source: Source, token: Lexeme) -> None:
     if character == '"':
         log.report(
             "E0107", "this string is not closed", span, help="close it with '\"' on the same line"
+        )
+    elif source.text.startswith("/*", token.start):
+        log.report("E0107", "this comment is not closed", span, help="close it with '*/'")
+    elif character in _MEANT:
+        log.report(
+            "E0101",
+            f"the character {character!r} ({unicodedata.name(character).lower()}) is not "
+            f"{_MEANT[character]!r}, though it looks so",
+            span,
+            help=f"write {_MEANT[character]!r}" + _IN_UNIT.get(character, ""),
         )
     elif character in "{}":
         log.report(

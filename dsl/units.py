@@ -157,6 +157,7 @@ _MISNAMED: Mapping[str, str] = {
 }
 
 _FACTOR = re.compile(r"([./])?([^./^]+|)(?:\^([^./^]*))?")
+_RAISED = re.compile("[⁻²³¹⁰⁴⁵⁶⁷⁸⁹]+")
 _LARGEST_POWER = 20
 
 
@@ -167,6 +168,7 @@ def parse_unit(text: str) -> Unit:
     Raises UnknownUnit with a full sentence.
     """
     text = unicodedata.normalize("NFC", text).replace("μ", "µ").replace("Ω", "Ω")
+    text = _RAISED.sub(_lowered, text)
     if text in PLAIN:
         return PLAIN[text]
     if not text:
@@ -190,6 +192,11 @@ def parse_unit(text: str) -> Unit:
     if not (0 < factor < math.inf):
         raise UnknownUnit(text, f"the unit {text!r} is out of the range of numbers")
     return Unit(dim, factor)
+
+
+def _lowered(raised: re.Match[str]) -> str:
+    """`⁻²` as `^-2`."""
+    return "^" + unicodedata.normalize("NFKC", raised[0]).replace("\u2212", "-")
 
 
 def _power(text: str, digits: str | None) -> int:

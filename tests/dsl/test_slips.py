@@ -1,0 +1,69 @@
+"""Slips of the pen: each message names the slip and its remedy."""
+
+import pytest
+from frot.dsl import Log, compile_text, format_text
+
+
+def told(text: str) -> list[tuple[str, str, str]]:
+    log = Log()
+    compile_text(text, log)
+    return [(d.code, d.message, d.help) for d in log if d.is_error]
+
+
+def only(text: str) -> tuple[str, str, str]:
+    found = told(text)
+    assert len(found) == 1, found
+    return found[0]
+
+
+MODEL = "model M\n Length a; Real b;\nequation\n {}\nend M;\n"
+
+
+@pytest.mark.parametrize(
+    ("slip", "words", "remedy"),
+    [
+        ("b := 3;", "':='", "'='"),
+        ("b = 0,3;", "comma in a number", "'0.3'"),
+        ("a = 10,25 mm;", "comma in a number", "'10.25'"),
+        ("b = 3 \u2212 2;", "minus sign", "write '-'"),
+        ("b = 3 – 2;", "en dash", "write '-'"),
+        ("b = 3 × 2;", "multiplication sign", "write '*'"),
+        ("a = 3 N·m;", "middle dot", "'.' in a unit"),
+        ("assert(b > 0, “no”);", "left double quotation mark", "write '\"'"),
+        ('assert(b ≥ 0, "no");', "greater-than or equal to", "write '>='"),
+        ("b = 3; /* and so on\n a = 1 m;", "comment is not closed", "'*/'"),
+        ("b = 3 /* and so on\n ;", "comment is not closed", "'*/'"),
+    ],
+)
+def test_a_slip_in_the_signs_is_told(slip: str, words: str, remedy: str) -> None:
+    _, message, help_text = only(MODEL.format(slip))
+    assert words in message
+    assert remedy in help_text
+
+
+@pytest.mark.parametrize("word", ["initial", "equation", "when", "driven", "end", "not", "with"])
+def test_a_word_of_the_language_as_a_name_is_told(word: str) -> None:
+    found = told(f"planar model M\n parameter Real {word} = 3;\nend M;\n")
+    assert f"'{word}' is a word of the language" in found[0][1]
+
+
+@pytest.mark.parametrize("word", ["force", "body", "input", "output", "frame", "model", "shape"])
+def test_a_noun_of_the_language_can_be_a_name(word: str) -> None:
+    equations = f" {word} = 3;\n {word} /* ? */ - z = 0;\n"
+    text = f"model M\n Real {word}; Real z;\nequation\n{equations}end M;"
+    assert told(text) == []
+
+
+@pytest.mark.parametrize("space", ["\u00a0", "\u202f", "\u2009"])
+def test_a_space_of_a_word_processor_is_a_space(space: str) -> None:
+    declared = f"  parameter Length l{space}= 3{space}mm;\n  Length x = (l,{space}l)[1];\n"
+    text = f"model M\n{declared}end M;\n"
+    assert told(text) == []
+    assert "l = 3 mm;" in format_text(text).replace(space, " ")
+
+
+def test_raised_digits_are_powers() -> None:
+    text = (
+        'model M\n parameter Acceleration a = 3 m/s²;\n parameter Real b(unit = "s⁻¹") = 1;\nend M;'
+    )
+    assert told(text) == []
