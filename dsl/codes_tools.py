@@ -75,14 +75,15 @@ TOOLS: Mapping[str, Code] = {
     "E0901": Code(
         "fault in the run",
         "The motion could not be computed past the time named.",
-        "Look at the last events; a smaller tolerance may help.",
+        "Look at what the message names at that time, and at the last events before it.",
         "",
     ),
     "E0902": Code(
         "impasse",
-        "No motion is compatible with the laws of friction at this instant (Painlevé 1895). "
-        "The experiment asks to stop there.",
-        "Use 'on_impasse = impact' to let a tangential impact resolve it.",
+        "No motion is compatible with the laws of friction at this instant (Painlevé 1895), or "
+        "several are and the experiment asks to stop there. The tangential impact that would "
+        "resolve an impasse is not computed yet: the run ends there and keeps its motion.",
+        "Choose a smaller coefficient of friction, or 'on_indeterminate = rest'.",
         snippet(
             _ROD,
             "bar.angle = 63 deg;\nbar.start.position = (0, 0) m;\n"

@@ -213,10 +213,13 @@ _HELP = {
     10: "give the parameter it comes from another value",
     11: "leave one of the statements out, or make them agree",
     13: "stop before that time, or write `unilateral = false` if the liaison cannot part",
+    14: "a smaller coefficient of friction avoids it; the result holds the motion up to there",
+    15: "write `on_indeterminate = rest` or `continue` to go on with one of them",
     16: "look at what switches at that time; change a coefficient or the starting values a little",
     17: "correct the expression, or keep the motion away from there",
     18: "look at the liaison or force named; a softer or smaller load may avoid it",
     22: "give start values near the solution, or keep the motion away from there",
     23: "look at what leads there, or weaken the assertion",
     19: "give every body a mass and an inertia of a usual size",
+    20: "leave friction out of some of the liaisons that act on each other",
 }

@@ -175,3 +175,19 @@ def test_a_disk_that_takes_no_more_bytes_is_told_and_left_clean(words: str, door
     assert done.returncode == 1 and "Traceback" not in done.stderr
     assert done.stderr.startswith("error[E080"), done.stderr
     assert files_in(door.folder) == set()
+
+
+@pytest.mark.parametrize(("residual", "kinetic", "told"), [(1e-15, 0.0, False), (1.0, 1.0, True)])
+def test_energy_is_an_alarm_only_where_something_moves(
+    residual: float, kinetic: float, told: bool
+) -> None:
+    from frot.runtime.result import Balance
+
+    import frot
+
+    result = frot.compile(
+        "planar model Rest\n  body b: particle(mass = 1 kg);\n  world(gravity = 0 m/s^2);\n"
+        f"initial\n  b.velocity.x = {(2 * kinetic) ** 0.5} m/s;\nend Rest;\n"
+    ).simulate()
+    result.balance = Balance(residual, 2 * residual, residual, 0.0, 0.0)
+    assert ("do not trust" in result.summary()) == told
