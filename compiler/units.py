@@ -19,19 +19,7 @@ _BY_QUANTITY = {
 _TURNING = {"Angle": 1, "AngularVelocity": 1, "AngularAcceleration": 1}
 _TURNING |= {"RotationalStiffness": -1, "RotationalDamping": -1}
 
-_BY_DIMENSION: dict[Dimension, str] = {
-    dimension(m=1, kg=1, s=-2): "N",
-    dimension(m=2, kg=1, s=-2): "J",
-    dimension(m=2, kg=1, s=-3): "W",
-    dimension(kg=1, s=-2): "N/m",
-    dimension(kg=1, s=-1): "N.s/m",
-    dimension(m=1, kg=1, s=-1): "N.s",
-    dimension(m=-1, kg=1, s=-2): "Pa",
-    dimension(m=2, kg=1, s=-3, A=-1): "V",
-    dimension(m=2, kg=1, s=-3, A=-2): "Ohm",
-    dimension(m=2, kg=1, s=-2, A=-2): "H",
-    dimension(m=-2, kg=-1, s=4, A=2): "F",
-}
+_ENERGY = dimension(m=2, kg=1, s=-2)
 
 
 def unit_of(of: Dimension, quantity: str = "", written: str = "") -> Unit:
@@ -41,7 +29,7 @@ def unit_of(of: Dimension, quantity: str = "", written: str = "") -> Unit:
     """
     if any(e.denominator != 1 for e in of.exponents):
         return Unit("1")
-    name = _BY_QUANTITY.get(quantity) or _BY_DIMENSION.get(of) or of.unit
+    name = _BY_QUANTITY.get(quantity) or ("J" if of == _ENERGY else of.unit)
     exponents = (*(int(e) for e in of.exponents), _TURNING.get(quantity, 0))
     if not written or written == name:
         return Unit(name, exponents)

@@ -10,7 +10,7 @@ from frot.dsl.check_expressions import NUMERIC, expect, fitting, value_of
 from frot.dsl.connect import connect
 from frot.dsl.describe import describe, written_unit
 from frot.dsl.diagnostics import LIMIT, Label
-from frot.dsl.dimensions import BOOLEAN, INTEGER, Type
+from frot.dsl.dimensions import BOOLEAN, INTEGER, Type, dimension
 from frot.dsl.evaluation import constant, nodes
 from frot.dsl.indexing import settle, span_of
 from frot.dsl.records import pairs
@@ -19,6 +19,7 @@ from frot.dsl.sections import called_name
 from frot.dsl.source import Span
 from frot.dsl.turns import rate_of
 
+_TIME = dimension(s=1)
 Made = checked.Equation | checked.IfEquations
 Leaf = tuple[tree.Equation | tree.When | tree.IfEquation, Scope]
 
@@ -197,9 +198,24 @@ def both_sides(
     if wanted.base in NUMERIC and wanted.enumeration is None and second.type.base == "real":
         # A whole number may stand on the left of a sum of others.
         wanted = wanted if isinstance(first, checked.Reference) else _real(first)
-    unit, rate = written_unit(first), rate_of(first)
-    fitted = fitting(second, right, wanted, scope, unit=unit, rate=rate)
+    unit, rate, remedy = written_unit(first), rate_of(first), _of_time(first, second)
+    fitted = fitting(second, right, wanted, scope, unit=unit, rate=rate, remedy=remedy)
     return None if fitted is None else [(first, fitted)]
+
+
+def _of_time(first: checked.Expression, second: checked.Expression) -> str:
+    """The remedy where one side of an equation is a rate and the other is none."""
+    if second.type.dimension == first.type.dimension * _TIME and _holds_rate(first):
+        text = " ".join(second.span.text.split())
+        whole = text if isinstance(second, checked.Reference | checked.Literal) else f"({text})"
+        return f"'der' is a rate in time: divide by 1 s, '{whole}/(1 s)'"
+    if first.type.dimension == second.type.dimension * _TIME and _holds_rate(second):
+        return "'der' is a rate in time: multiply it by 1 s, '(1 s)*der(...)'"
+    return ""
+
+
+def _holds_rate(node: checked.Expression) -> bool:
+    return any(isinstance(inner, checked.Derivative) for inner in nodes(node))
 
 
 def _real(node: checked.Expression) -> Type:

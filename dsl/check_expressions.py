@@ -51,28 +51,33 @@ def fitting(
     others: tuple[Type, ...] = (),
     unit: str = "",
     rate: str = "",
+    remedy: str = "",
 ) -> checked.Expression | None:
     """The expression, or its item for one of an array declaration; None after a message.
 
-    `unit` is the one the author wrote for what is expected, `rate` the kind of rate it is.
+    `unit` is the one the author wrote for what is expected, `rate` the kind of rate it is, `remedy`
+    the help where nothing better is known.
     """
     if any(agrees(found.type, k) for k in (kind, *others)):
         return as_rate(found, rate, scope)
     if kind.base == "integer" and kind.enumeration is None and is_whole(found):
-        return fitting(as_integer(found), node, kind, scope, others=others, unit=unit)
+        whole = as_integer(found)
+        return fitting(whole, node, kind, scope, others=others, unit=unit, remedy=remedy)
     if scope.element is not None and found.type.shape[:1] == scope.element[1:]:
         from frot.dsl.indexing import element
 
         item = element(found, scope.element[0], found.span)
         if any(agrees(item.type, k) for k in (kind, *others)):
             return as_rate(item, rate, scope)
-    whole = kind.base == "integer" and agrees(found.type, Type(shape=kind.shape))
+    is_number = kind.base == "integer" and agrees(found.type, Type(shape=kind.shape))
     wanted, shown = pair(kind, found.type, unit, written_unit(found))
     wanted = " or ".join((wanted, *(describe(k) for k in others)))
-    if whole and kind.enumeration is None:
+    if is_number and kind.enumeration is None:
         wanted, shown = "a whole number", "a number that may be none"
     help_text = ""
-    if isinstance(node, tree.Number) and not node.unit and kind.is_scalar:
+    if kind.base not in NUMERIC:
+        pass
+    elif isinstance(node, tree.Number) and not node.unit and kind.is_scalar:
         help_text = f"write the unit: '{node.span.text} {unit or kind.dimension.unit}'"
     elif isinstance(node, tree.Tuple) and not node.unit and found.type.dimension.is_one:
         help_text = f"write the unit after the tuple: '{node.span.text} {kind.dimension.unit}'"
@@ -81,7 +86,7 @@ def fitting(
         f"expected {wanted}, found {shown}",
         node.span,
         caret=shown,
-        help=help_text if kind.base in NUMERIC and not kind.dimension.is_one else "",
+        help=help_text if help_text and not kind.dimension.is_one else remedy,
     )
     return None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
@@ -32,9 +33,12 @@ class Dimension:
 
     @property
     def unit(self) -> str:
-        """The coherent SI unit, as `kg.m/s^2`; `1` for a number."""
-        above = [_power(n, e) for n, e in zip(BASE, self.exponents, strict=True) if e > 0]
-        below = [_power(n, -e) for n, e in zip(BASE, self.exponents, strict=True) if e < 0]
+        """The coherent SI unit as people write it, as `N` or `kg.m^2`; `1` for a number."""
+        if self in NAMED:
+            return NAMED[self]
+        named = sorted(zip(BASE, self.exponents, strict=True), key=lambda pair: pair[0] != "kg")
+        above = [_power(n, e) for n, e in named if e > 0]
+        below = [_power(n, -e) for n, e in named if e < 0]
         text = ".".join(above) or "1"
         return "/".join([text, *below])
 
@@ -49,6 +53,26 @@ def dimension(m: int = 0, kg: int = 0, s: int = 0, A: int = 0, K: int = 0) -> Di
 
 
 ONE = dimension()
+
+# Units with a name, and products of them that people write.
+NAMED: Mapping[Dimension, str] = {
+    dimension(m=1, kg=1, s=-2): "N",
+    dimension(m=2, kg=1, s=-2): "N.m",
+    dimension(m=2, kg=1, s=-3): "W",
+    dimension(kg=1, s=-2): "N/m",
+    dimension(kg=1, s=-1): "N.s/m",
+    dimension(m=1, kg=1, s=-1): "N.s",
+    dimension(m=2, kg=1, s=-1): "N.m.s",
+    dimension(m=-1, kg=1, s=-2): "Pa",
+    dimension(A=1, s=1): "C",
+    dimension(m=2, kg=1, s=-3, A=-1): "V",
+    dimension(m=2, kg=1, s=-3, A=-2): "Ohm",
+    dimension(m=-2, kg=-1, s=3, A=2): "1/Ohm",
+    dimension(m=2, kg=1, s=-2, A=-2): "H",
+    dimension(m=-2, kg=-1, s=4, A=2): "F",
+    dimension(m=2, kg=1, s=-2, A=-1): "Wb",
+    dimension(kg=1, s=-2, A=-1): "T",
+}
 
 
 @dataclass(frozen=True, slots=True)

@@ -95,7 +95,7 @@ def test_geared_motor_is_complete() -> None:
     assert flange.liaison is model.liaisons[0]
     assert (flange.coordinate, flange.effort.name) == ("angle", "hinge.flange.torque")
     assert flange.effort in model.variables
-    assert "gear.b.torque + hinge.flange.torque = 0 m^2.kg/s^2" in written(model)
+    assert "gear.b.torque + hinge.flange.torque = 0 N.m" in written(model)
     assert "gear.b.angle = hinge.angle" in written(model)
     gear = next(e for e in model.equations if e.owner == "gear")
     assert gear.span.text == "a.angle = ratio*b.angle;"
@@ -201,7 +201,7 @@ end Walker;
         "right.hip.angle",
     ]
     assert "left.flange.angle = left.hip.angle" in written(model)
-    assert "-left.flange.torque + left.hip.flange.torque = 0 m^2.kg/s^2" in written(model)
+    assert "-left.flange.torque + left.hip.flange.torque = 0 N.m" in written(model)
     assert [f.effort.name for f in model.flanges] == [
         "left.hip.flange.torque",
         "right.hip.flange.torque",

@@ -67,3 +67,40 @@ def test_raised_digits_are_powers() -> None:
         'model M\n parameter Acceleration a = 3 m/s²;\n parameter Real b(unit = "s⁻¹") = 1;\nend M;'
     )
     assert told(text) == []
+
+
+@pytest.mark.parametrize(
+    ("equation", "remedy"),
+    [
+        ("der(b) = c;", "'c/(1 s)'"),
+        ("der(b) = -2*c;", "'(-2*c)/(1 s)'"),
+        ("der(b) = 3;", "3 1/s"),
+        ("der(der(b)) + b/(1 s^2) = der(c);", "divide by 1 s"),
+        ("c = der(b);", "multiply it by 1 s"),
+    ],
+)
+def test_a_rate_of_a_number_is_told_with_the_time_that_is_missing(
+    equation: str, remedy: str
+) -> None:
+    code, _, help_text = only(f"model M\n Real b; Real c;\nequation\n {equation}\nend M;\n")
+    assert code == "E0301"
+    assert remedy in help_text
+
+
+@pytest.mark.parametrize(
+    ("declaration", "words"),
+    [
+        ("parameter Force f = 1 kg;", "expected a force (N), found a mass (kg)"),
+        ("parameter Voltage u = 1 kg;", "expected a voltage (V), found a mass (kg)"),
+        ("parameter Torque u = 1 W;", "expected a torque or energy (N.m), found a power (W)"),
+        ("parameter Stiffness k = 1 Ohm;", "expected a stiffness (N/m), found a resistance (Ohm)"),
+        (
+            "parameter Inertia j = 1 F;",
+            "expected a moment of inertia (kg.m^2), found a capacitance (F)",
+        ),
+        ("parameter Mass m = 2 s*(1 m);", "found a quantity in m.s"),
+        ("parameter Mass m = (2 N)*(1 m^2);", "found a quantity in kg.m^3/s^2"),
+    ],
+)
+def test_units_are_told_as_people_write_them(declaration: str, words: str) -> None:
+    assert words in only(f"model M\n {declaration}\nend M;\n")[1]
