@@ -22,6 +22,7 @@ from frot.compiler.differentiate import (
     is_balanced,
 )
 from frot.compiler.eliminate import Eliminated, Entries, Pivot, Residuals, eliminate, resolve_all
+from frot.compiler.floating import is_tied_down
 from frot.compiler.index import reduce_index
 from frot.compiler.order import Component, closure
 from frot.compiler.origins import Origin
@@ -56,6 +57,8 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
     everything = range(len(chains.items))
     incidence = find_incidence(raw.values, chains, everything)
     if not is_balanced(incidence, everything, raw.origins, chains, log):
+        return None
+    if not is_tied_down(raw.values, chains, reduced.mechanism.model, log):
         return None
     index = reduce_index(incidence, len(everything))
 

@@ -65,6 +65,15 @@ EQUATIONS: Mapping[str, Code] = {
             "when time > 1 s then\n  m = n + 1;\n  n = m + 1;\nend when;",
         ),
     ),
+    "E0611": Code(
+        "potentials that nothing fixes",
+        "In a circuit only differences of potentials matter: one of them must be given. The same "
+        "holds for shafts that only springs and dampers join.",
+        "Connect a part that fixes one: a 'Ground' of Electrical, a 'Fixed' of Rotational.",
+        "import Electrical.*;\nmodel Example\n  ConstantVoltage s(V = 5 V);\n"
+        "  Resistor r(R = 1 Ohm);\n"
+        "equation\n  connect(s.p, r.p);\n  connect(s.n, r.n);\nend Example;\n",
+    ),
     "E0610": Code(
         "condition without an equation of its own",
         "A Boolean or whole number that no 'when' sets must follow from an equation 'name = ...'.",
