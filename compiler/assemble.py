@@ -45,7 +45,6 @@ def _plain(reduced: Reduced) -> Assembled:
         q_speed=tuple(range(s.v.numel())),
         na=na,
         nc=0,
-        general=False,
         late=False,
         rates=s.v,
         matrix=reduced.mass,

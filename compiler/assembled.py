@@ -56,7 +56,6 @@ class Assembled:
     q_speed: tuple[int, ...]
     na: int
     nc: int
-    general: bool
     late: bool
     rates: ca.SX
     matrix: ca.SX

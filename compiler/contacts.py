@@ -82,7 +82,9 @@ def row_rates(
     """Relative velocities of the joint's rows, in their order."""
     if isinstance(geometry, PinGeometry):
         return [geometry.apart, *([geometry.speed] if joint.mu is not None else [])]
-    rates = [kinematics.velocity(geometry.gap)]
+    at = kinematics.auxiliary.get(joint.liaison)
+    # what coordinates keep moves along its normal by its auxiliary speed alone
+    rates = [kinematics.velocity(geometry.gap) if at is None else kinematics.symbols.sw[at]]
     if joint.mu is not None:
         rates.append(geometry.slip)
     if joint.delta is not None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import casadi as ca
-import numpy as np
 from frot.compiler.chains import Chains, replace_known
 from frot.compiler.differentiate import Differentiated
 from frot.compiler.eliminate import Eliminated, Pivot, Residuals, eliminate, resolve_all
@@ -27,7 +26,6 @@ class Core:
     q_speed: tuple[int, ...]
     rates: ca.SX
     nc: int
-    general: bool
     matrix: ca.SX
     force: ca.SX
     force_size: ca.SX
@@ -107,7 +105,6 @@ def make_core(
     sizes = ca.substitute(sizes, both, zero) if both.numel() else sizes
     own = ca.fabs(force)
     size = ca.vertcat(sizes[:count], own[count:nv], sizes[count:], own[nv + na :])
-    general = bool(nc) or not _is_mass_matrix(matrix, spread, rows)
     return Core(
         q=ca.vertcat(s.q, column(states.q)),
         v=column(states.v),
@@ -117,7 +114,6 @@ def make_core(
         q_speed=_speeds(s.q, states),
         rates=ca.vertcat(s.v, column(states.rates)),
         nc=nc,
-        general=general,
         matrix=matrix,
         force=force,
         force_size=size,
@@ -254,7 +250,6 @@ def _coefficients(reduced: Reduced, left: Eliminated, known: dict[int, ca.SX]) -
         for x in (
             e.bound,
             ca.if_else(e.bound_at_rest >= e.bound, e.bound_at_rest, ca.SX.nan()),
-            ca.SX(0),
         )
     )
     whole = ca.vertcat(reduced.coefficients, bounds)
@@ -268,7 +263,7 @@ def _are_known(
     """Whether friction is bounded by what is known before it is solved for; else reported."""
     late = {found.unknown(j).element_hash() for c in found.components for j in c.unknowns}
     late |= {x.element_hash() for x in (ca.vertsplit(both) if both.numel() else ())}
-    first = coefficients.numel() - 3 * len(reduced.text.elements)
+    first = coefficients.numel() - 2 * len(reduced.text.elements)
     for k, value in enumerate(ca.vertsplit(coefficients) if coefficients.numel() else ()):
         unknown = [x.name() for x in ca.symvar(value) if x.element_hash() in late]
         if unknown:
@@ -277,7 +272,7 @@ def _are_known(
                 "E0607",
                 f"a coefficient or bound of friction depends on '{unknown[0]}', which is solved "
                 "for together with friction",
-                reduced.text.elements[(k - first) // 3].span if k >= first else model,
+                reduced.text.elements[(k - first) // 2].span if k >= first else model,
                 help="let such a quantity act through a state, as a filter or a spring",
             )
             return False
@@ -293,23 +288,6 @@ def _metric(reduced: Reduced, nv: int, na: int) -> ca.SX:
         for b, j in enumerate(order):
             metric[i, j] = reduced.mass[a, b]
     return metric
-
-
-def _is_mass_matrix(matrix: ca.SX, spread: ca.SX, rows: ca.SX) -> bool:
-    """Whether the core is a mass matrix with reactions along the rows: at a few random places."""
-    symbols = ca.symvar(ca.veccat(matrix, spread, rows))
-    both = ca.Function("core", symbols, [matrix, spread, rows.T])
-    random = np.random.default_rng(1)
-    for _ in range(3):
-        values = [ca.DM(x) for x in random.uniform(0.1, 2, len(symbols))]
-        a, e, j = (x.full() for x in both.call(values))
-        if not a.size:
-            return True
-        scale = np.abs(a).max()
-        symmetric = np.all(np.abs(a - a.T) <= 1e-12 * scale) and np.allclose(e, j, 1e-12, 0)
-        if not symmetric or np.linalg.eigvalsh((a + a.T) / 2)[0] <= 0:
-            return False
-    return True
 
 
 def _place(found: Differentiated, core: set[int], reduced: Reduced) -> Span:

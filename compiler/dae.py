@@ -86,7 +86,7 @@ def make_dae(model: Model, log: Log) -> Dae | None:
     lowered = lower(reduced, log) if reduced is not None else None
     if lowered is None:
         return None
-    if model.variables or lowered.system.general:
+    if model.variables or not lowered.grouping.is_mass_matrix:
         log.report(
             "E0701",
             "the DAE of a model with equations of its own is not supported yet",
@@ -217,17 +217,21 @@ def _laws(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:
         if not contact.reduced:
             lam_n = s.lam[rows.normal]
             equations.append(ca.if_else(closed, accelerations[rows.normal], lam_n))
-        for row, kind, coefficient in (
-            (rows.tangent, mode[FRICTION], reduced.coefficients[3 * i]),
-            (rows.rolling, mode[ROLLING], reduced.coefficients[3 * i + 2]),
-        ):
+        for row, kind in ((rows.tangent, mode[FRICTION]), (rows.rolling, mode[ROLLING])):
             if row < 0:
                 continue
+            coefficient = _coefficient(reduced, row, at_rest=False)
             sign = ca.if_else(kind == FORWARD, 1, 0) - ca.if_else(kind == BACKWARD, 1, 0)
             follows = s.lam[row] + sign * coefficient * normal
             held = ca.if_else(kind == STICK, accelerations[row], follows)
             equations.append(ca.if_else(closed, held, s.lam[row]))
     return equations
+
+
+def _coefficient(reduced: Reduced, row: int, *, at_rest: bool) -> ca.SX:
+    """The coefficient of the law whose motion is this row."""
+    laws = [r for x in reduced.contact_rows for r in (x.tangent, x.rolling) if r >= 0]
+    return reduced.coefficients[2 * laws.index(row) + at_rest]
 
 
 def _guards(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:
@@ -241,13 +245,11 @@ def _guards(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:
         gap = ca.SX(1) if contact.reduced else reduced.gap[i]
         guard = ca.if_else(mode[CLOSED], normal, gap)
         guards.append(ca.SX(1) if isinstance(contact, Pin) else guard)
-        for row, kind, coefficient in (
-            (rows.tangent, mode[FRICTION], reduced.coefficients[3 * i + 1]),
-            (rows.rolling, mode[ROLLING], reduced.coefficients[3 * i + 2]),
-        ):
+        for row, kind in ((rows.tangent, mode[FRICTION]), (rows.rolling, mode[ROLLING])):
             if row < 0:
                 guards += [ca.SX(1), ca.SX(1)]
                 continue
+            coefficient = _coefficient(reduced, row, at_rest=True)
             bound, lam, rate = coefficient * normal, s.lam[row], reduced.rate[row]
             slips = mode[CLOSED] * ((kind == FORWARD) + (kind == BACKWARD))
             stuck = mode[CLOSED] * (kind == STICK)

@@ -7,12 +7,12 @@ import tempfile
 from pathlib import Path
 
 import casadi as ca
+from frot.compiler.elements import Bound
+from frot.compiler.groups import Group
 from frot.compiler.jacobian import alike
 from frot.compiler.lower import Lowered
 from frot.compiler.mechanism import Pin
 from frot.compiler.symbols import column
-from frot.compiler.walk import is_fixed
-from frot.dsl.checked import Expression
 from frot.dsl.source import Span
 
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
@@ -24,6 +24,22 @@ _UNASKED = re.compile(r"if \(res\[\d+\]!=0\) (?=res\[)")
 _LONG = 100_000
 _QUICK = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("O1")\n#endif\n'
 
+# The packed arrays of groups in the order of frot_group, and the tables of the mechanics.
+_PACKED = ("vector", "matrix", "metric", "entries", "square")
+_MECHANICAL = (
+    *(
+        "contacts",
+        "elements",
+        "groups",
+        "row_reads",
+        "row_beside",
+        "row_group",
+        "row_local",
+        "contact_group",
+    ),
+    *("speed_group", "speed_local", "speed_coordinate"),
+)
+
 # The tables of frot_pattern, in its order.
 _PATTERN = ("order", "start", "column", "diagonal", "entry_row", "entry_column", "place")
 
@@ -33,34 +49,10 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
     reduced = lowered.reduced
     symbols, model = reduced.symbols, reduced.mechanism.model
     system, contacts = lowered.system, reduced.mechanism.contacts
-    first_row = symbols.lam.numel()
     tables = [
         _array("double", "p_default", [_number(x) for x in defaults]),
         _array("double", "u_default", [_number(x) for x in inputs]),
-        _array(
-            "frot_contact",
-            "contacts",
-            [
-                _record(
-                    _text(c.liaison.name),
-                    _text(_place(c.liaison.span)),
-                    "FROT_BY_PIN" if isinstance(c, Pin) else "FROT_BY_NORMAL",
-                    *(r.normal, r.second, r.tangent, r.rolling, int(c.reduced)),
-                    int(_fixed(c.mu) and _fixed(c.mu_s)),
-                    int(_fixed(c.delta)),
-                )
-                for c, r in zip(contacts, reduced.contact_rows, strict=True)
-            ]
-            + [
-                _record(
-                    _text(e.name),
-                    _text(_place(e.span)),
-                    "FROT_BY_VALUE",
-                    *(-1, -1, first_row + k, -1, 1, 0, 0),
-                )
-                for k, e in enumerate(system.elements)
-            ],
-        ),
+        *_mechanical_arrays(lowered),
         _array(
             "frot_check",
             "checks",
@@ -152,6 +144,9 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "ny": system.y.numel(),
         "n_rows": system.lam.numel(),
         "n_contacts": len(contacts) + len(system.elements),
+        "n_elements": len(lowered.grouping.elements),
+        "n_groups": len(lowered.grouping.groups),
+        **_packed_sizes(lowered),
         "n_discrete": system.discrete.numel(),
         "n_held": len(reduced.text.held),
         "n_located": reduced.conditions.located,
@@ -163,7 +158,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "method": _METHODS[reduced.mechanism.model.experiment.method],
         "has_jacobian": int(lowered.jacobian is not None),
         "pattern": _pattern(lowered),
-        "general": int(system.general),
+        "general": int(not lowered.grouping.is_mass_matrix),
         "late_rates": int(system.late),
         "n_conditions": len(reduced.conditions.flags),
         "time_dependent": int(_depends_on_time(lowered)),
@@ -181,7 +176,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         for name in [
             "p_default",
             "u_default",
-            "contacts",
+            *_MECHANICAL,
             "checks",
             "carried",
             "statements",
@@ -211,6 +206,92 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         f"  .name = {_text(model.name)},\n  .key = {_text(key)},\n"
         f"{numbers}\n{callables}\n{pointers}\n}};\n"
     )
+
+
+def _mechanical_arrays(lowered: Lowered) -> list[str]:
+    """Contacts, elements and groups, and where rows, contacts and speeds stand in their groups."""
+    reduced, grouping, system = lowered.reduced, lowered.grouping, lowered.system
+    sliding = {e.contact: k for k, e in enumerate(grouping.elements) if not e.rolling}
+    joints = zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
+    contacts = [
+        (x.liaison.name, x.liaison.span, -1 if isinstance(x, Pin) else r.normal, int(x.reduced))
+        for x, r in joints
+    ]
+    contacts += [(e.name, e.span, -1, 1) for e in system.elements]
+    arrays = [
+        _array(
+            "frot_contact",
+            "contacts",
+            [
+                _record(_text(name), _text(_place(span)), row, kept, sliding.get(i, -1))
+                for i, (name, span, row, kept) in enumerate(contacts)
+            ],
+        ),
+        _array(
+            "frot_element",
+            "elements",
+            [
+                _record(
+                    *(e.contact, e.bound.value, e.row),
+                    _record(*(*e.bounded_by, -1, -1)[:2]),
+                    *(int(e.rolling), int(e.fixed), int(e.row in grouping.prescribed)),
+                )
+                for e in grouping.elements
+            ],
+        ),
+    ]
+    records: list[str] = []
+    at = [0] * len(_PACKED)
+    for k, g in enumerate(grouping.groups):
+        lists = (g.unknowns, g.rows, g.contacts, g.elements)
+        names = [f"group_{k}_{name}" for name in ("unknowns", "rows", "contacts", "elements")]
+        for name, items in zip(names, lists, strict=True):
+            arrays.append(_array("int", name, [str(i) for i in items]))
+        counts = (int(g.general), len(g.unknowns), g.n_speeds, g.n_auxiliary, *map(len, lists[1:]))
+        records.append(_record(*counts, *names, *at))
+        at = [a + size for a, size in zip(at, _group_sizes(g), strict=True)]
+    groups = grouping.groups
+    beside = {
+        e.row: e.bounded_by[0]
+        for e in grouping.elements
+        if e.bound is Bound.NORMAL and not e.rolling
+    }
+    tables = {
+        "row_reads": grouping.row_reads,
+        "row_beside": [beside.get(r, -1) for r in range(len(grouping.row_reads))],
+        "row_group": _places({r: k for k, g in enumerate(groups) for r in g.rows}),
+        "row_local": _places({r: i for g in groups for i, r in enumerate(g.rows)}),
+        "contact_group": _places({c: k for k, g in enumerate(groups) for c in g.contacts}),
+        "speed_group": _places(
+            {z: k for k, g in enumerate(groups) for z in g.unknowns[: g.n_speeds]}
+        ),
+        "speed_local": _places(
+            {z: i for g in groups for i, z in enumerate(g.unknowns[: g.n_speeds])}
+        ),
+        "speed_coordinate": [
+            system.q_speed.index(k) if k in system.q_speed else -1 for k in range(system.nv)
+        ],
+    }
+    arrays.append(_array("frot_group", "groups", records))
+    arrays += [_array("int", name, [str(i) for i in table]) for name, table in tables.items()]
+    return arrays
+
+
+def _places(values: dict[int, int]) -> list[int]:
+    return [values[k] for k in range(len(values))]
+
+
+def _group_sizes(g: Group) -> tuple[int, ...]:
+    """Items of a group in the arrays of `_PACKED`."""
+    n, rows = len(g.unknowns), len(g.rows)
+    return n, n * n, g.n_speeds**2, rows * n, rows**2
+
+
+def _packed_sizes(lowered: Lowered) -> dict[str, int]:
+    sizes = [_group_sizes(g) for g in lowered.grouping.groups]
+    return {
+        f"n_{name}": sum(s[k] for s in sizes) for k, name in enumerate(_PACKED) if name != "vector"
+    }
 
 
 def _pattern(lowered: Lowered) -> str:
@@ -288,10 +369,6 @@ def _text(value: str) -> str:
 
 def _place(span: Span | None) -> str:
     return span.place if span is not None else ""
-
-
-def _fixed(expression: Expression | None) -> bool:
-    return expression is None or is_fixed(expression)
 
 
 def _type(base: str) -> int:

@@ -11,6 +11,7 @@ from frot.compiler.assembled import Assembled, Block
 from frot.compiler.checks import Check, parameter_checks
 from frot.compiler.explicit import make_explicit
 from frot.compiler.expressions import Lowering
+from frot.compiler.groups import Grouping, make_groups
 from frot.compiler.initial_values import Statement, lower_initial
 from frot.compiler.jacobian import Jacobian, make_jacobian, why_explicit
 from frot.compiler.listing import Listed, list_variables
@@ -33,6 +34,7 @@ class Lowered:
 
     reduced: Reduced
     system: Assembled
+    grouping: Grouping
     functions: dict[str, ca.Function]
     blocks: tuple[ca.Function, ...]
     carried: tuple[Carried, ...]
@@ -77,7 +79,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     given, is_set = ca.SX.sym("given", s.p.numel()), ca.SX.sym("set", s.p.numel())
     state = state_arguments(system)
     solution = [*state, system.z, system.lam]
-    rows = system.rows.T
+    grouping = make_groups(system)
     no_rates = ca.SX.zeros(system.rates.shape)
     outputs: dict[str, tuple[list[ca.SX], list[ca.SX]]] = {
         "parameters": (
@@ -87,15 +89,15 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         "start": ([s.t, s.u, s.p], initial.start),
         "initial_position": (state, initial.position),
         "initial_velocity": (state, initial.velocity),
-        "kinematics": (state, [system.gap, rows, system.rate, conditions]),
+        "kinematics": (state, [system.gap, grouping.rows, system.rate, conditions]),
         "sides": (state, [_witnesses(system)]),
         "dynamics": (
             state,
             [
                 no_rates if system.late else system.rates,
-                system.matrix,
+                grouping.matrix,
                 system.force,
-                rows,
+                grouping.rows,
                 system.bias,
                 system.rate,
                 system.gap,
@@ -111,8 +113,8 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         "variables": ([*solution, s.energy], [values]),
         "energy": (state, [resolve(reduced.kinetic), resolve(reduced.potential)]),
     }
-    if system.general:
-        outputs["spread"] = (state, [system.spread, system.metric])
+    if not grouping.is_mass_matrix:
+        outputs["spread"] = (state, [grouping.spread, grouping.metric])
     carried = carried_bodies(system)
     if carried:
         outputs["places"] = (state, [column(body.value for body in carried)])
@@ -145,6 +147,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     return Lowered(
         reduced,
         system,
+        grouping,
         functions,
         tuple(_block(k, b, system) for k, b in enumerate(system.blocks)),
         carried,

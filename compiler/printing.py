@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from frot.compiler.groups import make_groups
 from frot.compiler.mechanize import mechanize
 from frot.dsl import Log, dump
 from frot.dsl.checked import Model
@@ -72,9 +73,9 @@ def _equations(lowered: Lowered) -> str:
             "c": system.bias,
             "rate": system.rate,
             "gap": system.gap,
-            "mu, mu_s, delta": system.coefficients,
+            "coefficients": system.coefficients,
         }
-        if system.general:
+        if not make_groups(system).is_mass_matrix:
             parts["in place of J'"] = system.spread
         lines += [f"    {name} = {value}" for name, value in parts.items()]
     for variable in reduced.mechanism.model.variables:

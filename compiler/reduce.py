@@ -39,8 +39,8 @@ class Reduced:
     the others may hold too. `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes
     of its terms, `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a +
     bias is the rows' acceleration), `rate` (n_rows), `gap` (n_contacts), `witness` (3
-    each: see contacts.py), `coefficients` (mu, mu_s, delta of each contact), `power` of the loads
-    without potential, `kinetic`, `potential`.
+    each: see contacts.py), `coefficients` (of motion and of rest, of each element), `power` of the
+    loads without potential, `kinetic`, `potential`.
     """
 
     mechanism: Mechanism
@@ -298,8 +298,9 @@ def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> _Loa
     for applied in mechanism.forces:
         result = load(applied, kinematics, moving, mechanism.model.ground)
         for action in result.actions:
-            push = ca.jacobian(action.velocity, speeds).T @ action.force
-            force, size = force + push, size + ca.fabs(push)
+            along = ca.jacobian(action.velocity, speeds).T
+            force += along @ action.force
+            size += ca.fabs(along) @ ca.fabs(action.force)
             if result.potential is None:
                 power += ca.dot(action.velocity, action.force)
         sizes.append(sum((ca.sum1(ca.fabs(a.force)) for a in result.actions), ca.SX(0)))
@@ -332,24 +333,27 @@ def _rates(contacts: tuple[Joint, ...], variables: Variables, kinematics: Kinema
 def _coefficients(
     contacts: tuple[Joint, ...], moving: Lowering, symbols: Symbols, log: Log
 ) -> ca.SX:
-    """mu, mu_s (times the radius of a pin), delta; a negative one is no number, so it is seen."""
+    """For each element its coefficient of motion and of rest, times the radius of a pin.
+
+    A negative one is no number, so that it is seen.
+    """
     values: list[ca.SX] = []
     for contact in contacts:
         radius = contact.radius if isinstance(contact, Pin) else None
         arm = ca.SX(1) if radius is None else moving.lower(radius)
-        for expression in (contact.mu, contact.mu_s, contact.delta):
-            if expression is None:
-                values.append(ca.SX(0))
-                continue
-            value = moving.lower(expression)
-            if _reads_solution(value, symbols) or _reads_speed(value, symbols):
-                log.report(
-                    "E0701",
-                    f"a coefficient of liaison '{contact.liaison.name}' that depends on the motion "
-                    "otherwise than by positions is not supported yet",
-                    expression.span,
-                )
-            values.append(ca.if_else(value >= 0, arm * value, ca.SX.nan()))
+        for pair in ((contact.mu, contact.mu_s), (contact.delta, contact.delta)):
+            for expression in pair:
+                if expression is None:
+                    continue
+                value = moving.lower(expression)
+                if _reads_solution(value, symbols) or _reads_speed(value, symbols):
+                    log.report(
+                        "E0701",
+                        f"a coefficient of liaison '{contact.liaison.name}' that depends on the "
+                        "motion otherwise than by positions is not supported yet",
+                        expression.span,
+                    )
+                values.append(ca.if_else(value >= 0, arm * value, ca.SX.nan()))
     return column(values)
 
 

@@ -228,7 +228,6 @@ def _finish(
         q_speed=core.q_speed,
         na=s.w.numel(),
         nc=core.nc,
-        general=core.general,
         late=late,
         rates=rates,
         matrix=core.matrix,

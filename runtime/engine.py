@@ -83,6 +83,7 @@ class Statistics(ct.Structure):
         ("events", ct.c_longlong),
         ("implicit_steps", ct.c_longlong),
         ("jacobians", ct.c_longlong),
+        ("unsearched", ct.c_longlong),
     )
 
 

@@ -151,9 +151,9 @@ int frot_fail_evaluation(const frot_model *m, frot_state *s, const frot_work *w,
                          double t) {
   int item = status == FROT_ALGEBRAIC ? w->block : -1;
   int other = status == FROT_NAN ? w->block : -1, contact = -1;
-  for (int i = 0; i < m->n_contacts && status == FROT_NAN && other < 0; i++) {
-    const double *k = w->coefficient + 3 * i;
-    if (isnan(k[0] + k[1] + k[2])) contact = i;
+  for (int e = 0; e < m->n_elements && status == FROT_NAN && other < 0; e++) {
+    const double *k = w->coefficient + 2 * e;
+    if (isnan(k[0] + k[1])) contact = m->elements[e].contact;
   }
   return frot_fail(s, status, t, contact, item, other, w->block_singular);
 }

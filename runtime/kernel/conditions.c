@@ -31,7 +31,7 @@ int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, doubl
 /* Whether a located condition that fires is still on the side on which it was. */
 static int is_short(const frot_model *m, const frot_state *s, const frot_work *w) {
   const double *d = s->data + w->layout.d;
-  const double *fired = s->data + w->layout.fired + FROT_GUARDS * m->n_contacts;
+  const double *fired = s->data + w->layout.fired + frot_condition_guard(m);
   for (int j = 0; j < m->n_located; j++)
     if (fired[j] != 0 && holds(m, w, j) == (d[j] != 0)) return 1;
   return 0;
@@ -59,7 +59,7 @@ int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double t, doubl
 static int is_known(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
   double value = w->condition[j], known = w->condition_known[j];
   if (j >= m->n_located) return value == known;
-  double size = s->data[w->layout.scale_g + FROT_GUARDS * m->n_contacts + j];
+  double size = s->data[w->layout.scale_g + frot_condition_guard(m) + j];
   double rounding = UNCHANGED * size + 4 * DBL_EPSILON * fmax(fabs(value), fabs(known));
   return fabs(value - known) <= rounding;
 }
@@ -119,7 +119,7 @@ void frot_find_due(const frot_model *m, frot_state *s, frot_work *w) {
 void frot_fire_due(const frot_model *m, frot_state *s) {
   frot_layout l = frot_layout_of(m);
   const double *due = s->data + l.due;
-  double *fired = s->data + l.fired + FROT_GUARDS * m->n_contacts + m->n_located;
+  double *fired = s->data + l.fired + frot_condition_guard(m) + m->n_located;
   for (int j = 0; j < m->n_timed; j++)
     if (due[j] <= s->due) fired[j] = 1;
   s->pending = 1;

@@ -1,3 +1,11 @@
+/* Evaluation of the generated functions, and the inertia: one factor of each group, then responses.
+ *
+ * In the place of an auxiliary acceleration, which is zero, stands the reaction it brings to light
+ * (T. Kane, D. Levinson, Dynamics: Theory and Applications, 1985, sect. 4.9). With the speeds v and
+ * the auxiliary unknowns x of a mass matrix
+ *   M_vv v' = h_v + J_v' lam,   reaction = M_xv v' - h_x - J_x' lam,
+ * so that with M_vv = L L', f = L^-1 h_v, H = L^-1 J_v', K = L^-1 M_vx nothing larger than M_vv is
+ * factored: the rows' free accelerations are H' f + c, the readings K' f - h_x. */
 #include "core.h"
 
 #include <math.h>
@@ -5,6 +13,7 @@
 
 #include "blocks.h"
 #include "linear.h"
+#include "tolerances.h"
 
 void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
                  const double *v, const double *d) {
@@ -14,78 +23,121 @@ void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double 
   w->arg[5] = d, w->arg[6] = w->y;
 }
 
-/* Rows of the closed contacts into w->row_of; returns their number. */
-static int active_rows(const frot_model *m, frot_work *w, const frot_contact_mode *modes) {
-  int n = 0;
+/* Note the rows to look at in w->wanted. */
+static void want_rows(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
+                      int wanted) {
+  unsigned char all = wanted != FROT_MOTION || m->general;
+  for (int r = 0; r < m->n_rows; r++) w->wanted[r] = all && frot_is_reading(m, r);
   for (int i = 0; i < m->n_contacts; i++) {
-    int rows[FROT_ROWS];
-    if (!modes[i].closed) continue;
-    frot_rows_of(&m->contacts[i], rows);
-    for (int k = 0; k < FROT_ROWS; k++)
-      if (rows[k] >= 0) w->row_of[n++] = rows[k];
+    int row = m->contacts[i].row_n;
+    if (row >= 0 && !m->contacts[i].reduced) w->wanted[row] = modes[i].closed != 0;
   }
-  return n;
+  for (int e = 0; e < m->n_elements; e++) {
+    const frot_element *element = &m->elements[e];
+    int acts = modes[element->contact].closed &&
+               (wanted == FROT_LAWS || frot_element_mode(m, modes, e)->friction != FROT_NONE);
+    w->wanted[element->row] = (unsigned char)acts;
+    for (int k = 0; acts && k < 2; k++)
+      if (element->bounded_by[k] >= 0) w->wanted[element->bounded_by[k]] = 1;
+  }
 }
 
-/* A is the mass matrix L L', E = J': W and the free accelerations from L^-1 J' and L^-1 h. */
-static int symmetric_core(const frot_model *m, frot_work *w, int n) {
-  int nw = m->nv + m->na, nr = m->n_rows;
-  memcpy(w->factor, w->mass, sizeof(double) * (size_t)(nw * nw));
-  if (frot_cholesky(w->factor, nw)) return FROT_SINGULAR;
-  memcpy(w->force, w->h, sizeof(double) * (size_t)nw);
-  frot_forward(w->factor, nw, nw, w->force);
-  for (int i = 0; i < n; i++) {
-    int r = w->row_of[i];
-    double *half = w->half_rows + nw * r;
-    memcpy(half, w->rows + nw * r, sizeof(double) * (size_t)nw);
-    frot_forward(w->factor, nw, nw, half);
-    w->free[r] = frot_dot(half, w->force, nw) + w->c[r];
-  }
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j <= i; j++) {
-      int r = w->row_of[i], c = w->row_of[j];
-      double value = frot_dot(w->half_rows + nw * r, w->half_rows + nw * c, nw);
-      w->delassus[r * nr + c] = w->delassus[c * nr + r] = value;
+/* A is a mass matrix. */
+static int symmetric_group(const frot_model *m, frot_work *w, const frot_group *g) {
+  int n = g->n, ns = g->n_speeds;
+  const double *mass = w->mass + g->matrix;
+  double *factor = w->factor + g->metric, *force = w->force + g->vector;
+  for (int k = 0; k < ns; k++)
+    memcpy(factor + k * ns, mass + k * n, sizeof(double) * (size_t)ns);
+  if (frot_cholesky(factor, ns)) return FROT_SINGULAR;
+  for (int k = 0; k < ns; k++) force[k] = w->h[g->unknowns[k]];
+  frot_forward(factor, ns, ns, force);
+  for (int i = 0; i < g->n_rows; i++) {
+    int r = g->rows[i];
+    if (!w->wanted[r]) continue;
+    double *half = w->half + g->entries + i * n;
+    if (frot_is_reading(m, r)) {
+      for (int k = 0; k < ns; k++) half[k] = mass[k * n + m->row_reads[r]];
+      frot_forward(factor, ns, ns, half);
+      w->free[r] = frot_dot(half, force, ns) - w->h[g->unknowns[m->row_reads[r]]];
+    } else {
+      memcpy(half, w->rows + g->entries + i * n, sizeof(double) * (size_t)ns);
+      frot_forward(factor, ns, ns, half);
+      w->free[r] = frot_dot(half, force, ns) + w->c[r];
     }
+  }
+  double *effects = w->delassus + g->square;
+  for (int i = 0; i < g->n_rows; i++) {
+    int r = g->rows[i], reads = m->row_reads[r];
+    if (!w->wanted[r]) continue;
+    const double *half = w->half + g->entries + i * n;
+    for (int j = 0; j < g->n_rows; j++) {
+      int by = g->rows[j];
+      if (!w->wanted[by] || frot_is_reading(m, by)) continue;
+      if (reads < 0 && j < i) {
+        effects[i * g->n_rows + j] = effects[j * g->n_rows + i];
+        continue;
+      }
+      double value = frot_dot(half, w->half + g->entries + j * n, ns);
+      if (reads >= 0) value -= w->rows[g->entries + j * n + reads];
+      effects[i * g->n_rows + j] = value;
+    }
+  }
   return FROT_OK;
 }
 
-/* A is any matrix: W = J Z and free = J z0 + c from Z = A^-1 E and z0 = A^-1 h. */
-static int general_core(const frot_model *m, frot_work *w, int n) {
-  frot_layout l = w->layout;
-  int nw = l.nw, nr = m->n_rows;
-  w->res[0] = w->effect, w->res[1] = w->metric;
-  m->spread.call(w->arg, w->res, w->iw, w->w, 0);
-  if (!frot_all_finite(w->effect, nw * nr) || !frot_all_finite(w->metric, l.nm * l.nm))
-    return FROT_NAN;
-  memcpy(w->lu, w->mass, sizeof(double) * (size_t)(nw * nw));
-  if (frot_lu(w->lu, nw, w->lu_pivot, w->lu_scale)) return FROT_SINGULAR;
-  double *z = w->free_motion, *rest = z + nw;
-  memcpy(z, w->h, sizeof(double) * (size_t)nw);
-  frot_lu_apply(w->lu, nw, w->lu_pivot, w->lu_scale, z);
-  memcpy(rest, w->h, sizeof(double) * (size_t)nw); /* one step of refinement */
-  for (int k = 0; k < nw; k++)
-    for (int i = 0; i < nw; i++) rest[i] -= w->mass[k * nw + i] * z[k];
-  frot_lu_apply(w->lu, nw, w->lu_pivot, w->lu_scale, rest);
-  for (int i = 0; i < nw; i++) z[i] += rest[i];
-  for (int i = 0; i < n; i++) {
-    int r = w->row_of[i];
-    double *response = w->response + nw * r;
-    memcpy(response, w->effect + nw * r, sizeof(double) * (size_t)nw);
-    frot_lu_apply(w->lu, nw, w->lu_pivot, w->lu_scale, response);
-    w->free[r] = frot_dot(w->rows + nw * r, z, nw) + w->c[r];
+/* Part of a row (n entries) in the motion z: the auxiliary unknowns, in whose places reactions
+ * stand, do not move. */
+static double motion_of(const frot_group *g, const double *row, const double *z) {
+  int after = g->n_speeds + g->n_auxiliary;
+  return frot_dot(row, z, g->n_speeds) + frot_dot(row + after, z + after, g->n - after);
+}
+
+/* A is any matrix. Its columns of auxiliary accelerations become those of the reactions there. */
+static int general_group(const frot_model *m, frot_work *w, const frot_group *g) {
+  int n = g->n;
+  double *matrix = w->mass + g->matrix, *lu = w->lu + g->matrix, *scale = w->lu_scale + 2 * g->vector;
+  int *pivot = w->lu_pivot + g->vector;
+  for (int i = 0; i < g->n_rows; i++) {
+    int reads = m->row_reads[g->rows[i]];
+    if (reads < 0) continue;
+    const double *effect = w->effect + g->entries + i * n;
+    for (int k = 0; k < n; k++) matrix[reads * n + k] = -effect[k];
   }
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) {
-      int r = w->row_of[i], c = w->row_of[j];
-      w->delassus[r * nr + c] = frot_dot(w->rows + nw * r, w->response + nw * c, nw);
+  memcpy(lu, matrix, sizeof(double) * (size_t)(n * n));
+  if (frot_lu(lu, n, pivot, scale)) return FROT_SINGULAR;
+  double *z = w->force + g->vector, *rest = w->rest;
+  for (int k = 0; k < n; k++) z[k] = rest[k] = w->h[g->unknowns[k]];
+  frot_lu_apply(lu, n, pivot, scale, z);
+  for (int k = 0; k < n; k++) /* one step of refinement */
+    for (int i = 0; i < n; i++) rest[i] -= matrix[k * n + i] * z[k];
+  frot_lu_apply(lu, n, pivot, scale, rest);
+  for (int k = 0; k < n; k++) z[k] += rest[k];
+  for (int i = 0; i < g->n_rows; i++) {
+    int r = g->rows[i], reads = m->row_reads[r];
+    if (!w->wanted[r]) continue;
+    w->free[r] = reads >= 0 ? z[reads] : motion_of(g, w->rows + g->entries + i * n, z) + w->c[r];
+    if (reads >= 0) continue;
+    double *response = w->half + g->entries + i * n;
+    memcpy(response, w->effect + g->entries + i * n, sizeof(double) * (size_t)n);
+    frot_lu_apply(lu, n, pivot, scale, response);
+  }
+  double *effects = w->delassus + g->square;
+  for (int i = 0; i < g->n_rows; i++) {
+    int r = g->rows[i], reads = m->row_reads[r];
+    if (!w->wanted[r]) continue;
+    for (int j = 0; j < g->n_rows; j++) {
+      if (!w->wanted[g->rows[j]] || frot_is_reading(m, g->rows[j])) continue;
+      const double *response = w->half + g->entries + j * n;
+      effects[i * g->n_rows + j] =
+          reads >= 0 ? response[reads] : motion_of(g, w->rows + g->entries + i * n, response);
     }
+  }
   return FROT_OK;
 }
 
 int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                  const double *v, const double *d, const frot_contact_mode *modes) {
-  int nw = m->nv + m->na + m->nc, nr = m->n_rows;
+                  const double *v, const double *d, const frot_contact_mode *modes, int wanted) {
   s->statistics.evaluations++;
   w->t = t;
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
@@ -95,14 +147,24 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
                    w->rate, w->gap,  w->condition, w->coefficient, w->power};
   memcpy(w->res, res, sizeof res);
   m->dynamics.call(w->arg, w->res, w->iw, w->w, 0);
-  if (!frot_all_finite(w->mass, nw * nw) || !frot_all_finite(w->h, nw) ||
-      !frot_all_finite(w->rows, nw * nr) || !frot_all_finite(w->c, nr) ||
-      !frot_all_finite(w->qd, m->nq) || !frot_all_finite(w->coefficient, 3 * m->n_contacts) ||
+  if (!frot_all_finite(w->mass, m->n_matrix) || !frot_all_finite(w->h, w->layout.nw) ||
+      !frot_all_finite(w->rows, m->n_entries) || !frot_all_finite(w->c, m->n_rows) ||
+      !frot_all_finite(w->qd, m->nq) || !frot_all_finite(w->coefficient, 2 * m->n_elements) ||
       !frot_all_finite(w->condition, m->n_located) || !frot_all_finite(w->gap, m->n_contacts) ||
       !frot_all_finite(w->power, 1))
     return FROT_NAN;
-  int n = active_rows(m, w, modes);
-  return m->general ? general_core(m, w, n) : symmetric_core(m, w, n);
+  if (m->general) {
+    w->res[0] = w->effect, w->res[1] = w->metric;
+    m->spread.call(w->arg, w->res, w->iw, w->w, 0);
+    if (!frot_all_finite(w->effect, m->n_entries) || !frot_all_finite(w->metric, m->n_metric))
+      return FROT_NAN;
+  }
+  want_rows(m, w, modes, wanted);
+  for (int k = 0; k < m->n_groups && status == FROT_OK; k++) {
+    const frot_group *g = &m->groups[k];
+    status = g->general ? general_group(m, w, g) : symmetric_group(m, w, g);
+  }
+  return status;
 }
 
 int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
@@ -117,115 +179,192 @@ int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, 
 }
 
 int frot_metric(const frot_model *m, frot_work *w) {
-  int nm = m->nv + m->na;
-  if (!m->general) return FROT_OK;
-  memcpy(w->factor, w->metric, sizeof(double) * (size_t)(nm * nm));
-  return frot_cholesky(w->factor, nm) ? FROT_SINGULAR : FROT_OK;
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    int ns = g->n_speeds;
+    if (!g->general) continue;
+    memcpy(w->factor + g->metric, w->metric + g->metric, sizeof(double) * (size_t)(ns * ns));
+    if (frot_cholesky(w->factor + g->metric, ns)) return FROT_SINGULAR;
+  }
+  return FROT_OK;
 }
 
 void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen) {
-  int nw = m->nv + m->na + m->nc;
-  const double *response = m->general ? w->response : w->half_rows;
-  memcpy(w->a, m->general ? w->free_motion : w->force, sizeof(double) * (size_t)nw);
-  for (int r = 0; r < m->n_rows; r++)
-    if (w->lam[r] != 0)
-      for (int k = 0; k < nw; k++) w->a[k] += w->lam[r] * response[nw * r + k];
-  if (!m->general) frot_backward(w->factor, nw, nw, w->a);
-  for (int k = 0; k < m->nv; k++)
-    if (frozen[k] != 0) w->a[k] = 0;
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    int n = g->n, ns = g->n_speeds, active = g->general ? n : ns;
+    double *z = w->rest;
+    memcpy(z, w->force + g->vector, sizeof(double) * (size_t)active);
+    for (int i = 0; i < g->n_rows; i++) {
+      double lam = w->lam[g->rows[i]];
+      if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
+      const double *response = w->half + g->entries + i * n;
+      for (int j = 0; j < active; j++) z[j] += lam * response[j];
+    }
+    if (!g->general) frot_backward(w->factor + g->metric, ns, ns, z);
+    for (int j = 0; j < n; j++) {
+      int at = g->unknowns[j], auxiliary = j >= ns && j < ns + g->n_auxiliary;
+      w->a[at] = auxiliary || (j < ns && frozen[at] != 0) ? 0 : z[j];
+    }
+  }
 }
 
 double frot_row_size(const frot_model *m, const frot_work *w, int row, const double *v) {
-  const double *entries = w->rows + (m->nv + m->na + m->nc) * row;
+  const frot_group *g = frot_group_of(m, row);
+  const double *entries = frot_entries(m, w->rows, row);
   double sum = 0;
-  for (int k = 0; k < m->nv; k++) sum += fabs(entries[k] * v[k]);
+  for (int k = 0; k < g->n_speeds; k++) sum += fabs(entries[k] * v[g->unknowns[k]]);
   return sum;
 }
 
 double frot_gap_size(const frot_model *m, const frot_work *w, int row, const double *q) {
-  const double *entries = w->rows + (m->nv + m->na + m->nc) * row;
+  const frot_group *g = frot_group_of(m, row);
+  const double *entries = frot_entries(m, w->rows, row);
   double sum = 0;
-  for (int k = 0; k < m->nq; k++)
-    if (m->q_speed[k] >= 0) sum += fabs(entries[m->q_speed[k]] * q[k]);
+  for (int k = 0; k < g->n_speeds; k++) {
+    int coordinate = m->speed_coordinate[g->unknowns[k]];
+    if (coordinate >= 0) sum += fabs(entries[k] * q[coordinate]);
+  }
   return sum;
 }
 
-double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v) {
-  int nv = m->nv, nm = nv + m->na;
-  const double *metric = m->general ? w->metric : w->mass;
-  double energy = 0, *half = w->step;
-  for (int i = 0; i < nv; i++)
-    for (int k = 0; k < nv; k++) energy += v[i] * metric[k * nm + i] * v[k];
-  memcpy(half, w->rows + (nm + m->nc) * row, sizeof(double) * (size_t)nv);
-  frot_forward(w->factor, nm, nv, half);
-  return sqrt(fmax(energy, 0) * frot_dot(half, half, nv));
+double frot_metric_entry(const frot_model *m, const frot_work *w, int a, int b) {
+  const frot_group *g = &m->groups[m->speed_group[a]];
+  if (m->speed_group[b] != m->speed_group[a]) return 0;
+  int i = m->speed_local[a], k = m->speed_local[b];
+  return g->general ? w->metric[g->metric + k * g->n_speeds + i] : w->mass[g->matrix + k * g->n + i];
 }
 
-/* |A^-1| load into `size`, column after column of the inverse. */
-static void spread_sizes(const frot_model *m, frot_work *w, const double *load, double *size) {
-  int nw = m->nv + m->na + m->nc;
-  double *column = w->free_motion + nw;
-  memset(size, 0, sizeof(double) * (size_t)nw);
-  for (int k = 0; k < nw; k++) {
-    memset(column, 0, sizeof(double) * (size_t)nw);
-    column[k] = load[k];
-    frot_lu_apply(w->lu, nw, w->lu_pivot, w->lu_scale, column);
-    for (int i = 0; i < nw; i++) size[i] += fabs(column[i]);
+/* Twice the kinetic energy of a group. */
+static double square_of_speeds(const frot_work *w, const frot_group *g, const double *v) {
+  int ns = g->n_speeds, order = g->general ? ns : g->n;
+  const double *metric = g->general ? w->metric + g->metric : w->mass + g->matrix;
+  double sum = 0;
+  for (int i = 0; i < ns; i++)
+    for (int k = 0; k < ns; k++)
+      sum += v[g->unknowns[i]] * metric[k * order + i] * v[g->unknowns[k]];
+  return sum > 0 ? sum : 0;
+}
+
+double frot_kinetic(const frot_model *m, const frot_work *w, const double *v) {
+  double sum = 0;
+  for (int k = 0; k < m->n_groups; k++) sum += square_of_speeds(w, &m->groups[k], v);
+  return 0.5 * sum;
+}
+
+double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v) {
+  const frot_group *g = frot_group_of(m, row);
+  int ns = g->n_speeds;
+  double *half = w->rest;
+  memcpy(half, frot_entries(m, w->rows, row), sizeof(double) * (size_t)ns);
+  frot_forward(w->factor + g->metric, ns, ns, half);
+  return sqrt(square_of_speeds(w, g, v) * frot_dot(half, half, ns));
+}
+
+double frot_least_length(const frot_model *m, frot_work *w, int row, double own) {
+  int normal = m->row_beside[row];
+  if (normal < 0) return FROT_DEPENDENT * own;
+  const frot_group *g = frot_group_of(m, normal);
+  int ns = g->n_speeds, at = m->row_reads[normal];
+  double *half = w->rest, beside;
+  if (at < 0) {
+    memcpy(half, frot_entries(m, w->rows, normal), sizeof(double) * (size_t)ns);
+    frot_forward(w->factor + g->metric, ns, ns, half);
+    beside = sqrt(frot_dot(half, half, ns));
+  } else if (!g->general) {
+    const double *mass = w->mass + g->matrix;
+    for (int k = 0; k < ns; k++) half[k] = mass[k * g->n + at];
+    frot_forward(w->factor + g->metric, ns, ns, half);
+    double inertia = mass[at * g->n + at] - frot_dot(half, half, ns);
+    beside = inertia > 0 ? 1 / sqrt(inertia) : 0;
+  } else {
+    beside = own;
+  }
+  return FROT_DEPENDENT * fmax(own, beside);
+}
+
+/* size <- |L^-1| load (n_speeds). */
+static void spread_in_factor(const frot_work *w, const frot_group *g, const double *load,
+                             double *size) {
+  const double *factor = w->factor + g->metric;
+  int ns = g->n_speeds;
+  for (int i = 0; i < ns; i++) {
+    double sum = load[g->unknowns[i]];
+    for (int k = 0; k < i; k++) sum += fabs(factor[k * ns + i]) * size[k];
+    size[i] = sum / factor[i * ns + i];
+  }
+}
+
+/* size <- |A^-1| load (n; of a mass matrix n_speeds), column after column of the inverse. */
+static void spread_in_inverse(frot_work *w, const frot_group *g, const double *load, double *size) {
+  int n = g->general ? g->n : g->n_speeds;
+  double *column = w->rest;
+  memset(size, 0, sizeof(double) * (size_t)n);
+  for (int k = 0; k < n; k++) {
+    memset(column, 0, sizeof(double) * (size_t)n);
+    column[k] = load[g->unknowns[k]];
+    if (column[k] == 0) continue;
+    if (g->general) {
+      frot_lu_apply(w->lu + g->matrix, n, w->lu_pivot + g->vector, w->lu_scale + 2 * g->vector,
+                    column);
+    } else {
+      frot_forward(w->factor + g->metric, n, n, column);
+      frot_backward(w->factor + g->metric, n, n, column);
+    }
+    for (int i = 0; i < n; i++) size[i] += fabs(column[i]);
+  }
+}
+
+static void find_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                       const double *v, const double *d) {
+  frot_inputs(m, s, w, &t, q, v, d);
+  w->res[0] = w->load, w->res[1] = w->values;
+  m->sizes.call(w->arg, w->res, w->iw, w->w, 0);
+}
+
+void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
+                             const double *q, const double *v, const double *d, double *size) {
+  memset(size, 0, sizeof(double) * (size_t)m->nv);
+  if (!m->sizes.call) return;
+  find_loads(m, s, w, t, q, v, d);
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    int ns = g->n_speeds, n = g->general ? g->n : ns;
+    double *sum = w->load_size, *response = w->rest;
+    spread_in_inverse(w, g, w->load, sum);
+    for (int i = 0; i < g->n_rows; i++) {
+      double lam = w->lam[g->rows[i]];
+      if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
+      memcpy(response, w->half + g->entries + i * g->n, sizeof(double) * (size_t)n);
+      if (!g->general) frot_backward(w->factor + g->metric, ns, ns, response);
+      for (int j = 0; j < ns; j++) sum[j] += fabs(lam * response[j]);
+    }
+    for (int j = 0; j < ns; j++) size[g->unknowns[j]] = sum[j];
   }
 }
 
 void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                    const double *v, const double *d, const frot_contact_mode *modes) {
-  frot_layout l = w->layout;
-  int nw = l.nw;
-  double *load = w->step;
-  const double *rows = m->general ? w->rows : w->half_rows;
+                    const double *v, const double *d) {
+  double *load = w->load, *size = w->load_size;
   if (!m->sizes.call) return;
-  memset(load, 0, sizeof(double) * (size_t)nw);
-  frot_inputs(m, s, w, &t, q, v, d);
-  w->res[0] = load, w->res[1] = w->values;
-  m->sizes.call(w->arg, w->res, w->iw, w->w, 0);
-  if (m->general) {
-    double *size = w->unit;
-    spread_sizes(m, w, load, size);
-    memcpy(load, size, sizeof(double) * (size_t)nw);
-    for (int k = 0; k < m->nv; k++) s->data[l.push_v + k] = fmax(s->data[l.push_v + k], load[k]);
-  } else {
-    for (int i = 0; i < nw; i++) { /* |L^-1| load */
-      for (int k = 0; k < i; k++) load[i] += fabs(w->factor[k * nw + i]) * load[k];
-      load[i] /= w->factor[i * nw + i];
+  find_loads(m, s, w, t, q, v, d);
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    int n = g->n, count = g->general ? n : g->n_speeds;
+    if (g->n_rows == 0) continue;
+    if (g->general)
+      spread_in_inverse(w, g, load, size);
+    else
+      spread_in_factor(w, g, load, size);
+    for (int i = 0; i < g->n_rows; i++) {
+      int r = g->rows[i], reads = m->row_reads[r];
+      if (!w->wanted[r]) continue;
+      const double *row = (g->general ? w->rows : w->half) + g->entries + i * n;
+      double sum = reads < 0 ? fabs(w->c[r]) : g->general ? size[reads] : load[g->unknowns[reads]];
+      for (int j = 0; j < count && !(g->general && reads >= 0); j++) sum += fabs(row[j]) * size[j];
+      w->row_load[r] = sum;
     }
-    s->push = fmax(s->push, sqrt(frot_dot(load, load, nw)));
   }
-  int n = active_rows(m, w, modes);
-  for (int i = 0; i < n; i++) {
-    int r = w->row_of[i];
-    double sum = fabs(w->c[r]);
-    for (int k = 0; k < nw; k++) sum += fabs(rows[nw * r + k]) * load[k];
-    w->row_load[r] = sum;
-  }
-}
-
-void frot_note_push(const frot_model *m, frot_state *s, const frot_work *w) {
-  frot_layout l = w->layout;
-  if (!m->general) {
-    s->push = fmax(s->push, sqrt(frot_dot(w->force, w->force, l.nw)));
-    return;
-  }
-  for (int k = 0; k < m->nv; k++)
-    s->data[l.push_v + k] = fmax(s->data[l.push_v + k], fabs(w->free_motion[k]));
-}
-
-double frot_push_on(const frot_model *m, const frot_state *s, const frot_work *w, int speed) {
-  if (m->general) return s->data[w->layout.push_v + speed];
-  return s->push / w->factor[speed * (m->nv + m->na + 1)];
-}
-
-int frot_is_prescribed(const frot_model *m, const frot_work *w, int row) {
-  int nw = m->nv + m->na + m->nc;
-  for (int k = 0; k < nw; k++)
-    if (w->rows[nw * row + k] != 0) return 0;
-  return 1;
 }
 
 int frot_energies(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,

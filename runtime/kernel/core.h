@@ -1,7 +1,8 @@
-/* The core system A z = h + E lam and its rows, at one place of the motion. */
+/* The core system A z = h + E lam and its rows, at one place of the motion, group after group. */
 #ifndef FROT_CORE_H
 #define FROT_CORE_H
 
+#include "groups.h"
 #include "state.h"
 
 /* Kinetic and potential energy at (t, q, v, d); zero where the model has none. */
@@ -12,19 +13,30 @@ int frot_energies(const frot_model *m, frot_state *s, frot_work *w, double t, co
 void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
                  const double *v, const double *d);
 
-/* Solve the blocks, evaluate the generated `dynamics` at (t, q, v, d), factor A and form the
- * responses W = J A^-1 E and the free accelerations J A^-1 h + c of the rows of the contacts that
- * are closed in `modes`. FROT_OK or a status that is not recorded as a fault. */
+/* Which rows frot_dynamics looks at. */
+enum frot_wanted {
+  FROT_MOTION, /* those that act in the modes, and the readings that bound them */
+  FROT_READING, /* the same and all readings */
+  FROT_LAWS     /* every row of a closed contact, and all readings */
+};
+
+/* Solve the blocks, evaluate the generated `dynamics` at (t, q, v, d), factor A and form for the
+ * rows wanted of the contacts that are closed in `modes`: w->free, the acceleration (of a reading:
+ * the reaction) without reactions of other rows, and w->delassus, what these do to it. FROT_OK or a
+ * status that is not recorded as a fault. */
 int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                  const double *v, const double *d, const frot_contact_mode *modes);
+                  const double *v, const double *d, const frot_contact_mode *modes, int wanted);
 
 /* Solve the blocks and evaluate `kinematics` alone: gap, rows, rate, condition. */
 int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d);
 
-/* Cholesky factor of the metric of speeds into w->factor (order nm), after frot_dynamics; it is
- * there already where the core is symmetric. FROT_OK or FROT_SINGULAR. */
+/* Cholesky factors of the metrics of speeds into w->factor, after frot_dynamics; they are there
+ * already where a group is a mass matrix. FROT_OK or FROT_SINGULAR. */
 int frot_metric(const frot_model *m, frot_work *w);
+
+/* Entry of the metric for two speeds, after frot_dynamics. */
+double frot_metric_entry(const frot_model *m, const frot_work *w, int a, int b);
 
 /* The solution w->a of the core from w->lam; accelerations of frozen speeds are exactly zero. */
 void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen);
@@ -34,24 +46,27 @@ void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen)
 double frot_row_size(const frot_model *m, const frot_work *w, int row, const double *v);
 double frot_gap_size(const frot_model *m, const frot_work *w, int row, const double *q);
 
-/* Speed of a row if all motion went into it: for the comparison of a speed with zero. Uses w->rows
- * and the metric of the last frot_dynamics, factored. */
+/* Speed of a row if all motion of its group went into it: for the comparison of a speed with zero.
+ * Uses w->rows and the metric of the last frot_dynamics, factored. */
 double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v);
 
-/* What all loads could do to the rows of closed contacts (w->row_load), after frot_dynamics at the
- * same place: accelerations that their sum is compared with, for it may cancel. */
+/* Length of the row L^-1 J' (whose own length is `own`) outside the rows before it below which it
+ * depends on them. A slip is measured beside the motion along its normal: in a dead centre nothing
+ * moves it, and its row is rounding. Uses the mass and the metric of the last frot_dynamics. */
+double frot_least_length(const frot_model *m, frot_work *w, int row, double own);
+
+/* What all loads could do to the rows that frot_dynamics has looked at, into w->row_load: sizes that
+ * their sum is compared with, for it may cancel. After frot_dynamics at the same place. */
 void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                    const double *v, const double *d, const frot_contact_mode *modes);
+                    const double *v, const double *d);
 
-/* Note how large loads have been, after frot_dynamics. */
-void frot_note_push(const frot_model *m, frot_state *s, const frot_work *w);
-/* Acceleration of a speed that is large against rounding by all loads so far. */
-double frot_push_on(const frot_model *m, const frot_state *s, const frot_work *w, int speed);
+/* Sizes of the terms of each acceleration (nv): |A^-1| of all loads, and of all reactions w->lam.
+ * After frot_solution at the same place. */
+void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
+                             const double *q, const double *v, const double *d, double *size);
 
-/* Whether the relative speed of a row follows from no speed: both sides are prescribed. */
-int frot_is_prescribed(const frot_model *m, const frot_work *w, int row);
-/* Prescribed rates and their rates below this are rest (SI): there is nothing to compare with. */
-#define FROT_PRESCRIBED_REST 1e-12
+/* Half the square of the speeds in the metric, after frot_dynamics. */
+double frot_kinetic(const frot_model *m, const frot_work *w, const double *v);
 
 /* Whether all numbers are finite. */
 static inline int frot_all_finite(const double *x, int n) {

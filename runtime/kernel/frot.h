@@ -90,24 +90,46 @@ typedef struct {
  * two components (a pin), or a value of the text (a brake, a clutch). */
 enum frot_bound { FROT_BY_NORMAL = 0, FROT_BY_PIN = 1, FROT_BY_VALUE = 2 };
 
-/* A friction element: a point or rim on a line, a pin, or an element of the text's equations, with
- * the rows of its relative velocity.
- * FROT_BY_NORMAL: coefficients mu, mu_s bound the row row_t by mu |lam[row_n]|, delta row_r.
- * FROT_BY_PIN: row_n and row_n2 are the components of the reaction (never open, `reduced`); mu is
- * the coefficient times the radius and bounds row_t by mu sqrt(lam[row_n]^2 + lam[row_n2]^2).
- * FROT_BY_VALUE: row_n = -1; mu and mu_s are the bounds of row_t themselves. Never open. */
+/* Rows are scalar relations between the unknowns z of the core. A row of a relation, or of the
+ * motion that an element bounds, has the acceleration J z + c and a reaction lam that acts along its
+ * column of E. A reading is a row without a motion: its lam is the reaction of a liaison that
+ * coordinates keep (row_reads). */
+
+/* A liaison or an element of the text, as the user names it. */
 typedef struct {
   const char *name;  /* the liaison, or the element */
   const char *place; /* file:line:column */
-  int bound;         /* frot_bound */
-  int row_n;         /* row of the normal, -1 for FROT_BY_VALUE */
-  int row_n2;        /* second row of a pin's reaction, else -1 */
-  int row_t;         /* row of the slip, -1 without dry friction */
-  int row_r;         /* row of the rolling rate, -1 without rolling resistance */
-  int reduced;       /* 1: the relation is built into the coordinates (no gap, no drift) */
-  int fixed_mu;      /* 1: mu and mu_s depend on parameters only */
-  int fixed_delta;
+  int row_n;         /* row of the normal, -1 where it has none: it is never open */
+  int reduced;       /* 1: the relation is built into the coordinates: row_n is a reading */
+  int sliding;       /* the element that its variable `mode` tells of, or -1 */
 } frot_contact;
+
+/* A law of friction on one relative motion: sliding, rolling, turning in a pin, slip of a clutch.
+ * FROT_BY_NORMAL: the coefficients times |lam[bounded_by[0]]| bound lam[row]. FROT_BY_PIN: times
+ * sqrt(lam[bounded_by[0]]^2 + lam[bounded_by[1]]^2), both readings. FROT_BY_VALUE: the coefficients
+ * are the bounds themselves. */
+typedef struct {
+  int contact;       /* the liaison or item of the text it belongs to */
+  int bound;         /* frot_bound */
+  int row;           /* row of the relative motion */
+  int bounded_by[2]; /* rows of the reaction that bounds, else -1 */
+  int rolling;       /* 1: told as rolling, not as slip */
+  int fixed;         /* 1: its coefficients depend on parameters only */
+  int prescribed;    /* 1: its motion depends on no speed: both sides are prescribed */
+} frot_element;
+
+/* Unknowns of the core and rows that act on each other, in no posture on others: they share no
+ * matrix. The unknowns are places in z: speeds first, then auxiliary ones, then algebraic ones.
+ * `general`: the matrix is any matrix and `spread` gives E; else it is a mass matrix and E = J'.
+ * Its parts of packed arrays begin at: vector (n items), matrix (n x n, by columns), metric
+ * (n_speeds x n_speeds), entries (n_rows x n), square (n_rows x n_rows). */
+typedef struct {
+  int general;
+  int n, n_speeds, n_auxiliary;
+  int n_rows, n_contacts, n_elements;
+  const int *unknowns, *rows, *contacts, *elements;
+  int vector, matrix, metric, entries, square;
+} frot_group;
 
 enum frot_rule {
   FROT_POSITIVE = 0,
@@ -193,22 +215,24 @@ enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 
  *   then the discrete variables), y (ny: unknowns of the blocks)
  *
  * The states are q and v. The speeds v are those whose rates are unknowns of the core system
- *   A z = h + E lam,   z (nw) = v' (nv), auxiliary accelerations (na, zero in the motion: they
- * bring reactions to light), algebraic unknowns of the core (nc), where the rows accelerate by J z
- * + c. The rates q' are explicit; q_speed[k] is the speed that is the rate of q[k], or -1 where
- * q[k] is another state. In a model without equations in its core
- * (`general` = 0) A is the mass matrix, symmetric positive definite, nc = 0 and E = J'.
- * Matrices are dense, by columns. Every argument is given and every result taken: none is NULL. */
+ *   A z = h + E lam,   z (nw) = v' (nv), auxiliary accelerations (na, zero in the motion: in their
+ * place stand the reactions of the liaisons that coordinates keep), algebraic unknowns of the core
+ * (nc), where the rows accelerate by J z + c. The rates q' are explicit; q_speed[k] is the speed
+ * that is the rate of q[k], or -1 where q[k] is another state. Matrices are dense within their
+ * groups, packed one group after the other, by columns; every row of J and every column of E has
+ * one entry for each unknown of its group. Every argument is given and every result taken. */
 typedef struct {
   const char *name;
   const char *key; /* identity of the compiled model; kept in saved states */
-  int nq, nv, na, nc, nu, np, ny, n_rows, n_contacts, n_conditions, n_discrete;
+  int nq, nv, na, nc, nu, np, ny, n_rows, n_contacts, n_elements, n_conditions, n_discrete;
   int n_blocks, n_invariants, n_whens, n_outcomes, n_carried;
   /* the first n_located conditions change by the motion; the n_timed after them are linear in time
    * and depend on nothing else that moves; the rest change at events only */
   int n_located, n_timed;
   int n_held;     /* the last n_held discrete values are what others were before: see `update` */
-  int general;    /* A is any matrix and `spread` gives E and the metric */
+  int n_groups;
+  int n_matrix, n_metric, n_entries, n_square; /* items of the packed arrays of all groups */
+  int general;    /* a group is general */
   int late_rates; /* q' or the power depend on y of late blocks, z or lam: `rates` gives them */
   int time_dependent; /* forces, coefficients or located conditions depend on time */
   int method;         /* frot_method of the text */
@@ -227,7 +251,7 @@ typedef struct {
   frot_callable initial_position;
   /* initial_velocity -> the same in v: (nv x n_velocity), (ny x n_velocity) */
   frot_callable initial_velocity;
-  /* kinematics -> gap (n_contacts), rows J' (nw x n_rows), rate (n_rows), conditions
+  /* kinematics -> gap (n_contacts), rows J (n_entries), rate (n_rows), conditions
    * (n_conditions) */
   frot_callable kinematics;
   /* sides -> what chooses the side of each contact at the start (3 x n_contacts): height of its
@@ -236,12 +260,12 @@ typedef struct {
   frot_callable sides;
   /* places -> FROT_PLACE values of each carried body. Called where n_carried > 0. */
   frot_callable places;
-  /* dynamics -> q' (nq), A (nw x nw), h (nw), J' (nw x n_rows), c (n_rows), rate (n_rows), gap
-   *   (n_contacts), conditions (n_located), coefficients mu mu_s delta (3 x n_contacts), power
-   * of the forces that have no potential (1) */
+  /* dynamics -> q' (nq), A (n_matrix), h (nw), J (n_entries), c (n_rows), rate (n_rows), gap
+   *   (n_contacts), conditions (n_located), coefficients of motion and of rest (2 x n_elements),
+   *   power of the forces that have no potential (1) */
   frot_callable dynamics;
-  /* spread -> E (nw x n_rows), metric ((nv + na) x (nv + na), symmetric positive definite: what
-   *   `least change` of speeds means). Called where `general`. */
+  /* spread -> E (n_entries), metric (n_metric: symmetric positive definite, what `least change` of
+   *   speeds means). Called where `general`. */
   frot_callable spread;
   /* rates(..., y, z (nw), lam (n_rows)) -> q' (nq), power (1). Called where `late_rates`. */
   frot_callable rates;
@@ -278,6 +302,13 @@ typedef struct {
   const double *p_default; /* np */
   const double *u_default; /* nu */
   const frot_contact *contacts;
+  const frot_element *elements;
+  const frot_group *groups;
+  const int *row_reads; /* n_rows: the auxiliary unknown whose place a reading takes, else -1 */
+  const int *row_beside; /* n_rows: the row of the normal where this is the slip on it, else -1 */
+  /* n_rows, nv: the group of a row, of a speed, and its number among the rows, the unknowns there */
+  const int *row_group, *row_local, *contact_group, *speed_group, *speed_local;
+  const int *speed_coordinate; /* nv: the coordinate whose rate is this speed, or -1 */
   const frot_check *checks;
   const frot_carried *carried;
   const frot_statement *statements; /* those of the invariants are the last */
@@ -321,6 +352,7 @@ typedef struct {
 typedef struct {
   long long steps, rejected, evaluations, events;
   long long implicit_steps, jacobians; /* steps of the implicit method among `steps` */
+  long long unsearched; /* instants at which other motions were not looked for: too many modes */
 } frot_statistics;
 
 /* The model compiled together with the kernel. */

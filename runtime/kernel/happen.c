@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "blocks.h"
+#include "groups.h"
 #include "conditions.h"
 #include "mechanics.h"
 #include "record.h"
@@ -57,16 +58,16 @@ static int release_contacts(const instant *in) {
     if (!frot_has_normal(contact) || contact->reduced || unilateral[i] == 0) continue;
     if (!modes[i].closed) {
       if (w->gap[i] < -TOUCH * frot_gap_size(m, w, row, in->q))
-        in->s->data[in->l.fired + FROT_GUARDS * i] = 1;
+        in->s->data[in->l.fired + i] = 1;
       continue;
     }
     double usual = frot_row_size(m, w, row, in->v) + frot_row_size(m, w, row, scale);
     if (w->rate[row] < -TOUCH * usual)
       return frot_fail(in->s, FROT_IMPACT, in->t, i, -1, -1, w->rate[row]);
     if (!(w->rate[row] > TOUCH * usual)) continue;
-    frot_note(in->recorder, in->s, in->t, FROT_EVENT_SEPARATION, i, frot_mode_value(&modes[i]),
+    frot_note(in->recorder, in->s, in->t, FROT_EVENT_SEPARATION, i, frot_mode_value(m, modes, i),
               FROT_MODE_OPEN, 1);
-    modes[i] = (frot_contact_mode){0, 1, FROT_NONE, FROT_NONE, {0}};
+    frot_open(m, modes, i);
   }
   return FROT_OK;
 }
@@ -122,7 +123,8 @@ static int find_values(const instant *in, double *q, double *v) {
   memcpy(w->discrete_before, discrete, sizeof(double) * (size_t)m->n_discrete);
   for (int pass = 0; pass < CROWD; pass++) {
     int status =
-        frot_solution(m, s, w, in->t, in->q, in->v, d, modes_of(in), s->data + in->l.frozen, 1);
+        frot_solution(m, s, w, in->t, in->q, in->v, d, modes_of(in), s->data + in->l.frozen,
+                      s->data + in->l.along, 1);
     if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, in->t);
     frot_inputs(m, s, w, &in->t, in->q, in->v, d);
     w->arg[7] = w->a, w->arg[8] = w->lam, w->arg[9] = w->firing, w->arg[10] = w->discrete_before;
@@ -223,7 +225,7 @@ static int end_run(const instant *in) {
 static int change_conditions(const instant *in, int first) {
   const frot_model *m = in->m;
   frot_state *s = in->s;
-  double *d = s->data + in->l.d, *fired = s->data + in->l.fired + FROT_GUARDS * m->n_contacts;
+  double *d = s->data + in->l.d, *fired = s->data + in->l.fired + frot_condition_guard(m);
   if (m->n_conditions == 0) return FROT_OK;
   int status = frot_note_conditions(m, s, in->w, in->t, in->q, in->v);
   if (status != FROT_OK) return status;

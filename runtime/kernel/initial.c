@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "linear.h"
-#include "mechanics.h"
 #include "blocks.h"
+#include "core.h"
+#include "linear.h"
 
 #define PASSES 60
 #define LEAST_DAMPING 1e-9
@@ -66,7 +66,7 @@ static int through_blocks(const problem *p, int n) {
 static int evaluate(problem *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
-  int nx = unknown_count(p), nw = frot_layout_of(m).nw;
+  int nx = unknown_count(p);
   int n = p->velocity ? m->n_velocity : m->n_position;
   const frot_callable *call = p->velocity ? &m->initial_velocity : &m->initial_position;
   p->n = 0;
@@ -83,12 +83,15 @@ static int evaluate(problem *p) {
   for (int i = 0; i < m->n_contacts; i++) {
     if (!p->use[i]) continue;
     int row = m->contacts[i].row_n;
-    const double *entries = w->rows + nw * row;
+    const frot_group *group = frot_group_of(m, row);
+    const double *entries = frot_entries(m, w->rows, row);
     double *equation = w->jacobian + nx * n;
     w->residual[n] = p->velocity ? w->rate[row] : w->gap[i];
-    if (p->velocity) memcpy(equation, entries, sizeof(double) * (size_t)nx);
-    for (int k = 0; !p->velocity && k < nx; k++)
-      equation[k] = m->q_speed[k] >= 0 ? entries[m->q_speed[k]] : 0;
+    memset(equation, 0, sizeof(double) * (size_t)nx);
+    for (int k = 0; k < group->n_speeds; k++) {
+      int speed = group->unknowns[k], at = p->velocity ? speed : m->speed_coordinate[speed];
+      if (at >= 0) equation[at] = entries[k];
+    }
     w->size[n] = fabs(w->residual[n]);
     n++;
   }
@@ -97,32 +100,32 @@ static int evaluate(problem *p) {
   return finite ? FROT_OK : FROT_NAN;
 }
 
+static int speed_of(const problem *p, int k) { return p->velocity ? k : p->m->q_speed[k]; }
+
+static int is_attached(const problem *p, int k) { return speed_of(p, k) >= 0; }
+
 /* The metric at the present values: that of the speeds for the unknowns that have one (their number
  * in p->attached, its factor in p->factor), for the others the size of their guess. */
 static int find_metric(problem *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
-  int nm = m->nv + m->na, count = 0;
+  int count = 0;
   const frot_contact_mode *modes = (const void *)(p->s->data + frot_layout_of(m).modes);
-  int status = frot_dynamics(m, p->s, w, p->t, p->q, p->v, p->d, modes);
+  int status = frot_dynamics(m, p->s, w, p->t, p->q, p->v, p->d, modes, FROT_MOTION);
   if (status == FROT_OK) status = frot_metric(m, w);
   if (status != FROT_OK) return status;
-  p->factor = w->factor, p->order = nm, p->attached = m->nv;
-  if (p->velocity) return FROT_OK;
-  const double *metric = m->general ? w->metric : w->mass;
-  for (int k = 0; k < m->nq; k++) count += m->q_speed[k] >= 0;
-  for (int a = 0, i = 0; a < m->nq; a++) {
-    if (m->q_speed[a] < 0) continue;
-    for (int b = 0, j = 0; b < m->nq; b++)
-      if (m->q_speed[b] >= 0)
-        w->position_factor[count * j++ + i] = metric[nm * m->q_speed[b] + m->q_speed[a]];
+  for (int k = 0; k < unknown_count(p); k++) count += is_attached(p, k);
+  for (int a = 0, i = 0; a < unknown_count(p); a++) {
+    if (!is_attached(p, a)) continue;
+    for (int b = 0, j = 0; b < unknown_count(p); b++)
+      if (is_attached(p, b))
+        w->position_factor[count * j++ + i] =
+            frot_metric_entry(m, w, speed_of(p, a), speed_of(p, b));
     i++;
   }
   p->factor = w->position_factor, p->order = p->attached = count;
   return frot_cholesky(w->position_factor, count) ? FROT_SINGULAR : FROT_OK;
 }
-
-static int is_attached(const problem *p, int k) { return p->velocity || p->m->q_speed[k] >= 0; }
 
 /* y <- L^-1 x: a row in the units of the metric; the attached unknowns come first. */
 static void into_metric(const problem *p, const double *x, double *y) {

@@ -48,7 +48,7 @@ static int add(const frot_model *m, frot_work *w, int *n, double residual, doubl
 static int list_equations(const frot_model *m, frot_state *s, frot_work *w, double t,
                           const double *q, const double *v, const double *d,
                           const frot_contact_mode *modes, const unsigned char *stuck, int *n) {
-  int nx = m->nq + m->nv, nw = m->nv + m->na + m->nc, off = 0;
+  int nx = m->nq + m->nv, off = 0;
   double *g = w->right, *size = w->size;
   *n = 0;
   frot_inputs(m, s, w, &t, q, v, d);
@@ -64,15 +64,21 @@ static int list_equations(const frot_model *m, frot_state *s, frot_work *w, doub
     if (!modes[i].closed || contact->reduced || contact->row_n < 0) continue;
     double *row = w->jacobian + nx * *n;
     memset(row, 0, sizeof(double) * (size_t)nx);
-    for (int k = 0; k < m->nq; k++)
-      if (m->q_speed[k] >= 0) row[k] = w->rows[nw * contact->row_n + m->q_speed[k]];
+    const frot_group *group = frot_group_of(m, contact->row_n);
+    const double *entries = frot_entries(m, w->rows, contact->row_n);
+    for (int k = 0; k < group->n_speeds; k++) {
+      int coordinate = m->speed_coordinate[group->unknowns[k]];
+      if (coordinate >= 0) row[coordinate] = entries[k];
+    }
     off |= add(m, w, n, w->gap[i], frot_gap_size(m, w, contact->row_n, q));
   }
   int held = frot_holding_rows(m, w, modes, stuck, 0);
   for (int i = 0; i < held; i++) {
     double *row = w->jacobian + nx * *n;
     memset(row, 0, sizeof(double) * (size_t)nx);
-    memcpy(row + m->nq, w->rows + nw * w->row_of[i], sizeof(double) * (size_t)m->nv);
+    const frot_group *group = frot_group_of(m, w->row_of[i]);
+    const double *entries = frot_entries(m, w->rows, w->row_of[i]);
+    for (int k = 0; k < group->n_speeds; k++) row[m->nq + group->unknowns[k]] = entries[k];
     off |= add(m, w, n, w->rate[w->row_of[i]], frot_row_size(m, w, w->row_of[i], v));
   }
   return off;

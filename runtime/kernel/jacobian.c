@@ -37,7 +37,7 @@ frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *
   j.scale = take(base, &used, 2 * n);
   j.scratch = take(base, &used, 2 * n);
   j.error = take(base, &used, n);
-  j.misfit = take(base, &used, FROT_GUARDS * m->n_contacts + m->n_located);
+  j.misfit = take(base, &used, m->n_contacts + 2 * m->n_elements + m->n_located);
   j.slope_y = take(base, &used, n * ny);
   j.block_q = take(base, &used, ny * n);
   j.block_t = take(base, &used, ny);

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "tolerances.h"
+
 #define AT(a, ld, i, j) ((a)[(size_t)(j) * (size_t)(ld) + (size_t)(i)])
 
 double frot_dot(const double *a, const double *b, int n) {
@@ -44,6 +46,17 @@ void frot_backward(const double *l, int n, int m, double *x) {
   }
 }
 
+double frot_reject(double *x, const double *basis, int columns, int n, double *parts) {
+  for (int c = 0; c < columns; c++) parts[c] = 0;
+  for (int pass = 0; pass < 2; pass++)
+    for (int c = 0; c < columns; c++) {
+      double part = frot_dot(x, basis + n * c, n);
+      for (int k = 0; k < n; k++) x[k] -= part * basis[n * c + k];
+      parts[c] += part;
+    }
+  return sqrt(frot_dot(x, x, n));
+}
+
 int frot_lu_solve(double *a, double *b, int n) {
   double largest = 0;
   for (int i = 0; i < n * n; i++) largest = fmax(largest, fabs(a[i]));
@@ -51,7 +64,7 @@ int frot_lu_solve(double *a, double *b, int n) {
     int pivot = k;
     for (int i = k + 1; i < n; i++)
       if (fabs(AT(a, n, i, k)) > fabs(AT(a, n, pivot, k))) pivot = i;
-    if (!(fabs(AT(a, n, pivot, k)) > 1e-13 * largest)) return 1;
+    if (!(fabs(AT(a, n, pivot, k)) > FROT_SINGULAR_PIVOT * largest)) return 1;
     if (pivot != k) {
       for (int j = k; j < n; j++) {
         double t = AT(a, n, k, j);

@@ -1,70 +1,97 @@
 #include "projection.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "linear.h"
 #include "core.h"
 #include "invariants.h"
+#include "linear.h"
+#include "tolerances.h"
+
+#define PASSES 3 /* of Newton's method: it starts next to the solution */
 
 #define HELD 1e-13 /* part of a unit speed outside the span of the rows that hold it */
+
+static int is_kept(const frot_model *m, const frot_contact_mode *modes, int contact) {
+  const frot_contact *c = &m->contacts[contact];
+  return modes[contact].closed && c->row_n >= 0 && !c->reduced;
+}
+
+static int is_stuck(const frot_model *m, const frot_contact_mode *modes, const unsigned char *stuck,
+                    int element) {
+  if (!modes[m->elements[element].contact].closed) return 0;
+  return frot_element_mode(m, modes, element)->friction == FROT_STICK || (stuck && stuck[element]);
+}
+
+/* Rows of a group that hold into `rows`; returns their number. */
+static int rows_of_group(const frot_model *m, const frot_group *g, const frot_contact_mode *modes,
+                         const unsigned char *stuck, int normals_only, int *rows) {
+  int n = 0;
+  for (int i = 0; i < g->n_contacts; i++)
+    if (is_kept(m, modes, g->contacts[i])) rows[n++] = m->contacts[g->contacts[i]].row_n;
+  for (int i = 0; i < g->n_elements && !normals_only; i++)
+    if (is_stuck(m, modes, stuck, g->elements[i])) rows[n++] = m->elements[g->elements[i]].row;
+  return n;
+}
 
 int frot_holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                       const unsigned char *stuck, int normals_only) {
   int n = 0;
-  for (int i = 0; i < m->n_contacts; i++) {
-    if (!modes[i].closed) continue;
-    const frot_contact *contact = &m->contacts[i];
-    if (!contact->reduced && contact->row_n >= 0) w->row_of[n++] = contact->row_n;
-    if (normals_only) continue;
-    if (modes[i].friction == FROT_STICK || (stuck && (stuck[i] & 1)))
-      w->row_of[n++] = contact->row_t;
-    if (modes[i].rolling == FROT_STICK || (stuck && (stuck[i] & 2)))
-      w->row_of[n++] = contact->row_r;
-  }
+  for (int k = 0; k < m->n_groups; k++)
+    n += rows_of_group(m, &m->groups[k], modes, stuck, normals_only, w->row_of + n);
   return n;
 }
 
-/* w->step <- M^-1 J' (J M^-1 J')^+ error, over the n rows of w->row_of. */
-static void correction(const frot_model *m, frot_work *w, int n, const double *error) {
-  int nv = m->nv, nm = nv + m->na, nw = nm + m->nc;
+/* w->step (n_speeds) <- the least change of the group's speeds, in the metric, that takes `error` from
+ * the n rows of w->row_of: with the rows H = L^-1 J' made orthonormal, H = Q R, it is L'^-1 Q R'^-1
+ * error. A row that depends on those before it is left to them. */
+static void correction(const frot_model *m, frot_work *w, const frot_group *g, int n,
+                       const double *error) {
+  int ns = g->n_speeds, rank = 0;
+  const double *factor = w->factor + g->metric;
+  double *step = w->step;
+  memset(step, 0, sizeof(double) * (size_t)ns);
   for (int i = 0; i < n; i++) {
-    double *half = w->jacobian + nv * i;
-    memcpy(half, w->rows + nw * w->row_of[i], sizeof(double) * (size_t)nv);
-    frot_forward(w->factor, nm, nv, half);
+    double *x = w->basis + ns * rank, *parts = w->parts;
+    memcpy(x, frot_entries(m, w->rows, w->row_of[i]), sizeof(double) * (size_t)ns);
+    frot_forward(factor, ns, ns, x);
+    double length = sqrt(frot_dot(x, x, ns)), part = error[i];
+    double rest = frot_reject(x, w->basis, rank, ns, parts);
+    if (!(rest > frot_least_length(m, w, w->row_of[i], length))) continue;
+    for (int k = 0; k < rank; k++) part -= parts[k] * w->bias[k];
+    for (int k = 0; k < ns; k++) x[k] /= rest;
+    w->bias[rank] = part / rest;
+    for (int k = 0; k < ns; k++) step[k] += w->bias[rank] * x[k];
+    rank++;
   }
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++)
-      w->active[j * n + i] = frot_dot(w->jacobian + nv * i, w->jacobian + nv * j, nv);
-  double *b = w->right, *lam = w->step + nw;
-  memcpy(b, error, sizeof(double) * (size_t)n);
-  frot_least_norm(w->active, b, n, n, lam, w->lstsq, w->pivot);
-  memset(w->step, 0, sizeof(double) * (size_t)nv);
-  for (int i = 0; i < n; i++)
-    for (int k = 0; k < nv; k++) w->step[k] += w->jacobian[nv * i + k] * lam[i];
-  frot_backward(w->factor, nm, nv, w->step);
+  frot_backward(factor, ns, ns, step);
 }
 
 /* Coordinates onto the gaps that are closed. */
 static int project_positions(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                              const double *v, const double *d, const frot_contact_mode *modes,
                              int *moved) {
-  for (int pass = 0; pass < 3; pass++) {
-    int status = frot_kinematics(m, s, w, t, q, v, d);
+  for (int pass = 0; pass < PASSES; pass++) {
+    int status = frot_kinematics(m, s, w, t, q, v, d), any = 0;
     if (status != FROT_OK) return status;
-    int n = frot_holding_rows(m, w, modes, NULL, 1), off = 0, k = 0;
-    for (int i = 0; i < m->n_contacts; i++) {
-      const frot_contact *contact = &m->contacts[i];
-      if (!modes[i].closed || contact->reduced || contact->row_n < 0) continue;
-      w->residual[k++] = w->gap[i];
-      if (fabs(w->gap[i]) > 4 * DBL_EPSILON * frot_gap_size(m, w, contact->row_n, q)) off = 1;
+    for (int k = 0; k < m->n_groups; k++) {
+      const frot_group *g = &m->groups[k];
+      int n = rows_of_group(m, g, modes, NULL, 1, w->row_of), off = 0, at = 0;
+      for (int i = 0; i < g->n_contacts; i++) {
+        int c = g->contacts[i];
+        if (!is_kept(m, modes, c)) continue;
+        w->residual[at++] = w->gap[c];
+        off |= fabs(w->gap[c]) > FROT_ROUNDING * frot_gap_size(m, w, m->contacts[c].row_n, q);
+      }
+      if (!off) continue;
+      correction(m, w, g, n, w->residual);
+      for (int i = 0; i < g->n_speeds; i++) {
+        int coordinate = m->speed_coordinate[g->unknowns[i]];
+        if (coordinate >= 0) q[coordinate] -= w->step[i];
+      }
+      any = *moved = 1;
     }
-    if (!off || n == 0) break;
-    correction(m, w, n, w->residual);
-    for (int i = 0; i < m->nq; i++)
-      if (m->q_speed[i] >= 0) q[i] -= w->step[m->q_speed[i]];
-    *moved = 1;
+    if (!any) break;
   }
   return FROT_OK;
 }
@@ -72,19 +99,23 @@ static int project_positions(const frot_model *m, frot_state *s, frot_work *w, d
 static int project_speeds(const frot_model *m, frot_state *s, frot_work *w, double t,
                           const double *q, double *v, const double *d,
                           const frot_contact_mode *modes, const unsigned char *stuck, int *moved) {
-  for (int pass = 0; pass < 3; pass++) {
-    int status = frot_kinematics(m, s, w, t, q, v, d);
+  for (int pass = 0; pass < PASSES; pass++) {
+    int status = frot_kinematics(m, s, w, t, q, v, d), any = 0;
     if (status != FROT_OK) return status;
-    int n = frot_holding_rows(m, w, modes, stuck, 0), off = 0;
-    for (int i = 0; i < n; i++) {
-      int row = w->row_of[i];
-      w->residual[i] = w->rate[row];
-      if (fabs(w->rate[row]) > 2 * DBL_EPSILON * frot_row_size(m, w, row, v)) off = 1;
+    for (int k = 0; k < m->n_groups; k++) {
+      const frot_group *g = &m->groups[k];
+      int n = rows_of_group(m, g, modes, stuck, 0, w->row_of), off = 0;
+      for (int i = 0; i < n; i++) {
+        int row = w->row_of[i];
+        w->residual[i] = w->rate[row];
+        off |= fabs(w->rate[row]) > 0.5 * FROT_ROUNDING * frot_row_size(m, w, row, v);
+      }
+      if (!off) continue;
+      correction(m, w, g, n, w->residual);
+      for (int i = 0; i < g->n_speeds; i++) v[g->unknowns[i]] -= w->step[i];
+      any = *moved = 1;
     }
-    if (!off) break;
-    correction(m, w, n, w->residual);
-    for (int k = 0; k < m->nv; k++) v[k] -= w->step[k];
-    *moved = 1;
+    if (!any) break;
   }
   return FROT_OK;
 }
@@ -98,37 +129,24 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     return frot_project_jointly(m, s, w, t, q, v, d, modes, stuck, s->data + l.scale_x,
                                 s->data + l.frozen, moved);
   }
-  if (frot_holding_rows(m, w, modes, stuck, 0) == 0) return FROT_OK;
+  if (m->n_rows == 0 || frot_holding_rows(m, w, modes, stuck, 0) == 0) return FROT_OK;
   int status = frot_metric(m, w);
   if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, moved);
   if (status == FROT_OK) status = project_speeds(m, s, w, t, q, v, d, modes, stuck, moved);
   return status;
 }
 
-/* Takes from x (n) its part in the span of the orthonormal columns and scales the rest to length 1.
- * Returns that rest's length over the length x had. */
-static double normalized_outside(double *x, const double *basis, int columns, int n) {
-  double before = sqrt(frot_dot(x, x, n));
-  for (int pass = 0; pass < 2; pass++)
-    for (int c = 0; c < columns; c++) {
-      double f = frot_dot(x, basis + n * c, n);
-      for (int k = 0; k < n; k++) x[k] -= f * basis[n * c + k];
-    }
-  double after = sqrt(frot_dot(x, x, n));
-  for (int k = 0; k < n && after > 0; k++) x[k] /= after;
-  return before > 0 ? after / before : 0;
-}
-
-/* Marks the speeds that the rows which depend on frozen coordinates alone hold: the unit vector of
- * such a speed lies in their span. Columns are taken in units of their largest entry, so that units
- * do not matter: masses say nothing of what holds. */
-static int frozen_by_rows(const frot_model *m, frot_work *w, int n, const double *known,
-                          double *frozen) {
-  int nv = m->nv, nw = nv + m->na + m->nc, count = 0, columns = 0;
-  double *basis = w->jacobian, *unit = w->residual, *scale = w->right;
-  for (int k = 0; k < nv; k++) {
+/* Marks the speeds of a group that the rows which depend on frozen coordinates alone hold: the unit
+ * vector of such a speed lies in their span. Columns are taken in units of their largest entry, so
+ * that units do not matter: masses say nothing of what holds. */
+static int frozen_by_rows(const frot_model *m, frot_work *w, const frot_group *g, int n,
+                          const double *known, double *frozen) {
+  int ns = g->n_speeds, count = 0, columns = 0;
+  double *unit = w->rest, *scale = w->column;
+  for (int k = 0; k < ns; k++) {
     scale[k] = 0;
-    for (int i = 0; i < n; i++) scale[k] = fmax(scale[k], fabs(w->rows[nw * w->row_of[i] + k]));
+    for (int i = 0; i < n; i++)
+      scale[k] = fmax(scale[k], fabs(frot_entries(m, w->rows, w->row_of[i])[k]));
   }
   for (int i = 0; i < n; i++) {
     int row = w->row_of[i], usable = !m->row_depends[row * (m->nq + 1) + m->nq];
@@ -136,27 +154,36 @@ static int frozen_by_rows(const frot_model *m, frot_work *w, int n, const double
       if (m->row_depends[row * (m->nq + 1) + k] && (m->q_speed[k] < 0 || known[m->q_speed[k]] == 0))
         usable = 0;
     if (!usable) continue;
-    double *x = basis + nv * columns;
-    for (int k = 0; k < nv; k++) x[k] = scale[k] > 0 ? w->rows[nw * row + k] / scale[k] : 0;
-    if (normalized_outside(x, basis, columns, nv) > 1e-10) columns++;
+    double *x = w->basis + ns * columns;
+    const double *entries = frot_entries(m, w->rows, row);
+    for (int k = 0; k < ns; k++) x[k] = scale[k] > 0 ? entries[k] / scale[k] : 0;
+    double length = sqrt(frot_dot(x, x, ns)), rest = frot_reject(x, w->basis, columns, ns, w->parts);
+    if (!(rest > 0.1 * FROT_DEPENDENT * length)) continue;
+    for (int k = 0; k < ns; k++) x[k] /= rest;
+    columns++;
   }
-  for (int k = 0; k < nv; k++) {
-    for (int i = 0; i < nv; i++) unit[i] = i == k;
-    frozen[k] = known[k] != 0 && normalized_outside(unit, basis, columns, nv) < HELD;
-    count += frozen[k] != 0;
+  for (int k = 0; k < ns; k++) {
+    int speed = g->unknowns[k];
+    for (int i = 0; i < ns; i++) unit[i] = i == k;
+    frozen[speed] = known[speed] != 0 && frot_reject(unit, w->basis, columns, ns, w->parts) < HELD;
+    count += frozen[speed] != 0;
   }
   return count;
 }
 
 void frot_find_frozen(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                       double *frozen) {
-  int n = frot_holding_rows(m, w, modes, NULL, 0);
-  double *known = w->step;
-  for (int k = 0; k < m->nv; k++) known[k] = 1;
-  for (int count = m->nv + 1;;) {
-    int now = frozen_by_rows(m, w, n, known, frozen);
-    if (now == count || now == 0) return;
-    count = now;
-    memcpy(known, frozen, sizeof(double) * (size_t)m->nv);
+  double *known = w->load;
+  for (int k = 0; k < m->nv; k++) frozen[k] = 0;
+  for (int i = 0; i < m->n_groups; i++) {
+    const frot_group *g = &m->groups[i];
+    int n = rows_of_group(m, g, modes, NULL, 0, w->row_of), count = g->n_speeds + 1;
+    for (int k = 0; k < m->nv; k++) known[k] = m->speed_group[k] == i;
+    while (n > 0) {
+      int now = frozen_by_rows(m, w, g, n, known, frozen);
+      if (now == count || now == 0) break;
+      count = now;
+      for (int k = 0; k < g->n_speeds; k++) known[g->unknowns[k]] = frozen[g->unknowns[k]];
+    }
   }
 }

@@ -6,8 +6,8 @@
 
 /* Move coordinates and speeds onto the relations that hold in `modes` and onto the invariants, by
  * the least change: in the metric of the speeds or, where there are invariants, in units of each
- * state's size. `stuck` (n_contacts, may be NULL): contacts whose slip (bit 0) or rolling (bit 1)
- * is to be zero whatever their mode. *moved: whether anything moved. FROT_OK or a status that is
+ * state's size. `stuck` (n_elements, may be NULL): elements whose motion is to be zero whatever their
+ * mode. *moved: whether anything moved. FROT_OK or a status that is
  * not recorded as a fault. */
 int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  const double *d, const frot_contact_mode *modes, const unsigned char *stuck,

@@ -1,272 +1,450 @@
-/* Reactions of the active rows.
+/* Reactions of the active rows of a group.
  *
- * The unknowns are the normal reactions, both components of a pin's reaction, and what holds the
- * motions at rest. What slips follows them: w->ratio is the reaction of the slip (first of two per
- * contact) and of rolling over the reaction that bounds it, or the reaction itself where a value
- * bounds it. The size of a pin's reaction is not linear: it is replaced by its part along the
- * direction w->along of the last pass, which is Newton's method. */
+ * Held rows do not accelerate: J z + c = 0. What slips follows the reaction that bounds it, lam_t =
+ * ratio * bounding. Where that is the reaction of a held row, its column takes the friction along;
+ * where it is a reading, which depends on all reactions, the friction is an unknown with an equation
+ * of its own. The size of a pin's reaction is not linear: it is replaced by its part along the
+ * direction w->along of the last pass, which is Newton's method.
+ *
+ * Of a mass matrix the held rows H = L^-1 J' are made orthonormal, in their order, H = Q R, and the
+ * conditions taken as Q' u + R'^-1 c = 0 with u = f + sum of H lam: the condition of the system is
+ * that of H, not of its Gram matrix. What depends on the rows before it is left out, if it agrees
+ * with them. */
 #include "reactions.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "core.h"
 #include "linear.h"
+#include "tolerances.h"
 
-#define FRICTION_WEIGHT 1e-5
-#define AGREES 1e-9 /* of their terms: accelerations of dependent rows that do not contradict */
-#define PIN_PASSES 60
-#define PIN_CLOSE 1e-9 /* of the reaction: the next pass, twice as exact, is the last */
+/* The unknown reactions are w->unknown[0 .. unknowns): first those of held rows, then friction that
+ * follows readings. Friction that follows a held normal goes with its column: w->fold, two places
+ * for each unknown, the rows, w->fold_ratio, the ratios. */
+typedef struct {
+  const frot_model *m;
+  frot_work *w;
+  const frot_group *g;
+  const frot_contact_mode *modes;
+  int held, unknowns, equations;
+} problem;
 
-/* What an unknown is: the reaction that bounds (a pin's two components), or one that holds. */
-enum { NORMAL, SECOND, HELD };
-
-double frot_bound_of_rest(const frot_model *m, const frot_work *w, int i,
-                          const frot_contact_mode *mode, int rolling) {
-  const frot_contact *contact = &m->contacts[i];
-  const double *k = w->coefficient + 3 * i; /* mu, mu_s, delta */
-  double coefficient = rolling ? k[2] : k[1];
-  if (contact->bound == FROT_BY_VALUE) return coefficient;
-  if (contact->bound == FROT_BY_PIN)
-    return coefficient * hypot(w->lam[contact->row_n], w->lam[contact->row_n2]);
-  return coefficient * mode->side * w->lam[contact->row_n];
+double frot_bounding(const frot_model *m, const frot_work *w, int element,
+                     const frot_contact_mode *modes) {
+  const frot_element *e = &m->elements[element];
+  if (e->bound == FROT_BY_VALUE) return 1;
+  if (e->bound == FROT_BY_PIN) return hypot(w->lam[e->bounded_by[0]], w->lam[e->bounded_by[1]]);
+  return modes[e->contact].side * w->lam[e->bounded_by[0]];
 }
 
-double frot_free_size(const frot_model *m, const frot_work *w, int row) {
-  int nw = m->nv + m->na + m->nc;
-  double sum = fabs(w->c[row]);
-  if (!m->general)
-    return sum + sqrt(frot_dot(w->force, w->force, nw)) * sqrt(w->delassus[row * (m->n_rows + 1)]);
-  for (int k = 0; k < nw; k++) sum += fabs(w->rows[nw * row + k] * w->free_motion[k]);
+double frot_bound_of_rest(const frot_model *m, const frot_work *w, int element,
+                          const frot_contact_mode *modes) {
+  return w->coefficient[2 * element + 1] * frot_bounding(m, w, element, modes);
+}
+
+double frot_acceleration(const frot_model *m, const frot_work *w, int row, double *size) {
+  const frot_group *g = frot_group_of(m, row);
+  const double *effects = frot_effect_on(m, w, row);
+  double sum = w->free[row];
+  *size = 0;
+  for (int k = 0; k < g->n_rows; k++) {
+    double lam = w->lam[g->rows[k]];
+    if (lam == 0 || frot_is_reading(m, g->rows[k])) continue;
+    sum += effects[k] * lam, *size += fabs(effects[k] * lam);
+  }
   return sum;
 }
 
-/* Direction of friction on the body: against the slip, times the side of the reaction. */
-static double opposed(const frot_contact_mode *mode, int friction) {
-  if (friction == FROT_SLIP_FORWARD) return -mode->side;
-  if (friction == FROT_SLIP_BACKWARD) return mode->side;
+double frot_free_size(const frot_model *m, const frot_work *w, int row) {
+  const frot_group *g = frot_group_of(m, row);
+  double sum = fabs(w->c[row]);
+  const double *force = w->force + g->vector;
+  const double *entries = frot_entries(m, g->general ? w->rows : w->half, row);
+  int count = g->general ? g->n : g->n_speeds;
+  for (int k = 0; k < count; k++) sum += fabs(entries[k] * force[k]);
+  return sum;
+}
+
+int frot_is_held(const frot_model *m, const frot_contact_mode *modes, int element) {
+  const frot_element *e = &m->elements[element];
+  const frot_contact_mode *mode = frot_element_mode(m, modes, element);
+  return modes[e->contact].closed && !modes[e->contact].unloaded && mode->friction == FROT_STICK &&
+         mode->at_bound == 0 && !e->prescribed;
+}
+
+int frot_is_loaded(const frot_model *m, const frot_contact_mode *modes, int contact) {
+  const frot_contact *c = &m->contacts[contact];
+  return c->row_n >= 0 && !c->reduced && modes[contact].closed && !modes[contact].unloaded;
+}
+
+/* Friction of an element over what bounds it, with its sign. */
+static double ratio_of(const problem *p, int e, const unsigned char *at_rest) {
+  const frot_contact_mode *contact = &p->modes[p->m->elements[e].contact];
+  const frot_contact_mode *mode = frot_element_mode(p->m, p->modes, e);
+  const double *k = p->w->coefficient + 2 * e;
+  if (!contact->closed || contact->unloaded) return 0;
+  if (mode->friction == FROT_STICK) return mode->at_bound * contact->side * k[1];
+  double size = at_rest && at_rest[e] ? k[1] : k[0];
+  if (mode->friction == FROT_SLIP_FORWARD) return -contact->side * size;
+  if (mode->friction == FROT_SLIP_BACKWARD) return contact->side * size;
   return 0;
 }
 
-static void set_ratios(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                       const unsigned char *at_rest) {
-  for (int i = 0; i < m->n_contacts; i++) {
-    const double *k = w->coefficient + 3 * i;
-    double *ratio = w->ratio + 2 * i, *clamp = w->clamp + 2 * i;
-    ratio[0] = opposed(&modes[i], modes[i].friction) * (at_rest && at_rest[i] ? k[1] : k[0]);
-    ratio[1] = opposed(&modes[i], modes[i].rolling) * k[2];
-    if (clamp[0] != 0) ratio[0] = clamp[0] * k[1];
-    if (clamp[1] != 0) ratio[1] = clamp[1] * k[2];
-  }
-}
-
-/* Whether the motion of row `row` is held: 1, and 2 where its reaction is at its bound all the
- * same and so follows. */
-static int holds(const frot_work *w, const frot_contact_mode *modes, int i, int rolling) {
-  int mode = rolling ? modes[i].rolling : modes[i].friction;
-  if (mode != FROT_STICK) return 0;
-  return w->clamp[2 * i + rolling] != 0 ? 2 : 1;
-}
-
-/* Unknowns into w->row_of, w->contact_of and `kind`, then the rows whose reaction is known though
- * they are held; returns the number of unknowns and in *rows that of all of them. */
-static int list_unknowns(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                         unsigned char *kind, int clamped, int *rows) {
+static void list_unknowns(problem *p, const unsigned char *at_rest) {
+  const frot_model *m = p->m;
+  const frot_group *g = p->g;
+  frot_work *w = p->w;
   int n = 0;
-  for (int pass = 1; pass <= 1 + clamped; pass++) {
-    for (int i = 0; i < m->n_contacts; i++) {
-      const frot_contact *contact = &m->contacts[i];
-      if (!modes[i].closed) continue;
-      int at[FROT_ROWS];
-      frot_rows_of(contact, at);
-      for (int k = 0; k < FROT_ROWS; k++) {
-        int wanted = k < 2 ? pass == 1 : holds(w, modes, i, k == 3) == pass;
-        if (at[k] < 0 || !wanted) continue;
-        if (k >= 2 && frot_is_prescribed(m, w, at[k])) continue; /* no reaction changes it */
-        kind[n] = (unsigned char)(k == 0 ? NORMAL : k == 1 ? SECOND : HELD);
-        w->contact_of[n] = i;
-        w->row_of[n++] = at[k];
+  /* what always holds stands first, friction depends on it */
+  for (int i = 0; i < g->n_contacts; i++)
+    if (frot_is_loaded(m, p->modes, g->contacts[i])) w->unknown[n++] = m->contacts[g->contacts[i]].row_n;
+  for (int k = 0; k < n; k++) w->friction[k] = 0;
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i];
+    w->ratio[e] = 0;
+    if (!frot_is_held(m, p->modes, e)) continue;
+    w->friction[n] = (unsigned char)(1 + (m->elements[e].bound == FROT_BY_VALUE));
+    w->owner[n] = e;
+    w->unknown[n++] = m->elements[e].row;
+  }
+  p->held = n;
+  for (int k = 0; k < 2 * n; k++) w->fold[k] = -1;
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i];
+    const frot_element *element = &m->elements[e];
+    double ratio = ratio_of(p, e, at_rest);
+    w->ratio[e] = ratio;
+    if (ratio == 0 || element->bound == FROT_BY_VALUE) continue;
+    if (element->bound == FROT_BY_NORMAL && !frot_is_reading(m, element->bounded_by[0])) {
+      for (int k = 0; k < p->held; k++) {
+        if (w->unknown[k] != element->bounded_by[0]) continue;
+        int at = 2 * k + (w->fold[2 * k] >= 0);
+        w->fold[at] = element->row, w->fold_ratio[at] = ratio;
       }
+      continue;
     }
-    if (pass == 1) *rows = n;
+    w->friction[n] = 0, w->owner[n] = e;
+    w->fold[2 * n] = w->fold[2 * n + 1] = -1;
+    w->unknown[n++] = element->row;
   }
-  int unknowns = *rows;
-  *rows = n;
-  return unknowns;
+  p->unknowns = n;
 }
 
-/* Part of the ratio by which the slip follows this unknown. */
-static double share(const frot_model *m, const frot_work *w, int i, int kind) {
-  if (m->contacts[i].bound != FROT_BY_PIN) return 1;
-  return w->along[2 * i + (kind == SECOND)];
+/* What the reaction of unknown c, with the friction that goes with it, does to a row. */
+static double effect_of(const problem *p, int row, int c) {
+  const frot_work *w = p->w;
+  const double *effects = frot_effect_on(p->m, w, row);
+  double value = effects[p->m->row_local[w->unknown[c]]];
+  for (int k = 2 * c; k < 2 * c + 2; k++)
+    if (w->fold[k] >= 0) value += w->fold_ratio[k] * effects[p->m->row_local[w->fold[k]]];
+  return value;
 }
 
-/* The system of the active rows (rows x unknowns) into w->active and w->right. */
-static void assemble(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                     const unsigned char *kind, int unknowns, int rows) {
-  int nr = m->n_rows;
-  for (int c = 0; c < unknowns; c++) {
-    int i = w->contact_of[c];
-    const frot_contact *contact = &m->contacts[i];
-    double friction = w->ratio[2 * i] * share(m, w, i, kind[c]);
-    double rolling = kind[c] == NORMAL ? w->ratio[2 * i + 1] : 0;
-    for (int r = 0; r < rows; r++) {
-      const double *responses = w->delassus + w->row_of[r] * nr;
-      double value = responses[w->row_of[c]];
-      if (kind[c] != HELD && friction != 0) value += friction * responses[contact->row_t];
-      if (kind[c] != HELD && rolling != 0) value += rolling * responses[contact->row_r];
-      w->active[c * rows + r] = value;
+/* A row's value without the unknowns: with the friction that values bound. */
+static double known_part(const problem *p, int row) {
+  const frot_model *m = p->m;
+  double sum = p->w->free[row];
+  for (int i = 0; i < p->g->n_elements; i++) {
+    int e = p->g->elements[i];
+    if (m->elements[e].bound == FROT_BY_VALUE && p->w->ratio[e] != 0)
+      sum += p->w->ratio[e] * frot_effect(m, p->w, row, m->elements[e].row);
+  }
+  return sum;
+}
+
+/* x (n_speeds) <- what the unknown c does to u, or with c < 0 what is known of u. */
+static void column_of(const problem *p, int c, double *x) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  const frot_group *g = p->g;
+  int ns = g->n_speeds;
+  if (c >= 0) {
+    memcpy(x, frot_entries(m, w->half, w->unknown[c]), sizeof(double) * (size_t)ns);
+    for (int k = 2 * c; k < 2 * c + 2; k++) {
+      if (w->fold[k] < 0) continue;
+      const double *half = frot_entries(m, w->half, w->fold[k]);
+      for (int j = 0; j < ns; j++) x[j] += w->fold_ratio[k] * half[j];
     }
+    return;
   }
-  for (int r = 0; r < rows; r++) {
-    w->right[r] = -w->free[w->row_of[r]];
-    for (int i = 0; i < m->n_contacts; i++)
-      if (modes[i].closed && m->contacts[i].bound == FROT_BY_VALUE && w->ratio[2 * i] != 0)
-        w->right[r] -= w->ratio[2 * i] * w->delassus[w->row_of[r] * nr + m->contacts[i].row_t];
-  }
-}
-
-/* Weights of the unknowns into w->weight: friction weighs so much more than normal reactions that
- * rest is not lost for want of it. Elements side by side that values bound share a load in
- * proportion to their bounds, so that they reach them together: sum of lam^2 g / bound is least,
- * where g, the size of the row, makes a gear between them count. */
-static void set_weights(const frot_model *m, frot_work *w, const unsigned char *kind,
-                        int unknowns) {
-  double largest = 0;
-  for (int c = 0; c < unknowns; c++) {
-    int i = w->contact_of[c], row = w->row_of[c];
-    double *weight = w->weight + c;
-    *weight = 1;
-    if (kind[c] != HELD || m->contacts[i].bound != FROT_BY_VALUE) continue;
-    double size = sqrt(fabs(w->delassus[row * (m->n_rows + 1)]));
-    *weight = size > 0 ? sqrt(w->coefficient[3 * i + 1] / size) : 1;
-    largest = fmax(largest, *weight);
-  }
-  for (int c = 0; c < unknowns; c++) {
-    if (kind[c] != HELD) continue;
-    if (m->contacts[w->contact_of[c]].bound == FROT_BY_VALUE && largest > 0)
-      w->weight[c] /= largest;
-    w->weight[c] *= FRICTION_WEIGHT;
+  memcpy(x, w->force + g->vector, sizeof(double) * (size_t)ns);
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i];
+    if (m->elements[e].bound != FROT_BY_VALUE || w->ratio[e] == 0) continue;
+    const double *half = frot_entries(m, w->half, m->elements[e].row);
+    for (int j = 0; j < ns; j++) x[j] += w->ratio[e] * half[j];
   }
 }
 
-/* Least reactions where the rows depend on each other (hyperstatic), if they do not contradict. */
-static int solve_least(const frot_model *m, frot_work *w, const unsigned char *kind, int unknowns,
-                       int rows, double *x) {
-  double *copy = w->lstsq, *b = copy + rows * unknowns, *scratch = b + rows;
-  set_weights(m, w, kind, unknowns);
-  for (int c = 0; c < unknowns; c++)
-    for (int r = 0; r < rows; r++) copy[c * rows + r] = w->weight[c] * w->active[c * rows + r];
-  memcpy(b, w->right, sizeof(double) * (size_t)rows);
-  frot_least_norm(copy, b, rows, unknowns, x, scratch, w->pivot);
-  for (int c = 0; c < unknowns; c++) x[c] *= w->weight[c];
-  for (int r = 0; r < rows; r++) {
-    double sum = -w->right[r], size = frot_free_size(m, w, w->row_of[r]) + fabs(w->right[r]);
-    for (int c = 0; c < unknowns; c++) {
-      sum += w->active[c * rows + r] * x[c];
-      size += fabs(w->active[c * rows + r] * x[c]);
+/* The held rows of a mass matrix, orthonormal, into w->basis with their biases in w->bias; p->equations
+ * is their number. Returns 1 when a row that depends on others contradicts them. */
+static int orthonormalize(problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int ns = p->g->n_speeds, rank = 0;
+  for (int k = 0; k < p->held; k++) {
+    int row = w->unknown[k];
+    double *x = w->basis + ns * rank, *parts = w->parts;
+    memcpy(x, frot_entries(m, w->half, row), sizeof(double) * (size_t)ns);
+    double length = sqrt(frot_dot(x, x, ns)), bias = w->c[row], size = fabs(bias);
+    double rest = frot_reject(x, w->basis, rank, ns, parts);
+    for (int i = 0; i < rank; i++) {
+      bias -= parts[i] * w->bias[i];
+      size += fabs(parts[i] * w->bias[i]);
     }
-    if (!(fabs(sum) <= AGREES * size)) return 1;
+    if (!(rest > frot_least_length(m, w, row, length))) {
+      w->dependent = 1;
+      if (!(fabs(bias) <= FROT_AGREES * (size + frot_free_size(m, w, row)))) return 1;
+      continue;
+    }
+    for (int i = 0; i < ns; i++) x[i] /= rest;
+    w->bias[rank++] = bias / rest;
+  }
+  p->equations = w->rank = rank;
+  return 0;
+}
+
+/* The conditions that hold the held rows into the first lines of w->active and w->right, the columns
+ * in units w->unit_of. The leading dimension is the number of unknowns. Returns 1 when they
+ * contradict each other. */
+static int hold_rows(problem *p) {
+  frot_work *w = p->w;
+  int n = p->unknowns, ns = p->g->n_speeds;
+  if (p->g->general) {
+    p->equations = p->held;
+    for (int c = 0; c < n; c++) {
+      double size = fabs(effect_of(p, w->unknown[c], c));
+      w->unit_of[c] = size > 0 ? 1 / sqrt(size) : 1;
+    }
+    for (int r = 0; r < p->held; r++) {
+      double scale = w->unit_of[r];
+      for (int c = 0; c < n; c++)
+        w->active[c * n + r] = scale * w->unit_of[c] * effect_of(p, w->unknown[r], c);
+      w->right[r] = -scale * known_part(p, w->unknown[r]);
+    }
+    return 0;
+  }
+  if (orthonormalize(p)) return 1;
+  double *x = w->rest;
+  for (int c = -1; c < n; c++) {
+    column_of(p, c, x);
+    double length = sqrt(frot_dot(x, x, ns)), unit = length > 0 ? 1 / length : 1;
+    if (c >= 0) w->unit_of[c] = unit;
+    for (int r = 0; r < p->equations; r++) {
+      double part = frot_dot(w->basis + ns * r, x, ns);
+      if (c < 0)
+        w->right[r] = -(part + w->bias[r]);
+      else
+        w->active[c * n + r] = unit * part;
+    }
   }
   return 0;
 }
 
-/* Solve once in the directions w->along. *dependent: the reactions are not unique. */
-static int solve(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                 unsigned char *kind, int clamped, int *dependent) {
-  int rows, unknowns = list_unknowns(m, w, modes, kind, clamped, &rows);
-  memset(w->lam, 0, sizeof(double) * (size_t)m->n_rows);
-  assemble(m, w, modes, kind, unknowns, rows);
-  double *copy = w->lstsq, *x = w->step;
-  int regular = rows == unknowns;
+/* The friction that follows readings: lam - ratio (its reading) = 0. */
+static void follow_readings(problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int n = p->unknowns;
+  for (int f = p->held; f < n; f++) {
+    int e = w->owner[f], line = p->equations++;
+    const frot_element *element = &m->elements[e];
+    double scale = 1 / w->unit_of[f], ratio = w->ratio[e] * scale, known = 0;
+    double along[2] = {1, 0};
+    if (element->bound == FROT_BY_PIN) memcpy(along, w->along + 2 * e, sizeof along);
+    for (int c = 0; c < n; c++) w->active[c * n + line] = c == f;
+    for (int k = 0; k < 2; k++) {
+      if (along[k] == 0) continue;
+      int reading = element->bounded_by[k];
+      known += along[k] * known_part(p, reading);
+      for (int c = 0; c < n; c++)
+        w->active[c * n + line] -= ratio * along[k] * w->unit_of[c] * effect_of(p, reading, c);
+    }
+    w->right[line] = ratio * known;
+  }
+}
+
+/* What the unknowns weigh, into w->weight: friction so much more than normal reactions that rest is
+ * not lost for want of it. Elements side by side that values bound share a load in proportion to
+ * their bounds, so that they reach them together: sum of lam^2 g / bound is least, where g, the size
+ * of the row, makes a gear between them count. */
+static void weigh(const problem *p) {
+  frot_work *w = p->w;
+  double largest = 0;
+  for (int c = 0; c < p->unknowns; c++) {
+    w->weight[c] = 1;
+    if (c >= p->held || w->friction[c] < 2) continue;
+    double size = sqrt(fabs(frot_effect(p->m, w, w->unknown[c], w->unknown[c])));
+    w->weight[c] = size > 0 ? sqrt(w->coefficient[2 * w->owner[c] + 1] / size) : 1;
+    largest = fmax(largest, w->weight[c]);
+  }
+  for (int c = 0; c < p->held; c++) {
+    if (w->friction[c] == 0) continue;
+    if (w->friction[c] == 2 && largest > 0) w->weight[c] /= largest;
+    w->weight[c] *= FROT_FRICTION_WEIGHT;
+  }
+}
+
+/* Least reactions, in units w->unit_of, of the system that w->active holds. Solved twice: the second
+ * time for what the first left, so that the weights cost no digits. */
+static void solve_least(const problem *p, double *x) {
+  frot_work *w = p->w;
+  int n = p->unknowns, rows = p->equations;
+  double *copy = w->lstsq, *b = copy + n * n, *step = b + n, *scratch = step + n;
+  weigh(p);
+  memset(x, 0, sizeof(double) * (size_t)n);
+  for (int pass = 0; pass < 2; pass++) {
+    for (int r = 0; r < rows; r++) {
+      double largest = 0, rest = w->right[r];
+      for (int c = 0; c < n; c++) {
+        double weighed = w->active[c * n + r] / w->unit_of[c] * w->weight[c];
+        copy[c * rows + r] = weighed, largest = fmax(largest, fabs(weighed));
+        rest -= w->active[c * n + r] * x[c];
+      }
+      double scale = largest > 0 ? 1 / largest : 1;
+      for (int c = 0; c < n; c++) copy[c * rows + r] *= scale;
+      b[r] = rest * scale;
+    }
+    frot_least_norm(copy, b, rows, n, step, scratch, w->pivot);
+    for (int c = 0; c < n; c++) x[c] += step[c] * w->weight[c] / w->unit_of[c];
+  }
+}
+
+double frot_row_rounding(const frot_model *m, const frot_work *w, int row) {
+  const frot_group *g = frot_group_of(m, row);
+  int count = g->general ? g->n : g->n_speeds;
+  const double *force = w->force + g->vector;
+  double motion = sqrt(frot_dot(force, force, count));
+  for (int i = 0; i < g->n_rows; i++) {
+    const double *half = w->half + g->entries + i * g->n;
+    double lam = w->lam[g->rows[i]];
+    if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
+    motion += fabs(lam) * sqrt(frot_dot(half, half, count));
+  }
+  const double *own = frot_entries(m, g->general ? w->rows : w->half, row);
+  return 4 * FROT_ROUNDING * sqrt(frot_dot(own, own, count)) * motion;
+}
+
+/* Whether the held rows do not accelerate and friction follows its reaction. */
+static int is_solution(const problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  for (int k = 0; k < p->unknowns; k++) {
+    double size, value, rounding = 0;
+    if (k < p->held) {
+      value = frot_acceleration(m, w, w->unknown[k], &size);
+      size += frot_free_size(m, w, w->unknown[k]);
+      rounding = frot_row_rounding(m, w, w->unknown[k]);
+    } else {
+      const frot_element *element = &m->elements[w->owner[k]];
+      double along[2] = {1, 0}, bounding = 0;
+      if (element->bound == FROT_BY_PIN) memcpy(along, w->along + 2 * w->owner[k], sizeof along);
+      for (int i = 0; i < 2; i++)
+        if (along[i] != 0) bounding += along[i] * w->lam[element->bounded_by[i]];
+      value = w->lam[element->row] - w->ratio[w->owner[k]] * bounding;
+      size = fabs(w->lam[element->row]) + fabs(value);
+    }
+    if (!(fabs(value) <= FROT_AGREES * size + rounding)) return 0;
+  }
+  return 1;
+}
+
+/* All reactions of the group from those of the unknowns. */
+static void spread_reactions(const problem *p, const double *x) {
+  const frot_model *m = p->m;
+  const frot_group *g = p->g;
+  frot_work *w = p->w;
+  for (int i = 0; i < g->n_rows; i++) w->lam[g->rows[i]] = 0;
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i];
+    if (m->elements[e].bound == FROT_BY_VALUE && w->ratio[e] != 0)
+      w->lam[m->elements[e].row] = w->ratio[e];
+  }
+  for (int c = 0; c < p->unknowns; c++) {
+    double lam = x[c] * w->unit_of[c];
+    w->lam[w->unknown[c]] = lam;
+    for (int k = 2 * c; k < 2 * c + 2; k++)
+      if (w->fold[k] >= 0) w->lam[w->fold[k]] = w->fold_ratio[k] * lam;
+  }
+  for (int i = 0; i < g->n_rows; i++) {
+    int r = g->rows[i];
+    double size;
+    if (frot_is_reading(m, r) && w->wanted[r]) w->lam[r] = frot_acceleration(m, w, r, &size);
+  }
+}
+
+static int group_is_finite(const problem *p) {
+  for (int i = 0; i < p->g->n_rows; i++)
+    if (!isfinite(p->w->lam[p->g->rows[i]])) return 0;
+  return 1;
+}
+
+/* Solve once in the directions w->along. */
+static int solve(problem *p) {
+  frot_work *w = p->w;
+  int n = p->unknowns;
+  double *x = w->solution;
+  if (hold_rows(p)) return 1;
+  follow_readings(p);
+  int regular = p->equations == n;
   if (regular) {
-    memcpy(copy, w->active, sizeof(double) * (size_t)(rows * rows));
-    memcpy(x, w->right, sizeof(double) * (size_t)rows);
-    regular = !frot_lu_solve(copy, x, rows);
+    memcpy(w->lstsq, w->active, sizeof(double) * (size_t)(n * n));
+    memcpy(x, w->right, sizeof(double) * (size_t)n);
+    regular = !frot_lu_solve(w->lstsq, x, n);
   }
-  if (!regular) *dependent = 1;
-  if (!regular && solve_least(m, w, kind, unknowns, rows, x)) return 1;
-  for (int c = 0; c < unknowns; c++) w->lam[w->row_of[c]] = x[c];
-  for (int i = 0; i < m->n_contacts; i++) {
-    const frot_contact *contact = &m->contacts[i];
-    if (!modes[i].closed) continue;
-    double bounding = contact->bound == FROT_BY_VALUE ? 1 : w->lam[contact->row_n];
-    if (contact->bound == FROT_BY_PIN)
-      bounding = w->along[2 * i] * bounding + w->along[2 * i + 1] * w->lam[contact->row_n2];
-    if (w->ratio[2 * i] != 0) w->lam[contact->row_t] = w->ratio[2 * i] * bounding;
-    if (w->ratio[2 * i + 1] != 0) w->lam[contact->row_r] = w->ratio[2 * i + 1] * bounding;
+  if (!regular) {
+    w->dependent = 1;
+    solve_least(p, x);
   }
-  return !frot_all_finite(w->lam, m->n_rows);
+  spread_reactions(p, x);
+  if (!group_is_finite(p)) return 1;
+  return !regular && !is_solution(p);
 }
 
 /* Turn the directions of the pins whose friction follows to their reactions. Returns the largest
  * part of a reaction that the directions before missed. */
-static double turn_pins(const frot_model *m, frot_work *w, const frot_contact_mode *modes) {
+static double turn_pins(const problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
   double missed = 0;
-  for (int i = 0; i < m->n_contacts; i++) {
-    const frot_contact *contact = &m->contacts[i];
-    if (contact->bound != FROT_BY_PIN || !modes[i].closed || w->ratio[2 * i] == 0) continue;
-    double *along = w->along + 2 * i;
-    double first = w->lam[contact->row_n], second = w->lam[contact->row_n2];
+  for (int f = p->held; f < p->unknowns; f++) {
+    int e = w->owner[f];
+    if (m->elements[e].bound != FROT_BY_PIN) continue;
+    double *along = w->along + 2 * e;
+    double first = w->lam[m->elements[e].bounded_by[0]];
+    double second = w->lam[m->elements[e].bounded_by[1]];
     double size = hypot(first, second), before = along[0] * first + along[1] * second;
-    if (!(size > before)) continue;
+    if (!(size > 0)) continue;
     missed = fmax(missed, (size - before) / size);
     along[0] = first / size, along[1] = second / size;
   }
   return missed;
 }
 
-static int solve_pins(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                      unsigned char *kind, int clamped, int *dependent) {
-  if (w->pins == 0) return solve(m, w, modes, kind, clamped, dependent);
-  memset(w->along, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
-  int last = 0;
-  for (int pass = 0; pass < PIN_PASSES; pass++) {
-    if (solve(m, w, modes, kind, clamped, dependent)) return 1;
-    double missed = turn_pins(m, w, modes);
-    if (last || missed <= 4 * DBL_EPSILON) return 0;
-    last = missed < PIN_CLOSE;
+int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
+                         const frot_contact_mode *modes, const unsigned char *at_rest) {
+  problem p = {m, w, g, modes, 0, 0, 0};
+  w->dependent = 0;
+  if (g->n_rows == 0) return 0;
+  list_unknowns(&p, at_rest);
+  int pins = 0;
+  for (int f = p.held; f < p.unknowns; f++) pins |= m->elements[w->owner[f]].bound == FROT_BY_PIN;
+  w->rank = 0;
+  if (p.unknowns == 0) return spread_reactions(&p, w->solution), !group_is_finite(&p);
+  for (int pass = 0, last = 0; pass < FROT_PIN_PASSES; pass++) {
+    if (solve(&p)) return 1;
+    if (!pins) return 0;
+    double missed = turn_pins(&p);
+    if (last || missed <= 2 * DBL_EPSILON) return 0;
+    last = missed < FROT_PIN_CLOSE;
   }
-  return 1;
-}
-
-/* Where held motions need more than their bounds, but others could hold instead, put the former at
- * their bounds. Returns 1 when one was put there. */
-static int clamp_excess(const frot_model *m, frot_work *w, const frot_contact_mode *modes) {
-  int worst = -1;
-  double most = 1 + 1e-12;
-  for (int k = 0; k < 2 * m->n_contacts; k++) {
-    int i = k / 2, rolling = k % 2;
-    if (!modes[i].closed || holds(w, modes, i, rolling) != 1) continue;
-    int row = rolling ? m->contacts[i].row_r : m->contacts[i].row_t;
-    double bound = frot_bound_of_rest(m, w, i, &modes[i], rolling);
-    if (fabs(w->lam[row]) > most * fabs(bound))
-      most = bound != 0 ? fabs(w->lam[row] / bound) : INFINITY, worst = k;
-  }
-  if (worst < 0) return 0;
-  const frot_contact *contact = &m->contacts[worst / 2];
-  double lam = w->lam[worst % 2 ? contact->row_r : contact->row_t];
-  double bounding = frot_has_normal(contact) ? w->lam[contact->row_n] : 1;
-  w->clamp[worst] = (lam > 0) == (bounding >= 0) ? 1 : -1;
   return 1;
 }
 
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                    const unsigned char *at_rest) {
-  int dependent = 0;
-  unsigned char *kind = w->kind;
-  if (m->n_rows == 0) return 0;
-  memset(w->clamp, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
-  set_ratios(m, w, modes, at_rest);
-  if (solve_pins(m, w, modes, kind, 0, &dependent)) return 1;
-  while (dependent && clamp_excess(m, w, modes)) {
-    set_ratios(m, w, modes, at_rest);
-    if (!solve_pins(m, w, modes, kind, 1, &dependent)) continue;
-    /* nothing else can hold: the excess stands, and ends the rest */
-    memset(w->clamp, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
-    set_ratios(m, w, modes, at_rest);
-    return solve_pins(m, w, modes, kind, 0, &dependent);
-  }
+  for (int k = 0; k < m->n_groups; k++)
+    if (frot_group_reactions(m, w, &m->groups[k], modes, at_rest)) return 1;
   return 0;
 }

@@ -1,22 +1,42 @@
-/* Reactions in a given mode. */
+/* Reactions in given modes. */
 #ifndef FROT_REACTIONS_H
 #define FROT_REACTIONS_H
 
 #include "state.h"
 
-/* Reactions w->lam of the rows in `modes`, after frot_dynamics. Where at_rest (n_contacts, may be
- * NULL) is nonzero, slip is resisted by the coefficient of rest mu_s. Where they are not unique,
- * those of least friction are taken, within the bounds of rest if they can be. Returns 1 when no
- * finite reactions exist. */
+/* Reactions w->lam of the rows of a group in `modes`, after frot_dynamics. Where at_rest
+ * (n_elements, may be NULL) is nonzero, slip is resisted by the coefficient of rest. Where they are
+ * not unique, those of least friction are taken and w->dependent is set. Returns 1 when no finite
+ * reactions keep what `modes` says. */
+int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
+                         const frot_contact_mode *modes, const unsigned char *at_rest);
+
+/* The same for all groups. Directions of pins' reactions are looked for from w->along on. */
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                    const unsigned char *at_rest);
 
-/* What friction (rolling = 0) or rolling resistance (1) of contact i can resist at rest, from the
- * coefficients w->coefficient and the reactions w->lam. */
-double frot_bound_of_rest(const frot_model *m, const frot_work *w, int i,
-                          const frot_contact_mode *mode, int rolling);
+/* Size of the reaction that bounds an element, by w->lam; 1 where a value bounds it. With the sign
+ * of the mode: negative where a normal reaction has the wrong one. */
+double frot_bounding(const frot_model *m, const frot_work *w, int element,
+                     const frot_contact_mode *modes);
+/* What an element can resist at rest, from the coefficients w->coefficient and w->lam. */
+double frot_bound_of_rest(const frot_model *m, const frot_work *w, int element,
+                          const frot_contact_mode *modes);
+
+/* Acceleration of a row (of a reading: its reaction) by w->lam, and the size of its reactions'
+ * terms. */
+double frot_acceleration(const frot_model *m, const frot_work *w, int row, double *size);
+
+/* What rounding can do to a row's acceleration where loads and reactions cancel: a few units of the
+ * last place of all that moves the group, without reactions and by each of them. */
+double frot_row_rounding(const frot_model *m, const frot_work *w, int row);
 
 /* Size of the terms of a row's acceleration without reactions. */
 double frot_free_size(const frot_model *m, const frot_work *w, int row);
+
+/* Whether the motion of an element is held by a reaction of its own in `modes`. */
+int frot_is_held(const frot_model *m, const frot_contact_mode *modes, int element);
+/* Whether a contact keeps its distance by a reaction of its own. */
+int frot_is_loaded(const frot_model *m, const frot_contact_mode *modes, int contact);
 
 #endif

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "groups.h"
+
 long long frot_events_at_once(const frot_model *m) {
   return 8 * m->n_contacts + 8 * m->n_conditions + m->n_outcomes + 8;
 }
@@ -21,42 +23,52 @@ void frot_note_condition(const frot_model *m, frot_recorder *recorder, frot_stat
     frot_note(recorder, s, t, FROT_EVENT_CONDITION, condition, !holds, holds, 1);
 }
 
+/* A change of an element's motion that its liaison's mode does not tell. */
+static void note_element(const frot_model *m, frot_state *s, double t, int e, int before, int after,
+                         frot_recorder *recorder) {
+  int i = m->elements[e].contact;
+  if (before == after || before == FROT_NONE || after == FROT_NONE) return;
+  if (m->elements[e].rolling) {
+    int kind = after == FROT_STICK    ? FROT_EVENT_ROLL_STOP
+               : before == FROT_STICK ? FROT_EVENT_ROLL_START
+                                      : FROT_EVENT_ROLL_REVERSAL;
+    frot_note(recorder, s, t, kind, i, before, after, 1);
+  } else if (before > FROT_STICK && after > FROT_STICK) {
+    frot_note(recorder, s, t, FROT_EVENT_REVERSAL, i, FROT_MODE_SLIP, FROT_MODE_SLIP, 1);
+  }
+}
+
 void frot_note_changes(const frot_model *m, frot_state *s, double t,
                        const frot_contact_mode *before, const frot_contact_mode *after,
                        frot_recorder *recorder) {
   const double *unilateral = s->data + frot_layout_of(m).unilateral;
   for (int i = 0; i < m->n_contacts; i++) {
-    const frot_contact_mode *a = &before[i], *b = &after[i];
-    int from = frot_mode_value(a), to = frot_mode_value(b);
+    int from = frot_mode_value(m, before, i), to = frot_mode_value(m, after, i);
     if (from != to) {
       int kind = to == FROT_MODE_OPEN     ? FROT_EVENT_SEPARATION
                  : from == FROT_MODE_OPEN ? FROT_EVENT_CONTACT
                  : to == FROT_MODE_STICK  ? FROT_EVENT_STICK
                                           : FROT_EVENT_SLIP;
       frot_note(recorder, s, t, kind, i, from, to, 1);
-    } else if (a->closed && a->friction != b->friction && a->friction > FROT_STICK &&
-               b->friction > FROT_STICK) {
-      frot_note(recorder, s, t, FROT_EVENT_REVERSAL, i, from, to, 1);
     }
-    if (!a->closed || !b->closed) continue;
-    if (a->rolling != b->rolling && a->rolling != FROT_NONE && b->rolling != FROT_NONE) {
-      int kind = b->rolling == FROT_STICK   ? FROT_EVENT_ROLL_STOP
-                 : a->rolling == FROT_STICK ? FROT_EVENT_ROLL_START
-                                            : FROT_EVENT_ROLL_REVERSAL;
-      frot_note(recorder, s, t, kind, i, a->rolling, b->rolling, 1);
-    }
-    if (a->side != b->side && unilateral[i] == 0)
+    if (!before[i].closed || !after[i].closed) continue;
+    for (int e = 0; e < m->n_elements; e++)
+      if (m->elements[e].contact == i)
+        note_element(m, s, t, e, frot_element_mode(m, before, e)->friction,
+                     frot_element_mode(m, after, e)->friction, recorder);
+    if (before[i].side != after[i].side && unilateral[i] == 0)
       frot_note(recorder, s, t, FROT_EVENT_REACTION, i, from, to, 1);
   }
 }
 
 void frot_tell(const frot_model *m, frot_state *s, frot_recorder *recorder) {
-  if (s->several) {
-    frot_segment g = frot_segment_at(m, s->data + frot_layout_of(m).segment);
-    int mode = frot_mode_value(&g.modes[s->several_at]);
-    frot_note(recorder, s, *g.t0, FROT_EVENT_SEVERAL, s->several_at, mode, mode, s->several);
-    s->several = 0;
+  frot_layout l = frot_layout_of(m);
+  frot_segment g = frot_segment_at(m, s->data + l.segment);
+  for (int i = 0; i < m->n_contacts && s->several; i++) {
+    int mode = frot_mode_value(m, g.modes, i), motions = (int)s->data[l.several + i];
+    if (motions > 0) frot_note(recorder, s, *g.t0, FROT_EVENT_SEVERAL, i, mode, mode, motions);
   }
+  s->several = 0;
   if (!s->untold || !recorder) return;
   double *asked = s->data + frot_layout_of(m).asked;
   for (int i = 0; i < m->n_outcomes; i++) {

@@ -4,8 +4,6 @@
 
 #include "state.h"
 
-/* Relative size below which a velocity, a gap or a reaction counts as zero at an event. */
-#define FROT_ZERO 1e-11
 
 /* Find the modes that follow time t at coordinates q and speeds v (both may be moved onto the
  * relations that hold, by rounding only), from the modes held in the state and the guards fired.

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "blocks.h"
+#include "groups.h"
 #include "happen.h"
 #include "initial.h"
 #include "mechanics.h"
@@ -56,7 +57,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   frot_layout l = frot_layout_of(m);
   s->phase = FROT_CLEARED;
   s->fault = (frot_fault){FROT_OK, -1, -1, -1, t, 0};
-  s->statistics = (frot_statistics){0, 0, 0, 0, 0, 0};
+  s->statistics = (frot_statistics){0};
   s->options = options ? *options : (frot_options){0, FROT_REST, 0};
   s->t = t;
   int status = frot_settle_parameters(m, s, w, NULL);
@@ -74,17 +75,15 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->pending = s->has_slope = s->changed = s->crowded = s->several = s->untold = 0;
   for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
   s->crowded_since = s->left_at = t;
-  s->push = 0;
   frot_choose_first(m, s);
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.noise, 0, sizeof(double) * (size_t)(m->nq + m->nv));
-  memset(s->data + l.push_v, 0, sizeof(double) * (size_t)m->nv);
   memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
-  memset(s->data + l.along, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
+  memset(s->data + l.along, 0, sizeof(double) * 2 * (size_t)m->n_elements);
   memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.nf);
   s->due = INFINITY;
-  memset(s->data + l.left, 0, sizeof(double) * 2 * (size_t)m->n_contacts);
+  memset(s->data + l.left, 0, sizeof(double) * (size_t)m->n_elements);
   memset(s->data + l.frozen, 0, sizeof(double) * (size_t)m->nv);
   double *x = s->data + l.x;
   memset(x, 0, sizeof(double) * (size_t)l.nx);
@@ -110,7 +109,7 @@ static int fire_changed_conditions(const frot_model *m, frot_state *s, frot_work
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, s->t);
   for (int j = 0; j < m->n_conditions; j++) {
     int holds = m->condition_strict[j] ? w->condition[j] > 0 : w->condition[j] >= 0;
-    s->data[l.fired + FROT_GUARDS * m->n_contacts + j] = holds != (d[j] != 0);
+    s->data[l.fired + frot_condition_guard(m) + j] = holds != (d[j] != 0);
   }
   return FROT_OK;
 }
@@ -161,7 +160,7 @@ int frot_settle(const frot_model *m, frot_state *s, frot_work *w) { return settl
 
 /* The condition of the text that fires now, -1 where none does. */
 static int condition_at_fault(const frot_model *m, const frot_state *s) {
-  const double *fired = s->data + frot_layout_of(m).fired + FROT_GUARDS * m->n_contacts;
+  const double *fired = s->data + frot_layout_of(m).fired + frot_condition_guard(m);
   for (int j = 0; j < m->n_conditions; j++)
     if (fired[j] != 0) return j;
   return -1;

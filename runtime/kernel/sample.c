@@ -18,14 +18,14 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   /* relations between the states hold at every instant looked at, not only at the ends of steps */
   if (m->n_invariants > 0)
     status = frot_project_jointly(m, s, w, t, q, v, g->d, g->modes, NULL, NULL, g->frozen, &moved);
-  if (status == FROT_OK) status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, 1);
+  if (status == FROT_OK) status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, g->along, 1);
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
   if (status != FROT_OK) return status;
   frot_inputs(m, s, w, &t, q, v, g->d);
   w->arg[7] = w->a, w->arg[8] = w->lam, w->arg[9] = x + m->nq + m->nv;
   w->res[0] = values;
   m->variables.call(w->arg, w->res, w->iw, w->w, 0);
-  for (int i = 0; i < m->n_contacts; i++) values[i] = frot_mode_value(&g->modes[i]);
+  for (int i = 0; i < m->n_contacts; i++) values[i] = frot_mode_value(m, g->modes, i);
   return frot_all_finite(values, m->n_variables) ? FROT_OK : FROT_NAN;
 }
 

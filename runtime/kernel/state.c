@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "implicit.h"
+#include "tolerances.h"
 
 /* A mode fills a double exactly, so that it can lie in an array of doubles. */
 typedef char frot_mode_fills_double[sizeof(frot_contact_mode) == sizeof(double) ? 1 : -1];
@@ -14,11 +15,11 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.nm = m->nv + m->na;
   l.nw = l.nm + m->nc;
   l.nx = m->nq + m->nv + FROT_QUADRATURES;
-  l.ng = FROT_GUARDS * m->n_contacts + m->n_located;
-  l.nf = FROT_GUARDS * m->n_contacts + m->n_conditions;
+  l.ng = m->n_contacts + 2 * m->n_elements + m->n_located;
+  l.nf = m->n_contacts + 2 * m->n_elements + m->n_conditions;
   l.nz = l.nx + l.ng;
   l.nd = m->n_conditions + m->n_contacts + m->n_discrete;
-  l.ns = 3 + m->n_contacts + l.nd + m->nv + 2 * m->ny + l.nx + DP_DENSE * l.nx;
+  l.ns = 3 + m->n_contacts + 3 * m->n_elements + l.nd + m->nv + 2 * m->ny + l.nx + DP_DENSE * l.nx;
   l.early = 0;
   for (int i = 0; i < m->n_blocks; i++)
     if (!m->blocks[i].late) l.early += m->blocks[i].count;
@@ -36,14 +37,14 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.scale_x = at, at += l.nx;
   l.scale_g = at, at += l.ng;
   l.noise = at, at += m->nq + m->nv;
-  l.push_v = at, at += m->nv;
-  l.along = at, at += 2 * m->n_contacts;
+  l.along = at, at += 2 * m->n_elements;
   l.fired = at, at += l.nf;
+  l.several = at, at += m->n_contacts;
   l.due = at, at += m->n_timed;
-  l.left = at, at += 2 * m->n_contacts;
+  l.left = at, at += m->n_elements;
   l.asked = at, at += m->n_outcomes;
   l.fresh = at, at += m->n_conditions;
-  l.modes = at, at += m->n_contacts;
+  l.modes = at, at += m->n_contacts + m->n_elements;
   l.d = at, at += l.nd;
   l.frozen = at, at += m->nv;
   l.segment = at, at += l.ns;
@@ -62,9 +63,10 @@ frot_segment frot_segment_at(const frot_model *m, double *data) {
   frot_segment s;
   s.t0 = data, s.t1 = data + 1, s.h = data + 2;
   data += 3;
-  s.modes = (frot_contact_mode *)(void *)data, data += m->n_contacts;
+  s.modes = (frot_contact_mode *)(void *)data, data += m->n_contacts + m->n_elements;
   s.d = data, data += l.nd;
   s.frozen = data, data += m->nv;
+  s.along = data, data += 2 * m->n_elements;
   s.y0 = data, data += m->ny;
   s.y1 = data, data += m->ny;
   s.x0 = data, data += l.nx;
@@ -130,28 +132,33 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
     if (m->blocks[i].count > nb) nb = m->blocks[i].count;
   arena a = {base, sizeof(frot_work)};
   w->layout = l;
-  w->pins = 0;
-  for (int i = 0; i < nc; i++) w->pins += m->contacts[i].bound == FROT_BY_PIN;
   TAKE(arg, most.n_arg), TAKE(res, most.n_res), TAKE(iw, most.n_iw), TAKE(w, most.n_w);
   TAKE(pivot, big > wide ? big : wide);
   TAKE(y, m->ny), TAKE(y_end, m->ny);
   TAKE(block_r, nb), TAKE(block_j, nb * nb), TAKE(block_lu, nb * nb), TAKE(block_size, 2 * nb);
   TAKE(block_step, 2 * nb), TAKE(block_scale, nb * nb + 5 * nb), TAKE(block_pivot, nb);
-  TAKE(qd, m->nq), TAKE(mass, l.nw * l.nw), TAKE(h, l.nw), TAKE(rows, l.nw * nr), TAKE(c, nr);
-  TAKE(rate, nr), TAKE(gap, nc), TAKE(condition, m->n_conditions), TAKE(coefficient, 3 * nc);
+  int n_el = m->n_elements, widest = 0;
+  for (int k = 0; k < m->n_groups; k++)
+    if (m->groups[k].n > widest) widest = m->groups[k].n;
+  TAKE(qd, m->nq), TAKE(mass, m->n_matrix), TAKE(h, l.nw), TAKE(rows, m->n_entries), TAKE(c, nr);
+  TAKE(rate, nr), TAKE(gap, nc), TAKE(condition, m->n_conditions), TAKE(coefficient, 2 * n_el);
   TAKE(power, 1), TAKE(witness, 3 * nc);
   TAKE(stood, nc + nr + 2 * (FROT_PLACE * m->n_carried + ni));
-  TAKE(factor, l.nm * l.nm), TAKE(force, l.nw), TAKE(half_rows, l.nw * nr);
-  int ng = m->general ? l.nw : 0;
-  TAKE(effect, ng * nr), TAKE(metric, m->general ? l.nm * l.nm : 0), TAKE(lu, ng * ng);
-  TAKE(lu_scale, 2 * ng), TAKE(free_motion, 2 * ng), TAKE(response, ng * nr), TAKE(lu_pivot, ng);
-  TAKE(delassus, nr * nr), TAKE(free, nr), TAKE(row_load, nr), TAKE(lam, nr), TAKE(a, l.nw);
-  TAKE(ratio, 2 * nc), TAKE(clamp, 2 * nc), TAKE(along, 2 * nc);
+  TAKE(effect, m->general ? m->n_entries : 0), TAKE(metric, m->general ? m->n_metric : 0);
+  TAKE(factor, m->n_metric), TAKE(force, l.nw), TAKE(half, m->n_entries);
+  TAKE(lu, m->general ? m->n_matrix : 0), TAKE(lu_scale, m->general ? 2 * l.nw : 0);
+  TAKE(lu_pivot, m->general ? l.nw : 0);
+  TAKE(wanted, nr), TAKE(free, nr), TAKE(delassus, m->n_square);
+  TAKE(load, big > l.nw ? big : l.nw), TAKE(load_size, l.nw), TAKE(row_load, nr), TAKE(lam, nr);
+  TAKE(a, l.nw), TAKE(unknown, nr), TAKE(owner, nr), TAKE(fold, 2 * nr), TAKE(friction, nr);
+  TAKE(fold_ratio, 2 * nr), TAKE(ratio, n_el), TAKE(along, 2 * n_el), TAKE(unit_of, nr);
+  TAKE(weight, nr), TAKE(solution, nr);
+  TAKE(basis, (nr + 1) * widest), TAKE(parts, nr + widest), TAKE(bias, nr);
   TAKE(active, big * (big > wide ? big : wide)), TAKE(right, big);
   int least = big < wide ? big : wide;
   TAKE(lstsq, 2 * big * big + 6 * big + 4 * wide + least * wide);
-  TAKE(row_of, nr + nc), TAKE(contact_of, nr), TAKE(kind, nr), TAKE(weight, nr), TAKE(guard, l.ng),
-      TAKE(k, DP_ALL * l.nz);
+  TAKE(rest, l.nw), TAKE(column, l.nw), TAKE(row_of, nr + nc + n_el), TAKE(guards, l.ng);
+  TAKE(guard, l.ng), TAKE(end_reaction, 2 * n_el), TAKE(k, DP_ALL * l.nz);
   TAKE(change, m->nq), TAKE(own_size, m->nq), TAKE(largest_alike, m->nq);
   TAKE(implicit, frot_implicit_doubles(m)), TAKE(implicit_pivot, frot_implicit_integers(m));
   TAKE(z0, l.nz), TAKE(z1, l.nz), TAKE(ztry, l.nz), TAKE(f, DP_DENSE * l.nz);
@@ -167,8 +174,10 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(condition_before, m->n_conditions), TAKE(condition_known, m->n_conditions);
   TAKE(timer, 2 * m->n_timed), TAKE(discrete, m->n_discrete);
   TAKE(discrete_before, m->n_discrete), TAKE(held, m->n_held);
-  TAKE(trial, nc), TAKE(best, nc), TAKE(before, nc);
-  TAKE(best_acceleration, nr), TAKE(choice, 4 * nc), TAKE(component, nc);
+  TAKE(trial, nc + n_el), TAKE(best, nc + n_el), TAKE(before, nc + n_el);
+  TAKE(guess, nc + n_el), TAKE(certain, nc), TAKE(pivot_bound, 4 * nr);
+  TAKE(motions, FROT_MOTIONS * nr), TAKE(choice, 4 * nc + 4 * n_el), TAKE(component, nc);
+  TAKE(chosen, nc), TAKE(zero, n_el);
   return a.used;
 }
 
@@ -179,16 +188,19 @@ size_t frot_work_size(const frot_model *model) {
   return bind(model, &counted, NULL);
 }
 
-void frot_rows_of(const frot_contact *contact, int rows[FROT_ROWS]) {
-  rows[0] = contact->row_n, rows[1] = contact->row_n2;
-  rows[2] = contact->row_t, rows[3] = contact->row_r;
+int frot_has_normal(const frot_contact *contact) { return contact->row_n >= 0; }
+
+void frot_open(const frot_model *m, frot_contact_mode *modes, int contact) {
+  modes[contact] = (frot_contact_mode){0, 1, 0, 0, 0, {0}};
+  for (int e = 0; e < m->n_elements; e++)
+    if (m->elements[e].contact == contact) modes[m->n_contacts + e] = (frot_contact_mode){0};
 }
 
-int frot_has_normal(const frot_contact *contact) { return contact->bound == FROT_BY_NORMAL; }
-
-int frot_mode_value(const frot_contact_mode *mode) {
-  if (!mode->closed) return FROT_MODE_OPEN;
-  return mode->friction == FROT_STICK ? FROT_MODE_STICK : FROT_MODE_SLIP;
+int frot_mode_value(const frot_model *m, const frot_contact_mode *modes, int contact) {
+  int sliding = m->contacts[contact].sliding;
+  if (!modes[contact].closed) return FROT_MODE_OPEN;
+  if (sliding < 0) return FROT_MODE_SLIP;
+  return modes[m->n_contacts + sliding].friction == FROT_STICK ? FROT_MODE_STICK : FROT_MODE_SLIP;
 }
 
 int frot_fail(frot_state *s, int status, double t, int contact, int item, int other, double value) {
@@ -214,12 +226,17 @@ void frot_state_clear(const frot_model *m, frot_state *s) {
     modes[i].closed = g.modes[i].closed = (signed char)!frot_has_normal(&m->contacts[i]);
 }
 
-/* Whether a mode is one that the element can have. */
-static int mode_valid(const frot_contact *contact, const frot_contact_mode *mode) {
-  return (mode->closed == 1 || (mode->closed == 0 && frot_has_normal(contact))) &&
-         mode->side >= -1 && mode->side <= 1 && mode->friction >= 0 && mode->friction <= 3 &&
-         mode->rolling >= 0 && mode->rolling <= 3 && (mode->friction == 0 || contact->row_t >= 0) &&
-         (mode->rolling == 0 || contact->row_r >= 0);
+/* Whether modes are such as the model's contacts and elements can have. */
+static int modes_valid(const frot_model *m, const frot_contact_mode *modes) {
+  for (int i = 0; i < m->n_contacts + m->n_elements; i++) {
+    const frot_contact_mode *mode = modes + i;
+    if (mode->side < -1 || mode->side > 1 || mode->friction < 0 || mode->friction > 3) return 0;
+    if (mode->unloaded < 0 || mode->unloaded > 1 || mode->at_bound < -1 || mode->at_bound > 1)
+      return 0;
+    if (mode->closed < 0 || mode->closed > 1) return 0;
+    if (i < m->n_contacts && !mode->closed && !frot_has_normal(&m->contacts[i])) return 0;
+  }
+  return 1;
 }
 
 int frot_state_valid(const frot_model *m, const void *block, size_t size) {
@@ -236,10 +253,7 @@ int frot_state_valid(const frot_model *m, const void *block, size_t size) {
   if (s->phase == FROT_ENDED && (s->outcome < 0 || s->outcome >= m->n_outcomes)) return 0;
   const frot_contact_mode *modes = (const void *)(s->data + l.modes);
   frot_segment g = frot_segment_at(m, (double *)(s->data + l.segment));
-  for (int i = 0; i < m->n_contacts; i++)
-    if (!mode_valid(&m->contacts[i], modes + i) || !mode_valid(&m->contacts[i], g.modes + i))
-      return 0;
-  return 1;
+  return modes_valid(m, modes) && modes_valid(m, g.modes);
 }
 
 void frot_set_parameter(const frot_model *m, frot_state *s, int index, double value) {

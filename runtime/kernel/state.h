@@ -11,26 +11,28 @@
 #define FROT_MAGIC 0x46524f54u
 #define FROT_LAYOUT_VERSION 3
 #define FROT_KEY 72
-#define FROT_GUARDS 5      /* guards of a contact: see guards.c */
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
 enum frot_phase { FROT_CLEARED = 0, FROT_RUNNING = 1, FROT_FAULTED = 2, FROT_ENDED = 3 };
 
-/* Mode of one contact. As large as a double, so that segments are arrays of doubles. */
+/* Mode of a contact or, after those of all contacts, of an element. As large as a double, so that
+ * segments are arrays of doubles. */
 typedef struct {
-  signed char closed;   /* 0 open, 1 closed */
-  signed char side;     /* sign of a bilateral normal reaction, +1 or -1 */
-  signed char friction; /* frot_friction */
-  signed char rolling;  /* frot_friction */
-  signed char reserved[4];
+  signed char closed;   /* contact: 0 open, 1 closed */
+  signed char side;     /* contact: sign of its normal reaction, +1 or -1 */
+  signed char unloaded; /* contact: closed, but others carry its load: its reaction is zero */
+  signed char friction; /* element: frot_friction */
+  signed char at_bound; /* element that sticks: others hold it, its own friction is at its bound, in
+                           the direction of the sign */
+  signed char reserved[3];
 } frot_contact_mode;
 
 /* Offsets in doubles from the head of state->data, and sizes. Computed from the model. */
 typedef struct {
   int nw, nm, nx, nz, ng, nf, nd, ns; /* nm: order of the metric; ns: doubles of a segment */
   int early;                          /* unknowns of the blocks that are not late */
-  int set, given, p, kept, u, experiment, unilateral, x, y, slope, scale_x, scale_g, noise, push_v,
-      along, fired, due, left, asked, fresh, modes, d, frozen, segment, size;
+  int set, given, p, kept, u, experiment, unilateral, x, y, slope, scale_x, scale_g, noise, along,
+      fired, several, due, left, asked, fresh, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -43,8 +45,7 @@ struct frot_state {
   int changed;   /* parameters or inputs were set since the last frot_settle */
   int crowded;   /* events since the time last moved on */
   int jumped;    /* the last event of the text moved coordinates or speeds */
-  int several;   /* admissible motions at the start, until this is told as an event */
-  int several_at;
+  int several;   /* groups of contacts had several motions at the start: to be told as events */
   int implicit;                /* the next step is made by the implicit method */
   int stiff_steps, calm_steps; /* see stiffness.h */
   int patience, stay;
@@ -63,7 +64,6 @@ struct frot_state {
   double h_max;
   double tolerance;
   double energy; /* kinetic + potential at the start, corrected for changes from outside */
-  double push;   /* largest size of all loads so far, in the metric of the mass */
   double energy_scale;
   frot_options options;
   frot_fault fault;
@@ -76,6 +76,7 @@ typedef struct {
   double *t0, *t1, *h;
   frot_contact_mode *modes;
   double *d, *frozen;
+  double *along; /* 2 n_elements: where to begin to look for the directions of pins' reactions */
   double *y0, *y1; /* unknowns of the blocks at its ends */
   double *x0;      /* nx: q, v, quadratures */
   double *f;       /* DP_DENSE x nx */
@@ -83,7 +84,6 @@ typedef struct {
 
 struct frot_work {
   frot_layout layout;
-  int pins; /* elements that a pin's reaction bounds */
   const double **arg;
   double **res;
   long long *iw;
@@ -100,22 +100,29 @@ struct frot_work {
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
   double *witness; /* 3 per contact: results of `sides` */
   double *stood;   /* see supports.c */
-  /* Cholesky factor of the metric; symmetric core: it is the mass matrix, with L^-1 h, L^-1 J' */
-  double *factor, *force, *half_rows;
-  /* general core: E, metric, factors of A, A^-1 h, A^-1 E */
-  double *effect, *metric, *lu, *lu_scale, *free_motion, *response;
+  double *effect, *metric;
+  /* Packed by groups. Mass matrix: Cholesky factor L of the metric, L^-1 h, L^-1 J'. General core:
+   * LU of A, A^-1 h, A^-1 E. */
+  double *factor, *force, *half, *lu, *lu_scale;
   int *lu_pivot;
-  double *delassus, *free;        /* W by rows, and the rows' free accelerations */
-  double *row_load;               /* n_rows: acceleration of a row by the sizes of all loads */
-  double *lam, *a;                /* reactions (n_rows), solution z of the core (nw) */
-  double *ratio, *clamp;          /* 2 per contact: see reactions.c */
-  double *along;                  /* 2 per contact: direction of a pin's reaction */
-  double *active, *right, *lstsq; /* the active rows' system */
-  int *row_of;                    /* rows of the active system */
-  int *contact_of;                /* and the contacts they belong to */
-  unsigned char *kind;            /* and what they are */
-  double *weight;                 /* and what they weigh where they are not unique */
-  double *guard;                  /* ng */
+  unsigned char *wanted;    /* n_rows: what frot_dynamics looks at */
+  double *free, *delassus;  /* see frot_dynamics */
+  double *load, *load_size; /* nw: sizes of all loads, and of what they do */
+  double *row_load;         /* n_rows */
+  double *lam, *a;          /* reactions (n_rows), solution z of the core (nw) */
+  /* reactions.c: the unknowns and what goes with them */
+  int *unknown, *owner, *fold;
+  unsigned char *friction;
+  double *fold_ratio, *ratio, *along, *unit_of, *weight, *solution;
+  int dependent; /* the reactions are not unique */
+  int rank;      /* orthonormal rows in `basis` */
+  double *basis, *parts, *bias; /* orthonormal rows */
+  double *active, *right, *lstsq; /* the system of the unknowns */
+  double *rest, *column;        /* nw: of the function that runs */
+  int *row_of;
+  int *guards, n_guards;          /* see guards.h */
+  double *guard;                  /* ng: sizes of the terms of the guards listed */
+  double *end_reaction;           /* 2 n_elements: reactions of pins at the end of a step */
   double *k;                      /* DP_ALL x nz */
   double *z0, *z1, *ztry;         /* nz */
   double *f;                      /* DP_DENSE x nz */
@@ -128,9 +135,12 @@ struct frot_work {
   /* events of the text: see conditions.h and happen.c */
   double *rose, *firing, *outcome, *condition_before, *condition_known, *timer;
   double *discrete, *discrete_before, *held;
-  frot_contact_mode *trial, *best, *before;
-  double *best_acceleration;
-  int *choice, *component;
+  frot_contact_mode *trial, *best, *before, *guess;
+  unsigned char *certain; /* n_contacts: see search.h */
+  double *motions;        /* search.c: accelerations of the motions found */
+  double *pivot_bound;    /* pivot.c: bounds, gradient, step of each row */
+  int *choice, *component, *chosen;
+  unsigned char *zero; /* n_elements: see search.h */
   double t; /* where dynamics was last evaluated */
 };
 
@@ -142,14 +152,14 @@ frot_layout frot_layout_of(const frot_model *model);
 void frot_bind_work(const frot_model *model, frot_work *work);
 frot_segment frot_segment_at(const frot_model *model, double *data);
 
-/* The rows of an element: reactions that bound, slip, rolling; -1 where there is none. */
-#define FROT_ROWS 4
-void frot_rows_of(const frot_contact *contact, int rows[FROT_ROWS]);
-/* Whether an element is a contact, which can open and has a normal. */
+/* Whether a contact has a normal, and can open. */
 int frot_has_normal(const frot_contact *contact);
 
+/* Open a contact: its laws bound nothing. */
+void frot_open(const frot_model *model, frot_contact_mode *modes, int contact);
+
 /* Value of a liaison's variable `mode`. */
-int frot_mode_value(const frot_contact_mode *mode);
+int frot_mode_value(const frot_model *model, const frot_contact_mode *modes, int contact);
 
 /* Record a fault and return its status. */
 int frot_fail(frot_state *state, int status, double t, int contact, int item, int other,

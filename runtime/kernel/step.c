@@ -11,26 +11,25 @@
 
 #include "blocks.h"
 #include "conditions.h"
+#include "core.h"
+#include "guards.h"
 #include "implicit.h"
 #include "mechanics.h"
 #include "probe.h"
 #include "projection.h"
-#include "resolve.h"
+#include "reactions.h"
 #include "roots.h"
 #include "sizes.h"
 #include "stiffness.h"
+#include "tolerances.h"
 
 /* Part of the tolerance given to one step, so that the whole run keeps it. */
 #define LOCAL_SHARE 0.1
-#define LEAST_TOLERANCE 2e-15
-/* Rounding of an acceleration, in units of what the forces could do to it. */
-#define NOISE (8 * DBL_EPSILON)
 /* A guard need only be followed well enough to see where it goes. */
 #define GUARD_LOOSEST 1e-3
 #define GUARD_TIGHTEST 1e-6
-#define GUARD_FLOOR 1e-12
-/* Part of its largest size by which a condition is off zero by rounding: far below GUARD_FLOOR, so
- * that what counts as fallen does not fall again. */
+/* Part of its largest size by which a condition is off zero by rounding: far below FROT_GUARD_FLOOR,
+ * so that what counts as fallen does not fall again. */
 #define CONDITION_ZERO 4e-15
 /* Part of its size in the next step by which a condition moves that has no rate. */
 #define FLAT 1e-10
@@ -40,10 +39,10 @@
 #define LOCATE_PASSES 12
 /* The first step, in longest steps: what starts from rest shows its size only as it moves. */
 #define FIRST_PART 1e-3
-/* Rejections of one step after which the rounding of its derivatives is measured. */
-#define PATIENCE 6
-/* Part by which values are moved to see what rounding does to derivatives. */
-#define NUDGE (2 * DBL_EPSILON)
+/* Rejections of one step after which the rounding of its derivatives is measured, and what is left
+ * of that measure a step later. */
+#define PATIENCE 2
+#define FORGET 0.9
 #define CHUNK 4 /* states summed together, in registers */
 /* Length of a step in which nothing moves and nothing depends on time, in longest steps. */
 #define LONG_REST 1e9
@@ -81,12 +80,16 @@ static void weigh(const frot_work *w, int nz, const double *coefficient, int cou
   }
 }
 
+/* Values integrated together: the states and the guards listed. */
+static int width(const frot_work *w) { return w->layout.nx + w->n_guards; }
+
 /* z <- base + h * (sum of coefficient[k] times stage k < count); base may be NULL. */
 static void combine(const frot_work *w, int nz, const double *coefficient, int count, double h,
                     const double *base, double *z) {
-  for (int from = 0; from < nz; from += CHUNK) {
+  int end = width(w);
+  for (int from = 0; from < end; from += CHUNK) {
     double sum[CHUNK];
-    int size = nz - from < CHUNK ? nz - from : CHUNK;
+    int size = end - from < CHUNK ? end - from : CHUNK;
     weigh(w, nz, coefficient, count, from, size, sum);
     for (int j = 0; j < size; j++) z[from + j] = (base ? base[from + j] : 0) + h * sum[j];
   }
@@ -136,26 +139,17 @@ static void size_own_states(const frot_model *m, const frot_state *s, frot_work 
   frot_state_sizes(m, s, w);
 }
 
-/* Error of value j that rounding alone can make in a step h: it is not followed. */
-static double rounding_of(const frot_model *m, const frot_state *s, const frot_work *w,
-                          const frot_layout *l, int j, double h) {
-  int speed = j < m->nq ? m->q_speed[j] : j - m->nq;
-  double known = NOISE * h * s->data[l->noise + j] / NUDGE;
-  if (speed < 0) return known;
-  double rounding = NOISE * h * frot_push_on(m, s, w, speed);
-  return fmax(known, j < m->nq ? h * rounding : rounding);
-}
-
 /* Estimate of the local error over its bound: at most 1 for a good step, NaN for no number. */
 static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                           double h) {
   if (s->implicit) return frot_implicit_error(m, s, w, h);
   size_own_states(m, s, w, l, h);
-  double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
+  double tolerance = fmax(LOCAL_SHARE * s->tolerance, FROT_LEAST_TOLERANCE), worst = 0;
   double guard_tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
   double e5[CHUNK], e3[CHUNK];
-  for (int j = 0; j < l->nz; j++) {
-    int at = j % CHUNK, size = l->nz - j < CHUNK ? l->nz - j : CHUNK;
+  int end = width(w);
+  for (int j = 0; j < end; j++) {
+    int at = j % CHUNK, size = end - j < CHUNK ? end - j : CHUNK;
     if (at == 0) {
       weigh(w, l->nz, dp_e5, DP_STAGES + 1, j, size, e5);
       weigh(w, l->nz, dp_e3, DP_STAGES + 1, j, size, e3);
@@ -164,9 +158,10 @@ static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, cons
     if (e5[at] == 0 && e3[at] == 0) continue;
     double bound, fifth = h * e5[at], third = h * e3[at];
     if (j < l->nx) {
-      bound = fmax(tolerance * size_at_start(m, s, w, l, j, h), rounding_of(m, s, w, l, j, h));
+      double noise = FROT_NOISE_MARGIN * h * s->data[l->noise + j];
+      bound = fmax(tolerance * size_at_start(m, s, w, l, j, h), noise);
     } else {
-      double largest = GUARD_LOOSEST * s->data[l->scale_g + j - l->nx];
+      double largest = GUARD_LOOSEST * s->data[l->scale_g + w->guards[j - l->nx]];
       for (int k = 0; k <= DP_STAGES; k++) largest = fmax(largest, fabs(w->k[k * l->nz + j]));
       bound = guard_tolerance * h * largest;
     }
@@ -178,18 +173,49 @@ static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, cons
   return worst;
 }
 
-/* What rounding of the values does to the derivatives at the start of the step, into the state. A
+/* Accelerations that are nothing but rounding of their terms in all stages of the step: what they
+ * bring is noise, however small the values moved (a value that is zero shows none by being moved).
+ */
+static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                         double t, double *largest) {
+  double *noise = s->data + l->noise, *size = w->residual;
+  frot_acceleration_sizes(m, s, w, t, w->z0, w->z0 + m->nq, s->data + l->d, size);
+  for (int k = 0; k < m->nv; k++) {
+    double rounding = FROT_ROUNDING * size[k];
+    if (largest[m->nq + k] <= FROT_NOISE_MARGIN * rounding)
+      noise[m->nq + k] = fmax(noise[m->nq + k], rounding);
+  }
+}
+
+/* What rounding of the values and of the time does to the derivatives at time t, into the state. A
  * value whose derivative is nothing but rounding would shrink the step without end. */
 static void measure_noise(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                           double t) {
-  double *slope = stage(l, w, 1), *noise = s->data + l->noise;
+  double *base = stage(l, w, 1), *slope = stage(l, w, 2), *noise = s->data + l->noise;
+  int n = m->nq + m->nv;
+  double *largest = w->f;
+  for (int j = 0; j < n; j++) {
+    largest[j] = 0;
+    for (int i = 0; i <= DP_STAGES; i++) largest[j] = fmax(largest[j], fabs(stage(l, w, i)[j]));
+  }
+  memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
+  if (slope_at(m, s, w, l, t, w->z0, base) != FROT_OK) return;
+  memset(noise, 0, sizeof(double) * (size_t)n);
   for (int pattern = 0; pattern < 2; pattern++) {
     memcpy(w->ztry, w->z0, sizeof(double) * (size_t)l->nz);
-    for (int j = 0; j < m->nq + m->nv; j++)
-      w->ztry[j] *= 1 + (((j >> pattern) & 1) != 0 ? NUDGE : -NUDGE);
+    for (int j = 0; j < n; j++)
+      w->ztry[j] *= 1 + (((j >> pattern) & 1) != 0 ? FROT_NUDGE : -FROT_NUDGE);
     memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
-    if (slope_at(m, s, w, l, t, w->ztry, slope) != FROT_OK) return;
-    for (int j = 0; j < m->nq + m->nv; j++) noise[j] = fmax(noise[j], fabs(slope[j] - w->k[j]));
+    double later = t * (1 + (pattern ? FROT_NUDGE : -FROT_NUDGE));
+    if (slope_at(m, s, w, l, later, w->ztry, slope) != FROT_OK) return;
+    for (int j = 0; j < n; j++) noise[j] = fmax(noise[j], fabs(slope[j] - base[j]));
+  }
+  if (slope_at(m, s, w, l, t, w->z0, base) == FROT_OK) add_rounding(m, s, w, l, t, largest);
+  /* a position can be no better than its speed */
+  for (int j = 0; j < m->nq; j++) {
+    if (m->q_speed[j] < 0) continue;
+    int speed = m->nq + m->q_speed[j];
+    noise[j] = fmax(noise[j], fmax(FROT_NUDGE * fabs(w->z0[speed]), fabs(s->h) * noise[speed]));
   }
 }
 
@@ -204,7 +230,7 @@ static int make_dense(const frot_model *m, frot_state *s, frot_work *w, const fr
     if (status != FROT_OK) return status;
   }
   const double *start = stage(l, w, 0), *end = stage(l, w, DP_STAGES);
-  for (int j = 0; j < l->nz; j++) {
+  for (int j = 0; j < width(w); j++) {
     double step = w->z1[j] - w->z0[j];
     w->f[j] = step;
     w->f[l->nz + j] = h * start[j] - step;
@@ -229,7 +255,7 @@ static void guard_polynomial(const frot_state *s, const frot_work *w, const frot
 static double fallen(const frot_model *m, const frot_state *s, const frot_layout *l, int j,
                      double t, double slope) {
   double size = s->data[l->scale_g + j];
-  if (j < FROT_GUARDS * m->n_contacts) return FROT_ZERO * size;
+  if (j < frot_condition_guard(m)) return FROT_ZERO * size;
   return CONDITION_ZERO * size + 8 * DBL_EPSILON * fabs(t) * fabs(slope);
 }
 
@@ -241,32 +267,48 @@ static int lost_at_once(const frot_state *s, const frot_layout *l, int j, const 
                         double inside, int falls) {
   double rise = g[1] - g[0];
   if (s->data[l->fresh + j] == 0) return falls && g[0] <= 0 && rise < 0;
-  return rise < (s->jumped ? FLAT : -NOISE) * inside;
+  return rise < (s->jumped ? FLAT : -2 * FROT_ROUNDING) * inside;
 }
 
 /* The first guard to fall inside the step from t, its theta in *theta; -1 when none does. A guard
  * that was zero at an event is known no better than its slope times the resolution of time. */
 static int first_guard(const frot_model *m, const frot_state *s, const frot_work *w,
                        const frot_layout *l, double t, double h, double *theta) {
-  int found = -1, conditions = FROT_GUARDS * m->n_contacts;
+  int found = -1, conditions = frot_condition_guard(m);
   *theta = FROT_NO_ROOT;
-  for (int j = 0; j < l->ng; j++) {
+  for (int k = 0; k < w->n_guards; k++) {
     double g[7];
-    guard_polynomial(s, w, l, j, h, g);
+    int j = w->guards[k];
+    guard_polynomial(s, w, l, k, h, g);
     double size = s->data[l->scale_g + j], inside = 0;
-    for (int k = 0; k < 7; k++) inside = fmax(inside, fabs(g[k]));
+    for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
     size = fmax(size, inside);
-    double slope = 6 * fabs(g[1] - g[0]) / h;
-    double at = frot_first_fall(g, GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * slope);
-    if (j >= conditions && fabs(g[0]) <= FROT_ZERO * size &&
+    double slope = 6 * fabs(g[1] - g[0]) / h, first = g[0];
+    /* what is zero at the start but for rounding, and rises, has not fallen */
+    for (int i = 0; j < conditions && i < 6 && g[i] < 0 && g[i] >= -FROT_ZERO * size && g[i + 1] > g[i]; i++) g[i] = 0;
+    double at = frot_first_fall(g, FROT_GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * slope);
+    if (j >= conditions && fabs(first) <= FROT_ZERO * size &&
         lost_at_once(s, l, j - conditions, g, inside, at < FROT_NO_ROOT))
       at = 0;
-    if (at < *theta) *theta = at, found = j;
+    if (at < *theta) *theta = at, found = k;
   }
   return found;
 }
 
-/* Shorten the step so that it ends where guard j is zero, by the secant on steps made anew: the
+/* Move the end of the step onto the relations and evaluate there: a guard is read where the motion
+ * will go on. */
+static int land(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l, double t) {
+  int moved;
+  memcpy(w->y, w->y_end, sizeof(double) * (size_t)m->ny);
+  int status = frot_project(m, s, w, t, w->z1, w->z1 + m->nq, s->data + l->d, modes_of(s, l), NULL,
+                            &moved);
+  if (status != FROT_OK || !moved) return status;
+  status = slope_at(m, s, w, l, t, w->z1, stage(l, w, DP_STAGES));
+  memcpy(w->y_end, w->y, sizeof(double) * (size_t)m->ny);
+  return status;
+}
+
+/* Shorten the step so that it ends where the listed guard j is zero, by the secant on steps made anew: the
  * event is as exact as the steps are. Returns a status; *h is the length and *falls whether it does
  * fall. */
 static int locate(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l, double t,
@@ -278,6 +320,7 @@ static int locate(const frot_model *m, frot_state *s, frot_work *w, const frot_l
   double at = theta * longest, last_at = 0, last = 0, value = 0;
   for (int pass = 0;; pass++) {
     int status = run_stages(m, s, w, l, t, at);
+    if (status == FROT_OK && !s->implicit) status = land(m, s, w, l, t + at);
     if (status != FROT_OK) return status;
     value = stage(l, w, DP_STAGES)[l->nx + j];
     if (pass > 0 && at != last_at && value != last) {
@@ -294,9 +337,9 @@ static int locate(const frot_model *m, frot_state *s, frot_work *w, const frot_l
   }
   *h = at;
   /* A dip that never reaches zero is no event; the shorter step stands all the same. */
-  double close = 1e-9 * s->data[l->scale_g + j];
-  if (j >= FROT_GUARDS * m->n_contacts)
-    close = GUARD_FLOOR * s->data[l->scale_g + j] + 8 * DBL_EPSILON * fabs(t) * fabs(slope);
+  double size = s->data[l->scale_g + w->guards[j]], close = 1e-9 * size;
+  if (w->guards[j] >= frot_condition_guard(m))
+    close = FROT_GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * fabs(slope);
   *falls = value <= close;
   return FROT_OK;
 }
@@ -321,7 +364,9 @@ void frot_guess_unknowns(const frot_model *m, frot_work *w, const frot_segment *
 
 static void copy_modes(frot_state *s, const frot_layout *l, const frot_model *m,
                        const frot_segment *g) {
-  memcpy(g->modes, s->data + l->modes, sizeof *g->modes * (size_t)m->n_contacts);
+  memcpy(g->modes, s->data + l->modes,
+         sizeof *g->modes * (size_t)(m->n_contacts + m->n_elements));
+  memcpy(g->along, s->data + l->along, sizeof(double) * 2 * (size_t)m->n_elements);
   memcpy(g->d, s->data + l->d, sizeof(double) * (size_t)l->nd);
   memcpy(g->frozen, s->data + l->frozen, sizeof(double) * (size_t)m->nv);
 }
@@ -342,10 +387,16 @@ void frot_make_instant(const frot_model *m, frot_state *s, const frot_work *w, d
   s->has_slope = 0;
 }
 
-/* Sizes of the guards' terms at z into w->guard; the last evaluation was there. */
+/* Sizes of the guards' terms at (t, z) into w->guard; the last evaluation was there. */
 static void measure(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
-                    const double *z) {
-  frot_guards(m, s, w, z, z + m->nq, s->data + l->d, modes_of(s, l), w->ztry, w->guard);
+                    double t, const double *z) {
+  const double *d = s->data + l->d;
+  for (int e = 0; e < m->n_elements; e++)
+    for (int k = 0; k < 2 && m->elements[e].bound == FROT_BY_PIN; k++)
+      w->end_reaction[2 * e + k] = w->lam[m->elements[e].bounded_by[k]];
+  if (frot_guards_read_loads(m, w, modes_of(s, l)))
+    frot_row_loads(m, s, w, t, z, z + m->nq, d);
+  frot_guards(m, s, w, z, z + m->nq, d, modes_of(s, l), w->ztry, w->guard);
 }
 
 /* Note how large values and guards have been, after `measure` at z. */
@@ -353,15 +404,11 @@ static void note_sizes(const frot_model *m, frot_state *s, const frot_work *w, c
                        const double *z) {
   for (int j = 0; j < m->nq + m->nv; j++)
     s->data[l->scale_x + j] = fmax(s->data[l->scale_x + j], fabs(z[j]));
-  for (int j = 0; j < l->ng; j++)
-    s->data[l->scale_g + j] = fmax(s->data[l->scale_g + j], w->guard[j]);
-  frot_note_push(m, s, w);
-  const double *metric = m->general ? w->metric : w->mass;
-  double kinetic = 0;
-  for (int i = 0; i < m->nv; i++)
-    for (int k = 0; k < m->nv; k++)
-      kinetic += 0.5 * z[m->nq + i] * metric[k * l->nm + i] * z[m->nq + k];
-  s->energy_scale = fmax(s->energy_scale, kinetic);
+  for (int k = 0; k < w->n_guards; k++) {
+    double *scale = s->data + l->scale_g + w->guards[k];
+    *scale = fmax(*scale, w->guard[k]);
+  }
+  s->energy_scale = fmax(s->energy_scale, frot_kinetic(m, w, z + m->nq));
 }
 
 /* Derivative at the start of the step into stage 0. */
@@ -369,6 +416,7 @@ static int start_slope(const frot_model *m, frot_state *s, frot_work *w, const f
                        double t) {
   memcpy(w->z0, s->data + l->x, sizeof(double) * (size_t)l->nx);
   memset(w->z0 + l->nx, 0, sizeof(double) * (size_t)l->ng);
+  frot_list_guards(m, s, w, modes_of(s, l));
   if (s->has_slope) {
     memcpy(stage(l, w, 0), s->data + l->slope, sizeof(double) * (size_t)l->nz);
     return FROT_OK;
@@ -379,9 +427,9 @@ static int start_slope(const frot_model *m, frot_state *s, frot_work *w, const f
   if (status == FROT_OK) {
     memcpy(s->data + l->y, w->y, sizeof(double) * (size_t)m->ny);
     frot_turn_references(m, s, w);
-    measure(m, s, w, l, w->z0);
+    measure(m, s, w, l, t, w->z0);
     note_sizes(m, s, w, l, w->z0);
-    memcpy(stage(l, w, 0) + l->nx, w->ztry, sizeof(double) * (size_t)l->ng);
+    memcpy(stage(l, w, 0) + l->nx, w->ztry, sizeof(double) * (size_t)w->n_guards);
   }
   return status;
 }
@@ -406,12 +454,17 @@ static int fail_at(const frot_model *m, frot_state *s, frot_work *w, int status,
   double largest = 0;
   if (status == FROT_ALGEBRAIC || (status == FROT_NAN && w->block >= 0))
     return frot_fail_evaluation(m, s, w, status, t);
-  for (int i = 0; i < m->n_contacts; i++) {
-    const double *k = w->coefficient + 3 * i;
-    const frot_contact *contact = &m->contacts[i];
-    double size = fabs(w->lam[contact->row_n >= 0 ? contact->row_n : contact->row_t]);
-    int wrong = status == FROT_NAN ? isnan(k[0] + k[1] + k[2]) : size > largest;
-    if (wrong) largest = size, blamed = i;
+  for (int e = 0; e < m->n_elements; e++) {
+    const double *k = w->coefficient + 2 * e;
+    const frot_element *element = &m->elements[e];
+    int row = element->bounded_by[0] >= 0 ? element->bounded_by[0] : element->row;
+    double size = fabs(w->lam[row]);
+    int wrong = status == FROT_NAN ? isnan(k[0] + k[1]) : size > largest;
+    if (wrong) largest = size, blamed = element->contact;
+  }
+  for (int i = 0; i < m->n_contacts && status != FROT_NAN; i++) {
+    int row = m->contacts[i].row_n;
+    if (row >= 0 && fabs(w->lam[row]) > largest) largest = fabs(w->lam[row]), blamed = i;
   }
   frot_layout l = frot_layout_of(m);
   int load = status == FROT_NAN && blamed < 0 ? wrong_load(m, s, w, &l) : -1;
@@ -439,7 +492,7 @@ static int is_still(const frot_model *m, const frot_work *w) {
 }
 
 static int fire_at_start(frot_state *s, const frot_work *w, const frot_layout *l, int guard) {
-  s->data[l->fired + guard] = 1;
+  s->data[l->fired + w->guards[guard]] = 1;
   memcpy(s->data + l->slope, w->k, sizeof(double) * (size_t)l->nz);
   s->pending = 1;
   return FROT_OK;
@@ -449,13 +502,18 @@ static int fire_at_start(frot_state *s, const frot_work *w, const frot_layout *l
 static void fire(const frot_model *m, frot_state *s, const frot_work *w, const frot_layout *l,
                  int first, double t, double h) {
   const double *end = w->k + DP_STAGES * l->nz + l->nx, *start = w->k + l->nx;
-  for (int j = 0; j < l->ng; j++) {
+  for (int k = 0; k < w->n_guards; k++) {
     double g[7];
-    guard_polynomial(s, w, l, j, h, g);
-    double limit = fallen(m, s, l, j, t + h, 6 * (g[6] - g[5]) / h);
-    if (j == first || (end[j] <= limit && start[j] > limit)) s->data[l->fired + j] = 1;
+    guard_polynomial(s, w, l, k, h, g);
+    double limit = fallen(m, s, l, w->guards[k], t + h, 6 * (g[6] - g[5]) / h);
+    if (k == first || (end[k] <= limit && start[k] > limit)) s->data[l->fired + w->guards[k]] = 1;
   }
   s->pending = 1;
+}
+
+/* The listed guard of the first condition: they are all listed, last. */
+static int first_condition(const frot_model *m, const frot_work *w) {
+  return w->n_guards - m->n_located;
 }
 
 /* After a stage that gave no number (its values in w->z1): a condition may have passed through zero
@@ -463,7 +521,7 @@ static void fire(const frot_model *m, frot_state *s, const frot_work *w, const f
  * is the part of the step h from t after which it seems to be zero. */
 static int condition_passed(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                             double t, double h, double *part) {
-  const double *d = s->data + l->d, *start = w->k + l->nx + FROT_GUARDS * m->n_contacts;
+  const double *d = s->data + l->d, *start = w->k + l->nx + first_condition(m, w);
   int passed = -1;
   if (m->n_located == 0 || !frot_all_finite(w->z1, m->nq + m->nv)) return -1;
   memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
@@ -478,11 +536,27 @@ static int condition_passed(const frot_model *m, frot_state *s, frot_work *w, co
   return passed;
 }
 
+/* Turn the pins' references at the end of the step, and with them the guards in its slope. */
+static void turn_at_end(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                        double *slope) {
+  for (int e = 0; e < m->n_elements; e++)
+    for (int k = 0; k < 2 && m->elements[e].bound == FROT_BY_PIN; k++)
+      w->lam[m->elements[e].bounded_by[k]] = w->end_reaction[2 * e + k];
+  frot_turn_references(m, s, w);
+  for (int k = 0; k < w->n_guards && w->guards[k] < frot_condition_guard(m); k++) {
+    int e = (w->guards[k] - m->n_contacts) / 2;
+    if (w->guards[k] < m->n_contacts || w->guards[k] == frot_element_guard(m, e)) continue;
+    if (frot_element_mode(m, modes_of(s, l), e)->friction == FROT_STICK) continue;
+    const double *along = s->data + l->along + 2 * e, *reaction = w->end_reaction + 2 * e;
+    slope[l->nx + k] = along[0] * reaction[0] + along[1] * reaction[1];
+  }
+}
+
 /* Whether condition j is zero at the start of the step as far as steps of length h can tell. */
 static int is_at_zero(const frot_model *m, const frot_state *s, const frot_work *w,
                       const frot_layout *l, int j) {
-  int guard = FROT_GUARDS * m->n_contacts + j;
-  return fabs(w->k[l->nx + guard]) <= GUARD_FLOOR * fmax(s->data[l->scale_g + guard], 1e-300);
+  double size = s->data[l->scale_g + frot_condition_guard(m) + j];
+  return fabs(w->k[l->nx + first_condition(m, w) + j]) <= FROT_GUARD_FLOOR * fmax(size, 1e-300);
 }
 
 int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
@@ -508,7 +582,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   for (;;) {
     if (!to_due && !(h > LEAST_STEP * fmax(fabs(t), 1e-3 * s->h_max))) {
       if (passed >= 0 && is_at_zero(m, s, w, &l, passed))
-        return fire_at_start(s, w, &l, FROT_GUARDS * m->n_contacts + passed);
+        return fire_at_start(s, w, &l, first_condition(m, w) + passed);
       return fail_at(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, t, h);
     }
     status = run_stages(m, s, w, &l, t, h);
@@ -517,7 +591,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
     double ratio = status == FROT_OK ? error_ratio(m, s, w, &l, h) : NAN;
     if (ratio <= 1) {
       stiff = frot_is_stiff(m, s, w, h);
-      measure(m, s, w, &l, w->z1);
+      measure(m, s, w, &l, t + h, w->z1);
       status = make_dense(m, s, w, &l, t, h);
       if (status == FROT_OK && s->implicit && !frot_implicit_follows_guards(m, s, w))
         status = FROT_DIVERGE;
@@ -531,7 +605,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
     }
     s->statistics.rejected++;
     to_due = 0;
-    if (++rejections % PATIENCE == 0) measure_noise(m, s, w, &l, t);
+    if (++rejections % PATIENCE == 0) measure_noise(m, s, w, &l, t + h);
     h *= ratio > 1 && ratio < 1e300 ? fmax(0.9 * pow(ratio, power), 1.0 / 3)
          : passed >= 0              ? fmin(fmax(NEARLY * part, 0.01), NEARLY)
                                     : 0.25;
@@ -544,7 +618,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
     status = locate(m, s, w, &l, t, guard, theta, &h, &falls);
     to_due = 0;
     if (status == FROT_OK) {
-      measure(m, s, w, &l, w->z1);
+      measure(m, s, w, &l, t + h, w->z1);
       status = make_dense(m, s, w, &l, t, h);
     }
     if (status != FROT_OK) return fail_at(m, s, w, status, t, h);
@@ -555,6 +629,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   note_sizes(m, s, w, &l, w->z1);
   if (falls) fire(m, s, w, &l, guard, t, h);
   if (to_due) frot_fire_due(m, s);
+  for (int j = 0; j < m->nq + m->nv; j++) s->data[l.noise + j] *= FORGET;
 
   *g.t0 = t, *g.t1 = to_due ? s->due : t + h, *g.h = h;
   copy_modes(s, &l, m, &g);
@@ -574,6 +649,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   if (status != FROT_OK) return fail_at(m, s, w, status, *g.t1, h);
   memcpy(s->data + l.y, w->y, sizeof(double) * (size_t)m->ny);
   s->has_slope = !moved && !s->pending;
+  if (s->has_slope) turn_at_end(m, s, w, &l, slope);
   frot_choose_next(m, s, stiff);
   if (*g.t1 > s->crowded_since + 1e-9 * s->h_max) s->crowded_since = *g.t1, s->crowded = 0;
   return FROT_OK;

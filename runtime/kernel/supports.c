@@ -110,11 +110,12 @@ typedef struct {
   frot_recorder *recorder; /* NULL where nothing is recorded */
 } change;
 
-static void open_contact(const change *c, int i, frot_contact_mode *mode) {
-  frot_note(c->recorder, c->s, c->t, FROT_EVENT_SEPARATION, i, frot_mode_value(mode),
+static void open_contact(const change *c, int i) {
+  frot_contact_mode *modes = (frot_contact_mode *)(void *)(c->s->data + c->l.modes);
+  frot_note(c->recorder, c->s, c->t, FROT_EVENT_SEPARATION, i, frot_mode_value(c->m, modes, i),
             FROT_MODE_OPEN, 1);
-  *mode = (frot_contact_mode){0, 1, FROT_NONE, FROT_NONE, {0}};
-  memset(c->s->data + c->l.scale_g + FROT_GUARDS * i, 0, sizeof(double) * FROT_GUARDS);
+  frot_open(c->m, modes, i);
+  c->s->data[c->l.scale_g + i] = 0;
 }
 
 /* Look at contact i or, with `act`, open it or let it close. */
@@ -137,9 +138,9 @@ static int check_contact(const change *c, int i, int act) {
   if (touches && rate < -TOUCH * usual) return refuse(s, c->t, i, -1, FROT_MEETS, -rate);
   if (!act) return FROT_OK;
   if (mode->closed && (!touches || leaves))
-    open_contact(c, i, mode);
+    open_contact(c, i);
   else if (!mode->closed && touches && !leaves)
-    s->data[c->l.fired + FROT_GUARDS * i] = 1;
+    s->data[c->l.fired + i] = 1;
   return FROT_OK;
 }
 

@@ -1,0 +1,184 @@
+/* Whether given modes are admissible: the inequalities of Painleve's rules.
+ *
+ * Slip opposes its friction, rest stays within mu_s N, what is closed presses, what opens parts. */
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "linear.h"
+#include "guards.h"
+#include "reactions.h"
+#include "search.h"
+#include "tolerances.h"
+
+/* Acceleration of a row and the size of its terms, for the comparison with zero. */
+static double acceleration(const frot_instant *in, int row, double *size) {
+  double value = frot_acceleration(in->m, in->w, row, size);
+  *size += in->w->row_load[row] + frot_row_rounding(in->m, in->w, row) / FROT_DEPARTURE_SLACK;
+  return value;
+}
+
+static int is_still(const frot_instant *in, int row) {
+  double size, value = acceleration(in, row, &size);
+  return fabs(value) <= FROT_DEPARTURE_SLACK * size;
+}
+
+/* By how much the reaction of a row may be off by rounding: its terms cancel. */
+static double reaction_rounding(const frot_instant *in, int row) {
+  double size;
+  frot_acceleration(in->m, in->w, row, &size);
+  double own = frot_is_reading(in->m, row) ? 1 : fabs(frot_effect(in->m, in->w, row, row));
+  return FROT_ZERO_OF_MOTION * (frot_reaction_size(in->m, in->w, row) + (own > 0 ? size / own : 0));
+}
+
+/* What is left of a bound when an element holds, over its size: negative beyond the slack. */
+static double reserve(const frot_instant *in, int e) {
+  const frot_element *element = &in->m->elements[e];
+  frot_work *w = in->w;
+  double bound = fabs(frot_bound_of_rest(in->m, w, e, w->trial)), lam = fabs(w->lam[element->row]);
+  double rounding = reaction_rounding(in, element->row);
+  for (int k = 0; k < 2; k++)
+    if (element->bounded_by[k] >= 0)
+      rounding += w->coefficient[2 * e + 1] * reaction_rounding(in, element->bounded_by[k]);
+  double size = bound + lam + rounding / FROT_BOUND_SLACK;
+  return size > 0 ? (bound - lam) / size : 0;
+}
+
+/* The same of a contact that must press. */
+static double pressure(const frot_instant *in, int i) {
+  int row = in->m->contacts[i].row_n;
+  double lam = in->w->trial[i].side * in->w->lam[row];
+  double size = fabs(lam) + frot_reaction_size(in->m, in->w, row) +
+                reaction_rounding(in, row) / FROT_BOUND_SLACK;
+  return size > 0 ? lam / size : 0;
+}
+
+/* Whether a row is held without a reaction of its own, by what holds in w->trial: then it cannot
+ * start to move. Of a mass matrix it lies in the span of the rows that hold. */
+static int is_carried(const frot_instant *in, int row) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  const frot_group *g = frot_group_of(m, row);
+  int ns = g->n_speeds, held = 0;
+  if (!g->general) {
+    double *x = w->column;
+    memcpy(x, frot_entries(m, w->half, row), sizeof(double) * (size_t)ns);
+    double length = sqrt(frot_dot(x, x, ns));
+    double rest = frot_reject(x, w->basis, w->rank, ns, w->parts);
+    return !(rest > frot_least_length(m, w, row, length));
+  }
+  /* W_ee - W_eh W_hh^-1 W_he: what its own reaction does to it while the others hold */
+  int *rows = w->row_of;
+  for (int i = 0; i < g->n_contacts; i++)
+    if (frot_is_loaded(m, w->trial, g->contacts[i])) rows[held++] = m->contacts[g->contacts[i]].row_n;
+  for (int i = 0; i < g->n_elements; i++)
+    if (frot_is_held(m, w->trial, g->elements[i])) rows[held++] = m->elements[g->elements[i]].row;
+  double own = frot_effect(m, w, row, row), left = own, size = fabs(own);
+  double *b = w->right, *x = w->solution;
+  for (int i = 0; i < held; i++) {
+    b[i] = frot_effect(m, w, rows[i], row);
+    for (int j = 0; j < held; j++) w->active[j * held + i] = frot_effect(m, w, rows[i], rows[j]);
+  }
+  frot_least_norm(w->active, b, held, held, x, w->lstsq, w->pivot);
+  for (int i = 0; i < held; i++) {
+    left -= frot_effect(m, w, row, rows[i]) * x[i];
+    size += fabs(frot_effect(m, w, row, rows[i]) * x[i]);
+  }
+  return fabs(left) <= FROT_DEPENDENT * size;
+}
+
+static int element_is_admissible(const frot_instant *in, int e) {
+  const frot_element *element = &in->m->elements[e];
+  const frot_contact_mode *mode = frot_element_mode(in->m, in->w->trial, e);
+  if (mode->friction == FROT_STICK && element->prescribed)
+    return fabs(in->w->c[element->row]) <= FROT_PRESCRIBED_REST;
+  if (mode->friction == FROT_STICK) {
+    if (in->w->trial[element->contact].unloaded || mode->at_bound != 0)
+      return is_still(in, element->row) && is_carried(in, element->row);
+    return reserve(in, e) >= -FROT_BOUND_SLACK;
+  }
+  if (mode->friction == FROT_NONE || !in->zero[e]) return 1;
+  double size, a = acceleration(in, element->row, &size);
+  if (mode->friction == FROT_SLIP_BACKWARD) a = -a;
+  if (!(a >= -FROT_DEPARTURE_SLACK * size)) return 0;
+  return a > FROT_DEPARTURE_SLACK * size || element->prescribed || !is_carried(in, element->row);
+}
+
+static int has_law(const frot_instant *in, int i) {
+  for (int e = 0; e < in->m->n_elements; e++)
+    if (in->m->elements[e].contact == i &&
+        frot_element_mode(in->m, in->w->trial, e)->friction != FROT_NONE)
+      return 1;
+  return 0;
+}
+
+static int all_held(const frot_instant *in, int i) {
+  for (int e = 0; e < in->m->n_elements; e++)
+    if (in->m->elements[e].contact == i &&
+        frot_element_mode(in->m, in->w->trial, e)->friction > FROT_STICK)
+      return 0;
+  return 1;
+}
+
+static int contact_is_admissible(const frot_instant *in, int i) {
+  int row = in->m->contacts[i].row_n;
+  frot_contact_mode *mode = &in->w->trial[i];
+  if (!frot_has_normal(&in->m->contacts[i])) return 1;
+  if (!mode->closed) {
+    double size, a = acceleration(in, row, &size);
+    return a > FROT_DEPARTURE_SLACK * size ||
+           (a >= -FROT_DEPARTURE_SLACK * size && !is_carried(in, row));
+  }
+  if (mode->unloaded) return is_still(in, row) && is_carried(in, row);
+  /* held all round, the side follows from the reaction */
+  if (in->unilateral[i] == 0 && all_held(in, i)) mode->side = in->w->lam[row] < 0 ? -1 : 1;
+  if (in->unilateral[i] == 0 && !has_law(in, i)) return 1;
+  return pressure(in, i) >= -FROT_BOUND_SLACK;
+}
+
+/* Where reactions are not unique and some are not admissible, but others could carry instead: put the
+ * worst at its bound or without load. Returns 1 when one was put there. */
+static int let_others_carry(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  frot_contact_mode *trial = in->w->trial;
+  double most = -FROT_BOUND_SLACK;
+  int worst_contact = -1, worst_element = -1;
+  for (int c = 0; c < count; c++) {
+    int i = chosen[c];
+    if (!frot_is_loaded(m, trial, i) || in->unilateral[i] == 0) continue;
+    double left = pressure(in, i);
+    if (left < most) most = left, worst_contact = i;
+  }
+  for (int e = 0; e < m->n_elements && worst_contact < 0; e++) {
+    int among = 0;
+    for (int c = 0; c < count; c++) among |= chosen[c] == m->elements[e].contact;
+    if (!among || !frot_is_held(m, trial, e)) continue;
+    double left = reserve(in, e);
+    if (left < most) most = left, worst_element = e;
+  }
+  if (worst_contact >= 0) {
+    trial[worst_contact].unloaded = 1;
+    return 1;
+  }
+  if (worst_element < 0) return 0;
+  trial[m->n_contacts + worst_element].at_bound =
+      in->w->lam[m->elements[worst_element].row] > 0 ? 1 : -1;
+  return 1;
+}
+
+int frot_is_admissible(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
+  memcpy(w->along, in->s->data + in->l.along, sizeof(double) * 2 * (size_t)m->n_elements);
+  if (frot_group_reactions(m, w, g, w->trial, in->zero)) return 0;
+  for (int dependent = w->dependent; dependent && let_others_carry(in, chosen, count);)
+    if (frot_group_reactions(m, w, g, w->trial, in->zero)) return 0;
+  for (int c = 0; c < count; c++)
+    if (!contact_is_admissible(in, chosen[c])) return 0;
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i];
+    if (w->trial[m->elements[e].contact].closed && !element_is_admissible(in, e)) return 0;
+  }
+  return 1;
+}

@@ -1,0 +1,145 @@
+#include "guards.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "reactions.h"
+#include "tolerances.h"
+
+#define VANISHED 1e-9 /* part of its largest size below which a reaction has no direction */
+
+/* Whether the sign of a bilateral reaction matters: friction follows it. */
+static int sign_matters(const frot_model *m, const frot_contact_mode *modes, int i) {
+  for (int e = 0; e < m->n_elements; e++)
+    if (m->elements[e].contact == i && frot_element_mode(m, modes, e)->friction != FROT_NONE)
+      return 1;
+  return 0;
+}
+
+static int contact_has_guard(const frot_model *m, const frot_state *s, const frot_work *w,
+                             const frot_contact_mode *modes, int i) {
+  if (m->contacts[i].row_n < 0) return 0;
+  if (!modes[i].closed) return 1;
+  if (modes[i].unloaded) return 0;
+  return s->data[w->layout.unilateral + i] != 0 || sign_matters(m, modes, i);
+}
+
+static int count_element_guards(const frot_model *m, const frot_contact_mode *modes, int e) {
+  const frot_element *element = &m->elements[e];
+  const frot_contact_mode *mode = frot_element_mode(m, modes, e);
+  if (!modes[element->contact].closed || modes[element->contact].unloaded) return 0;
+  if (mode->friction == FROT_NONE || mode->at_bound != 0) return 0;
+  if (mode->friction == FROT_STICK) return element->prescribed ? 1 : 2;
+  return element->bound == FROT_BY_PIN ? 2 : 1;
+}
+
+void frot_list_guards(const frot_model *m, const frot_state *s, frot_work *w,
+                      const frot_contact_mode *modes) {
+  int n = 0;
+  for (int i = 0; i < m->n_contacts; i++)
+    if (contact_has_guard(m, s, w, modes, i)) w->guards[n++] = i;
+  for (int e = 0; e < m->n_elements; e++) {
+    int count = count_element_guards(m, modes, e);
+    for (int k = 0; k < count; k++) w->guards[n++] = frot_element_guard(m, e) + k;
+  }
+  for (int j = 0; j < m->n_located; j++) w->guards[n++] = frot_condition_guard(m) + j;
+  w->n_guards = n;
+}
+
+double frot_reaction_size(const frot_model *m, const frot_work *w, int row) {
+  if (frot_is_reading(m, row)) return w->row_load[row];
+  double own = fabs(frot_effect(m, w, row, row));
+  return own > 0 ? w->row_load[row] / own : 0;
+}
+
+/* What the loads could make of the reaction that bounds an element. */
+static double bounding_size(const frot_model *m, const frot_work *w, const frot_element *e) {
+  double sum = 0;
+  for (int k = 0; k < 2; k++)
+    if (e->bounded_by[k] >= 0) sum += frot_reaction_size(m, w, e->bounded_by[k]);
+  return sum;
+}
+
+static double contact_guard(const frot_model *m, const frot_work *w, const double *q,
+                            const frot_contact_mode *mode, int i, double *scale) {
+  int row = m->contacts[i].row_n;
+  if (!mode->closed) {
+    if (scale) *scale = fabs(w->gap[i]) + frot_gap_size(m, w, row, q);
+    return w->gap[i];
+  }
+  if (scale) *scale = fabs(w->lam[row]) + frot_reaction_size(m, w, row);
+  return mode->side * w->lam[row];
+}
+
+/* The first (k = 0) or second guard of an element. */
+static double element_guard(const frot_model *m, const frot_state *s, const frot_work *w,
+                            const double *v, const frot_contact_mode *modes, int e, int k,
+                            double *scale) {
+  const frot_element *element = &m->elements[e];
+  int friction = frot_element_mode(m, modes, e)->friction, row = element->row;
+  if (friction == FROT_STICK && element->prescribed) {
+    /* rest lasts as long as the prescribed motion rests */
+    if (scale) *scale = FROT_PRESCRIBED_REST;
+    return FROT_PRESCRIBED_REST - fabs(w->c[row]);
+  }
+  if (friction == FROT_STICK) {
+    double bound = frot_bound_of_rest(m, w, e, modes), lam = w->lam[row];
+    if (scale)
+      *scale = fabs(bound) + fabs(lam) + frot_reaction_size(m, w, row) +
+               w->coefficient[2 * e + 1] * bounding_size(m, w, element);
+    return k == 0 ? bound - lam : bound + lam;
+  }
+  if (k == 0) {
+    if (scale) *scale = frot_row_size(m, w, row, v);
+    return friction == FROT_SLIP_FORWARD ? w->rate[row] : -w->rate[row];
+  }
+  const double *along = s->data + w->layout.along + 2 * e;
+  double first = w->lam[element->bounded_by[0]], second = w->lam[element->bounded_by[1]];
+  if (scale) *scale = fabs(first) + fabs(second) + bounding_size(m, w, element);
+  return along[0] * first + along[1] * second;
+}
+
+void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, const double *q,
+                 const double *v, const double *d, const frot_contact_mode *modes, double *guard,
+                 double *scale) {
+  int conditions = frot_condition_guard(m);
+  for (int k = 0; k < w->n_guards; k++) {
+    int j = w->guards[k];
+    double *size = scale ? scale + k : NULL;
+    if (j < m->n_contacts) {
+      guard[k] = contact_guard(m, w, q, &modes[j], j, size);
+    } else if (j < conditions) {
+      int e = (j - m->n_contacts) / 2;
+      guard[k] = element_guard(m, s, w, v, modes, e, (j - m->n_contacts) % 2, size);
+    } else {
+      double value = w->condition[j - conditions];
+      guard[k] = d[j - conditions] != 0 ? value : -value;
+      if (size) *size = fabs(value);
+    }
+  }
+}
+
+int frot_guards_read_loads(const frot_model *m, const frot_work *w,
+                           const frot_contact_mode *modes) {
+  for (int k = 0; k < w->n_guards && w->guards[k] < frot_condition_guard(m); k++) {
+    int j = w->guards[k];
+    if (j >= m->n_contacts || modes[j].closed) return 1;
+  }
+  return 0;
+}
+
+void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w) {
+  for (int e = 0; e < m->n_elements; e++) {
+    const frot_element *element = &m->elements[e];
+    if (element->bound != FROT_BY_PIN) continue;
+    double *along = s->data + w->layout.along + 2 * e;
+    double first = w->lam[element->bounded_by[0]], second = w->lam[element->bounded_by[1]];
+    double size = hypot(first, second);
+    double largest = s->data[w->layout.scale_g + frot_element_guard(m, e) + 1];
+    if (size > VANISHED * largest)
+      along[0] = first / size, along[1] = second / size;
+    else
+      along[0] = -along[0], along[1] = -along[1]; /* it passes through zero */
+  }
+}

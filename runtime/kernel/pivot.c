@@ -1,0 +1,198 @@
+/* One motion of many contacts and elements, where their combinations are too many to look at.
+ *
+ * With the bounds of friction held at given values the reactions are the minimum of a convex
+ * quadratic function over a box (for a mass matrix; W lam + a is its gradient): Gauss-Seidel sweeps
+ * find which reactions are at their bounds, Newton's method solves for the others (J. More, G.
+ * Toraldo, On the solution of large quadratic programming problems with bound constraints, SIAM J.
+ * Optim. 1, 1991). Then the bounds follow the reactions, until they agree. The modes read off are a
+ * guess only: frot_is_admissible has the last word. */
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "linear.h"
+#include "guards.h"
+#include "reactions.h"
+#include "search.h"
+#include "tolerances.h"
+
+#define SWEEPS 4     /* of Gauss-Seidel before each of Newton's steps */
+#define ROUNDS 60    /* of sweeps and steps in one box */
+#define BOXES 200    /* times the bounds follow the reactions */
+#define AGREE 1e-12  /* part of a reaction by which bounds and reactions agree */
+#define PAST 1e-8    /* part by which a bound is lowered where a rest ends */
+#define DOUBT 1e-7   /* part of its size within which a reaction is at its bound, a motion none */
+#define SOFT 1e-14   /* part of its diagonal added to a singular system */
+
+/* The rows that take part, w->row_of[0 .. n), with the bounds least and most of their reactions. */
+typedef struct {
+  const frot_instant *in;
+  const frot_model *m;
+  frot_work *w;
+  const frot_group *g;
+  int n, ends;
+  double *least, *most;
+} box;
+
+static double own_effect(const box *b, int r) { return frot_effect(b->m, b->w, r, r); }
+
+static void list_rows(box *b, const int *chosen, int count) {
+  const frot_model *m = b->m;
+  for (int c = 0; c < count; c++) {
+    const frot_contact *contact = &m->contacts[chosen[c]];
+    if (contact->row_n >= 0 && !contact->reduced) b->w->row_of[b->n++] = contact->row_n;
+    for (int e = 0; e < m->n_elements; e++)
+      if (m->elements[e].contact == chosen[c] && frot_bounds_something(m, b->w, e) &&
+          !m->elements[e].prescribed)
+        b->w->row_of[b->n++] = m->elements[e].row;
+  }
+}
+
+/* Bounds by the reactions as they are; returns the largest relative change. */
+static double follow(const box *b, const int *chosen, int count) {
+  const frot_model *m = b->m;
+  frot_work *w = b->w;
+  double largest = 0;
+  for (int i = 0; i < b->g->n_rows; i++) {
+    int r = b->g->rows[i];
+    double size;
+    if (frot_is_reading(m, r)) w->lam[r] = frot_acceleration(m, w, r, &size);
+  }
+  for (int c = 0; c < count; c++) {
+    const frot_contact *contact = &m->contacts[chosen[c]];
+    if (contact->row_n >= 0 && !contact->reduced) {
+      b->least[contact->row_n] = b->in->unilateral[chosen[c]] != 0 ? 0 : -INFINITY;
+      b->most[contact->row_n] = INFINITY;
+    }
+  }
+  for (int k = 0; k < b->n; k++) {
+    int r = w->row_of[k], e = -1;
+    for (int i = 0; i < m->n_elements; i++)
+      if (m->elements[i].row == r) e = i;
+    if (e < 0) continue;
+    const frot_element *element = &m->elements[e];
+    double bounding = 1;
+    if (element->bound != FROT_BY_VALUE) bounding = fabs(w->lam[element->bounded_by[0]]);
+    if (element->bound == FROT_BY_PIN) bounding = hypot(bounding, w->lam[element->bounded_by[1]]);
+    int rests = b->in->zero[e];
+    double bound = w->coefficient[2 * e + rests] * bounding * (b->ends ? 1 - PAST : 1), before = b->most[r];
+    b->least[r] = -bound, b->most[r] = bound;
+    if (!rests && w->rate[r] > 0) b->most[r] = -bound;
+    if (!rests && w->rate[r] < 0) b->least[r] = bound;
+    double change = fabs(fabs(b->least[r]) - fabs(before));
+    if (change > 0) largest = fmax(largest, change / fmax(bound, fabs(before)));
+  }
+  return largest;
+}
+
+static double clip(double x, double least, double most) {
+  return x < least ? least : x > most ? most : x;
+}
+
+static void sweep(const box *b) {
+  double size;
+  for (int k = 0; k < b->n; k++) {
+    int r = b->w->row_of[k];
+    double own = own_effect(b, r), a = frot_acceleration(b->m, b->w, r, &size);
+    if (own > 0) b->w->lam[r] = clip(b->w->lam[r] - a / own, b->least[r], b->most[r]);
+  }
+}
+
+/* Newton's step on the reactions inside their bounds, to the first bound it meets. Returns the part
+ * of it that was taken. */
+static double step_inside(const box *b) {
+  frot_work *w = b->w;
+  int free = 0, *rows = w->fold; /* two places for each row: room enough */
+  double size, part = 1;
+  for (int k = 0; k < b->n; k++) {
+    int r = w->row_of[k];
+    if (w->lam[r] > b->least[r] && w->lam[r] < b->most[r]) rows[free++] = r;
+  }
+  if (free == 0) return 1;
+  double *step = w->solution;
+  for (int i = 0; i < free; i++) {
+    double scale = 1 / sqrt(own_effect(b, rows[i]));
+    for (int j = 0; j < free; j++)
+      w->active[j * free + i] = scale * frot_effect(b->m, w, rows[i], rows[j]) /
+                                sqrt(own_effect(b, rows[j])) * (i == j ? 1 + SOFT : 1);
+    w->right[i] = -scale * frot_acceleration(b->m, w, rows[i], &size);
+  }
+  frot_least_norm(w->active, w->right, free, free, step, w->lstsq, w->pivot);
+  for (int i = 0; i < free; i++) {
+    int r = rows[i];
+    step[i] /= sqrt(own_effect(b, r));
+    double room = step[i] > 0 ? b->most[r] - w->lam[r] : w->lam[r] - b->least[r];
+    if (fabs(step[i]) > room) part = fmin(part, room / fabs(step[i]));
+  }
+  for (int i = 0; i < free; i++) {
+    int r = rows[i];
+    w->lam[r] = clip(w->lam[r] + part * step[i], b->least[r], b->most[r]);
+  }
+  return part;
+}
+
+/* Read off the modes; what is near a bound, and a motion near none, is in doubt. */
+static void read_modes(const box *b, const int *chosen, int count, unsigned char *certain) {
+  const frot_model *m = b->m;
+  frot_work *w = b->w;
+  for (int c = 0; c < count; c++) {
+    int i = chosen[c], row = m->contacts[i].row_n;
+    double size, a = 0;
+    frot_contact_mode mode = {1, 1, 0, 0, 0, {0}};
+    certain[i] = 1;
+    if (row >= 0 && b->in->unilateral[i] != 0) {
+      a = frot_acceleration(m, w, row, &size);
+      size += w->row_load[row];
+      mode.closed = !(w->lam[row] <= 0 && a > DOUBT * size);
+      if (mode.closed && w->lam[row] <= DOUBT * frot_reaction_size(m, w, row)) certain[i] = 0;
+    } else if (row >= 0) {
+      mode.side = w->lam[row] < 0 ? -1 : 1;
+    }
+    w->trial[i] = mode;
+    for (int e = 0; e < m->n_elements; e++) {
+      const frot_element *element = &m->elements[e];
+      frot_contact_mode *law = &w->trial[m->n_contacts + e];
+      if (element->contact != i) continue;
+      *law = (frot_contact_mode){0};
+      if (!mode.closed || !frot_bounds_something(m, w, e)) continue;
+      a = frot_acceleration(m, w, element->row, &size);
+      size += w->row_load[element->row];
+      double rate = w->rate[element->row], lam = w->lam[element->row], most = b->most[element->row];
+      if (!b->in->zero[e] || element->prescribed) {
+        law->friction = rate > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD;
+        if (element->prescribed && rate == 0) law->friction = FROT_STICK, certain[i] = 0;
+        continue;
+      }
+      int at_bound = fabs(lam) >= most * (1 - DOUBT);
+      law->friction = FROT_STICK;
+      if (at_bound && fabs(a) > (b->ends ? 1e-3 * PAST : DOUBT) * size)
+        law->friction = a > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD;
+      else if (at_bound && most > 0)
+        law->at_bound = lam > 0 ? 1 : -1;
+    }
+  }
+}
+
+void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int ends,
+                      unsigned char *certain) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  box b = {in, m, w, &m->groups[m->contact_group[chosen[0]]], 0, ends, w->pivot_bound,
+           w->pivot_bound + m->n_rows};
+  memset(w->pivot_bound, 0, sizeof(double) * 4 * (size_t)m->n_rows);
+  memset(w->lam, 0, sizeof(double) * (size_t)m->n_rows);
+  list_rows(&b, chosen, count);
+  for (int boxes = 0; boxes < BOXES; boxes++) {
+    double change = follow(&b, chosen, count);
+    if (boxes > 0 && change <= AGREE) break;
+    for (int k = 0; k < b.n; k++) {
+      int r = w->row_of[k];
+      w->lam[r] = clip(w->lam[r], b.least[r], b.most[r]);
+    }
+    for (int round = 0, settled = 0; round < ROUNDS && settled < 2; round++) {
+      for (int k = 0; k < SWEEPS; k++) sweep(&b);
+      settled = step_inside(&b) == 1 ? settled + 1 : 0;
+    }
+  }
+  read_modes(&b, chosen, count, certain);
+}

@@ -1,0 +1,38 @@
+/* The modes of contacts and elements at an instant: the admissible motions of a component. */
+#ifndef FROT_SEARCH_H
+#define FROT_SEARCH_H
+
+#include "state.h"
+
+/* An instant at which modes are looked for, after frot_dynamics (FROT_LAWS) and frot_row_loads. */
+typedef struct {
+  const frot_model *m;
+  frot_state *s;
+  frot_work *w;
+  frot_layout l;
+  const double *fired, *unilateral;
+  const double *left;  /* n_elements: direction in which a rest was left at this instant */
+  unsigned char *zero; /* n_elements: its motion is zero */
+} frot_instant;
+
+/* Whether a law's coefficients can ever bound anything: a constant zero is skipped. */
+int frot_bounds_something(const frot_model *m, const frot_work *w, int element);
+
+/* Whether the reactions of w->trial over `count` contacts `chosen` satisfy every inequality. Where
+ * they are not unique, sets those elements at their bounds and those contacts without load that let
+ * the others carry. */
+int frot_is_admissible(const frot_instant *in, const int *chosen, int count);
+
+/* Looks for the modes of the contacts `chosen`, which act on each other only and are closed in
+ * w->best; leaves those preferred in w->best. Every combination is examined where there are few;
+ * else one motion is found by pivoting and only what stays ambiguous is examined, and *unsearched
+ * is set. `forced`: what fired must change. Returns the number of motions. */
+int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int *unsearched);
+
+/* A first guess of the modes of many contacts into w->trial, and into `certain` (n_contacts) whether
+ * a contact's are beyond doubt (pivot.c). `ends`: a rest ends, so that what is just at its bound is
+ * past it. */
+void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int ends,
+                      unsigned char *certain);
+
+#endif
