@@ -42,7 +42,7 @@
 /* Rejections of one step after which the rounding of its derivatives is measured, and what is left
  * of that measure a step later. */
 #define PATIENCE 2
-#define FORGET 0.9
+#define FORGET 0.99
 #define CHUNK 4 /* states summed together, in registers */
 /* Length of a step in which nothing moves and nothing depends on time, in longest steps. */
 #define LONG_REST 1e9
@@ -605,7 +605,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
     }
     s->statistics.rejected++;
     to_due = 0;
-    if (++rejections % PATIENCE == 0) measure_noise(m, s, w, &l, t + h);
+    if (++rejections % PATIENCE == 0 && ratio > 1) measure_noise(m, s, w, &l, t + h);
     h *= ratio > 1 && ratio < 1e300 ? fmax(0.9 * pow(ratio, power), 1.0 / 3)
          : passed >= 0              ? fmin(fmax(NEARLY * part, 0.01), NEARLY)
                                     : 0.25;

@@ -81,7 +81,7 @@ static int dynamics(const double **arg, double **res, long long *iw, double *w, 
   if (res[4]) res[4][0] = 0.0, res[4][1] = 0.0;
   if (res[5]) res[5][0] = 0.0, res[5][1] = v;
   if (res[6]) res[6][0] = 0.0;
-  if (res[8]) res[8][0] = p[0], res[8][1] = p[0], res[8][2] = 0.0;
+  if (res[8]) res[8][0] = p[0], res[8][1] = p[0];
   if (res[9]) res[9][0] = u[0] * v;
   return 0;
 }
@@ -107,8 +107,14 @@ static int energy(const double **arg, double **res, long long *iw, double *w, in
 
 static const double p_default[NP] = {0.1, 9.0, 2.0, 1.0, 3.0, 1.0, 0.0};
 static const double u_default[1] = {0.0};
-static const frot_contact contacts[1] = {
-    {"guide", "hand_model.c:1:1", FROT_BY_NORMAL, 0, -1, 1, -1, 1, 1, 1}};
+static const frot_contact contacts[1] = {{"guide", "hand_model.c:1:1", 0, 1, 0}};
+static const frot_element elements[1] = {{0, FROT_BY_NORMAL, 1, {0, -1}, 0, 1, 0}};
+static const int places[2] = {0, 1};
+static const frot_group groups[1] = {
+    {0, 2, 1, 1, 2, 1, 1, places, places, places, places, 0, 0, 0, 0, 0}};
+static const int row_reads[2] = {1, -1};
+static const int row_beside[2] = {-1, 0};
+static const int none[2] = {0, 0};
 static const frot_check checks[2] = {
     {FROT_POSITIVE, "mass of body 'block'", "hand_model.c:2:1"},
     {FROT_NOT_NEGATIVE, "friction of 'guide'", "hand_model.c:3:1"}};
@@ -135,6 +141,12 @@ const frot_model frot_the_model = {
     .np = NP,
     .n_rows = 2,
     .n_contacts = 1,
+    .n_elements = 1,
+    .n_groups = 1,
+    .n_matrix = 4,
+    .n_metric = 1,
+    .n_entries = 4,
+    .n_square = 4,
     .n_checks = 2,
     .n_position = 1,
     .n_velocity = 1,
@@ -153,6 +165,16 @@ const frot_model frot_the_model = {
     .p_default = p_default,
     .u_default = u_default,
     .contacts = contacts,
+    .elements = elements,
+    .groups = groups,
+    .row_reads = row_reads,
+    .row_beside = row_beside,
+    .row_group = none,
+    .row_local = places,
+    .contact_group = none,
+    .speed_group = none,
+    .speed_local = none,
+    .speed_coordinate = none,
     .checks = checks,
     .statements = statements,
     .position_statement = position_statement,

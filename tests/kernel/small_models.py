@@ -22,7 +22,7 @@ def column(*values: object) -> ca.SX:
 
 @dataclass(frozen=True)
 class Element:
-    """A friction element; rows as in frot_contact."""
+    """A friction element; its rows. What bounds it is read off auxiliary unknowns."""
 
     bound: str
     normal: int = -1
@@ -211,7 +211,7 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
                 row_rates,
                 gaps,
                 conditions,
-                of(m.coefficients, 3 * ne),
+                of(m.coefficients, 2 * ne),
                 of(m.power, 1),
             ],
         ),
@@ -225,7 +225,8 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
     if m.general:
         nm = m.nv + m.na
         effect = of(m.effect) if m.effect else ca.vertcat(rows[:, :nm].T, ca.SX.zeros(m.nc, nr))
-        out["spread"] = (s.state, [effect, of(m.metric)])
+        speeds = of(m.metric)[: m.nv, : m.nv]
+        out["spread"] = (s.state, [effect, speeds])
     if m.late_rates:
         out["rates"] = ([*s.state, s.z, s.lam], [of(m.late_rates), of(m.power, 1)])
     if m.invariants:
@@ -271,14 +272,41 @@ def source(m: Small, folder: Path) -> str:
         generator.add(f)
     text = Path(generator.generate(f"{folder}/")).read_text()
     bound = {"normal": "FROT_BY_NORMAL", "pin": "FROT_BY_PIN", "value": "FROT_BY_VALUE"}
+    nw = m.nv + m.na + m.nc
+    laws = {i: k for k, i in enumerate(i for i, e in enumerate(m.elements) if e.tangent >= 0)}
+    readings = [r for e in m.elements if e.reduced for r in (e.normal, e.second) if r >= 0]
+    reads = [m.nv + readings.index(r) if r in readings else -1 for r in range(m.n_rows)]
     kinds = {"terminate": 0, "fail": 1, "warn": 2}
     tables = {
         ("double", "p_default"): list(m.parameters.values()),
         ("double", "u_default"): list(m.inputs.values()),
         ("frot_contact", "contacts"): [
-            f'{{"element {i + 1}", "small:{i + 1}:1", {bound[e.bound]}, {e.normal}, {e.second}, '
-            f"{e.tangent}, -1, {int(e.reduced)}, 0, 0}}"
+            f'{{"element {i + 1}", "small:{i + 1}:1", '
+            f"{e.normal if e.bound == 'normal' else -1}, {int(e.reduced)}, {laws.get(i, -1)}}}"
             for i, e in enumerate(m.elements)
+        ],
+        ("frot_element", "elements"): [
+            f"{{{i}, {bound[m.elements[i].bound]}, {m.elements[i].tangent}, "
+            f"{{{m.elements[i].normal}, {m.elements[i].second}}}, 0, 0, {int(still)}}}"
+            for i, still in zip(laws, _prescribed(m, laws), strict=True)
+        ],
+        ("int", "all_unknowns"): range(nw),
+        ("int", "all_rows"): range(m.n_rows),
+        ("int", "all_contacts"): range(len(m.elements)),
+        ("int", "all_elements"): range(len(laws)),
+        ("frot_group", "groups"): [
+            f"{{{int(m.general)}, {nw}, {m.nv}, {m.na}, {m.n_rows}, {len(m.elements)}, "
+            f"{len(laws)}, all_unknowns, all_rows, all_contacts, all_elements, 0, 0, 0, 0, 0}}"
+        ],
+        ("int", "row_reads"): reads,
+        ("int", "row_beside"): [-1] * m.n_rows,
+        ("int", "row_group"): [0] * m.n_rows,
+        ("int", "row_local"): range(m.n_rows),
+        ("int", "contact_group"): [0] * len(m.elements),
+        ("int", "speed_group"): [0] * m.nv,
+        ("int", "speed_local"): range(m.nv),
+        ("int", "speed_coordinate"): [
+            m.speeds.index(k) if k in m.speeds else -1 for k in range(m.nv)
         ],
         ("frot_statement", "statements"): [
             f'{{"statement {i + 1}", "small:{i + 1}:1", "1"}}' for i in range(_statements(m))
@@ -311,6 +339,8 @@ def source(m: Small, folder: Path) -> str:
     sizes = {
         "nq": m.nq, "nv": m.nv, "na": m.na, "nc": m.nc, "nu": len(m.inputs),
         "np": len(m.parameters), "ny": m.ny, "n_rows": m.n_rows, "n_contacts": len(m.elements),
+        "n_elements": len(laws), "n_groups": 1, "n_matrix": nw * nw, "n_metric": m.nv * m.nv,
+        "n_entries": m.n_rows * nw, "n_square": m.n_rows**2,
         "n_conditions": m.n_conditions, "n_located": m.n_conditions,
         "n_discrete": m.n_discrete, "n_blocks": len(m.blocks),
         "n_invariants": made["invariants"].numel_out(0) if m.invariants else 0,
@@ -324,7 +354,7 @@ def source(m: Small, folder: Path) -> str:
     if "block_slopes" in made:
         calls["block_slopes"] = _call(made["block_slopes"])
     fields = {"name": f'"{m.name}"', "key": f'"small-{m.name}"', **sizes, **calls}
-    fields |= {name: name for _, name in tables}
+    fields |= {name: name for _, name in tables if not name.startswith("all_")}
     return (
         '#include "frot.h"\n#define CASADI_SYMBOL_EXPORT static\n'
         + text
@@ -333,6 +363,12 @@ def source(m: Small, folder: Path) -> str:
         + "".join(f"  .{name} = {value},\n" for name, value in fields.items())
         + "};\n"
     )
+
+
+def _prescribed(m: Small, laws: dict[int, int]) -> list[bool]:
+    """Whether the motion of each element depends on no unknown of the core."""
+    rows = ca.SX(m.rows(symbols(m))) if m.rows else ca.SX.zeros(m.n_rows, 0)
+    return [ca.sparsify(rows[m.elements[i].tangent, :]).nnz() == 0 for i in laws]
 
 
 def _row_depends(m: Small) -> list[int]:

@@ -20,7 +20,7 @@ def clutch(name: str, torque: float, bound: float, bound_s: float | None = None,
         name=name, nq=2, nv=2, elements=[CLUTCH], unilateral=[0.0],
         mass=lambda s: ca.diag(column(2.0, 3.0)), force=lambda s: column(torque, 0),
         rows=lambda s: ca.SX(ca.DM([[1.0, -1.0]])),
-        coefficients=lambda s: column(bound, rest, 0),
+        coefficients=lambda s: column(bound, rest),
         energy=lambda s: column((2 * s.v[0] ** 2 + 3 * s.v[1] ** 2) / 2, 0),
         power=lambda s: torque * s.v[0],
         variables={"w1": lambda s: s.v[0], "w2": lambda s: s.v[1], "c": lambda s: s.lam[0]},
@@ -49,7 +49,7 @@ def test_a_clutch_slips_once_its_load_grows_past_the_bound_of_rest(run) -> None:
     model = Small(
         name="ramp", nq=2, nv=2, elements=[CLUTCH], unilateral=[0.0], stop=4.0,
         mass=lambda s: ca.diag(column(2.0, 3.0)), force=lambda s: column(4 * s.t, 0),
-        rows=lambda s: ca.SX(ca.DM([[1.0, -1.0]])), coefficients=lambda s: column(5.0, 6.0, 0),
+        rows=lambda s: ca.SX(ca.DM([[1.0, -1.0]])), coefficients=lambda s: column(5.0, 6.0),
         start=([0, 0], [1.0, 1.0]), time_dependent=True,
         variables={"w1": lambda s: s.v[0], "w2": lambda s: s.v[1]},
     )  # fmt: skip
@@ -74,7 +74,7 @@ def test_two_brakes_in_parallel_hold_what_both_can_together(run, bounds, torque,
         elements=[Element("value", tangent=0), Element("value", tangent=1)],
         mass=lambda s: ca.SX(2), force=lambda s: ca.SX(torque), start=([0.0], [0.0]),
         rows=lambda s: ca.SX(ca.DM([[1.0], [1.0]])),
-        coefficients=lambda s: column(bounds[0], bounds[0], 0, bounds[1], bounds[1], 0),
+        coefficients=lambda s: column(bounds[0], bounds[0], bounds[1], bounds[1]),
         variables={
             "w": lambda s: s.v[0], "a": lambda s: s.lam[0], "b": lambda s: s.lam[1],
         },
@@ -96,7 +96,7 @@ def test_two_brakes_in_parallel_let_go_together(run) -> None:
         elements=[Element("value", tangent=0), Element("value", tangent=1)],
         mass=lambda s: ca.SX(2), force=lambda s: 2 * s.t, start=([0.0], [0.0]),
         rows=lambda s: ca.SX(ca.DM([[1.0], [1.0]])),
-        coefficients=lambda s: column(1.0, 1.0, 0, 3.0, 4.0, 0), variables={"w": lambda s: s.v[0]},
+        coefficients=lambda s: column(1.0, 1.0, 3.0, 4.0), variables={"w": lambda s: s.v[0]},
     )  # fmt: skip
     result = run(model)
     slips = [e.time for e in result.events if e.kind == "slip"]
@@ -111,7 +111,7 @@ def test_two_clutches_in_series_slip_where_they_are_weaker(run) -> None:
         elements=[Element("value", tangent=0), Element("value", tangent=1)],
         mass=lambda s: ca.diag(column(1.0, 1.0)), force=lambda s: column(0, s.t),
         start=([0.0] * 2, [0.0] * 2), rows=lambda s: ca.SX(ca.DM([[1.0, 0.0], [-1.0, 1.0]])),
-        coefficients=lambda s: column(3.0, 3.0, 0, 5.0, 5.0, 0),
+        coefficients=lambda s: column(3.0, 3.0, 5.0, 5.0),
         variables={"w1": lambda s: s.v[0], "w2": lambda s: s.v[1]},
     )  # fmt: skip
     result = run(model)
@@ -129,7 +129,7 @@ def test_an_element_between_two_prescribed_motions(run) -> None:
         mass=lambda s: ca.SX(1), force=lambda s: -s.q[0], start=([1.0], [0.0]), stop=4.0,
         rows=lambda s: ca.SX(ca.DM([[0.0]])), row_rates=slip,
         bias=lambda s: ca.if_else(s.conditions[0], 3 * ca.cos(3 * (s.t - 1)), 0),
-        coefficients=lambda s: column(2.0, 2.5, 0), conditions=lambda s: s.t - 1, strict=[False],
+        coefficients=lambda s: column(2.0, 2.5), conditions=lambda s: s.t - 1, strict=[False],
         variables={"f": lambda s: s.lam[0], "x": lambda s: s.q[0]},
     )  # fmt: skip
     result = run(model)
@@ -149,7 +149,7 @@ def test_a_prescribed_motion_that_starts_smoothly_ends_the_rest(run) -> None:
     model = Small(
         name="smooth", nq=0, elements=[CLUTCH], unilateral=[0.0], time_dependent=True, stop=2.0,
         rows=lambda s: ca.SX(1, 0), row_rates=lambda s: start(s.t) ** 4,
-        bias=lambda s: 4 * start(s.t) ** 3, coefficients=lambda s: column(2.0, 2.0, 0),
+        bias=lambda s: 4 * start(s.t) ** 3, coefficients=lambda s: column(2.0, 2.0),
         rates=lambda s: ca.SX(0, 1), variables={"f": lambda s: s.lam[0]},
     )  # fmt: skip
     result = run(model)
@@ -176,7 +176,7 @@ def pin_pendulum(name: str, couple: float, couple_s: float, **more) -> Small:
         name=name, nq=1, nv=1, na=2, mass=mass, force=force, unilateral=[0.0],
         elements=[Element("pin", normal=0, second=1, tangent=2)],
         rows=lambda s: ca.SX(ca.DM([[0.0, 1, 0], [0, 0, 1], [1, 0, 0]])),
-        coefficients=lambda s: column(couple, couple_s, 0),
+        coefficients=lambda s: column(couple, couple_s),
         energy=lambda s: column(about * s.v[0] ** 2 / 2, -m * g * half * ca.cos(s.q[0])),
         variables={
             "angle": lambda s: s.q[0], "w": lambda s: s.v[0],
@@ -244,7 +244,7 @@ def test_a_pin_s_reaction_may_pass_through_zero(run) -> None:
         elements=[Element("pin", normal=0, second=1, tangent=2)], time_dependent=True,
         mass=lambda s: ca.diag(column(2.0, 1.0, 1.0)), force=lambda s: column(0, -ca.cos(s.t), 0),
         rows=lambda s: ca.SX(ca.DM([[0.0, 1, 0], [0, 0, 1], [1, 0, 0]])),
-        coefficients=lambda s: column(0.4, 0.4, 0), variables={"w": lambda s: s.v[0]},
+        coefficients=lambda s: column(0.4, 0.4), variables={"w": lambda s: s.v[0]},
     )  # fmt: skip
     result = run(model, tolerance=1e-9)
     impulse = 1 + 2 + (1 + math.sin(6.0))  # of |cos t| from 0 to 6
@@ -259,7 +259,7 @@ def test_many_elements_stick_at_one_instant(run) -> None:
         name="six", nq=n, nv=n, unilateral=[0.0] * n, start=([0.0] * n, [3.0] * n), stop=4.0,
         elements=[Element("value", tangent=i) for i in range(n)],
         mass=lambda s: ca.SX.eye(n) + 0.1, force=lambda s: ca.SX.zeros(n),
-        rows=lambda s: ca.SX.eye(n), coefficients=lambda s: column(*([1.6, 1.6, 0] * n)),
+        rows=lambda s: ca.SX.eye(n), coefficients=lambda s: column(*([1.6, 1.6] * n)),
         variables={f"w{i}": lambda s, i=i: s.v[i] for i in range(n)},
     )  # fmt: skip
     result = run(model)

@@ -189,7 +189,7 @@ def test_a_reinit_goes_through_the_modes_of_friction(run) -> None:
     model = Small(
         name="struck", nq=1, nv=1, unilateral=[0.0], elements=[Element("value", tangent=0)],
         mass=lambda s: ca.SX(2), force=lambda s: ca.SX(0), start=([0.0], [0.0]), stop=4.0,
-        rows=lambda s: ca.SX(1), coefficients=lambda s: column(3.0, 3.0, 0), time_dependent=True,
+        rows=lambda s: ca.SX(1), coefficients=lambda s: column(3.0, 3.0), time_dependent=True,
         conditions=lambda s: s.t - 1, strict=[False], whens=[(0, False)],
         update=lambda s: (s.q, s.v + 2, [], []), variables={"w": lambda s: s.v[0]},
     )  # fmt: skip
