@@ -70,7 +70,8 @@ static int is_carried(const frot_instant *in, int row) {
   /* W_ee - W_eh W_hh^-1 W_he: what its own reaction does to it while the others hold */
   int *rows = w->row_of;
   for (int i = 0; i < g->n_contacts; i++)
-    if (frot_is_loaded(m, w->trial, g->contacts[i])) rows[held++] = m->contacts[g->contacts[i]].row_n;
+    if (frot_is_loaded(m, w->trial, g->contacts[i]))
+      rows[held++] = m->contacts[g->contacts[i]].row_n;
   for (int i = 0; i < g->n_elements; i++)
     if (frot_is_held(m, w->trial, g->elements[i])) rows[held++] = m->elements[g->elements[i]].row;
   double own = frot_effect(m, w, row, row), left = own, size = fabs(own);
@@ -136,8 +137,8 @@ static int contact_is_admissible(const frot_instant *in, int i) {
   return pressure(in, i) >= -FROT_BOUND_SLACK;
 }
 
-/* Where reactions are not unique and some are not admissible, but others could carry instead: put the
- * worst at its bound or without load. Returns 1 when one was put there. */
+/* Where reactions are not unique and some are not admissible, but others could carry instead: put
+ * the worst at its bound or without load. Returns 1 when one was put there. */
 static int let_others_carry(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   frot_contact_mode *trial = in->w->trial;

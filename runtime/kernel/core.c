@@ -47,8 +47,7 @@ static int symmetric_group(const frot_model *m, frot_work *w, const frot_group *
   int n = g->n, ns = g->n_speeds;
   const double *mass = w->mass + g->matrix;
   double *factor = w->factor + g->metric, *force = w->force + g->vector;
-  for (int k = 0; k < ns; k++)
-    memcpy(factor + k * ns, mass + k * n, sizeof(double) * (size_t)ns);
+  for (int k = 0; k < ns; k++) memcpy(factor + k * ns, mass + k * n, sizeof(double) * (size_t)ns);
   if (frot_cholesky(factor, ns)) return FROT_SINGULAR;
   for (int k = 0; k < ns; k++) force[k] = w->h[g->unknowns[k]];
   frot_forward(factor, ns, ns, force);
@@ -96,7 +95,8 @@ static double motion_of(const frot_group *g, const double *row, const double *z)
 /* A is any matrix. Its columns of auxiliary accelerations become those of the reactions there. */
 static int general_group(const frot_model *m, frot_work *w, const frot_group *g) {
   int n = g->n;
-  double *matrix = w->mass + g->matrix, *lu = w->lu + g->matrix, *scale = w->lu_scale + 2 * g->vector;
+  double *matrix = w->mass + g->matrix, *lu = w->lu + g->matrix,
+         *scale = w->lu_scale + 2 * g->vector;
   int *pivot = w->lu_pivot + g->vector;
   for (int i = 0; i < g->n_rows; i++) {
     int reads = m->row_reads[g->rows[i]];
@@ -232,7 +232,8 @@ double frot_metric_entry(const frot_model *m, const frot_work *w, int a, int b) 
   const frot_group *g = &m->groups[m->speed_group[a]];
   if (m->speed_group[b] != m->speed_group[a]) return 0;
   int i = m->speed_local[a], k = m->speed_local[b];
-  return g->general ? w->metric[g->metric + k * g->n_speeds + i] : w->mass[g->matrix + k * g->n + i];
+  return g->general ? w->metric[g->metric + k * g->n_speeds + i]
+                    : w->mass[g->matrix + k * g->n + i];
 }
 
 /* Twice the kinetic energy of a group. */

@@ -15,7 +15,7 @@ void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double 
 
 /* Which rows frot_dynamics looks at. */
 enum frot_wanted {
-  FROT_MOTION, /* those that act in the modes, and the readings that bound them */
+  FROT_MOTION,  /* those that act in the modes, and the readings that bound them */
   FROT_READING, /* the same and all readings */
   FROT_LAWS     /* every row of a closed contact, and all readings */
 };
@@ -55,8 +55,8 @@ double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *
  * moves it, and its row is rounding. Uses the mass and the metric of the last frot_dynamics. */
 double frot_least_length(const frot_model *m, frot_work *w, int row, double own);
 
-/* What all loads could do to the rows that frot_dynamics has looked at, into w->row_load: sizes that
- * their sum is compared with, for it may cancel. After frot_dynamics at the same place. */
+/* What all loads could do to the rows that frot_dynamics has looked at, into w->row_load: sizes
+ * that their sum is compared with, for it may cancel. After frot_dynamics at the same place. */
 void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d);
 

@@ -91,8 +91,8 @@ typedef struct {
 enum frot_bound { FROT_BY_NORMAL = 0, FROT_BY_PIN = 1, FROT_BY_VALUE = 2 };
 
 /* Rows are scalar relations between the unknowns z of the core. A row of a relation, or of the
- * motion that an element bounds, has the acceleration J z + c and a reaction lam that acts along its
- * column of E. A reading is a row without a motion: its lam is the reaction of a liaison that
+ * motion that an element bounds, has the acceleration J z + c and a reaction lam that acts along
+ * its column of E. A reading is a row without a motion: its lam is the reaction of a liaison that
  * coordinates keep (row_reads). */
 
 /* A liaison or an element of the text, as the user names it. */
@@ -229,11 +229,11 @@ typedef struct {
   /* the first n_located conditions change by the motion; the n_timed after them are linear in time
    * and depend on nothing else that moves; the rest change at events only */
   int n_located, n_timed;
-  int n_held;     /* the last n_held discrete values are what others were before: see `update` */
+  int n_held; /* the last n_held discrete values are what others were before: see `update` */
   int n_groups;
   int n_matrix, n_metric, n_entries, n_square; /* items of the packed arrays of all groups */
-  int general;    /* a group is general */
-  int late_rates; /* q' or the power depend on y of late blocks, z or lam: `rates` gives them */
+  int general;                                 /* a group is general */
+  int late_rates;     /* q' or the power depend on y of late blocks, z or lam: `rates` gives them */
   int time_dependent; /* forces, coefficients or located conditions depend on time */
   int method;         /* frot_method of the text */
   int has_jacobian;   /* 1: the implicit method can run: no speeds, no rows, q' not late */
@@ -304,9 +304,10 @@ typedef struct {
   const frot_contact *contacts;
   const frot_element *elements;
   const frot_group *groups;
-  const int *row_reads; /* n_rows: the auxiliary unknown whose place a reading takes, else -1 */
+  const int *row_reads;  /* n_rows: the auxiliary unknown whose place a reading takes, else -1 */
   const int *row_beside; /* n_rows: the row of the normal where this is the slip on it, else -1 */
-  /* n_rows, nv: the group of a row, of a speed, and its number among the rows, the unknowns there */
+  /* n_rows, nv: the group of a row, of a speed, and its number among the rows, the unknowns there
+   */
   const int *row_group, *row_local, *contact_group, *speed_group, *speed_local;
   const int *speed_coordinate; /* nv: the coordinate whose rate is this speed, or -1 */
   const frot_check *checks;

@@ -1,4 +1,5 @@
-/* Places of a group's parts in the packed arrays, and the rows and modes of liaisons and elements. */
+/* Places of a group's parts in the packed arrays, and the rows and modes of liaisons and elements.
+ */
 #ifndef FROT_GROUPS_H
 #define FROT_GROUPS_H
 

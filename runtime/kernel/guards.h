@@ -7,19 +7,19 @@
 /* Guards are numbered: of contact i its gap while it is open, its reaction while that must keep its
  * sign; of each element two, what it can resist less what it does, both ways, at rest, and its
  * motion while it slips, with the reaction of its pin along the reference direction; then the
- * conditions. Those that can fall in `modes` are listed in w->guards, their number in w->n_guards. */
+ * conditions. Those that can fall in `modes` are listed in w->guards, their number in w->n_guards.
+ */
 void frot_list_guards(const frot_model *m, const frot_state *s, frot_work *w,
                       const frot_contact_mode *modes);
 
-/* Values of the listed guards after frot_reactions. `scale` (may be NULL): the sizes of their terms;
- * those of reactions are by w->row_load. */
+/* Values of the listed guards after frot_reactions. `scale` (may be NULL): the sizes of their
+ * terms; those of reactions are by w->row_load. */
 void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, const double *q,
                  const double *v, const double *d, const frot_contact_mode *modes, double *guard,
                  double *scale);
 
 /* Whether a listed guard is a reaction, so that `scale` needs w->row_load. */
-int frot_guards_read_loads(const frot_model *m, const frot_work *w,
-                           const frot_contact_mode *modes);
+int frot_guards_read_loads(const frot_model *m, const frot_work *w, const frot_contact_mode *modes);
 
 /* Size of the terms of a row's reaction by all loads, from w->row_load. */
 double frot_reaction_size(const frot_model *m, const frot_work *w, int row);

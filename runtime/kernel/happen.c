@@ -57,8 +57,7 @@ static int release_contacts(const instant *in) {
     int row = contact->row_n;
     if (!frot_has_normal(contact) || contact->reduced || unilateral[i] == 0) continue;
     if (!modes[i].closed) {
-      if (w->gap[i] < -TOUCH * frot_gap_size(m, w, row, in->q))
-        in->s->data[in->l.fired + i] = 1;
+      if (w->gap[i] < -TOUCH * frot_gap_size(m, w, row, in->q)) in->s->data[in->l.fired + i] = 1;
       continue;
     }
     double usual = frot_row_size(m, w, row, in->v) + frot_row_size(m, w, row, scale);
@@ -122,9 +121,8 @@ static int find_values(const instant *in, double *q, double *v) {
   size_t size = sizeof(double) * (size_t)(m->n_discrete - m->n_held);
   memcpy(w->discrete_before, discrete, sizeof(double) * (size_t)m->n_discrete);
   for (int pass = 0; pass < CROWD; pass++) {
-    int status =
-        frot_solution(m, s, w, in->t, in->q, in->v, d, modes_of(in), s->data + in->l.frozen,
-                      s->data + in->l.along, 1);
+    int status = frot_solution(m, s, w, in->t, in->q, in->v, d, modes_of(in),
+                               s->data + in->l.frozen, s->data + in->l.along, 1);
     if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, in->t);
     frot_inputs(m, s, w, &in->t, in->q, in->v, d);
     w->arg[7] = w->a, w->arg[8] = w->lam, w->arg[9] = w->firing, w->arg[10] = w->discrete_before;

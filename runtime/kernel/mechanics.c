@@ -11,8 +11,8 @@
 int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes,
                   const double *frozen, const double *along, int late) {
-  int status = frot_dynamics(m, s, w, t, q, v, d, modes,
-                             late || m->late_rates ? FROT_READING : FROT_MOTION);
+  int status =
+      frot_dynamics(m, s, w, t, q, v, d, modes, late || m->late_rates ? FROT_READING : FROT_MOTION);
   if (status != FROT_OK) return status;
   memcpy(w->along, along, sizeof(double) * 2 * (size_t)m->n_elements);
   if (frot_reactions(m, w, modes, NULL)) return FROT_DIVERGE;

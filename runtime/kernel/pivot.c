@@ -16,13 +16,13 @@
 #include "search.h"
 #include "tolerances.h"
 
-#define SWEEPS 4     /* of Gauss-Seidel before each of Newton's steps */
-#define ROUNDS 60    /* of sweeps and steps in one box */
-#define BOXES 200    /* times the bounds follow the reactions */
-#define AGREE 1e-12  /* part of a reaction by which bounds and reactions agree */
-#define PAST 1e-8    /* part by which a bound is lowered where a rest ends */
-#define DOUBT 1e-7   /* part of its size within which a reaction is at its bound, a motion none */
-#define SOFT 1e-14   /* part of its diagonal added to a singular system */
+#define SWEEPS 4    /* of Gauss-Seidel before each of Newton's steps */
+#define ROUNDS 60   /* of sweeps and steps in one box */
+#define BOXES 200   /* times the bounds follow the reactions */
+#define AGREE 1e-12 /* part of a reaction by which bounds and reactions agree */
+#define PAST 1e-8   /* part by which a bound is lowered where a rest ends */
+#define DOUBT 1e-7  /* part of its size within which a reaction is at its bound, a motion none */
+#define SOFT 1e-14  /* part of its diagonal added to a singular system */
 
 /* The rows that take part, w->row_of[0 .. n), with the bounds least and most of their reactions. */
 typedef struct {
@@ -75,7 +75,8 @@ static double follow(const box *b, const int *chosen, int count) {
     if (element->bound != FROT_BY_VALUE) bounding = fabs(w->lam[element->bounded_by[0]]);
     if (element->bound == FROT_BY_PIN) bounding = hypot(bounding, w->lam[element->bounded_by[1]]);
     int rests = b->in->zero[e];
-    double bound = w->coefficient[2 * e + rests] * bounding * (b->ends ? 1 - PAST : 1), before = b->most[r];
+    double bound = w->coefficient[2 * e + rests] * bounding * (b->ends ? 1 - PAST : 1),
+           before = b->most[r];
     b->least[r] = -bound, b->most[r] = bound;
     if (!rests && w->rate[r] > 0) b->most[r] = -bound;
     if (!rests && w->rate[r] < 0) b->least[r] = bound;
@@ -177,7 +178,13 @@ void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int 
                       unsigned char *certain) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
-  box b = {in, m, w, &m->groups[m->contact_group[chosen[0]]], 0, ends, w->pivot_bound,
+  box b = {in,
+           m,
+           w,
+           &m->groups[m->contact_group[chosen[0]]],
+           0,
+           ends,
+           w->pivot_bound,
            w->pivot_bound + m->n_rows};
   memset(w->pivot_bound, 0, sizeof(double) * 4 * (size_t)m->n_rows);
   memset(w->lam, 0, sizeof(double) * (size_t)m->n_rows);

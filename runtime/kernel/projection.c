@@ -42,9 +42,9 @@ int frot_holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode
   return n;
 }
 
-/* w->step (n_speeds) <- the least change of the group's speeds, in the metric, that takes `error` from
- * the n rows of w->row_of: with the rows H = L^-1 J' made orthonormal, H = Q R, it is L'^-1 Q R'^-1
- * error. A row that depends on those before it is left to them. */
+/* w->step (n_speeds) <- the least change of the group's speeds, in the metric, that takes `error`
+ * from the n rows of w->row_of: with the rows H = L^-1 J' made orthonormal, H = Q R, it is L'^-1 Q
+ * R'^-1 error. A row that depends on those before it is left to them. */
 static void correction(const frot_model *m, frot_work *w, const frot_group *g, int n,
                        const double *error) {
   int ns = g->n_speeds, rank = 0;
@@ -157,7 +157,8 @@ static int frozen_by_rows(const frot_model *m, frot_work *w, const frot_group *g
     double *x = w->basis + ns * columns;
     const double *entries = frot_entries(m, w->rows, row);
     for (int k = 0; k < ns; k++) x[k] = scale[k] > 0 ? entries[k] / scale[k] : 0;
-    double length = sqrt(frot_dot(x, x, ns)), rest = frot_reject(x, w->basis, columns, ns, w->parts);
+    double length = sqrt(frot_dot(x, x, ns)),
+           rest = frot_reject(x, w->basis, columns, ns, w->parts);
     if (!(rest > 0.1 * FROT_DEPENDENT * length)) continue;
     for (int k = 0; k < ns; k++) x[k] /= rest;
     columns++;

@@ -2,9 +2,9 @@
  *
  * Held rows do not accelerate: J z + c = 0. What slips follows the reaction that bounds it, lam_t =
  * ratio * bounding. Where that is the reaction of a held row, its column takes the friction along;
- * where it is a reading, which depends on all reactions, the friction is an unknown with an equation
- * of its own. The size of a pin's reaction is not linear: it is replaced by its part along the
- * direction w->along of the last pass, which is Newton's method.
+ * where it is a reading, which depends on all reactions, the friction is an unknown with an
+ * equation of its own. The size of a pin's reaction is not linear: it is replaced by its part along
+ * the direction w->along of the last pass, which is Newton's method.
  *
  * Of a mass matrix the held rows H = L^-1 J' are made orthonormal, in their order, H = Q R, and the
  * conditions taken as Q' u + R'^-1 c = 0 with u = f + sum of H lam: the condition of the system is
@@ -98,7 +98,8 @@ static void list_unknowns(problem *p, const unsigned char *at_rest) {
   int n = 0;
   /* what always holds stands first, friction depends on it */
   for (int i = 0; i < g->n_contacts; i++)
-    if (frot_is_loaded(m, p->modes, g->contacts[i])) w->unknown[n++] = m->contacts[g->contacts[i]].row_n;
+    if (frot_is_loaded(m, p->modes, g->contacts[i]))
+      w->unknown[n++] = m->contacts[g->contacts[i]].row_n;
   for (int k = 0; k < n; k++) w->friction[k] = 0;
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
@@ -177,8 +178,8 @@ static void column_of(const problem *p, int c, double *x) {
   }
 }
 
-/* The held rows of a mass matrix, orthonormal, into w->basis with their biases in w->bias; p->equations
- * is their number. Returns 1 when a row that depends on others contradicts them. */
+/* The held rows of a mass matrix, orthonormal, into w->basis with their biases in w->bias;
+ * p->equations is their number. Returns 1 when a row that depends on others contradicts them. */
 static int orthonormalize(problem *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
@@ -205,8 +206,8 @@ static int orthonormalize(problem *p) {
   return 0;
 }
 
-/* The conditions that hold the held rows into the first lines of w->active and w->right, the columns
- * in units w->unit_of. The leading dimension is the number of unknowns. Returns 1 when they
+/* The conditions that hold the held rows into the first lines of w->active and w->right, the
+ * columns in units w->unit_of. The leading dimension is the number of unknowns. Returns 1 when they
  * contradict each other. */
 static int hold_rows(problem *p) {
   frot_work *w = p->w;
@@ -267,8 +268,8 @@ static void follow_readings(problem *p) {
 
 /* What the unknowns weigh, into w->weight: friction so much more than normal reactions that rest is
  * not lost for want of it. Elements side by side that values bound share a load in proportion to
- * their bounds, so that they reach them together: sum of lam^2 g / bound is least, where g, the size
- * of the row, makes a gear between them count. */
+ * their bounds, so that they reach them together: sum of lam^2 g / bound is least, where g, the
+ * size of the row, makes a gear between them count. */
 static void weigh(const problem *p) {
   frot_work *w = p->w;
   double largest = 0;
@@ -286,8 +287,8 @@ static void weigh(const problem *p) {
   }
 }
 
-/* Least reactions, in units w->unit_of, of the system that w->active holds. Solved twice: the second
- * time for what the first left, so that the weights cost no digits. */
+/* Least reactions, in units w->unit_of, of the system that w->active holds. Solved twice: the
+ * second time for what the first left, so that the weights cost no digits. */
 static void solve_least(const problem *p, double *x) {
   frot_work *w = p->w;
   int n = p->unknowns, rows = p->equations;

@@ -10,8 +10,8 @@
 #include "search.h"
 #include "tolerances.h"
 
-/* Whether the motion of element e is zero: its guard fired at zero, or it is zero to rounding against
- * its terms, the sizes it had and the motion as a whole. */
+/* Whether the motion of element e is zero: its guard fired at zero, or it is zero to rounding
+ * against its terms, the sizes it had and the motion as a whole. */
 static int is_zero_rate(const frot_instant *in, int e, const double *v, int slipped) {
   int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
   if (slipped && in->fired[guard] != 0) return 1;

@@ -4,7 +4,6 @@
 
 #include "state.h"
 
-
 /* Find the modes that follow time t at coordinates q and speeds v (both may be moved onto the
  * relations that hold, by rounding only), from the modes held in the state and the guards fired.
  *

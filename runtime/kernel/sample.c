@@ -18,7 +18,8 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   /* relations between the states hold at every instant looked at, not only at the ends of steps */
   if (m->n_invariants > 0)
     status = frot_project_jointly(m, s, w, t, q, v, g->d, g->modes, NULL, NULL, g->frozen, &moved);
-  if (status == FROT_OK) status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, g->along, 1);
+  if (status == FROT_OK)
+    status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, g->along, 1);
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
   if (status != FROT_OK) return status;
   frot_inputs(m, s, w, &t, q, v, g->d);

@@ -113,7 +113,8 @@ static int preference(const frot_instant *in, const int *chosen, int count) {
 }
 
 /* The motion of w->trial as the accelerations of its rows, into place `at` of w->motions unless one
- * of the motions before is the same to what rounding of their terms can do; returns their number. */
+ * of the motions before is the same to what rounding of their terms can do; returns their number.
+ */
 static int count_motion(const frot_instant *in, const int *chosen, int motions) {
   const frot_model *m = in->m;
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
@@ -127,8 +128,8 @@ static int count_motion(const frot_instant *in, const int *chosen, int motions) 
       if (frot_is_reading(m, r) || !in->w->wanted[r]) continue;
       double size, a = frot_acceleration(m, in->w, r, &size);
       own[r] = a;
-      differs |= fabs(a - other[r]) > FROT_DIFFERENT * (size + in->w->row_load[r]) +
-                                      2 * frot_row_rounding(m, in->w, r);
+      differs |= fabs(a - other[r]) >
+                 FROT_DIFFERENT * (size + in->w->row_load[r]) + 2 * frot_row_rounding(m, in->w, r);
     }
     if (at == motions) break;
     if (!differs) return motions;
@@ -149,8 +150,8 @@ static void remember(const frot_instant *in, const int *chosen, int count) {
   }
 }
 
-/* Examine all combinations of the options; those of contacts that are `certain` (may be NULL) stay as
- * they are in w->trial. */
+/* Examine all combinations of the options; those of contacts that are `certain` (may be NULL) stay
+ * as they are in w->trial. */
 static int enumerate(const frot_instant *in, const int *chosen, int count, int forced,
                      const unsigned char *certain) {
   frot_work *w = in->w;
@@ -203,14 +204,12 @@ static int left_here(const frot_instant *in, int i) {
   return any;
 }
 
-int frot_search(const frot_instant *in, const int *chosen, int count, int forced,
-                int *unsearched) {
+int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int *unsearched) {
   frot_work *w = in->w;
   const frot_model *m = in->m;
   option lists[OPTIONS];
   double combinations = 1;
-  for (int c = 0; c < count; c++)
-    combinations *= contact_options(in, chosen[c], forced, lists);
+  for (int c = 0; c < count; c++) combinations *= contact_options(in, chosen[c], forced, lists);
   memset(w->trial, 0, sizeof *w->trial * (size_t)(m->n_contacts + m->n_elements));
   if (combinations <= FROT_ENOUGH) return enumerate(in, chosen, count, forced, NULL);
   *unsearched = 1;

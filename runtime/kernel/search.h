@@ -29,9 +29,9 @@ int frot_is_admissible(const frot_instant *in, const int *chosen, int count);
  * is set. `forced`: what fired must change. Returns the number of motions. */
 int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int *unsearched);
 
-/* A first guess of the modes of many contacts into w->trial, and into `certain` (n_contacts) whether
- * a contact's are beyond doubt (pivot.c). `ends`: a rest ends, so that what is just at its bound is
- * past it. */
+/* A first guess of the modes of many contacts into w->trial, and into `certain` (n_contacts)
+ * whether a contact's are beyond doubt (pivot.c). `ends`: a rest ends, so that what is just at its
+ * bound is past it. */
 void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int ends,
                       unsigned char *certain);
 

@@ -46,7 +46,7 @@ struct frot_state {
   int crowded;   /* events since the time last moved on */
   int jumped;    /* the last event of the text moved coordinates or speeds */
   int several;   /* groups of contacts had several motions at the start: to be told as events */
-  int implicit;                /* the next step is made by the implicit method */
+  int implicit;  /* the next step is made by the implicit method */
   int stiff_steps, calm_steps; /* see stiffness.h */
   int patience, stay;
   int outcome; /* the `terminate` that ended the run */
@@ -76,7 +76,7 @@ typedef struct {
   double *t0, *t1, *h;
   frot_contact_mode *modes;
   double *d, *frozen;
-  double *along; /* 2 n_elements: where to begin to look for the directions of pins' reactions */
+  double *along;   /* 2 n_elements: where to begin to look for the directions of pins' reactions */
   double *y0, *y1; /* unknowns of the blocks at its ends */
   double *x0;      /* nx: q, v, quadratures */
   double *f;       /* DP_DENSE x nx */
@@ -114,18 +114,18 @@ struct frot_work {
   int *unknown, *owner, *fold;
   unsigned char *friction;
   double *fold_ratio, *ratio, *along, *unit_of, *weight, *solution;
-  int dependent; /* the reactions are not unique */
-  int rank;      /* orthonormal rows in `basis` */
-  double *basis, *parts, *bias; /* orthonormal rows */
+  int dependent;                  /* the reactions are not unique */
+  int rank;                       /* orthonormal rows in `basis` */
+  double *basis, *parts, *bias;   /* orthonormal rows */
   double *active, *right, *lstsq; /* the system of the unknowns */
-  double *rest, *column;        /* nw: of the function that runs */
+  double *rest, *column;          /* nw: of the function that runs */
   int *row_of;
-  int *guards, n_guards;          /* see guards.h */
-  double *guard;                  /* ng: sizes of the terms of the guards listed */
-  double *end_reaction;           /* 2 n_elements: reactions of pins at the end of a step */
-  double *k;                      /* DP_ALL x nz */
-  double *z0, *z1, *ztry;         /* nz */
-  double *f;                      /* DP_DENSE x nz */
+  int *guards, n_guards;  /* see guards.h */
+  double *guard;          /* ng: sizes of the terms of the guards listed */
+  double *end_reaction;   /* 2 n_elements: reactions of pins at the end of a step */
+  double *k;              /* DP_ALL x nz */
+  double *z0, *z1, *ztry; /* nz */
+  double *f;              /* DP_DENSE x nz */
   double *change, *own_size, *largest_alike; /* nq: see sizes.h */
   double *implicit;                          /* see jacobian.h */
   int *implicit_pivot;
@@ -141,7 +141,7 @@ struct frot_work {
   double *pivot_bound;    /* pivot.c: bounds, gradient, step of each row */
   int *choice, *component, *chosen;
   unsigned char *zero; /* n_elements: see search.h */
-  double t; /* where dynamics was last evaluated */
+  double t;            /* where dynamics was last evaluated */
 };
 
 /* Times that differ by less are one instant: both are sums, rounded in different ways. */

@@ -28,8 +28,8 @@
 /* A guard need only be followed well enough to see where it goes. */
 #define GUARD_LOOSEST 1e-3
 #define GUARD_TIGHTEST 1e-6
-/* Part of its largest size by which a condition is off zero by rounding: far below FROT_GUARD_FLOOR,
- * so that what counts as fallen does not fall again. */
+/* Part of its largest size by which a condition is off zero by rounding: far below
+ * FROT_GUARD_FLOOR, so that what counts as fallen does not fall again. */
 #define CONDITION_ZERO 4e-15
 /* Part of its size in the next step by which a condition moves that has no rate. */
 #define FLAT 1e-10
@@ -285,7 +285,9 @@ static int first_guard(const frot_model *m, const frot_state *s, const frot_work
     size = fmax(size, inside);
     double slope = 6 * fabs(g[1] - g[0]) / h, first = g[0];
     /* what is zero at the start but for rounding, and rises, has not fallen */
-    for (int i = 0; j < conditions && i < 6 && g[i] < 0 && g[i] >= -FROT_ZERO * size && g[i + 1] > g[i]; i++) g[i] = 0;
+    for (int i = 0;
+         j < conditions && i < 6 && g[i] < 0 && g[i] >= -FROT_ZERO * size && g[i + 1] > g[i]; i++)
+      g[i] = 0;
     double at = frot_first_fall(g, FROT_GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * slope);
     if (j >= conditions && fabs(first) <= FROT_ZERO * size &&
         lost_at_once(s, l, j - conditions, g, inside, at < FROT_NO_ROOT))
@@ -300,17 +302,17 @@ static int first_guard(const frot_model *m, const frot_state *s, const frot_work
 static int land(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l, double t) {
   int moved;
   memcpy(w->y, w->y_end, sizeof(double) * (size_t)m->ny);
-  int status = frot_project(m, s, w, t, w->z1, w->z1 + m->nq, s->data + l->d, modes_of(s, l), NULL,
-                            &moved);
+  int status =
+      frot_project(m, s, w, t, w->z1, w->z1 + m->nq, s->data + l->d, modes_of(s, l), NULL, &moved);
   if (status != FROT_OK || !moved) return status;
   status = slope_at(m, s, w, l, t, w->z1, stage(l, w, DP_STAGES));
   memcpy(w->y_end, w->y, sizeof(double) * (size_t)m->ny);
   return status;
 }
 
-/* Shorten the step so that it ends where the listed guard j is zero, by the secant on steps made anew: the
- * event is as exact as the steps are. Returns a status; *h is the length and *falls whether it does
- * fall. */
+/* Shorten the step so that it ends where the listed guard j is zero, by the secant on steps made
+ * anew: the event is as exact as the steps are. Returns a status; *h is the length and *falls
+ * whether it does fall. */
 static int locate(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l, double t,
                   int j, double theta, double *h, int *falls) {
   double longest = *h, g[7];
@@ -364,8 +366,7 @@ void frot_guess_unknowns(const frot_model *m, frot_work *w, const frot_segment *
 
 static void copy_modes(frot_state *s, const frot_layout *l, const frot_model *m,
                        const frot_segment *g) {
-  memcpy(g->modes, s->data + l->modes,
-         sizeof *g->modes * (size_t)(m->n_contacts + m->n_elements));
+  memcpy(g->modes, s->data + l->modes, sizeof *g->modes * (size_t)(m->n_contacts + m->n_elements));
   memcpy(g->along, s->data + l->along, sizeof(double) * 2 * (size_t)m->n_elements);
   memcpy(g->d, s->data + l->d, sizeof(double) * (size_t)l->nd);
   memcpy(g->frozen, s->data + l->frozen, sizeof(double) * (size_t)m->nv);
@@ -394,8 +395,7 @@ static void measure(const frot_model *m, frot_state *s, frot_work *w, const frot
   for (int e = 0; e < m->n_elements; e++)
     for (int k = 0; k < 2 && m->elements[e].bound == FROT_BY_PIN; k++)
       w->end_reaction[2 * e + k] = w->lam[m->elements[e].bounded_by[k]];
-  if (frot_guards_read_loads(m, w, modes_of(s, l)))
-    frot_row_loads(m, s, w, t, z, z + m->nq, d);
+  if (frot_guards_read_loads(m, w, modes_of(s, l))) frot_row_loads(m, s, w, t, z, z + m->nq, d);
   frot_guards(m, s, w, z, z + m->nq, d, modes_of(s, l), w->ztry, w->guard);
 }
 

@@ -1,4 +1,5 @@
-/* Every number by which the kernel calls something zero, equal, settled or enough, with its meaning.
+/* Every number by which the kernel calls something zero, equal, settled or enough, with its
+ * meaning.
  *
  * Three kinds: what rounding can do (a few units of the last place, times the sizes of the terms),
  * what counts as zero at an event (a root found is no better than the step that found it), and what
