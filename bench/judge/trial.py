@@ -27,7 +27,7 @@ from judge.verdict import (
     judge_start,
     judge_stop,
 )
-from judge.write import write
+from judge.write import END, write
 
 FAMILIES: dict[str, Family] = {f.name: f for f in (*ANYTHING, *MACHINES, *TABLES)}
 
@@ -67,9 +67,8 @@ def try_setting(
                 late.append(1)
             return bool(late)
 
-        return model.simulate(
-            stop=setting.stop, tolerance=tolerance, parameters=values, watch=watch
-        )
+        every = {**values, END: setting.stop}
+        return model.simulate(tolerance=tolerance, parameters=every, watch=watch)
 
     def whole(values: Mapping[str, float], tolerance: float) -> frot.Result | None:
         try:

@@ -22,14 +22,23 @@ UNITS = {
 }
 
 
+END = "T_end"
+
+
 def write(scene: Scene, values: dict[str, float] | None = None, experiment: str = "") -> str:
-    """The scene's text; `values` become the defaults of its parameters (1 where not given)."""
+    """The scene's text; `values` become the defaults of its parameters (1 where not given).
+
+    Without an `experiment` the end of the run is the parameter `END`.
+    """
     lines = [f"planar model {scene.name}"]
     if scene.gravity is not None:
         lines.append(f"  world(gravity = {scene.gravity.text});")
     for word, kind in scene.parameters.items():
         number = repr(float((values or {}).get(word, 1.0)))
         lines.append(f"  parameter {kind} {word} = {number}{UNITS[kind]};")
+    if not experiment:
+        lines.append(f"  parameter Time {END} = 1 s;")
+        experiment = f"stop = {END}"
     lines += [_body(b) for b in scene.bodies]
     lines += [
         f"  frame {p.text} on {_owner(p.body)} at ({p.at[0].text}, {p.at[1].text});"
