@@ -68,7 +68,7 @@ def run_job(seed: int, family: str, number: int, settings: list[int], limit: flo
             said = json.loads(line)
             timer.cancel()
             # judging takes its time too, and the machine is shared
-            timer = Timer(10 * limit + 30, worker.kill)
+            timer = Timer(20 * limit + 120, worker.kill)
             timer.start()
             if said["kind"] == "text":
                 refused = said["why"]

@@ -14,7 +14,7 @@ from typing import Protocol
 
 import numpy as np
 
-from judge.mechanics import Floats, Joint, Mechanics, Row, inertia, left, norm
+from judge.mechanics import Floats, Joint, Mechanics, Row, inertia, left
 from judge.scene import Contact, Pin, Scene
 
 EXACT = 1e-8
@@ -87,9 +87,6 @@ class Judge:
         self.sides: dict[str, int] = {}
         begin = float(result.time[0])
         self.sides = start_sides(scene, self.mechanics(begin, {}))
-        for c in scene.contacts:
-            if c.kind != "point_courbe" or not c.bilateral:
-                self.sides[c.name] = self._told_side(c, begin)
         self.length, self.speed = self._sizes()
         self._natural()
 
@@ -150,34 +147,12 @@ class Judge:
             k = now.at[b.name]
             speed = 1e-3 * math.sqrt(self.length * float(np.max(quick[k : k + 2])))
             self.speed[b.name] = max(self.speed[b.name], speed)
+            fastest = max(v for k, v in self.speed.items() if not k.endswith(".w"))
+            self.speed[b.name] = max(self.speed[b.name], 1e-13 * fastest)
             if b.turns and b.size is not None:
+                speed = max(speed, 1e-13 * fastest)
                 spin = speed / b.size.at(now.look)
                 self.speed[f"{b.name}.w"] = max(self.speed[f"{b.name}.w"], spin)
-
-    def _told_side(self, c: Contact, begin: float) -> int:
-        """The side of a point that starts on its line while its body's G is on the other side.
-
-        The language leaves that open: what the start of the run says must then hold throughout.
-        """
-        side = self.sides[c.name]
-        now = self.mechanics(begin)
-        joint = now.joints[c.name]
-        middle = (now.origin(c.body) - joint.touching) @ joint.normal
-        if c.rim is not None or abs(joint.gap) > 1e-9 * joint.size or middle >= -1e-9 * joint.size:
-            return side
-        row = self.row(begin)
-        told = told_reactions(joint, row)
-        if told is not None and told["n"] != 0 and f"{c.name}.force.x" in row:
-            force = np.array([row[f"{c.name}.force.{axis}"] for axis in "xy"])
-            return (
-                side if (force @ joint.normal) * told["n"] * (1 if c.swapped else -1) > 0 else -side
-            )
-        times = np.linspace(begin, float(self.result.time[-1]), 64)
-        if f"{c.name}.gap" not in self.result:
-            return side
-        gaps = self.result.at(times)[f"{c.name}.gap"]
-        far = float(times[int(np.argmax(np.abs(gaps)))])
-        return side if self.mechanics(far).joints[c.name].gap * np.max(np.abs(gaps)) >= 0 else -side
 
     # the whole examination
 
@@ -470,6 +445,8 @@ class Judge:
         for x, y, t in zip(kinetic, parts[0], now_times(now), strict=True):
             self.found.hold("kinetic energy", float(x - y), 1e-11 * size, t, "energy")
         total = parts[0] + parts[1] + parts[2] - parts[3]
+        now_here = self.mechanics(end)
+        grid += 1e-6 * float(np.max(now_here.load_size.reshape(-1, 3)[:, :2])) * self.length
         steps = max(1, len(self.result.events))
         allowed = 1e4 * steps * self.tol * float(grid) + 1e-10 * float(grid)
         self.found.hold(
@@ -580,14 +557,22 @@ def state_of(scene: Scene, row: Mapping[str, float]) -> dict[str, tuple[float, .
 def start_sides(scene: Scene, now: Mechanics) -> dict[str, int]:
     """The side each contact starts on, seen along its line's direction: 1 is the left."""
     sides = {}
+    places = [np.max(np.abs(now.origin(b))) for b in scene.bodies]
+    lengths = [b.size.at(now.look) for b in scene.bodies if b.size is not None]
+    wide = max(float(x) for x in (*places, *lengths, *(j.size for j in now.joints.values())))
     for c in scene.contacts:
         joint = now.joints[c.name]
         up = left(joint.direction)
         height = joint.gap if c.rim is None else joint.gap + c.rim.size.at(now.look)  # type: ignore[union-attr]
         if c.kind == "point_courbe" and c.bilateral:
             sides[c.name] = 1
-        elif abs(height) > 1e-9 * max(joint.size, norm(up) * 1e-300):
+        elif abs(height) > 1e-9 * wide:
             sides[c.name] = 1 if height > 0 else -1
-        else:  # on the line: the side of its normal, which is not against gravity
-            sides[c.name] = -1 if up[1] < -1e-12 else 1
+        else:  # on the line: against gravity, else where G is, else the left
+            g = 9.81 if scene.gravity is None else scene.gravity.at(now.look)
+            middle = (now.origin(c.body) - joint.touching) @ up
+            if g > 0 and abs(up[1]) > 1e-9:
+                sides[c.name] = 1 if up[1] > 0 else -1
+            else:
+                sides[c.name] = -1 if middle < -1e-9 * wide else 1
     return sides

@@ -99,6 +99,7 @@ class System:
         self.index = {key: n + i for i, key in enumerate(self.columns)}
         self.matrix = np.zeros((n + k, n + k))
         self.right = np.zeros(n + k)
+        self.sizes = np.concatenate([now.load_size, np.zeros(k)])
         self.bends: list[tuple[int, str, float]] = []  # rows whose law holds a norm
         self.inequalities: list[tuple[Floats, float, float]] = []
         self.matrix[:n, :n] = np.diag(now.mass)
@@ -112,6 +113,7 @@ class System:
         row = joint.rows[word]
         self.matrix[at, : self.now.n] = row.jacobian
         self.right[at] = -row.bias
+        self.sizes[at] = row.reach @ accelerations(self.now) + row.bias_size
 
     def _at_least(self, terms: Mapping[int, float], constant: float, size: float) -> None:
         line = np.zeros(len(self.right))
@@ -246,7 +248,7 @@ def motion(
             return None
         right = matrix @ z if rank == len(s) else right
     wrong = np.abs(matrix @ z - right)
-    size = np.abs(matrix) @ np.abs(z) + np.abs(right)
+    size = np.abs(matrix) @ np.abs(z) + np.abs(right) + system.sizes / rows
     if np.any(wrong > 1e-7 * (size + 1e-300)) and rank < len(s):
         return None
     free = vt[rank:].T

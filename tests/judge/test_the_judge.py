@@ -1,0 +1,166 @@
+"""The judge is right itself: it finds what is falsified, and knows motions that are known."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+from judge.check import Judge
+from judge.family import Setting, Structure
+from judge.mechanics import Floats
+from judge.motions import distinct, motions
+from judge.scene import Contact, Force, Scene
+from judge.trial import try_setting
+from judge.values import name
+from judge.verdict import CONFIRMED, EXACT, judge_stop, still_of
+from judge.write import END, write
+
+import frot
+
+
+def sledge() -> Scene:
+    """A rod on two rough feet, drawn by a force that grows with time."""
+    s = Scene("Sledge")
+    bar = s.body("bar", "rod")
+    floor = s.line("floor", None)
+    mu = s.parameter("mu", "Real")
+    for i in range(2):
+        foot = s.frame(f"f{i}", bar)
+        s.contacts.append(Contact(f"c{i}", floor, foot, mu=mu))
+    rate, t0 = s.parameter("rate", "Force"), s.parameter("T0", "Time")
+    pull = rate * (name("time") / t0)
+    s.forces.append(Force("pull", "on", (s.middle(bar),), (pull, pull * 0.0)))
+    s.statements += ["c0.gap = 0 m", "c1.gap = 0 m"]
+    return s
+
+
+VALUES = {
+    "m_bar": 2.0,
+    "l_bar": 1.0,
+    "x_floor": 0.0,
+    "y_floor": 0.0,
+    "a_floor": 0.0,
+    "mu": 0.3,
+    "x_f0": -0.4,
+    "y_f0": -0.1,
+    "x_f1": 0.5,
+    "y_f1": -0.1,
+    "rate": 4.0,
+    "T0": 1.0,
+}
+
+
+class Falsified:
+    """A result with one variable changed."""
+
+    def __init__(self, result: frot.Result, variable: str, factor: float) -> None:
+        self._result, self._variable, self._factor = result, variable, factor
+        self.time, self.events = result.time, result.events
+
+    def at(self, t: Floats) -> Mapping[str, Floats]:
+        now = dict(self._result.at(t))
+        now[self._variable] = self._factor * now[self._variable]
+        return now
+
+    def __getitem__(self, word: str) -> Floats:
+        return self._result[word]
+
+    def __contains__(self, word: object) -> bool:
+        return word in self._result
+
+
+@pytest.fixture(scope="module")
+def run() -> frot.Result:
+    model = frot.compile(write(sledge()))
+    return model.simulate(tolerance=1e-9, parameters={**VALUES, END: 3.0})
+
+
+@pytest.mark.parametrize(
+    ("variable", "factor", "kind"),
+    [
+        ("bar.acceleration.x", 1 + 1e-6, "Newton-Euler"),
+        ("bar.angular_acceleration", 1.0, ""),
+        ("c0.tangential_force", 1 + 1e-6, "law"),
+        ("c1.normal_force", -1.0, "pull"),
+        ("bar.velocity.x", 1 + 1e-4, "integral of velocity"),
+        ("bar.position.y", 1.001, "relation"),
+        ("c0.force.x", -1.0, "force"),
+    ],
+)
+def test_a_falsified_variable_is_found(
+    run: frot.Result, variable: str, factor: float, kind: str
+) -> None:
+    judge = Judge(sledge(), VALUES, Falsified(run, variable, factor), 1e-9)
+    faults = judge.examine(np.random.default_rng(1)).faults
+    told = {f.split(":")[0] for f in faults} - {"held slip"}
+    assert kind in told if kind else not told
+
+
+def test_the_motions_of_a_pulled_sledge_are_the_known_ones(run: frot.Result) -> None:
+    """It rests until the pull is mu m g, at 1.4715 s, and slips as one body after that."""
+    judge = Judge(sledge(), VALUES, run, 1e-9)
+    for t, modes, acceleration in ((1.0, {0}, 0.0), (2.0, {1}, 2.0 * 2.0 - 0.3 * 9.81)):
+        now = judge.mechanics(t)
+        still = still_of(judge, now, 1e-6)
+        found = distinct([m for m in motions(now, still) if m.margin > 1e-6], now)
+        assert len(found) == 1
+        assert {c.slip for c in found[0].modes.values()} == modes
+        assert found[0].acceleration[0] == pytest.approx(acceleration, abs=1e-9)
+
+
+ROD = """
+planar model Rod
+  parameter Mass m_bar = 1 kg;
+  parameter Length l_bar = 2 m;
+  parameter Real mu = {mu};
+  body bar: rod(mass = m_bar, length = l_bar);
+  liaison foot: contact_ponctuel(bar.start, ground.line) with coulomb(mu);
+initial
+  bar.angle = 63 deg;
+  bar.start.position = (0, 0) m;
+  bar.start.velocity = (-1, 0) m/s;
+  experiment(stop = 0.01 s);
+end Rod;
+"""
+
+
+def painleve_rod() -> Scene:
+    s = Scene("Rod")
+    bar = s.body("bar", "rod")
+    from judge.scene import Line
+    from judge.values import as_value
+
+    line = Line("ground.line", None, None, as_value(0.0))
+    s.contacts.append(Contact("foot", line, s.end(bar, "start"), mu=s.parameter("mu", "Real")))
+    return s
+
+
+def test_an_impasse_of_painleve_is_confirmed_and_one_that_is_none_refuted() -> None:
+    """p = 1 + 3 cos(th) (cos(th) - mu sin(th)) is negative at 63 degrees from mu = 1.98 on.
+
+    With the free acceleration of the foot into the ground no motion is admissible then.
+    """
+    th = math.radians(63)
+    critical = (1 + 3 * math.cos(th) ** 2) / (3 * math.sin(th) * math.cos(th))
+    for mu, impasse in ((critical * 1.2, True), (critical * 0.5, False)):
+        model = frot.compile(ROD.format(mu=mu))
+        values = {"m_bar": 1.0, "l_bar": 2.0, "mu": mu}
+        result = frot.compile(ROD.format(mu=0.1)).simulate(tolerance=1e-9)
+        judge = Judge(painleve_rod(), values, result, 1e-9)
+        verdict = judge_stop(judge, "E0902", "", 0.0)
+        assert (verdict.kind == CONFIRMED) == impasse
+        if impasse:
+            with pytest.raises(frot.SimulationError, match="E0902"):
+                model.simulate()
+        else:
+            assert model.simulate().time[-1] == pytest.approx(0.01)
+
+
+def test_a_whole_trial_of_a_known_scene_is_exact() -> None:
+    structure = Structure(sledge(), lambda _: Setting(VALUES, 1.2, 1e-9))
+    model = frot.compile(write(structure.scene))
+    verdict = try_setting(model, structure, Setting(VALUES, 1.2, 1e-9, compare=True), 1, 10.0)
+    faults = [w for w in verdict.why if not w.startswith("held slip")]
+    assert verdict.kind == EXACT or not faults
