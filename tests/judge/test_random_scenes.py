@@ -1,4 +1,4 @@
-"""Some hundred runs of random scenes, judged by Newton-Euler alone: no fault, no refusal that is wrong.
+"""Some hundred runs of random scenes, judged by Newton-Euler alone: exact, or rightly refused.
 
 `bench/random_scenes.py` does thousands; here are texts of every family, each with many settings.
 """
