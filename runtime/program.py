@@ -10,6 +10,10 @@ from typing import Any
 MANIFEST = "manifest.json"
 LIBRARY = "program.so"
 MODEL_SOURCE = "model.c"
+# Of a run whose text is silent about them; the kernel has the same tolerance.
+DEFAULT_TOLERANCE = 1e-8
+DEFAULT_POINTS = 500
+DEFAULT_SPAN = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +64,11 @@ class ExperimentInfo:
     tolerance: float | None
     interval: float | None
     on_indeterminate: str
+
+    def times(self) -> tuple[float, float]:
+        """Start and stop, in s."""
+        begin = 0.0 if self.start is None else self.start
+        return begin, begin + DEFAULT_SPAN if self.stop is None else self.stop
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,11 +18,15 @@ from frot.runtime.engine import (
     Floats,
     RawEvent,
 )
-from frot.runtime.program import Program
+from frot.runtime.program import (
+    DEFAULT_POINTS,
+    DEFAULT_SPAN,
+    DEFAULT_TOLERANCE,
+    Program,
+)
 from frot.runtime.result import KINDS, MODES, ROLLING, Event, Figures, Result
 from frot.runtime.settings import read_option, read_settings
 
-DEFAULT_POINTS = 500
 MOST_POINTS = 10_000_000
 TOLERANCES = (1e-14, 1e-1)
 _GOOD = (OK, STOPPED, TERMINATED)
@@ -101,8 +105,8 @@ def simulate(
     if status != OK:
         raise _fault(engine, None)
     begin = _choose(start, experiment[0], 0.0)
-    end = _choose(stop, experiment[1], begin + 1.0)
-    asked = _choose(tolerance, experiment[2], 1e-8)
+    end = _choose(stop, experiment[1], begin + DEFAULT_SPAN)
+    asked = _choose(tolerance, experiment[2], DEFAULT_TOLERANCE)
     if not (math.isfinite(begin) and math.isfinite(end) and end > begin):
         raise fail(
             "E0806",

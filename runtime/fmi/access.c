@@ -66,7 +66,7 @@ int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned refere
     case FROT_FMU_STEPPING:
       break;
     default:
-      return frot_fmu_misplaced(fmu, function);
+      if (!fmu->life.refused) return frot_fmu_misplaced(fmu, function);
   }
   const frot_fmu_variable *variable = find(fmu, function, reference, types);
   if (variable == NULL) return FROT_FMU_ERROR;
@@ -82,6 +82,7 @@ int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned refere
 
 void frot_fmu_set(frot_fmu *fmu, unsigned reference, double value) {
   const int index = (int)reference - 1;
+  frot_fmu_note_change(fmu);
   if (frot_fmu_variables[reference].role == FROT_FMU_INPUT)
     frot_set_input(fmu->model, fmu->state, index - fmu->model->np, value);
   else

@@ -12,7 +12,14 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 from frot.runtime.fmi.names import model_identifier, variable_names
-from frot.runtime.program import ParameterInfo, Program, Unit, VariableInfo
+from frot.runtime.program import (
+    DEFAULT_POINTS,
+    DEFAULT_TOLERANCE,
+    ParameterInfo,
+    Program,
+    Unit,
+    VariableInfo,
+)
 
 MODE_TYPE = "FrotMode"
 MODES = (
@@ -164,14 +171,16 @@ def _type_attributes(variable: Scalar) -> dict[str, str]:
 
 
 def _default_experiment(program: Program) -> ET.Element:
+    """What `frot simulate` would take: all four, for importers guess what is not there."""
     experiment = program.experiment
+    begin, end = experiment.times()
     values = {
-        "startTime": experiment.start,
-        "stopTime": experiment.stop,
-        "tolerance": experiment.tolerance,
-        "stepSize": experiment.interval,
+        "startTime": begin,
+        "stopTime": end,
+        "tolerance": experiment.tolerance or DEFAULT_TOLERANCE,
+        "stepSize": experiment.interval or (end - begin) / DEFAULT_POINTS,
     }
-    known = {key: repr(float(value)) for key, value in values.items() if value is not None}
+    known = {key: repr(float(value)) for key, value in values.items()}
     return ET.Element("DefaultExperiment", known)
 
 
@@ -211,6 +220,7 @@ def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
         canInterpolateInputs="false",
         maxOutputDerivativeOrder="0",
         canBeInstantiatedOnlyOncePerProcess="false",
+        canNotUseMemoryManagementFunctions="true",
         canGetAndSetFMUstate="true",
         canSerializeFMUstate="true",
         providesDirectionalDerivative="false",
@@ -259,7 +269,7 @@ def _description_3(program: Program) -> ET.Element:
         canHandleVariableCommunicationStepSize="true",
         maxOutputDerivativeOrder="0",
         providesIntermediateUpdate="false",
-        mightReturnEarlyFromDoStep="false",
+        mightReturnEarlyFromDoStep="true",
         hasEventMode="false",
     )
     root.append(_units(variables))

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
 from frot.runtime.fmi.description import Scalar, scalars, text
+from frot.runtime.fmi.sources import MOST_WORK
 from frot.runtime.program import Program
 
 _GROUPS = (
@@ -62,8 +63,10 @@ def documentation(program: Program) -> bytes:
         "p",
         "Rigid bodies with liaisons and dry friction, exported by "
         f"Frot {program.version}. All values are in SI units. Steps of any length give the same "
-        "motion; a change of a parameter or an input takes effect at the time reached. "
-        "Where the motion cannot go on, a step is discarded and the log says why.",
+        "motion; a change of a parameter or an input takes effect at the time reached, or is "
+        "refused as a whole with the next step, and the former values hold. "
+        "Where the motion cannot go on, a step is discarded and the log says why; so is one that "
+        f"takes more than {MOST_WORK} evaluations of the model.",
     )
     for title, causalities in _GROUPS:
         members = [v for v in variables if v.causality in causalities]

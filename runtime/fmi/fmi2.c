@@ -1,7 +1,6 @@
 /* The FMI 2.0 face of a model for co-simulation; the functions it refuses are in fmi2_refused.c. */
 #include "fmi2_instance.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static void send(const frot_fmu *fmu, int status, const char *category, const char *message) {
@@ -29,9 +28,6 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
   draft.fmu.name = instanceName;
   draft.fmu.environment = functions->componentEnvironment;
   draft.fmu.categories = FROT_FMU_LOG_ALL;
-  const int both = functions->allocateMemory != NULL && functions->freeMemory != NULL;
-  draft.fmu.allocate = both ? functions->allocateMemory : calloc;
-  draft.fmu.release = both ? functions->freeMemory : free;
   if (fmuType != fmi2CoSimulation) {
     frot_fmu_refuse(&draft.fmu, __func__, "this model is for co-simulation only");
     return NULL;
@@ -165,6 +161,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boo
   if (c == NULL || askable(fmu, __func__, value) != FROT_FMU_OK) return fmi2Error;
   if (s != fmi2Terminated)
     return (fmi2Status)frot_fmu_refuse(fmu, __func__, "only 'terminated' is true or false");
-  *value = fmu->life.phase == FROT_FMU_DISCARDED ? fmi2True : fmi2False;
+  *value = fmu->life.phase == FROT_FMU_DISCARDED || fmu->life.phase == FROT_FMU_ENDED ? fmi2True
+                                                                                      : fmi2False;
   return fmi2OK;
 }

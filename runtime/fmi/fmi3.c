@@ -2,7 +2,6 @@
  * fmi3_refused_types.c. */
 #include "fmi3_instance.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static void send(const frot_fmu *fmu, int status, const char *category, const char *message) {
@@ -18,8 +17,6 @@ void frot_fmi3_draft(frot_fmi3 *draft, fmi3String name, fmi3InstanceEnvironment 
   draft->fmu.name = name;
   draft->fmu.environment = environment;
   draft->fmu.categories = FROT_FMU_LOG_ALL;
-  draft->fmu.allocate = calloc;
-  draft->fmu.release = free;
 }
 
 const char *fmi3GetVersion(void) { return fmi3Version; }
@@ -33,10 +30,10 @@ fmi3Instance fmi3InstantiateCoSimulation(
   frot_fmi3 draft;
   (void)resourcePath;
   (void)visible;
-  (void)earlyReturnAllowed;
   (void)requiredIntermediateVariables;
   (void)intermediateUpdate;
   frot_fmi3_draft(&draft, instanceName, instanceEnvironment, logMessage);
+  draft.may_return_early = earlyReturnAllowed;
   if (eventModeUsed) {
     frot_fmu_refuse(&draft.fmu, __func__,
                     "there is no event mode: hasEventMode is false, so must eventModeUsed be");
@@ -177,9 +174,16 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
   if (eventHandlingNeeded == NULL || terminateSimulation == NULL || earlyReturn == NULL ||
       lastSuccessfulTime == NULL)
     return (fmi3Status)frot_fmu_refuse(fmu, __func__, "a pointer to an answer is NULL");
-  const int status = frot_fmu_step(fmu, __func__, currentCommunicationPoint, communicationStepSize);
+  int status = frot_fmu_step(fmu, __func__, currentCommunicationPoint, communicationStepSize);
   /* The motion cannot go on, with any step. */
   *terminateSimulation = fmu->life.phase == FROT_FMU_DISCARDED;
   *lastSuccessfulTime = fmu->life.t;
+  if (fmu->life.phase == FROT_FMU_ENDED) {
+    /* The text has ended the run, which is no fault; the environment may not want to know where. */
+    status = FROT_FMU_OK;
+    *terminateSimulation = fmi3True;
+    *earlyReturn = ((const frot_fmi3 *)instance)->may_return_early &&
+                   fmu->life.t < currentCommunicationPoint + communicationStepSize;
+  }
   return (fmi3Status)status;
 }

@@ -8,6 +8,7 @@
 typedef struct {
   frot_fmu fmu; /* first: an fmi3Instance points to it */
   fmi3LogMessageCallback log;
+  int may_return_early;
 } frot_fmi3;
 
 /* A draft that can log, for an instantiation that may fail. */

@@ -3,6 +3,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define MESSAGE 2048
@@ -52,11 +53,7 @@ int frot_fmu_refuse(const frot_fmu *fmu, const char *function, const char *reaso
   return frot_fmu_say(fmu, FROT_FMU_ERROR, "%s: %s.", function, reason);
 }
 
-void *frot_fmu_memory(const frot_fmu *fmu, size_t size) {
-  void *memory = fmu->allocate(1, size > 0 ? size : 1);
-  if (memory != NULL) memset(memory, 0, size > 0 ? size : 1);
-  return memory;
-}
+void *frot_fmu_memory(size_t size) { return calloc(1, size > 0 ? size : 1); }
 
 static int draft_acceptable(const frot_fmu *draft, const char *function, const char *name,
                             const char *token) {
@@ -86,7 +83,7 @@ static int draft_acceptable(const frot_fmu *draft, const char *function, const c
 static int make_recorder(frot_fmu *fmu) {
   const frot_model *model = fmu->model;
   const long long events = 4 * frot_events_at_once(model);
-  fmu->recorder.events = frot_fmu_memory(fmu, (size_t)events * sizeof(frot_event));
+  fmu->recorder.events = frot_fmu_memory((size_t)events * sizeof(frot_event));
   fmu->recorder.event_capacity = events;
   return fmu->recorder.events != NULL;
 }
@@ -95,19 +92,20 @@ frot_fmu *frot_fmu_open(const frot_fmu *draft, size_t size, const char *function
                         const char *token, int logging) {
   const frot_model *model = &frot_the_model;
   if (!draft_acceptable(draft, function, name, token)) return NULL;
-  frot_fmu *fmu = frot_fmu_memory(draft, size);
+  frot_fmu *fmu = frot_fmu_memory(size);
   if (fmu != NULL) {
     const size_t length = strlen(name) + 1;
     memcpy(fmu, draft, size);
     fmu->model = model;
     fmu->state_size = frot_state_size(model);
-    fmu->state = frot_fmu_memory(draft, fmu->state_size);
-    fmu->work = frot_fmu_memory(draft, frot_work_size(model));
-    fmu->values = frot_fmu_memory(draft, (size_t)model->n_variables * sizeof(double));
-    fmu->name_memory = frot_fmu_memory(draft, length);
+    fmu->state = frot_fmu_memory(fmu->state_size);
+    fmu->accepted = frot_fmu_memory(fmu->state_size);
+    fmu->work = frot_fmu_memory(frot_work_size(model));
+    fmu->values = frot_fmu_memory((size_t)model->n_variables * sizeof(double));
+    fmu->name_memory = frot_fmu_memory(length);
     const int recorded = make_recorder(fmu);
-    if (recorded && fmu->name_memory != NULL && fmu->state != NULL && fmu->work != NULL &&
-        fmu->values != NULL) {
+    if (recorded && fmu->name_memory != NULL && fmu->state != NULL && fmu->accepted != NULL &&
+        fmu->work != NULL && fmu->values != NULL) {
       memcpy(fmu->name_memory, name, length);
       fmu->name = fmu->name_memory;
       fmu->categories = logging ? FROT_FMU_LOG_ALL : 0;
@@ -122,14 +120,14 @@ frot_fmu *frot_fmu_open(const frot_fmu *draft, size_t size, const char *function
 
 void frot_fmu_close(frot_fmu *fmu) {
   if (fmu == NULL) return;
-  void *const pieces[] = {fmu->name_memory, fmu->state, fmu->work, fmu->values,
-                          fmu->recorder.events};
-  void (*release)(void *) = fmu->release;
   frot_fmu_drop_all(fmu);
-  /* An environment's own freeMemory may not take NULL. */
-  for (size_t i = 0; i < sizeof pieces / sizeof *pieces; i++)
-    if (pieces[i] != NULL) release(pieces[i]);
-  release(fmu);
+  free(fmu->name_memory);
+  free(fmu->state);
+  free(fmu->accepted);
+  free(fmu->work);
+  free(fmu->values);
+  free(fmu->recorder.events);
+  free(fmu);
 }
 
 int frot_fmu_set_logging(frot_fmu *fmu, const char *function, int on, size_t count,

@@ -1,8 +1,8 @@
 /* An instance of an FMU: what the FMI 2.0 and FMI 3.0 faces of a model share.
  *
  * The faces (fmi2*.c, fmi3*.c) translate types and calls; instance.c makes and frees instances and
- * writes the log, lifecycle.c runs the state machine and the kernel, access.c reads and sets
- * values, snapshot.c saves and restores. Nothing is global: instances live side by side.
+ * writes the log, lifecycle.c is the state machine, stepping.c runs the kernel, access.c reads and
+ * sets values, snapshot.c saves and restores. Nothing is global: instances live side by side.
  */
 #ifndef FROT_FMU_INSTANCE_H
 #define FROT_FMU_INSTANCE_H
@@ -23,7 +23,8 @@ enum frot_fmu_phase {
   FROT_FMU_STEPPING = 2,
   FROT_FMU_DISCARDED = 3, /* a step ended early: values are those of the last successful time */
   FROT_FMU_FAILED = 4,
-  FROT_FMU_TERMINATED = 5
+  FROT_FMU_TERMINATED = 5,
+  FROT_FMU_ENDED = 6 /* the text has ended the run: values are those of its last instant */
 };
 
 enum frot_fmu_role {
@@ -54,12 +55,20 @@ typedef struct {
 extern const frot_fmu_variable frot_fmu_variables[];
 extern const unsigned frot_fmu_variable_count;
 extern const int frot_fmu_on_indeterminate; /* frot_indeterminate */
+extern const long long frot_fmu_most_work;  /* evaluations of the model in one step */
 
 /* Sets of types an FMI function accesses. */
 #define FROT_FMU_TYPE(type) (1 << (type))
 
 typedef struct frot_fmu frot_fmu;
 typedef struct frot_fmu_snapshot frot_fmu_snapshot;
+
+/* Whether values were set between steps and have not taken effect, so that they may be refused. */
+enum frot_fmu_unsettled {
+  FROT_FMU_SETTLED = 0,
+  FROT_FMU_REVOCABLE = 1, /* `accepted` is the state before them */
+  FROT_FMU_RESTORED = 2   /* they came with a saved state, which has no such copy */
+};
 
 /* Hands a message to the environment. `fmu` carries the name and the environment's pointer. */
 typedef void (*frot_fmu_sink)(const frot_fmu *fmu, int status, const char *category,
@@ -71,7 +80,7 @@ typedef struct {
   int has_tolerance, has_stop;
   int started; /* in initialization mode: the start is solved with the values held */
   int status;  /* of the step that ended early */
-  int reserved;
+  int refused; /* what was set is refused, and the former values hold: others may be set */
   double tolerance, start, stop;
   double t; /* last successful time */
 } frot_fmu_life;
@@ -82,12 +91,12 @@ struct frot_fmu {
   void *name_memory;
   void *environment;
   frot_fmu_sink sink;
-  void *(*allocate)(size_t count, size_t size);
-  void (*release)(void *memory);
   unsigned categories;
   int values_valid;
+  int unsettled; /* frot_fmu_unsettled */
   size_t state_size;
   frot_state *state;
+  frot_state *accepted; /* the state before what was set between steps */
   frot_work *work;
   double *values; /* n_variables, at life.t where values_valid */
   frot_recorder recorder;
@@ -103,12 +112,12 @@ struct frot_fmu {
 
 /* instance.c */
 
-/* A new instance of `size` bytes that begins as `draft` (sink, environment, allocator). NULL with a
- * logged sentence if the name, the token or the memory does not do. */
+/* A new instance of `size` bytes that begins as `draft` (sink, environment). NULL with a logged
+ * sentence if the name, the token or the memory does not do. */
 frot_fmu *frot_fmu_open(const frot_fmu *draft, size_t size, const char *function, const char *name,
                         const char *token, int logging);
 void frot_fmu_close(frot_fmu *fmu);
-void *frot_fmu_memory(const frot_fmu *fmu, size_t size); /* zeroed, or NULL */
+void *frot_fmu_memory(size_t size); /* zeroed, or NULL; given back by `free` */
 int frot_fmu_set_logging(frot_fmu *fmu, const char *function, int on, size_t count,
                          const char *const *names);
 /* Log a sentence under the category of the status; the answer is the status. */
@@ -123,11 +132,19 @@ int frot_fmu_setup(frot_fmu *fmu, const char *function, int has_tolerance, doubl
                    double start, int has_stop, double stop);
 int frot_fmu_enter_initialization(frot_fmu *fmu, const char *function);
 int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function);
-int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step);
 int frot_fmu_terminate(frot_fmu *fmu, const char *function);
 void frot_fmu_reset(frot_fmu *fmu);
 /* Bring the kernel to the instant that values are asked at. */
 int frot_fmu_ready(frot_fmu *fmu, const char *function, int role);
+
+/* stepping.c: every call but frot_fmu_note_change answers a frot_fmu_status. */
+int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step);
+/* Before the first value that is set between two steps: so that it can be refused. */
+void frot_fmu_note_change(frot_fmu *fmu);
+/* Let what was set take effect at the time reached; where it cannot, the former values hold. */
+int frot_fmu_settle(frot_fmu *fmu, const char *function);
+/* Log the kernel's fault; the answer is the status. */
+int frot_fmu_say_fault(const frot_fmu *fmu, int status, const char *function);
 
 /* access.c */
 int frot_fmu_arrays(const frot_fmu *fmu, const char *function, const unsigned *references,

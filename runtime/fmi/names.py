@@ -14,9 +14,21 @@ _QUOTABLE = re.compile(r"[ -~]+")
 def structured_name(name: str) -> str | None:
     """A dotted name by FMI's structured grammar, odd identifiers quoted; None if it cannot be.
 
-    The grammar (FMI 2.0, 2.2.9) is ASCII throughout, also between quotes: a name with a letter
-    beyond ASCII has no structured form.
+    `der(a.b)` is the derivative of a name, `der(der(a.b))` is written `der(a.b,2)`. The grammar
+    (FMI 2.0, 2.2.9) is ASCII throughout, also between quotes: a name with a letter beyond ASCII has
+    no structured form.
     """
+    order = 0
+    while name.startswith("der(") and name.endswith(")"):
+        name, order = name[len("der(") : -1], order + 1
+    identifier = _identifier(name)
+    if identifier is None or order == 0:
+        return identifier
+    return f"der({identifier})" if order == 1 else f"der({identifier},{order})"
+
+
+def _identifier(name: str) -> str | None:
+    """A dotted name without derivatives."""
     parts = []
     for part in name.split("."):
         match = _PART.fullmatch(part)

@@ -1,9 +1,10 @@
 /* Saved states: one flat block of a head and the kernel's state, fit for copying and for a file. */
 #include "instance.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-#define VERSION 1u
+#define VERSION 2u
 
 static const char MAGIC[8] = {'F', 'r', 'o', 't', 'F', 'M', 'U', '\0'};
 
@@ -14,6 +15,8 @@ typedef struct {
   unsigned long long size;     /* of head and state */
   unsigned long long checksum; /* of all that follows */
   frot_fmu_life life;
+  int unsettled; /* values were set and have not taken effect */
+  int reserved;
 } head;
 
 /* The state behind the head is aligned like memory of the allocator. */
@@ -40,7 +43,7 @@ static unsigned long long checksum(const unsigned char *bytes, size_t size) {
 }
 
 static frot_fmu_snapshot *new_snapshot(frot_fmu *fmu) {
-  frot_fmu_snapshot *snapshot = frot_fmu_memory(fmu, LINK + content_size(fmu));
+  frot_fmu_snapshot *snapshot = frot_fmu_memory(LINK + content_size(fmu));
   if (snapshot != NULL) {
     snapshot->next = fmu->snapshots;
     fmu->snapshots = snapshot;
@@ -64,7 +67,7 @@ static void unlink_snapshot(frot_fmu *fmu, frot_fmu_snapshot *snapshot) {
   frot_fmu_snapshot **link = &fmu->snapshots;
   while (*link != snapshot) link = &(*link)->next;
   *link = snapshot->next;
-  fmu->release(snapshot);
+  free(snapshot);
 }
 
 int frot_fmu_save(frot_fmu *fmu, const char *function, void **handle) {
@@ -84,6 +87,7 @@ int frot_fmu_save(frot_fmu *fmu, const char *function, void **handle) {
   top.head_size = (unsigned)HEAD;
   top.size = content_size(fmu);
   top.life = fmu->life;
+  top.unsettled = fmu->unsettled != FROT_FMU_SETTLED;
   memcpy(content(snapshot), &top, sizeof top);
   memcpy(content(snapshot) + HEAD, fmu->state, fmu->state_size);
   *handle = snapshot;
@@ -97,6 +101,7 @@ int frot_fmu_restore(frot_fmu *fmu, const char *function, void *handle) {
   memcpy(&top, content(snapshot), sizeof top);
   memcpy(fmu->state, content(snapshot) + HEAD, fmu->state_size);
   fmu->life = top.life;
+  fmu->unsettled = top.unsettled ? FROT_FMU_RESTORED : FROT_FMU_SETTLED;
   fmu->values_valid = 0;
   return FROT_FMU_OK;
 }
@@ -146,7 +151,7 @@ static const char *objection(const frot_fmu *fmu, const unsigned char *bytes) {
     return "the state was saved by another version of Frot";
   if (top.size != content_size(fmu)) return "the state is of another model";
   if (top.checksum != checksum(bytes, content_size(fmu))) return "the bytes are damaged";
-  if (top.life.phase < FROT_FMU_INSTANTIATED || top.life.phase > FROT_FMU_TERMINATED ||
+  if (top.life.phase < FROT_FMU_INSTANTIATED || top.life.phase > FROT_FMU_ENDED ||
       !frot_state_valid(fmu->model, bytes + HEAD, fmu->state_size))
     return "the state is of another model";
   return NULL;

@@ -12,8 +12,11 @@ from frot.runtime.fmi.names import model_identifier
 from frot.runtime.program import MODEL_SOURCE, Program
 
 TABLE_SOURCE = "fmu_table.c"
+# Evaluations of the model in one step of the environment, after which it is given up: some minutes.
+# A step of 1e300 s, or one with a stiffness set to 1e30, would not end in a lifetime.
+MOST_WORK = 20_000_000
 
-_COMMON = ("instance.c", "lifecycle.c", "access.c", "snapshot.c", "instance.h")
+_COMMON = ("instance.c", "lifecycle.c", "stepping.c", "access.c", "snapshot.c", "instance.h")
 _FACES = {
     "2.0": ("fmi2.c", "fmi2_refused.c", "fmi2_instance.h"),
     "3.0": ("fmi3.c", "fmi3_refused.c", "fmi3_refused_types.c", "fmi3_instance.h"),
@@ -60,6 +63,7 @@ def variable_table(program: Program) -> str:
         f"const frot_fmu_variable frot_fmu_variables[] = {{\n{rows}\n}};\n"
         f"const unsigned frot_fmu_variable_count = {len(variables)}u;\n"
         f"const int frot_fmu_on_indeterminate = {choice};\n"
+        f"const long long frot_fmu_most_work = {MOST_WORK};\n"
     )
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import sys
+import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -11,7 +13,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from fmu_host import Host, compile_library, hand_program, unpack_library
+from fmu_host import MOST_WORK, Host, compile_library, hand_program, unpack_library
 from frot.runtime import fmi
 from frot.runtime.program import Program
 
@@ -39,6 +41,25 @@ def libraries(
         int(version[0]): unpack_library(path, version, tmp_path_factory.mktemp(f"fmi{version[0]}"))
         for version, path in archives.items()
     }
+
+
+@pytest.fixture(scope="session")
+def hasty(archives: dict[str, Path], tmp_path_factory: pytest.TempPathFactory) -> dict[int, Path]:
+    """Libraries that give a step up after MOST_WORK evaluations, so that nobody waits for it."""
+    found = {}
+    for version, path in archives.items():
+        folder = tmp_path_factory.mktemp("hasty")
+        with zipfile.ZipFile(path) as file:
+            names = [name for name in file.namelist() if name.startswith("sources/")]
+            file.extractall(folder, names)
+        sources = [folder / name for name in names if name.endswith(".c")]
+        found[int(version[0])] = folder / "hasty.so"
+        table = folder / "sources" / "fmu_table.c"
+        text, count = re.subn(r"most_work = \d+", f"most_work = {MOST_WORK}", table.read_text())
+        assert count == 1
+        table.write_text(text)
+        compile_library(sources, [folder / "sources"], folder / "hasty.so")
+    return found
 
 
 @pytest.fixture(params=[2, 3], ids=["fmi2", "fmi3"])

@@ -1,6 +1,8 @@
 """Random calls on instances, in a process of its own: it must end by itself, with status 0.
 
-Usage: fmu_fuzz.py LIBRARY VERSION SEED SEQUENCES
+Usage: fmu_fuzz.py LIBRARY VERSION SEED SEQUENCES [THREADS]
+
+With threads, each has instances and sequences of its own, in one library, all at once.
 """
 
 from __future__ import annotations
@@ -10,6 +12,7 @@ import math
 import random
 import sys
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from fmu_host import ERROR, OK, Host
@@ -76,8 +79,7 @@ class Fuzz:
         status, t = self.host.try_get(0)
         assert status == OK
         h = self.chance.choice((0.1, 1.0, self.number()))
-        # A step of aeons is legal and takes as long.
-        self.host.step(self.chance.choice((t, t, t, self.number())), h if h < 1e3 else math.nan)
+        self.host.step(self.chance.choice((t, t, t, self.number())), h)
 
     def get(self) -> None:
         self.host.try_get(self.reference(), self.chance.choice(KINDS[self.host.version][:3]))
@@ -146,8 +148,14 @@ class Fuzz:
 def main() -> None:
     """Run the sequences the command line asks for."""
     library, version, seed, sequences = Path(sys.argv[1]), *map(int, sys.argv[2:5])
-    for i in range(sequences):
-        Fuzz(library, version, random.Random(1000 * seed + i)).run(60)
+    threads = int(sys.argv[5]) if len(sys.argv) > 5 else 1
+
+    def work(first: int) -> None:
+        for i in range(first, sequences, threads):
+            Fuzz(library, version, random.Random(1000 * seed + i)).run(60)
+
+    with ThreadPoolExecutor(threads) as pool:
+        list(pool.map(work, range(threads)))
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, V
 
 HERE = Path(__file__).parent
 OK, WARNING, DISCARD, ERROR = range(4)
+MOST_WORK = 20_000
 FLAGS = ("-O2", "-std=c99", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off")
 SANITIZE = ("-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 
@@ -129,6 +130,7 @@ class Host:
         token: bytes | None = b"hand-model-key",
         logging: bool = True,
         event_mode: bool = False,
+        early: bool = False,
         kind: int = 1,
         allocator: bool = False,
     ) -> ctypes.c_void_p | None:
@@ -153,7 +155,7 @@ class Host:
             )
             make = self.library.fmi3InstantiateCoSimulation
             make.restype = ctypes.c_void_p
-            flags = [ctypes.c_bool(f) for f in (False, logging, event_mode, False)]
+            flags = [ctypes.c_bool(f) for f in (False, logging, event_mode, early)]
             pointer = make(
                 name, token, None, *flags, None, ctypes.c_size_t(0), None, self._log, None
             )

@@ -22,7 +22,7 @@ from fmpy.validation import validate_fmu
 from fmu_host import METRE, ONE, RADIAN, Host, compile_library
 from frot.runtime import fmi
 from frot.runtime.fmi.names import model_identifier, structured_name, variable_names
-from frot.runtime.program import ParameterInfo, Program, Unit, VariableInfo
+from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo
 
 VERSIONS = ("2.0", "3.0")
 
@@ -183,7 +183,11 @@ def test_description_says_units_causality_and_start(
     assert (mode.causality, mode.variability) == ("output", "discrete")
     items = [(item.name, int(item.value)) for item in mode.declaredType.items]
     assert items == [("open", 0), ("stick", 1), ("slip", 2)]
-    assert float(description.defaultExperiment.tolerance) == 1e-10
+    experiment = description.defaultExperiment
+    assert [float(x) for x in (experiment.startTime, experiment.stopTime)] == [0.0, 12.0]
+    assert float(experiment.tolerance) == 1e-10
+    # Where the text is silent importers are told what `frot simulate` takes: a 500th of the run.
+    assert float(experiment.stepSize) == 12.0 / 500
     assert description.variableNamingConvention == "structured"
 
 
@@ -192,11 +196,33 @@ def test_structured_names() -> None:
     assert structured_name("chain[3].link[1, 2].theta") == "chain[3].link[1,2].theta"
     assert structured_name("odd name.x") == "'odd name'.x"
     assert structured_name("it's.x") == r"'it\'s'.x"
+    assert structured_name("der(a.b)") == "der(a.b)"
+    assert structured_name("der(tank[1].odd level)") == "der(tank[1].'odd level')"
+    assert structured_name("der(der(a.b))") == "der(a.b,2)"
+    assert structured_name("a.der(b)") == "a.'der(b)'"
     assert structured_name("réservoir.x") is None
+    assert structured_name("der(réservoir.x)") is None
     assert variable_names(["a.b", "réservoir.x"]) == ("flat", ("a.b", "réservoir.x"))
     assert model_identifier("Échelle 2") == "_chelle_2"
     with pytest.raises(ValueError, match=r"share a name: a\.b"):
         variable_names(["a.b", "c", "a.b"])
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_an_experiment_without_words_is_that_of_simulate(
+    program: Program, version: str, tmp_path: Path
+) -> None:
+    silent = dataclasses.replace(program, experiment=ExperimentInfo(None, None, None, None, "rest"))
+    path = tmp_path / "silent.fmu"
+    fmi.export(silent, path, version, compile_library)
+    told = read_model_description(str(path)).defaultExperiment
+    values = (told.startTime, told.stopTime, told.tolerance, told.stepSize)
+    assert [float(x) for x in values] == [0.0, 1.0, 1e-8, 1.0 / 500]
+
+
+def test_no_memory_of_the_environment_is_asked_for(archives: dict[str, Path]) -> None:
+    description = read_model_description(str(archives["2.0"]))
+    assert description.coSimulation.canNotUseMemoryManagementFunctions
 
 
 @pytest.mark.parametrize("version", VERSIONS)

@@ -11,7 +11,7 @@ from frot.runtime.fmi.sources import source_files, to_compile
 from frot.runtime.program import Program
 
 WARNINGS = ("-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror")
-OURS = ("instance.c", "lifecycle.c", "access.c", "snapshot.c", "fmi", "fmu_table.c")
+OURS = ("instance.c", "lifecycle.c", "stepping.c", "access.c", "snapshot.c", "fmi", "fmu_table.c")
 
 
 def test_lives_of_instances_are_clean(version: int, program: Program, tmp_path: Path) -> None:
