@@ -22,7 +22,14 @@ from frot.compiler.toolchain import FLAGS, Toolchain
 from frot.dsl.diagnostics import fail
 from frot.runtime.program import MANIFEST, Program, read_program
 
-_ROOMS = ("frot.dsl", "frot.dsl.catalogue", "frot.compiler", "frot.runtime", "frot.runtime.kernel")
+# Packages, and folders of theirs: finding a package by its name would load it.
+_ROOMS = (
+    ("frot.dsl", ""),
+    ("frot.dsl", "catalogue"),
+    ("frot.compiler", ""),
+    ("frot.runtime", ""),
+    ("frot.runtime", "kernel"),
+)
 SEAL = "seal.json"
 _KINDS = (".py", ".c", ".h", ".lark")
 # What a folder that cannot be written answers; a full disk is another thing.
@@ -57,8 +64,9 @@ def spare_folder() -> Path:
 def own_identity() -> str:
     """Digest of Frot's own sources: another version never meets programs of this one."""
     digest = hashlib.sha256()
-    for room in _ROOMS:
-        for entry in sorted(files(room).iterdir(), key=lambda e: e.name):
+    for package, inner in _ROOMS:
+        room = files(package).joinpath(inner) if inner else files(package)
+        for entry in sorted(room.iterdir(), key=lambda e: e.name):
             if entry.name.endswith(_KINDS):
                 digest.update(entry.name.encode())
                 digest.update(entry.read_bytes())

@@ -1,4 +1,4 @@
-"""A change of a tunable value that cannot be made: told, taken back, and the motion goes on with another value."""
+"""A change in a run that cannot be made is told and taken back; with another value it goes on."""
 
 from __future__ import annotations
 
