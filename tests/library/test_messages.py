@@ -94,8 +94,8 @@ def test_a_circuit_without_ground_is_refused() -> None:
         "Electrical.ConstantVoltage battery; Electrical.Resistor r;",
         "connect(battery.p, r.p); connect(battery.n, r.n);",
     )
-    assert "E0604" in message
-    assert "flows of battery.n, r.n" in message
+    assert "E0611" in message
+    assert "Ground" in message
 
 
 def test_a_flange_and_a_pin_are_not_alike() -> None:
