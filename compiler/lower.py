@@ -84,7 +84,9 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     outputs: dict[str, tuple[list[ca.SX], list[ca.SX]]] = {
         "parameters": (
             [given, is_set, s.u],
-            lower_parameters(reduced, looking, checks, len(system.elements), given, is_set),
+            lower_parameters(
+                reduced, looking, checks, len(system.elements), system.q, given, is_set
+            ),
         ),
         "start": ([s.t, s.u, s.p], initial.start),
         "initial_position": (state, initial.position),

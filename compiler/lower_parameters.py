@@ -8,8 +8,9 @@ from frot.compiler.checks import Check
 from frot.compiler.expressions import Lowering
 from frot.compiler.reduce import Reduced
 from frot.compiler.symbols import Symbols, column
+from frot.compiler.text_symbols import scalars
 from frot.compiler.walk import subexpressions
-from frot.dsl.checked import Parameter, Reference
+from frot.dsl.checked import Parameter, Reference, Variable
 from frot.dsl.order import in_order
 
 
@@ -28,10 +29,14 @@ def lower_parameters(
     looking: Lowering,
     checks: tuple[Check, ...],
     elements: int,
+    q: ca.SX,
     given: ca.SX,
     is_set: ca.SX,
 ) -> list[ca.SX]:
-    """The outputs of the kernel's `parameters`; friction elements are never unilateral."""
+    """The outputs of the kernel's `parameters`; `q` are the states.
+
+    Friction elements are never unilateral.
+    """
     s = reduced.symbols
     place = {p.name: i for i, p in enumerate(s.parameters)}
     needs = {p.name: [q.name for q in parameters_needed(p, s)] for p in s.parameters}
@@ -50,9 +55,30 @@ def lower_parameters(
         for e in (experiment.start, experiment.stop, experiment.tolerance, experiment.interval)
     ]
     values = [c.value if isinstance(c.value, ca.SX) else looking.lower(c.value) for c in checks]
+    nominal = _nominal_sizes(q, reduced, looking)
     unilateral = [looking.lower(c.unilateral) for c in reduced.mechanism.contacts]
     outputs = [column(values), column([*unilateral, *[ca.SX(0)] * elements]), column(times)]
+    outputs.append(column(nominal))
     return [
         column(known[s.p[i].element_hash()] for i in range(s.p.numel())),
         *(replace_known(output, known) for output in outputs),
     ]
+
+
+def _nominal_sizes(q: ca.SX, reduced: Reduced, looking: Lowering) -> list[ca.SX]:
+    """The usual size of each state by its author, zero where none is given."""
+    chains = reduced.text.chains
+    first: dict[Variable, int] = {}
+    for index, item in enumerate(chains.items):
+        if item.variable is not None:
+            first.setdefault(item.variable, index)
+    sizes = []
+    for symbol in ca.vertsplit(q) if q.numel() else ():
+        index, order = chains.place.get(symbol.element_hash(), (-1, 0))
+        variable = chains.items[index].variable if index >= 0 else None
+        if variable is None or variable.nominal is None or order > 0:
+            sizes.append(ca.SX(0))
+        else:
+            items = scalars(looking.lower(variable.nominal))
+            sizes.append(ca.fabs(items[index - first[variable]]))
+    return sizes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from frot.dsl import checked, tree
 from frot.dsl.check_expressions import agrees, as_integer, expression, fitting, is_whole, value_of
@@ -68,7 +68,7 @@ def declare(what: Declared, scope: Scope) -> Value | None:
     if shape:
         for count in shape:
             scope.build.grow(count, item.span)
-        kind = Kind(kind.type.of_shape(shape), kind.name, kind.unit, kind.factor, kind.start)
+        kind = replace(kind, type=kind.type.of_shape(shape))
     is_top = scope.instance is scope.build.root
     if what.role in ("parameter", "constant"):
         return _parameter(what, kind, scope)
@@ -212,30 +212,34 @@ def _parameter(what: Declared, kind: Kind, scope: Scope) -> checked.Parameter | 
 
 def _start(kind: Kind, scope: Scope) -> tuple[checked.Expression | None, str, bool]:
     """The value of `start = ...`, its unit, and whether it is without fault."""
-    if kind.start is None:
+    return _attribute(kind.start, "a start value", kind, scope)
+
+
+def _attribute(
+    given: Modifier | None, what: str, kind: Kind, scope: Scope
+) -> tuple[checked.Expression | None, str, bool]:
+    """The value of an attribute that is of the variable's kind, its unit, whether it is right."""
+    if given is None:
         return None, "", True
-    value, node = given_value(kind.start, _spread(kind), scope)
+    _spread(given, kind)
+    value, node = given_value(given, kind, scope)
     if value is None:
         return None, "", False
     moving = constant(value)
     if moving is not None:
-        message = "a start value must depend on parameters only"
+        message = f"{what} must depend on parameters only"
         scope.log.report("E0305", message, moving.span, caret="this varies")
         return None, "", False
     return value, _unit(node, value), True
 
 
-def _spread(kind: Kind) -> Kind:
-    """The kind whose start is asked for: one number may stand for all items of an array."""
-    start = kind.start
-    if start is None or start.value is None or not kind.type.shape:
-        return kind
-    found = expression(start.value, start.scope) if "spread" not in start.memo else None
-    if "spread" not in start.memo:
-        start.memo["spread"] = found
-        if found is not None and _stretches(found, kind):
-            start.memo["value"] = _stretched(found, kind)
-    return kind
+def _spread(given: Modifier, kind: Kind) -> None:
+    """One number may stand for all items of an array."""
+    if given.value is None or not kind.type.shape or "spread" in given.memo:
+        return
+    found = given.memo["spread"] = expression(given.value, given.scope)
+    if found is not None and _stretches(found, kind):
+        given.memo["value"] = _stretched(found, kind)
 
 
 def _input(what: Declared, kind: Kind, scope: Scope) -> checked.Input | None:
@@ -308,7 +312,8 @@ def _variable(what: Declared, kind: Kind, is_output: bool, scope: Scope) -> chec
         )
         return None
     start, start_unit, good = _start(kind, scope)
-    if not good:
+    nominal, _, right = _attribute(kind.nominal, "a nominal value", kind, scope)
+    if not good or not right:
         return None
     name = scope.dotted(item.name.text)
     found = checked.Variable(
@@ -320,6 +325,7 @@ def _variable(what: Declared, kind: Kind, is_output: bool, scope: Scope) -> chec
         kind.name,
         start,
         output=is_output,
+        nominal=nominal,
     )
     modifier = what.modifier
     node = item.value

@@ -15,12 +15,12 @@ from frot.dsl.scope import Instance, Scope, did_you_mean
 from frot.dsl.turns import factor_between, rate_of_kind, rate_of_unit
 
 _LONGEST = 50
-ATTRIBUTES = ("start", "unit")
+ATTRIBUTES = ("nominal", "start", "unit")
 
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """The type of a value: `name` as in `Angle`, a unit of its own, a first value.
+    """The type of a value: `name` as in `Angle`, a unit of its own, a first value, a usual size.
 
     A bare number stands for a value in the unit, `factor` SI units.
     """
@@ -30,6 +30,7 @@ class Kind:
     unit: str = ""
     factor: float | None = None
     start: Modifier | None = None
+    nominal: Modifier | None = None
 
     @property
     def rate(self) -> str:
@@ -180,7 +181,7 @@ def modified(kind: Kind, modifiers: dict[str, Modifier], scope: Scope) -> Kind |
                 "E0204",
                 f"a {kind.name} has no attribute {name!r}",
                 modifier.span,
-                notes=("its attributes are: start, unit",),
+                notes=(f"its attributes are: {', '.join(ATTRIBUTES)}",),
                 help=did_you_mean(name, ATTRIBUTES),
             )
             return None
@@ -209,4 +210,5 @@ def modified(kind: Kind, modifiers: dict[str, Modifier], scope: Scope) -> Kind |
         type_ = Type("real", found.dimension, type_.shape)
         unit, factor = given.value.value, found.factor * turn
     start = merge(modifiers.get("start"), kind.start, scope)
-    return Kind(type_, kind.name, unit, factor, start)
+    nominal = merge(modifiers.get("nominal"), kind.nominal, scope)
+    return Kind(type_, kind.name, unit, factor, start, nominal)

@@ -204,6 +204,7 @@ class Variable:
     `discrete`: it changes at events only, by a `when` (or it is an integer, a condition or an
     enumeration that a `when` sets). `start` is `(start = ...)`, a guess for what `initial` leaves
     open and the first value of a discrete variable. `output`: declared so in the model itself.
+    `nominal` is its usual size, by which its error is measured while it is smaller.
     """
 
     name: str
@@ -215,6 +216,7 @@ class Variable:
     start: Expression | None = None
     discrete: bool = False
     output: bool = False
+    nominal: Expression | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

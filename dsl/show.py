@@ -138,8 +138,9 @@ def _parameter(parameter: checked.Parameter) -> str:
 
 def _variable(variable: checked.Variable) -> str:
     words = [w for w in ("discrete", "output") if getattr(variable, w)]
-    start = f"start = {show(variable.start)}" if variable.start is not None else ""
-    return " ".join([*words, _declared(variable, start)])
+    given = (("start", variable.start), ("nominal", variable.nominal))
+    attributes = ", ".join(f"{name} = {show(value)}" for name, value in given if value is not None)
+    return " ".join([*words, _declared(variable, attributes)])
 
 
 def _body(body: checked.Body) -> str:

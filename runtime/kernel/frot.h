@@ -241,7 +241,7 @@ typedef struct {
   /* variables [0, n_contacts) are the modes of the contacts (frot_mode), the others are real */
 
   /* parameters(p, set, u) -> p complete (np), checks (n_checks), unilateral (n_contacts),
-   *   experiment (start stop tolerance interval) */
+   *   experiment (start stop tolerance interval), nominal sizes of the states (nq, 0: not given) */
   frot_callable parameters;
   /* start(t, u, p) -> q guess, v guess, y guess, discrete variables at the start */
   frot_callable start;

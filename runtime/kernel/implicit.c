@@ -9,6 +9,7 @@
 #include "rosenbrock.h"
 #include "roots.h"
 #include "sizes.h"
+#include "tolerances.h"
 
 /* Part of the tolerance given to one step: the estimate is that of the order below. */
 #define LOCAL_SHARE 0.5
@@ -18,6 +19,8 @@
 /* The polynomial of a guard need only show where it goes. */
 #define GUARD_LOOSEST 1e-3
 #define GUARD_TIGHTEST 1e-6
+/* Estimates below this, over their bound, do not keep the next step from being longer. */
+#define LIMITING 1e-4
 #define GUARD_NODES 7 /* values at k/6 */
 
 /* Rows of w->k: the slopes at both ends, U_1 .. U_8 between, then scratch. */
@@ -131,10 +134,29 @@ int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, doubl
   return status;
 }
 
+/* The worst estimate of the local error over its bound; *blamed is the state it is of. */
+static double worst_error(const frot_model *m, const frot_state *s, const frot_work *w,
+                          const frot_layout *l, double h, int *blamed) {
+  double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
+  const double *error = row(l, w, FIRST_ROW + RO_STAGES - 1), *noise = s->data + l->noise;
+  *blamed = -1;
+  for (int k = 0; k < m->nq; k++) {
+    if (error[k] == 0) continue;
+    double bound = fmax(tolerance * w->own_size[k], DBL_MIN);
+    if (noise[k] > 0)
+      bound = fmax(bound,
+                   FROT_NOISE_OF_RATES * h * noise[k] / (1 + h * frot_jacobian_damping(m, w, k)));
+    double ratio = fabs(error[k]) / bound;
+    if (!(ratio <= worst)) worst = ratio, *blamed = k;
+    if (isnan(worst)) break;
+  }
+  return worst;
+}
+
 double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, double h) {
   frot_layout l = frot_layout_of(m);
-  double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
-  const double *slope = row(&l, w, 0), *error = row(&l, w, FIRST_ROW + RO_STAGES - 1);
+  const double *slope = row(&l, w, 0);
+  int blamed;
   /* a stiff state does not go where its slope at the start points to */
   for (int k = 0; k < m->nq; k++) {
     double pointed = h * fabs(slope[k]), gone = fabs(w->z1[k] - w->z0[k]);
@@ -145,13 +167,10 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
       if (w->own_size[k] == 0) w->change[k] = fabs(w->z1[k] - w->z0[k]);
     frot_state_sizes(m, s, w);
   }
-  for (int k = 0; k < m->nq; k++) {
-    if (error[k] == 0) continue;
-    double ratio = fabs(error[k]) / (tolerance * w->own_size[k]);
-    if (!(ratio <= worst)) worst = ratio;
-    if (isnan(worst)) break;
-  }
-  return worst;
+  double worst = worst_error(m, s, w, &l, h, &blamed);
+  if (!(worst > LIMITING) || blamed < 0 || !frot_is_small(m, s, w, blamed)) return worst;
+  frot_raise_small(m, s, w, h, 0);
+  return worst_error(m, s, w, &l, h, &blamed);
 }
 
 /* State inside the step by the vectors w->f. */
@@ -244,5 +263,5 @@ int frot_implicit_follows_guards(const frot_model *m, const frot_state *s, const
 }
 
 double frot_implicit_rate(const frot_model *m, const frot_work *w) {
-  return frot_jacobian_norm(m, w, w->own_size);
+  return frot_jacobian_bound(m, w, w->own_size);
 }

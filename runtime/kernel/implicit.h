@@ -27,8 +27,8 @@ int frot_implicit_dense(const frot_model *m, frot_state *s, frot_work *w, double
 /* Whether the polynomials of the guards follow them in the step made. */
 int frot_implicit_follows_guards(const frot_model *m, const frot_state *s, const frot_work *w);
 
-/* Bound of the largest size of an eigenvalue of the Jacobian: its norm by rows, each state in units
- * of its size. After frot_implicit_error. */
+/* Bound of the largest size of an eigenvalue of the Jacobian, see frot_jacobian_bound. After
+ * frot_implicit_error. */
 double frot_implicit_rate(const frot_model *m, const frot_work *w);
 
 #endif

@@ -7,6 +7,9 @@
 #include "mechanics.h"
 #include "sparse_lu.h"
 
+/* Sizes tried for the bound of the eigenvalues. */
+#define BOUND_PASSES 4
+
 static int is_sparse(const frot_model *m) { return m->pattern.n > 0; }
 
 static int early_unknowns(const frot_model *m) {
@@ -114,20 +117,41 @@ double frot_jacobian_error(const frot_model *m, const frot_work *w, double shift
   return frot_sparse_error(&m->pattern, j.entries, shift, b, x, j.scratch, j.scratch + m->nq);
 }
 
-double frot_jacobian_norm(const frot_model *m, const frot_work *w, const double *size) {
+double frot_jacobian_damping(const frot_model *m, const frot_work *w, int state) {
+  frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
+  const frot_pattern *p = &m->pattern;
+  if (!is_sparse(m)) return fabs(j.entries[(m->nq + 1) * state]);
+  for (int e = 0; e < p->entries; e++)
+    if (p->entry_row[e] == state && p->entry_column[e] == state) return fabs(j.entries[e]);
+  return 0;
+}
+
+/* y <- |J| x. */
+static void spread(const frot_model *m, const frot_jacobian *j, const double *x, double *y) {
+  const frot_pattern *p = &m->pattern;
+  int n = m->nq;
+  memset(y, 0, sizeof(double) * (size_t)n);
+  if (is_sparse(m)) {
+    for (int e = 0; e < p->entries; e++)
+      y[p->entry_row[e]] += fabs(j->entries[e]) * x[p->entry_column[e]];
+    return;
+  }
+  for (int c = 0; c < n; c++)
+    for (int i = 0; i < n; i++) y[i] += fabs(j->entries[n * c + i]) * x[c];
+}
+
+double frot_jacobian_bound(const frot_model *m, const frot_work *w, const double *size) {
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
   int n = m->nq;
-  double *sum = j.scratch, norm = 0;
-  memset(sum, 0, sizeof(double) * (size_t)n);
-  if (is_sparse(m)) {
-    const frot_pattern *p = &m->pattern;
-    for (int e = 0; e < p->entries; e++)
-      sum[p->entry_row[e]] += fabs(j.entries[e]) * size[p->entry_column[e]];
-  } else {
-    for (int c = 0; c < n; c++)
-      for (int i = 0; i < n; i++) sum[i] += fabs(j.entries[n * c + i]) * size[c];
+  double *x = j.scratch, *y = j.scratch + n, bound = INFINITY;
+  memcpy(x, size, sizeof(double) * (size_t)n);
+  for (int pass = 0; pass < BOUND_PASSES; pass++) {
+    double norm = 0;
+    spread(m, &j, x, y);
+    for (int i = 0; i < n; i++)
+      if (y[i] > 0) norm = fmax(norm, x[i] > 0 ? y[i] / x[i] : INFINITY);
+    bound = fmin(bound, norm);
+    for (int i = 0; i < n; i++) x[i] += norm > 0 && norm < INFINITY ? y[i] / norm : y[i];
   }
-  for (int i = 0; i < n; i++)
-    if (size[i] > 0) norm = fmax(norm, sum[i] / size[i]);
-  return norm;
+  return bound;
 }

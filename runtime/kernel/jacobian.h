@@ -38,7 +38,11 @@ void frot_jacobian_solve(const frot_model *m, const frot_work *w, const double *
 double frot_jacobian_error(const frot_model *m, const frot_work *w, double shift, const double *b,
                            const double *x);
 
-/* Norm of J by rows, state j in units of size[j]: a bound of its eigenvalues. */
-double frot_jacobian_norm(const frot_model *m, const frot_work *w, const double *size);
+/* Size of the diagonal entry of a state: the rate at which an error of it dies. */
+double frot_jacobian_damping(const frot_model *m, const frot_work *w, int state);
+
+/* A bound of the eigenvalues' sizes: the least norm by rows that is found with states in units of
+ * size[j] and of sizes that follow from these by |J| (L. Collatz, H. Wielandt). */
+double frot_jacobian_bound(const frot_model *m, const frot_work *w, const double *size);
 
 #endif

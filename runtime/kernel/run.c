@@ -26,6 +26,7 @@ int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, dou
   w->arg[0] = s->data + l.given, w->arg[1] = s->data + l.set, w->arg[2] = s->data + l.u;
   w->res[0] = p, w->res[1] = checks;
   w->res[2] = s->data + l.unilateral, w->res[3] = s->data + l.experiment;
+  w->res[4] = s->data + l.nominal;
   m->parameters.call(w->arg, w->res, w->iw, w->w, 0);
   memcpy(s->data + l.p, p, sizeof(double) * (size_t)m->np);
   for (int i = 0; i < m->n_checks; i++) {
@@ -78,6 +79,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   frot_choose_first(m, s);
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
+  memset(s->data + l.worth, 0, sizeof(double) * (size_t)m->nq);
   memset(s->data + l.noise, 0, sizeof(double) * (size_t)(m->nq + m->nv));
   memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   memset(s->data + l.along, 0, sizeof(double) * 2 * (size_t)m->n_elements);

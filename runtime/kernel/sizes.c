@@ -1,36 +1,118 @@
 #include "sizes.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* Size of a state at least, in units of the largest of its dimension. */
-#define LEAST_PART 1e-2
-/* And in units of the largest of all: what lies before a front moves by higher orders of the step
- * than any step resolves. */
-#define LEAST_OF_ALL 1e-10
+#include "jacobian.h"
+
+/* Size of a small state at most, in units of the largest of its dimension. */
+#define SMALL_PART 1e-2
+/* Part of what a state had at most that it is always worth. */
+#define LEAST_WORTH 1e-20
+/* How long an error lives: in times in which a state's own damping would end it, in steps where
+ * nothing damps it. */
+#define LASTING 2
+#define LASTING_STEPS 16
+/* Sweeps there and back over the Jacobian: each brings sizes along a chain in order. */
+#define SWEEPS 3
+/* What a step leaves of the memory. */
+#define LEFT 0.3
 
 /* fmax is a call, for what it does with NaN. */
 static double larger(double a, double b) { return a > b ? a : b; }
 
+static int is_own(const frot_model *m, int j) { return m->q_speed[j] < 0; }
+
 int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w) {
-  const double *had = s->data + frot_layout_of(m).scale_x;
+  frot_layout l = frot_layout_of(m);
+  const double *most = s->data + l.scale_x, *worth = s->data + l.worth;
+  const double *nominal = s->data + l.nominal;
   double *largest = w->largest_alike;
-  double largest_of_all = 0;
   int zero = 0;
   memset(largest, 0, sizeof(double) * (size_t)m->nq);
   for (int j = 0; j < m->nq; j++) {
-    if (m->q_speed[j] >= 0) continue;
-    double size = larger(larger(had[j], fabs(w->z0[j])), w->change[j]);
-    double *most = &largest[m->q_alike[j]];
-    w->own_size[j] = size;
-    *most = larger(*most, size);
-    largest_of_all = larger(largest_of_all, size);
-  }
-  for (int j = 0; j < m->nq; j++) {
-    if (m->q_speed[j] >= 0) continue;
-    double least = larger(LEAST_PART * largest[m->q_alike[j]], LEAST_OF_ALL * largest_of_all);
-    w->own_size[j] = larger(w->own_size[j], least);
+    if (!is_own(m, j)) continue;
+    double size = larger(larger(worth[j], fabs(w->z0[j])), w->change[j]);
+    w->own_size[j] = larger(larger(size, nominal[j]), LEAST_WORTH * most[j]);
+    double *alike = &largest[m->q_alike[j]];
+    *alike = larger(*alike, w->own_size[j]);
     zero |= w->own_size[j] == 0;
   }
   return zero;
+}
+
+int frot_is_small(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
+  return is_own(m, j) && s->data[w->layout.nominal + j] == 0 &&
+         larger(s->data[w->layout.scale_x + j], w->own_size[j]) <
+             SMALL_PART * w->largest_alike[m->q_alike[j]];
+}
+
+/* Tables of frot_raise_small: how long an error of each state lives, the most that its size may be
+ * raised to (0: it is not small), and the state that has raised it. */
+typedef struct {
+  double *lives, *most;
+  int *by;
+} raising;
+
+/* Raise row's size to what column makes of it; 1 if that is more than it was. */
+static int raise(frot_work *w, const raising *r, int row, int column, double entry) {
+  if (r->most[row] == 0 || row == column || r->by[column] == row) return 0;
+  double time = r->lives[row] < r->lives[column] ? r->lives[row] : r->lives[column];
+  double size = fabs(entry) * time * w->own_size[column];
+  if (size > r->most[row]) size = r->most[row];
+  if (!(size > w->own_size[row])) return 0;
+  w->own_size[row] = size;
+  r->by[row] = column;
+  return 1;
+}
+
+static void raise_by_jacobian(const frot_model *m, const frot_state *s, frot_work *w, double h) {
+  frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
+  const frot_pattern *p = &m->pattern;
+  int n = m->nq, sparse = p->n > 0, entries = sparse ? p->entries : n * n, raised = 1;
+  raising r = {j.scratch, j.scratch + n, j.pivot};
+  for (int k = 0; k < n; k++) {
+    r.lives[k] = (double)LASTING / LASTING_STEPS / h;
+    r.most[k] = frot_is_small(m, s, w, k) ? SMALL_PART * w->largest_alike[m->q_alike[k]] : 0;
+    r.by[k] = -1;
+  }
+  for (int e = 0; e < entries; e++) {
+    int row = sparse ? p->entry_row[e] : e % n, column = sparse ? p->entry_column[e] : e / n;
+    if (row == column) r.lives[row] = larger(r.lives[row], fabs(j.entries[e]));
+  }
+  for (int k = 0; k < n; k++) r.lives[k] = LASTING / r.lives[k];
+  for (int sweep = 0; sweep < 2 * SWEEPS && raised; sweep++) {
+    raised = sweep == 0; /* the way back is always gone */
+    for (int i = 0; i < entries; i++) {
+      int e = sweep % 2 == 0 ? i : entries - 1 - i;
+      int row = sparse ? p->entry_row[e] : e % n, column = sparse ? p->entry_column[e] : e / n;
+      raised |= raise(w, &r, row, column, j.entries[e]);
+    }
+  }
+}
+
+void frot_raise_small(const frot_model *m, const frot_state *s, frot_work *w, double h,
+                      int by_slopes) {
+  if (!by_slopes) {
+    raise_by_jacobian(m, s, w, h);
+    return;
+  }
+  for (int j = 0; j < m->nq; j++)
+    if (frot_is_small(m, s, w, j) && fabs(w->z0[j]) <= w->change[j])
+      w->own_size[j] = SMALL_PART * w->largest_alike[m->q_alike[j]];
+}
+
+void frot_note_worth(const frot_model *m, frot_state *s, const double *z) {
+  double *worth = s->data + frot_layout_of(m).worth;
+  for (int j = 0; j < m->nq; j++) {
+    if (!is_own(m, j)) continue;
+    worth[j] = larger(LEFT * worth[j], fabs(z[j]));
+  }
+}
+
+void frot_hold_worth(const frot_model *m, frot_state *s, const frot_work *w) {
+  double *worth = s->data + frot_layout_of(m).worth;
+  for (int j = 0; j < m->nq; j++)
+    if (is_own(m, j) && isfinite(w->change[j])) worth[j] = larger(worth[j], w->change[j]);
 }

@@ -1,13 +1,38 @@
-/* Sizes of states against which their errors are measured. */
+/* Sizes of states against which their errors are measured. Of the states that are no coordinates:
+ * a coordinate's size is known from its speed.
+ *
+ * A state is worth what it is now, or was a moment ago: the memory fades with the steps, which are
+ * as long as the motion allows, so that a state that swings through zero keeps its size and one
+ * that had a spike loses it. What it had at most counts by twenty decades less, and `nominal` by
+ * what its author says.
+ *
+ * A state that is small beside others of its dimension can be known no better than what the others
+ * make of it: an error of state i, in units of its size, moves state j by |J_ji| min(tau_i, tau_j)
+ * of that, with tau the time over which an error lives. So what has hardly left zero, the foot of
+ * a front, is followed in units of what drives it, and a trace that matters by itself. */
 #ifndef FROT_SIZES_H
 #define FROT_SIZES_H
 
 #include "state.h"
 
-/* Sizes of the states that are no coordinates into w->own_size (nq), from what a step brings them,
- * w->change (nq): the largest each has had or gets, and at least a hundredth of the largest among
- * those of its dimension. A current of a microampere beside one of an ampere is followed by itself;
- * what is just leaving zero is not. Returns 1 when a size is zero. */
+/* Sizes into w->own_size (nq) from what a step brings the states, w->change (nq), and what they are
+ * worth. Returns 1 when a size is zero. */
 int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w);
+
+/* Whether state j is small beside another of its dimension, after frot_state_sizes. */
+int frot_is_small(const frot_model *m, const frot_state *s, const frot_work *w, int j);
+
+/* Raise the sizes of small states to what the others make of them in a step h. With the Jacobian at
+ * the start of the step in place; without one (`by_slopes`) those that leave zero in the step count
+ * as a hundredth of the largest of their dimension. */
+void frot_raise_small(const frot_model *m, const frot_state *s, frot_work *w, double h,
+                      int by_slopes);
+
+/* What the states are worth after a step to z (nq). */
+void frot_note_worth(const frot_model *m, frot_state *s, const double *z);
+
+/* A step that failed again and again shows by w->change what its states will soon be: they are
+ * worth that, however much shorter it becomes. */
+void frot_hold_worth(const frot_model *m, frot_state *s, const frot_work *w);
 
 #endif

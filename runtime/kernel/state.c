@@ -30,12 +30,14 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.kept = at, at += 2 * m->np + m->nu;
   l.u = at, at += m->nu;
   l.experiment = at, at += 4;
+  l.nominal = at, at += m->nq;
   l.unilateral = at, at += m->n_contacts;
   l.x = at, at += l.nx;
   l.y = at, at += m->ny;
   l.slope = at, at += l.nz;
   l.scale_x = at, at += l.nx;
   l.scale_g = at, at += l.ng;
+  l.worth = at, at += m->nq;
   l.noise = at, at += m->nq + m->nv;
   l.along = at, at += 2 * m->n_elements;
   l.fired = at, at += l.nf;

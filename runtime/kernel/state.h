@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 3
+#define FROT_LAYOUT_VERSION 4
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -31,8 +31,8 @@ typedef struct {
 typedef struct {
   int nw, nm, nx, nz, ng, nf, nd, ns; /* nm: order of the metric; ns: doubles of a segment */
   int early;                          /* unknowns of the blocks that are not late */
-  int set, given, p, kept, u, experiment, unilateral, x, y, slope, scale_x, scale_g, noise, along,
-      fired, several, due, left, asked, fresh, modes, d, frozen, segment, size;
+  int set, given, p, kept, u, experiment, nominal, unilateral, x, y, slope, scale_x, scale_g, worth,
+      noise, along, fired, several, due, left, asked, fresh, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -49,6 +49,7 @@ struct frot_state {
   int implicit;  /* the next step is made by the implicit method */
   int stiff_steps, calm_steps; /* see stiffness.h */
   int patience, stay;
+  double felt; /* see stiffness.h */
   int outcome; /* the `terminate` that ended the run */
   int untold;  /* outcomes wait to be told as events: their times are in `asked`, NaN elsewhere */
   int ended_recorded; /* the last instant of a run that has ended is recorded */

@@ -36,6 +36,8 @@
 /* Part of the way to where a condition seems to be zero, beyond which there is no value. */
 #define NEARLY 0.9
 #define LEAST_STEP (16 * DBL_EPSILON)
+/* Time from which on steps are measured by its resolution, in longest steps. */
+#define LEAST_TIME 1e-12
 #define LOCATE_PASSES 12
 /* The first step, in longest steps: what starts from rest shows its size only as it moves. */
 #define FIRST_PART 1e-3
@@ -43,6 +45,10 @@
  * of that measure a step later. */
 #define PATIENCE 2
 #define FORGET 0.99
+/* Rejections after which the sizes of states no longer shrink with the step. */
+#define HOLD 6
+/* Estimates below this, over their bound, do not keep the next step from being longer. */
+#define LIMITING 1e-4
 #define CHUNK 4 /* states summed together, in registers */
 /* Length of a step in which nothing moves and nothing depends on time, in longest steps. */
 #define LONG_REST 1e9
@@ -127,27 +133,28 @@ static double size_at_start(const frot_model *m, const frot_state *s, const frot
 }
 
 /* What the step brings the states that are no coordinates, by their slopes at its start. Where that
- * leaves a size of zero, by the largest slopes: of what begins with the step nothing else is known.
- */
+ * leaves a size of zero, by the first slope that is not: of what begins with the step nothing else
+ * is known, and later ones may be wild where the step is far too long. */
 static void size_own_states(const frot_model *m, const frot_state *s, frot_work *w,
                             const frot_layout *l, double h) {
   for (int j = 0; j < m->nq; j++) w->change[j] = h * fabs(w->k[j]);
   if (!frot_state_sizes(m, s, w)) return;
   for (int j = 0; j < m->nq; j++)
-    for (int k = 0; m->q_speed[j] < 0 && w->own_size[j] == 0 && k <= DP_STAGES; k++)
-      w->change[j] = fmax(w->change[j], h * fabs(w->k[k * l->nz + j]));
+    for (int k = 1; m->q_speed[j] < 0 && w->own_size[j] == 0 && w->change[j] == 0; k++) {
+      if (k > DP_STAGES) break;
+      w->change[j] = h * fabs(w->k[k * l->nz + j]);
+    }
   frot_state_sizes(m, s, w);
 }
 
-/* Estimate of the local error over its bound: at most 1 for a good step, NaN for no number. */
-static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
-                          double h) {
-  if (s->implicit) return frot_implicit_error(m, s, w, h);
-  size_own_states(m, s, w, l, h);
+/* The worst estimate of the local error over its bound, and in *blamed the value it is of. */
+static double worst_error(const frot_model *m, const frot_state *s, frot_work *w,
+                          const frot_layout *l, double h, int *blamed) {
   double tolerance = fmax(LOCAL_SHARE * s->tolerance, FROT_LEAST_TOLERANCE), worst = 0;
   double guard_tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
   double e5[CHUNK], e3[CHUNK];
   int end = width(w);
+  *blamed = -1;
   for (int j = 0; j < end; j++) {
     int at = j % CHUNK, size = end - j < CHUNK ? end - j : CHUNK;
     if (at == 0) {
@@ -158,7 +165,8 @@ static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, cons
     if (e5[at] == 0 && e3[at] == 0) continue;
     double bound, fifth = h * e5[at], third = h * e3[at];
     if (j < l->nx) {
-      double noise = FROT_NOISE_MARGIN * h * s->data[l->noise + j];
+      double margin = j < m->nq && m->q_speed[j] < 0 ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN;
+      double noise = margin * h * s->data[l->noise + j];
       bound = fmax(tolerance * size_at_start(m, s, w, l, j, h), noise);
     } else {
       double largest = GUARD_LOOSEST * s->data[l->scale_g + w->guards[j - l->nx]];
@@ -167,10 +175,25 @@ static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, cons
     }
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
     double ratio = joint > 0 ? fifth * fifth / joint / bound : joint;
-    if (!(ratio <= worst)) worst = ratio;
+    if (!(ratio <= worst)) worst = ratio, *blamed = j;
     if (isnan(worst)) break;
   }
   return worst;
+}
+
+/* Estimate of the local error over its bound: at most 1 for a good step, NaN for no number. The
+ * Jacobian is asked for only where a small state is what limits the step. */
+static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
+                          double t, double h) {
+  if (s->implicit) return frot_implicit_error(m, s, w, h);
+  int blamed;
+  size_own_states(m, s, w, l, h);
+  double worst = worst_error(m, s, w, l, h, &blamed);
+  if (!(worst > LIMITING) || blamed < 0 || blamed >= m->nq || !frot_is_small(m, s, w, blamed))
+    return worst;
+  int no_jacobian = !m->has_jacobian || frot_implicit_begin(m, s, w, t) != FROT_OK;
+  frot_raise_small(m, s, w, h, no_jacobian);
+  return worst_error(m, s, w, l, h, &blamed);
 }
 
 /* Accelerations that are nothing but rounding of their terms in all stages of the step: what they
@@ -564,7 +587,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   double t = *g.t1, longest = s->h_max;
   if (s->implicit && !m->time_dependent) longest *= LONG_REST; /* nothing can be passed over */
-  double h = fmin(s->h, longest);
+  double h = fmin(s->h, longest), stable;
   if (s->due <= t) {
     frot_fire_due(m, s);
     return FROT_OK;
@@ -580,7 +603,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   if (to_due) h = s->due - t;
   double power = s->implicit ? -1.0 / 5 : -1.0 / 8;
   for (;;) {
-    if (!to_due && !(h > LEAST_STEP * fmax(fabs(t), 1e-3 * s->h_max))) {
+    if (!to_due && !(h > LEAST_STEP * fmax(fabs(t), LEAST_TIME * s->h_max))) {
       if (passed >= 0 && is_at_zero(m, s, w, &l, passed))
         return fire_at_start(s, w, &l, first_condition(m, w) + passed);
       return fail_at(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, t, h);
@@ -588,16 +611,17 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
     status = run_stages(m, s, w, &l, t, h);
     double part = 1;
     passed = status == FROT_NAN ? condition_passed(m, s, w, &l, t, h, &part) : -1;
-    double ratio = status == FROT_OK ? error_ratio(m, s, w, &l, h) : NAN;
+    double ratio = status == FROT_OK ? error_ratio(m, s, w, &l, t, h) : NAN;
     if (ratio <= 1) {
       stiff = frot_is_stiff(m, s, w, h);
+      stable = frot_stable_step(m, s, w);
       measure(m, s, w, &l, t + h, w->z1);
       status = make_dense(m, s, w, &l, t, h);
       if (status == FROT_OK && s->implicit && !frot_implicit_follows_guards(m, s, w))
         status = FROT_DIVERGE;
       if (status == FROT_OK) {
         double factor = ratio > 0 ? 0.9 * pow(ratio, power) : 6;
-        s->h = fmin(h * fmin(fmax(factor, 1.0 / 3), rejections ? 1 : 6), longest);
+        s->h = fmin(h * fmin(fmax(factor, 1.0 / 3), rejections ? 1 : 6), fmin(longest, stable));
         if (to_due) s->h = fmax(s->h, planned);
         break;
       }
@@ -606,6 +630,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
     s->statistics.rejected++;
     to_due = 0;
     if (++rejections % PATIENCE == 0 && ratio > 1) measure_noise(m, s, w, &l, t + h);
+    if (rejections % HOLD == 0) frot_hold_worth(m, s, w);
     h *= ratio > 1 && ratio < 1e300 ? fmax(0.9 * pow(ratio, power), 1.0 / 3)
          : passed >= 0              ? fmin(fmax(NEARLY * part, 0.01), NEARLY)
                                     : 0.25;
@@ -627,6 +652,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   s->statistics.implicit_steps += s->implicit;
   memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   note_sizes(m, s, w, &l, w->z1);
+  frot_note_worth(m, s, w->z1);
   if (falls) fire(m, s, w, &l, guard, t, h);
   if (to_due) frot_fire_due(m, s);
   for (int j = 0; j < m->nq + m->nv; j++) s->data[l.noise + j] *= FORGET;

@@ -6,6 +6,10 @@
 
 /* Size of h lambda beyond which the explicit method is near its limit, about 6. */
 #define NEAR_LIMIT 5.0
+/* And beyond which no step is tried: what lies inside it would be off before its end is. */
+#define STABLE 7.0
+/* What a step leaves of the memory of a rate that was felt: a mode that is damped hides. */
+#define REMEMBERED 0.8
 /* Below that, h lambda at least so large, and so much larger than h times the solution's rate. */
 #define FELT 0.5
 #define APART 10.0
@@ -24,6 +28,7 @@ static int is_chosen(const frot_model *m) { return m->has_jacobian && m->method 
 void frot_choose_first(const frot_model *m, frot_state *s) {
   s->implicit = m->has_jacobian && m->method == FROT_IMPLICIT;
   s->stiff_steps = s->calm_steps = s->stay = 0;
+  s->felt = 0;
   s->patience = STIFF_STEPS;
 }
 
@@ -38,15 +43,28 @@ static double distance(const frot_model *m, const frot_work *w, const double *x,
   return sum;
 }
 
+/* The fastest rate that is felt in an explicit step: its last two arguments are both of the end, so
+ * that their slopes differ by the Jacobian alone. */
+static double felt_rate(const frot_model *m, const frot_work *w) {
+  int nz = frot_layout_of(m).nz;
+  const double *last = w->k + (DP_STAGES - 1) * nz, *end = w->k + DP_STAGES * nz;
+  double values = distance(m, w, w->z1, w->ztry);
+  return values > 0 ? sqrt(distance(m, w, end, last) / values) : 0;
+}
+
+double frot_stable_step(const frot_model *m, frot_state *s, const frot_work *w) {
+  if (!is_chosen(m) || s->implicit) return INFINITY;
+  s->felt = fmax(REMEMBERED * s->felt, felt_rate(m, w));
+  return s->felt > 0 ? STABLE / s->felt : INFINITY;
+}
+
 int frot_is_stiff(const frot_model *m, const frot_state *s, const frot_work *w, double h) {
   if (!is_chosen(m)) return 0;
   if (s->implicit) return h * frot_implicit_rate(m, w) >= EASY;
   int nz = frot_layout_of(m).nz;
-  const double *start = w->k, *last = w->k + (DP_STAGES - 1) * nz, *end = w->k + DP_STAGES * nz;
-  double values = distance(m, w, w->z1, w->ztry), way = distance(m, w, w->z1, w->z0);
-  if (!(values > 0) || !(way > 0)) return 0;
-  /* both arguments are of the end of the step: their slopes differ by the Jacobian alone */
-  double fastest = h * sqrt(distance(m, w, end, last) / values);
+  const double *start = w->k, *end = w->k + DP_STAGES * nz;
+  double way = distance(m, w, w->z1, w->z0), fastest = h * felt_rate(m, w);
+  if (!(way > 0)) return 0;
   double own = h * sqrt(distance(m, w, end, start) / way);
   return fastest > NEAR_LIMIT || (fastest > FELT && fastest > APART * own);
 }

@@ -18,6 +18,9 @@ void frot_choose_first(const frot_model *m, frot_state *s);
  * argument before the end is still in w->ztry. 0 where the text gives the method. */
 int frot_is_stiff(const frot_model *m, const frot_state *s, const frot_work *w, double h);
 
+/* The longest step that the explicit method should try after the one just accepted. */
+double frot_stable_step(const frot_model *m, frot_state *s, const frot_work *w);
+
 /* The method of the step after that one. */
 void frot_choose_next(const frot_model *m, frot_state *s, int stiff);
 

@@ -16,6 +16,8 @@
  * what is seen the noise is taken to be. */
 #define FROT_NUDGE (2 * DBL_EPSILON)
 #define FROT_NOISE_MARGIN 4.0
+/* The same for states whose rates no inertia smooths. */
+#define FROT_NOISE_OF_RATES 32.0
 /* Least tolerance of a step: below, rounding decides. */
 #define FROT_LEAST_TOLERANCE 2e-15
 

@@ -88,9 +88,8 @@ def relaxing(method: str, rate: float = 1e4, start: float = 0.0, stop: float = 1
 def test_robertson_to_the_end_of_the_reaction(method: str, tolerance: float) -> None:
     end = np.array([0.2083340149701255e-7, 0.8333360770334713e-13, 0.9999999791665050])
     found, made = solved(robertson(method, 1e11), tolerance, [1e11])
-    # b has been 3.7e-5 at most, and is followed in units of a hundredth of a
-    assert np.all(np.abs(found[0] - end) <= 10 * tolerance * np.array([1, 1e-2, 1]))
-    assert made.statistics.steps < 20 * tolerance ** (-1 / 5)
+    assert np.all(np.abs(found[0] - end) <= tolerance * end)  # each by itself, small as it is
+    assert made.statistics.steps < 40 * tolerance ** (-1 / 5)
 
 
 def test_hires() -> None:
