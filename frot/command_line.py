@@ -218,7 +218,8 @@ def _compiled(options: argparse.Namespace) -> Model:
         except KeyboardInterrupt:
             words = f"interrupted while compiling '{model.name}'; nothing half made is left"
             raise KeyboardInterrupt(words) from None
-    _tell(model.warnings)
+    if model.warnings:
+        _tell(model.warnings)
     return model
 
 
