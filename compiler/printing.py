@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frot.compiler.groups import make_groups
 from frot.compiler.mechanize import mechanize
 from frot.dsl import Log, dump
 from frot.dsl.checked import Model
@@ -51,6 +50,8 @@ def _cost(lowered: Lowered) -> str:
 
 def _equations(lowered: Lowered) -> str:
     """Rates of the states, blocks, invariants, and the core system with its rows."""
+    from frot.compiler.groups import make_groups
+
     reduced, system = lowered.reduced, lowered.system
     lines = [f"{reduced.mechanism.model.name}: states {', '.join(system.names) or 'none'}"]
     for symbol, rate in zip(_items(system.q), _items(system.rates), strict=True):
