@@ -163,6 +163,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_conditions": len(reduced.conditions.flags),
         "time_dependent": int(_depends_on_time(lowered)),
         "n_carried": len(lowered.carried),
+        "n_paced": _n_paced(lowered),
         "n_checks": len(lowered.checks),
         "n_position": len(lowered.position_statement),
         "n_velocity": len(lowered.velocity_statement),
@@ -325,6 +326,11 @@ def _depends_on_time(lowered: Lowered) -> bool:
         *(b.residual for b in system.blocks),
     )
     return any(x.numel() and ca.depends_on(x, time) for x in moved)
+
+
+def _n_paced(lowered: Lowered) -> int:
+    pace = lowered.functions.get("pace")
+    return 0 if pace is None else int(pace.numel_out(0))
 
 
 def _functions(lowered: Lowered) -> str:

@@ -17,6 +17,7 @@ from frot.compiler.jacobian import Jacobian, make_jacobian, why_explicit
 from frot.compiler.listing import Listed, list_variables
 from frot.compiler.lower_events import lower_update
 from frot.compiler.lower_parameters import lower_parameters, parameters_needed
+from frot.compiler.pace import make_pace
 from frot.compiler.reduce import Reduced
 from frot.compiler.supports import Carried, carried_bodies
 from frot.compiler.symbols import column
@@ -120,6 +121,9 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     carried = carried_bodies(system)
     if carried:
         outputs["places"] = (state, [column(body.value for body in carried)])
+    pace = make_pace(system, conditions[: reduced.conditions.located])
+    if pace is not None:
+        outputs["pace"] = (state, list(pace))
     jacobian = make_jacobian(system)
     if reduced.mechanism.model.experiment.method == "implicit" and jacobian is None:
         log.report(

@@ -52,7 +52,13 @@ def lower_parameters(
     experiment = reduced.mechanism.model.experiment
     times = [
         ca.SX.nan() if e is None else looking.lower(e)
-        for e in (experiment.start, experiment.stop, experiment.tolerance, experiment.interval)
+        for e in (
+            experiment.start,
+            experiment.stop,
+            experiment.tolerance,
+            experiment.interval,
+            experiment.max_step,
+        )
     ]
     values = [c.value if isinstance(c.value, ca.SX) else looking.lower(c.value) for c in checks]
     nominal = _nominal_sizes(q, reduced, looking)

@@ -24,6 +24,7 @@ _EXPERIMENT = (
     Argument("start", TIME, required=False),
     Argument("tolerance", REAL, required=False, sign="positive"),
     Argument("interval", TIME, required=False, sign="positive"),
+    Argument("max_step", TIME, required=False, sign="positive"),
 )
 _WORDS = {
     "method": ("auto", "explicit", "implicit", "timestepping"),
@@ -98,7 +99,7 @@ def _direction(node: tree.Expression, scope: Scope) -> str | None:
 
 def default_experiment() -> checked.Experiment:
     """The options of a run where the text is silent."""
-    return checked.Experiment(None, None, None, None, "auto", "impact", "rest", None)
+    return checked.Experiment(None, None, None, None, None, "auto", "impact", "rest", None)
 
 
 def experiment(call: tree.Call, scope: Scope) -> checked.Experiment:
@@ -128,6 +129,7 @@ def experiment(call: tree.Call, scope: Scope) -> checked.Experiment:
         values["start"],
         values["tolerance"],
         values["interval"],
+        values["max_step"],
         chosen["method"],
         chosen["on_impasse"],
         chosen["on_indeterminate"],

@@ -469,6 +469,7 @@ class Experiment:
     start: Expression | None
     tolerance: Expression | None
     interval: Expression | None
+    max_step: Expression | None
     method: str
     on_impasse: str
     on_indeterminate: str

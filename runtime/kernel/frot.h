@@ -225,7 +225,7 @@ typedef struct {
   const char *name;
   const char *key; /* identity of the compiled model; kept in saved states */
   int nq, nv, na, nc, nu, np, ny, n_rows, n_contacts, n_elements, n_conditions, n_discrete;
-  int n_blocks, n_invariants, n_whens, n_outcomes, n_carried;
+  int n_blocks, n_invariants, n_whens, n_outcomes, n_carried, n_paced;
   /* the first n_located conditions change by the motion; the n_timed after them are linear in time
    * and depend on nothing else that moves; the rest change at events only */
   int n_located, n_timed;
@@ -241,7 +241,8 @@ typedef struct {
   /* variables [0, n_contacts) are the modes of the contacts (frot_mode), the others are real */
 
   /* parameters(p, set, u) -> p complete (np), checks (n_checks), unilateral (n_contacts),
-   *   experiment (start stop tolerance interval), nominal sizes of the states (nq, 0: not given) */
+   *   experiment (start stop tolerance interval max_step; NaN where the text is silent), nominal
+   *   sizes of the states (nq, 0: not given) */
   frot_callable parameters;
   /* start(t, u, p) -> q guess, v guess, y guess, discrete variables at the start */
   frot_callable start;
@@ -260,6 +261,9 @@ typedef struct {
   frot_callable sides;
   /* places -> FROT_PLACE values of each carried body. Called where n_carried > 0. */
   frot_callable places;
+  /* pace -> what depends on time at given states (n_paced), and its rates by time alone (n_paced).
+   * Called where n_paced > 0. */
+  frot_callable pace;
   /* dynamics -> q' (nq), A (n_matrix), h (nw), J (n_entries), c (n_rows), rate (n_rows), gap
    *   (n_contacts), conditions (n_located), coefficients of motion and of rest (2 x n_elements),
    *   power of the forces that have no potential (1) */

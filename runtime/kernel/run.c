@@ -60,7 +60,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->fault = (frot_fault){FROT_OK, -1, -1, -1, t, 0};
   s->statistics = (frot_statistics){0};
   s->options = options ? *options : (frot_options){0, FROT_REST, 0};
-  s->t = t;
+  s->t = s->began = t;
   int status = frot_settle_parameters(m, s, w, NULL);
   if (status != FROT_OK) return status;
   frot_hold_given(m, s);

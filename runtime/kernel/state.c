@@ -29,7 +29,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.p = at, at += m->np;
   l.kept = at, at += 2 * m->np + m->nu;
   l.u = at, at += m->nu;
-  l.experiment = at, at += 4;
+  l.experiment = at, at += 5;
   l.nominal = at, at += m->nq;
   l.unilateral = at, at += m->n_contacts;
   l.x = at, at += l.nx;
@@ -99,6 +99,7 @@ static frot_callable scratch_of_all(const frot_model *m) {
                                   &m->kinematics,
                                   &m->sides,
                                   &m->places,
+                                  &m->pace,
                                   &m->dynamics,
                                   &m->spread,
                                   &m->rates,
@@ -145,6 +146,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(qd, m->nq), TAKE(mass, m->n_matrix), TAKE(h, l.nw), TAKE(rows, m->n_entries), TAKE(c, nr);
   TAKE(rate, nr), TAKE(gap, nc), TAKE(condition, m->n_conditions), TAKE(coefficient, 2 * n_el);
   TAKE(power, 1), TAKE(witness, 3 * nc);
+  TAKE(pace, 4 * m->n_paced);
   TAKE(stood, nc + nr + 2 * (FROT_PLACE * m->n_carried + ni));
   TAKE(effect, m->general ? m->n_entries : 0), TAKE(metric, m->general ? m->n_metric : 0);
   TAKE(factor, m->n_metric), TAKE(force, l.nw), TAKE(half, m->n_entries);

@@ -63,6 +63,7 @@ struct frot_state {
   double h;       /* next step */
   double due;     /* when time next changes a condition, INFINITY if never */
   double h_max;
+  double began; /* time of the start */
   double tolerance;
   double energy; /* kinetic + potential at the start, corrected for changes from outside */
   double energy_scale;
@@ -100,6 +101,7 @@ struct frot_work {
   /* results of `dynamics` and `kinematics` */
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
   double *witness; /* 3 per contact: results of `sides` */
+  double *pace;    /* see pace.c */
   double *stood;   /* see supports.c */
   double *effect, *metric;
   /* Packed by groups. Mass matrix: Cholesky factor L of the metric, L^-1 h, L^-1 J'. General core:

@@ -15,6 +15,7 @@
 #include "guards.h"
 #include "implicit.h"
 #include "mechanics.h"
+#include "pace.h"
 #include "probe.h"
 #include "projection.h"
 #include "reactions.h"
@@ -50,8 +51,6 @@
 /* Estimates below this, over their bound, do not keep the next step from being longer. */
 #define LIMITING 1e-4
 #define CHUNK 4 /* states summed together, in registers */
-/* Length of a step in which nothing moves and nothing depends on time, in longest steps. */
-#define LONG_REST 1e9
 
 static double *stage(const frot_layout *l, frot_work *w, int i) { return w->k + i * l->nz; }
 
@@ -503,7 +502,8 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
     double slope = fabs(stage(&l, w, 0)[j]), size = fabs(w->z0[j]);
     if (slope > 0 && size > 0) h = fmin(h, 0.01 * size / slope);
   }
-  s->h = frot_probe_step(m, s, w, s->t, fmax(h, 1e-6 * s->h_max));
+  h = frot_probe_step(m, s, w, s->t, fmax(h, 1e-6 * s->h_max));
+  s->h = frot_finest_step(m, s, h);
   return FROT_OK;
 }
 
@@ -585,8 +585,7 @@ static int is_at_zero(const frot_model *m, const frot_state *s, const frot_work 
 int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
-  double t = *g.t1, longest = s->h_max;
-  if (s->implicit && !m->time_dependent) longest *= LONG_REST; /* nothing can be passed over */
+  double t = *g.t1, longest = frot_longest_step(m, s, t, 0);
   double h = fmin(s->h, longest), stable;
   if (s->due <= t) {
     frot_fire_due(m, s);
@@ -594,7 +593,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   }
   int status = start_slope(m, s, w, &l, t), rejections = 0, stiff = 0;
   if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
-  if (!m->time_dependent && is_still(m, w)) h = LONG_REST * s->h_max;
+  if (!m->time_dependent && is_still(m, w)) h = frot_longest_step(m, s, t, 1);
   if (s->implicit) status = frot_implicit_begin(m, s, w, t);
   if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
   double planned = s->h;
@@ -603,6 +602,8 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   if (to_due) h = s->due - t;
   double power = s->implicit ? -1.0 / 5 : -1.0 / 8;
   for (;;) {
+    double paced = frot_pace_step(m, s, w, t, h);
+    if (paced < h) h = paced, to_due = 0;
     if (!to_due && !(h > LEAST_STEP * fmax(fabs(t), LEAST_TIME * s->h_max))) {
       if (passed >= 0 && is_at_zero(m, s, w, &l, passed))
         return fire_at_start(s, w, &l, first_condition(m, w) + passed);

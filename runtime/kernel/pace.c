@@ -1,0 +1,83 @@
+#include "pace.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+
+#define SAMPLES 20000 /* in a run */
+#define PART 0.01     /* longest step, in runs of the text's experiment */
+#define GROWTH 0.25   /* longest step, in what has been run */
+#define FINEST 1e-15  /* s: a first step below every scale of time */
+#define BEYOND 2      /* rates are seen when those at the stages come up to this part of them */
+#define FAINT 1e-3    /* part of the largest rate in the step that nobody looks at */
+#define ROUNDING 1e-12
+#define LONG_REST 1e9 /* longest step where nothing depends on time, in longest steps */
+
+static const double *experiment_of(const frot_model *m, const frot_state *s) {
+  return s->data + frot_layout_of(m).experiment;
+}
+
+/* The run as the text has it, zero where it is silent. */
+static double told_run(const frot_model *m, const frot_state *s) {
+  const double *experiment = experiment_of(m, s);
+  double start = isnan(experiment[0]) ? 0 : experiment[0];
+  return experiment[1] > start ? experiment[1] - start : 0;
+}
+
+double frot_longest_step(const frot_model *m, const frot_state *s, double t, int still) {
+  double longest = s->h_max, most = experiment_of(m, s)[4];
+  if (m->time_dependent)
+    longest = fmax(fmax(PART * told_run(m, s), GROWTH * (t - s->began)), FINEST);
+  else if (still || s->implicit)
+    longest *= LONG_REST; /* nothing can be passed over */
+  return most > 0 ? fmin(longest, most) : longest;
+}
+
+double frot_finest_step(const frot_model *m, const frot_state *s, double h) {
+  if (!m->time_dependent || told_run(m, s) > 0) return h;
+  return fmin(h, fmax(FINEST, 1e3 * DBL_EPSILON * fabs(s->began)));
+}
+
+/* Values into w->pace and rates behind them. */
+static double *rates_at(const frot_model *m, frot_state *s, frot_work *w, double t) {
+  const double *d = s->data + w->layout.d;
+  frot_inputs(m, s, w, &t, w->z0, w->z0 + m->nq, d);
+  w->res[0] = w->pace, w->res[1] = w->pace + m->n_paced;
+  m->pace.call(w->arg, w->res, w->iw, w->w, 0);
+  return w->pace + m->n_paced;
+}
+
+/* largest <- the larger of itself and the rates at t. */
+static void note_rates(const frot_model *m, frot_state *s, frot_work *w, double t,
+                       double *largest) {
+  const double *rate = rates_at(m, s, w, t);
+  for (int i = 0; i < m->n_paced; i++)
+    if (fabs(rate[i]) > largest[i] && isfinite(rate[i])) largest[i] = fabs(rate[i]);
+}
+
+double frot_pace_step(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  double spacing = fmax(told_run(m, s), t - s->began) / SAMPLES;
+  if (m->n_paced == 0 || !(h > spacing)) return h;
+  int count = (int)fmin(ceil(h / spacing), SAMPLES);
+  double *seen = w->pace + 2 * m->n_paced, *most = seen + m->n_paced;
+  memset(seen, 0, 2 * sizeof(double) * (size_t)m->n_paced);
+  memcpy(w->y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  for (int k = 0; k <= DP_STAGES; k++)
+    if (dp_e5[k] != 0 || dp_e3[k] != 0) note_rates(m, s, w, t + dp_c[k] * h, seen);
+  for (int k = 1; k < count; k++) note_rates(m, s, w, t + k * spacing, most);
+  int passed = 0;
+  for (int i = 0; i < m->n_paced; i++) {
+    int matters = most[i] * h > ROUNDING * fabs(w->pace[i]) && most[i] > BEYOND * seen[i];
+    most[i] = matters ? fmax(BEYOND * seen[i], FAINT * most[i]) : INFINITY;
+    passed |= matters;
+  }
+  if (!passed) return h;
+  for (int k = 1; k < count; k++) {
+    const double *rate = rates_at(m, s, w, t + k * spacing);
+    for (int i = 0; i < m->n_paced; i++)
+      if (fabs(rate[i]) > most[i]) return fmax(k - 1, 1) * spacing;
+  }
+  return h;
+}
