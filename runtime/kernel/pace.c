@@ -7,8 +7,8 @@
 #include "core.h"
 
 #define SAMPLES 20000 /* in a run */
-#define PART 0.01     /* longest step, in runs of the text's experiment */
-#define GROWTH 0.25   /* longest step, in what has been run */
+#define PART 0.01     /* longest step, in runs */
+#define GROWTH 0.25   /* longest step, in what has been run, of rest or where no run is told */
 #define FINEST 1e-15  /* s: a first step below every scale of time */
 #define BEYOND 2      /* rates are seen when those at the stages come up to this part of them */
 #define FAINT 1e-3    /* part of the largest rate in the step that nobody looks at */
@@ -28,10 +28,13 @@ static double told_run(const frot_model *m, const frot_state *s) {
 
 double frot_longest_step(const frot_model *m, const frot_state *s, double t, int still) {
   double longest = s->h_max, most = experiment_of(m, s)[4];
-  if (m->time_dependent)
-    longest = fmax(fmax(PART * told_run(m, s), GROWTH * (t - s->began)), FINEST);
-  else if (still || s->implicit)
+  double told = told_run(m, s), been = t - s->began;
+  if (m->time_dependent) {
+    double grown = still || told == 0 ? GROWTH * been : PART * been;
+    longest = fmax(fmax(PART * told, grown), FINEST);
+  } else if (still || s->implicit) {
     longest *= LONG_REST; /* nothing can be passed over */
+  }
   return most > 0 ? fmin(longest, most) : longest;
 }
 

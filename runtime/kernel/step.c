@@ -593,7 +593,10 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   }
   int status = start_slope(m, s, w, &l, t), rejections = 0, stiff = 0;
   if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
-  if (!m->time_dependent && is_still(m, w)) h = frot_longest_step(m, s, t, 1);
+  if (is_still(m, w)) {
+    longest = frot_longest_step(m, s, t, 1);
+    h = m->time_dependent ? fmin(s->h, longest) : longest;
+  }
   if (s->implicit) status = frot_implicit_begin(m, s, w, t);
   if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
   double planned = s->h;
