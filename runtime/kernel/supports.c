@@ -7,8 +7,7 @@
 #include "blocks.h"
 #include "core.h"
 #include "record.h"
-
-#define TOUCH 1e-9 /* part of the terms of a gap, or of the usual speed, that is none */
+#include "tolerances.h"
 
 /* The values noted: gaps, rates, places of the carried bodies, invariants. */
 typedef struct {
@@ -88,7 +87,7 @@ static int check_carried(const frot_model *m, frot_state *s, double t, const dou
   for (int i = 0; i < FROT_PLACE * m->n_carried; i++) {
     int k = i % FROT_PLACE;
     double change = after[i] - before[i];
-    if (fabs(change) <= TOUCH * size[k]) continue;
+    if (fabs(change) <= FROT_TOUCH * size[k]) continue;
     return refuse(s, t, -1, i / FROT_PLACE,
                   k < 2    ? FROT_CARRIES
                   : k == 2 ? FROT_TURNS
@@ -129,13 +128,14 @@ static int check_contact(const change *c, int i, int act) {
   const double *usual_speeds = s->data + c->l.scale_x + m->nq;
   double size = fabs(gap) + fabs(c->before.gap[i]) + frot_gap_size(m, c->w, row, c->q);
   double usual = frot_row_size(m, c->w, row, c->v) + frot_row_size(m, c->w, row, usual_speeds);
-  int moves = fabs(moved) > TOUCH * size, jerks = fabs(jerked) > TOUCH * (usual + fabs(jerked));
+  int moves = fabs(moved) > FROT_TOUCH * size,
+      jerks = fabs(jerked) > FROT_TOUCH * (usual + fabs(jerked));
   if (!moves && !jerks) return FROT_OK;
   if (mode->closed && !parts)
     return refuse(s, c->t, i, -1, moves ? FROT_PARTS : FROT_JERKS, moves ? moved : jerked);
-  if (moves && gap < -TOUCH * size) return refuse(s, c->t, i, -1, FROT_ENTERS, -gap);
-  int touches = fabs(gap) <= TOUCH * size, leaves = rate > TOUCH * usual;
-  if (touches && rate < -TOUCH * usual) return refuse(s, c->t, i, -1, FROT_MEETS, -rate);
+  if (moves && gap < -FROT_TOUCH * size) return refuse(s, c->t, i, -1, FROT_ENTERS, -gap);
+  int touches = fabs(gap) <= FROT_TOUCH * size, leaves = rate > FROT_TOUCH * usual;
+  if (touches && rate < -FROT_TOUCH * usual) return refuse(s, c->t, i, -1, FROT_MEETS, -rate);
   if (!act) return FROT_OK;
   if (mode->closed && (!touches || leaves))
     open_contact(c, i);
@@ -148,7 +148,7 @@ static int check_invariants(const change *c, const double *now) {
   const frot_model *m = c->m;
   for (int i = 0; i < m->n_invariants; i++) {
     double moved = now[i] - c->before.invariant[i];
-    if (fabs(moved) > TOUCH * (c->w->residual[i] + fabs(now[i])))
+    if (fabs(moved) > FROT_TOUCH * (c->w->residual[i] + fabs(now[i])))
       return refuse(c->s, c->t, -1, m->n_statements - m->n_invariants + i, FROT_BREAKS, moved);
   }
   return FROT_OK;
