@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import casadi as ca
+from frot.compiler.assembled import Assembled
 from frot.compiler.elements import Bound
 from frot.compiler.groups import Group
 from frot.compiler.jacobian import alike
@@ -81,6 +83,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "held",
             [_record(_text(h.name), _text(_place(h.span))) for h in reduced.text.held],
         ),
+        _array("frot_load", "states", [_record(*x) for x in _states(system)]),
         _array("int", "position_statement", [str(i) for i in lowered.position_statement]),
         _array("int", "velocity_statement", [str(i) for i in lowered.velocity_statement]),
         _array("int", "p_dependent", [str(int(x)) for x in lowered.dependent]),
@@ -182,6 +185,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "carried",
             "statements",
             "loads",
+            "states",
             "held",
             "position_statement",
             "velocity_statement",
@@ -293,6 +297,16 @@ def _packed_sizes(lowered: Lowered) -> dict[str, int]:
     return {
         f"n_{name}": sum(s[k] for s in sizes) for k, name in enumerate(_PACKED) if name != "vector"
     }
+
+
+def _states(system: Assembled) -> Iterator[tuple[str, str]]:
+    """Names and places of the coordinates and speeds."""
+    chains = system.reduced.text.chains
+    for x in (system.q, system.v):
+        for symbol in ca.vertsplit(x) if x.numel() else ():
+            chain, _ = chains.place.get(symbol.element_hash(), (-1, 0))
+            span = chains.items[chain].span if chain >= 0 else None
+            yield _text(symbol.name()), _text(_place(span) if span is not None else "")
 
 
 def _pattern(lowered: Lowered) -> str:

@@ -221,7 +221,8 @@ _HELP = {
     15: "write `on_indeterminate = rest` or `continue` to go on with one of them",
     16: "look at what switches at that time; change a coefficient or the starting values a little",
     17: "correct the expression, or keep the motion away from there",
-    18: "look at the liaison or force named; a softer or smaller load may avoid it",
+    18: "look at what is named: at a denominator, a root or a logarithm that comes to zero, at "
+    "growth without limit, or at a load that jams a liaison",
     22: "give start values near the solution, or keep the motion away from there",
     23: "look at what leads there, or weaken the assertion",
     19: "give every body a mass and an inertia of a usual size",

@@ -157,7 +157,7 @@ typedef struct {
   const char *text, *place, *unit; /* unit of its two sides */
 } frot_statement;
 
-/* An applied force. */
+/* An applied force, or a state. */
 typedef struct {
   const char *name, *place;
 } frot_load;
@@ -318,6 +318,7 @@ typedef struct {
   const frot_carried *carried;
   const frot_statement *statements; /* those of the invariants are the last */
   const frot_load *loads;
+  const frot_load *states;       /* nq + nv: names and places of q and v; may be NULL */
   const frot_held *held;         /* n_held */
   const int *position_statement; /* n_position: statement of each scalar equation */
   const int *velocity_statement; /* n_velocity */

@@ -134,12 +134,12 @@ int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, doubl
   return status;
 }
 
-/* The worst estimate of the local error over its bound; *blamed is the state it is of. */
-static double worst_error(const frot_model *m, const frot_state *s, const frot_work *w,
-                          const frot_layout *l, double h, int *blamed) {
+/* The worst estimate of the local error over its bound; w->worst is the state it is of. */
+static double worst_error(const frot_model *m, const frot_state *s, frot_work *w,
+                          const frot_layout *l, double h) {
   double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
   const double *error = row(l, w, FIRST_ROW + RO_STAGES - 1), *noise = s->data + l->noise;
-  *blamed = -1;
+  w->worst = -1;
   for (int k = 0; k < m->nq; k++) {
     if (error[k] == 0) continue;
     double bound = fmax(tolerance * w->own_size[k], DBL_MIN);
@@ -147,7 +147,7 @@ static double worst_error(const frot_model *m, const frot_state *s, const frot_w
       bound = fmax(bound,
                    FROT_NOISE_OF_RATES * h * noise[k] / (1 + h * frot_jacobian_damping(m, w, k)));
     double ratio = fabs(error[k]) / bound;
-    if (!(ratio <= worst)) worst = ratio, *blamed = k;
+    if (!(ratio <= worst)) worst = ratio, w->worst = k;
     if (isnan(worst)) break;
   }
   return worst;
@@ -156,7 +156,6 @@ static double worst_error(const frot_model *m, const frot_state *s, const frot_w
 double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, double h) {
   frot_layout l = frot_layout_of(m);
   const double *slope = row(&l, w, 0);
-  int blamed;
   /* a stiff state does not go where its slope at the start points to */
   for (int k = 0; k < m->nq; k++) {
     double pointed = h * fabs(slope[k]), gone = fabs(w->z1[k] - w->z0[k]);
@@ -167,10 +166,10 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
       if (w->own_size[k] == 0) w->change[k] = fabs(w->z1[k] - w->z0[k]);
     frot_state_sizes(m, s, w);
   }
-  double worst = worst_error(m, s, w, &l, h, &blamed);
-  if (!(worst > LIMITING) || blamed < 0 || !frot_is_small(m, s, w, blamed)) return worst;
+  double worst = worst_error(m, s, w, &l, h);
+  if (!(worst > LIMITING) || w->worst < 0 || !frot_is_small(m, s, w, w->worst)) return worst;
   frot_raise_small(m, s, w, h, 0);
-  return worst_error(m, s, w, &l, h, &blamed);
+  return worst_error(m, s, w, &l, h);
 }
 
 /* State inside the step by the vectors w->f. */

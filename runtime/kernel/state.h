@@ -129,6 +129,7 @@ struct frot_work {
   double *k;              /* DP_ALL x nz */
   double *z0, *z1, *ztry; /* nz */
   double *f;              /* DP_DENSE x nz */
+  int worst;              /* state whose error is the worst, or -1 */
   double *change, *own_size, *largest_alike; /* nq: see sizes.h */
   double *implicit;                          /* see jacobian.h */
   int *implicit_pivot;

@@ -146,14 +146,14 @@ static void size_own_states(const frot_model *m, const frot_state *s, frot_work 
   frot_state_sizes(m, s, w);
 }
 
-/* The worst estimate of the local error over its bound, and in *blamed the value it is of. */
+/* The worst estimate of the local error over its bound, and in w->worst the value it is of. */
 static double worst_error(const frot_model *m, const frot_state *s, frot_work *w,
-                          const frot_layout *l, double h, int *blamed) {
+                          const frot_layout *l, double h) {
   double tolerance = fmax(LOCAL_SHARE * s->tolerance, FROT_LEAST_TOLERANCE), worst = 0;
   double guard_tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
   double e5[CHUNK], e3[CHUNK];
   int end = width(w);
-  *blamed = -1;
+  w->worst = -1;
   for (int j = 0; j < end; j++) {
     int at = j % CHUNK, size = end - j < CHUNK ? end - j : CHUNK;
     if (at == 0) {
@@ -174,7 +174,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     }
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
     double ratio = joint > 0 ? fifth * fifth / joint / bound : joint;
-    if (!(ratio <= worst)) worst = ratio, *blamed = j;
+    if (!(ratio <= worst)) worst = ratio, w->worst = j < m->nq + m->nv ? j : -1;
     if (isnan(worst)) break;
   }
   return worst;
@@ -185,14 +185,13 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
 static double error_ratio(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                           double t, double h) {
   if (s->implicit) return frot_implicit_error(m, s, w, h);
-  int blamed;
   size_own_states(m, s, w, l, h);
-  double worst = worst_error(m, s, w, l, h, &blamed);
-  if (!(worst > LIMITING) || blamed < 0 || blamed >= m->nq || !frot_is_small(m, s, w, blamed))
+  double worst = worst_error(m, s, w, l, h);
+  if (!(worst > LIMITING) || w->worst < 0 || w->worst >= m->nq || !frot_is_small(m, s, w, w->worst))
     return worst;
   int no_jacobian = !m->has_jacobian || frot_implicit_begin(m, s, w, t) != FROT_OK;
   frot_raise_small(m, s, w, h, no_jacobian);
-  return worst_error(m, s, w, l, h, &blamed);
+  return worst_error(m, s, w, l, h);
 }
 
 /* Accelerations that are nothing but rounding of their terms in all stages of the step: what they
@@ -469,7 +468,8 @@ static int wrong_load(const frot_model *m, frot_state *s, frot_work *w, const fr
 }
 
 /* Record a fault with what is to blame: a block of equations, the contact of a coefficient or the
- * force that is no number or, when the step goes to zero, the contact with the largest reaction. */
+ * force that is no number or, when the step goes to zero, the state whose error forced it, or the
+ * contact with the largest reaction where that is a coordinate or a speed. */
 static int fail_at(const frot_model *m, frot_state *s, frot_work *w, int status, double t,
                    double h) {
   int blamed = -1;
@@ -489,8 +489,13 @@ static int fail_at(const frot_model *m, frot_state *s, frot_work *w, int status,
     if (row >= 0 && fabs(w->lam[row]) > largest) largest = fabs(w->lam[row]), blamed = i;
   }
   frot_layout l = frot_layout_of(m);
-  int load = status == FROT_NAN && blamed < 0 ? wrong_load(m, s, w, &l) : -1;
-  return frot_fail(s, status, t, blamed, load, -1, h);
+  int load = status == FROT_NAN && blamed < 0 ? wrong_load(m, s, w, &l) : -1, state = -1;
+  if (status == FROT_DIVERGE && w->worst >= 0) {
+    int own = w->worst < m->nq && m->q_speed[w->worst] < 0;
+    if (own) blamed = -1;
+    if (own || blamed < 0) state = w->worst;
+  }
+  return frot_fail(s, status, t, blamed, load, state, h);
 }
 
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
@@ -582,6 +587,9 @@ static int is_at_zero(const frot_model *m, const frot_state *s, const frot_work 
   return fabs(w->k[l->nx + first_condition(m, w) + j]) <= FROT_GUARD_FLOOR * fmax(size, 1e-300);
 }
 
+/* What the ratio of an error to its bound is raised to for the change of the step. */
+static double order_power(const frot_state *s) { return s->implicit ? -1.0 / 5 : -1.0 / 8; }
+
 int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
@@ -591,7 +599,7 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
     frot_fire_due(m, s);
     return FROT_OK;
   }
-  int status = start_slope(m, s, w, &l, t), rejections = 0, stiff = 0;
+  int status = start_slope(m, s, w, &l, t), rejections = 0, stiff = 0, changed = 0;
   if (status != FROT_OK) return fail_at(m, s, w, status, t, 0);
   if (is_still(m, w)) {
     longest = frot_longest_step(m, s, t, 1);
@@ -603,13 +611,18 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   int passed = -1;              /* condition beyond which the last try had no value */
   int to_due = h >= s->due - t; /* the step ends where time changes a condition */
   if (to_due) h = s->due - t;
-  double power = s->implicit ? -1.0 / 5 : -1.0 / 8;
+  double power = order_power(s), first = h;
   for (;;) {
     double paced = frot_pace_step(m, s, w, t, h);
     if (paced < h) h = paced, to_due = 0;
     if (!to_due && !(h > LEAST_STEP * fmax(fabs(t), LEAST_TIME * s->h_max))) {
       if (passed >= 0 && is_at_zero(m, s, w, &l, passed))
         return fire_at_start(s, w, &l, first_condition(m, w) + passed);
+      if (!changed && frot_change_method(m, s)) {
+        int begun = s->implicit ? frot_implicit_begin(m, s, w, t) : FROT_OK;
+        changed = 1, h = first, power = order_power(s);
+        if (begun == FROT_OK) continue;
+      }
       return fail_at(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, t, h);
     }
     status = run_stages(m, s, w, &l, t, h);

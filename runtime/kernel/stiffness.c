@@ -74,6 +74,12 @@ static void change_to(frot_state *s, int implicit) {
   s->stiff_steps = s->calm_steps = s->stay = 0;
 }
 
+int frot_change_method(const frot_model *m, frot_state *s) {
+  if (!is_chosen(m)) return 0;
+  change_to(s, !s->implicit);
+  return 1;
+}
+
 void frot_choose_next(const frot_model *m, frot_state *s, int stiff) {
   if (!is_chosen(m)) return;
   s->calm_steps = stiff ? 0 : s->calm_steps + 1;

@@ -21,6 +21,9 @@ int frot_is_stiff(const frot_model *m, const frot_state *s, const frot_work *w, 
 /* The longest step that the explicit method should try after the one just accepted. */
 double frot_stable_step(const frot_model *m, frot_state *s, const frot_work *w);
 
+/* Where one method fails, the other is to be tried: takes it; 0 where the text gives the method. */
+int frot_change_method(const frot_model *m, frot_state *s);
+
 /* The method of the step after that one. */
 void frot_choose_next(const frot_model *m, frot_state *s, int stiff);
 

@@ -213,6 +213,13 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
           f->t);
       return;
     case FROT_DIVERGE:
+      if (f->other >= 0 && m->states) {
+        snprintf(text, size,
+                 "'%s' cannot be followed beyond t = %.17g: the step goes to zero, for its rate "
+                 "grows without bound or jumps there",
+                 m->states[f->other].name, f->t);
+        return;
+      }
       snprintf(text, size,
                "%s%s%s: the step goes to zero at t = %.17g: the reaction grows without bound "
                "(jamming) or a force is singular there",
@@ -250,6 +257,8 @@ void frot_fault_places(const frot_model *m, const frot_state *s, char *text, siz
   if (f->status == FROT_CHECK && f->item >= 0) places[0] = m->checks[f->item].place;
   if (f->status == FROT_NAN && f->item >= 0) places[0] = m->loads[f->item].place;
   if (f->status == FROT_NAN && f->other >= 0) places[0] = m->blocks[f->other].place;
+  if (f->status == FROT_DIVERGE && f->other >= 0 && m->states)
+    places[0] = m->states[f->other].place;
   if (f->status == FROT_ALGEBRAIC && f->item >= 0) places[0] = m->blocks[f->item].place;
   if (f->status == FROT_ASSERT && f->item >= 0) places[0] = m->outcomes[f->item].place;
   if (f->status == FROT_REFUSED) places[0] = frot_refusal_place(m, f);
