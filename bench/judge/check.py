@@ -415,6 +415,8 @@ class Judge:
                 # the sizes the kernel measures against: the largest of the run
                 if ".position" in of:
                     size = max(size, self.length)
+                elif of.endswith(".angle"):
+                    size = max(size, 1e-3)  # rad
                 elif "angular_velocity" in of:
                     size = max(size, self.speed[f"{body.name}.w"])
                 elif ".velocity" in of:

@@ -18,7 +18,11 @@ SCENES = (
     ("anything", 1, 20),
     ("chain", 0, 24),
     ("blocks", 0, 24),
-    ("rest", 0, 36),
+    ("rest", 0, 40),
+    ("crank", 0, 12),
+    ("trammel", 0, 40),
+    ("legs", 0, 25),
+    ("zero", 0, 30),
 )
 
 
