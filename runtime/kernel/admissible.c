@@ -48,8 +48,10 @@ static double reserve(const frot_instant *in, int e) {
 static double pressure(const frot_instant *in, int i) {
   int row = in->m->contacts[i].row_n;
   double lam = in->w->trial[i].side * in->w->lam[row];
-  double size = fabs(lam) + frot_reaction_size(in->m, in->w, row) +
-                reaction_rounding(in, row) / FROT_BOUND_SLACK;
+  double rounding = reaction_rounding(in, row);
+  /* a guard that fired is zero as well as time resolves it */
+  if (in->fired[i] != 0) rounding += FROT_ZERO * in->s->data[in->l.scale_g + i];
+  double size = fabs(lam) + frot_reaction_size(in->m, in->w, row) + rounding / FROT_BOUND_SLACK;
   return size > 0 ? lam / size : 0;
 }
 
@@ -101,8 +103,44 @@ static int element_is_admissible(const frot_instant *in, int e) {
   if (mode->friction == FROT_NONE || !in->zero[e]) return 1;
   double size, a = acceleration(in, element->row, &size);
   if (mode->friction == FROT_SLIP_BACKWARD) a = -a;
-  if (!(a >= -FROT_DEPARTURE_SLACK * size)) return 0;
-  return a > FROT_DEPARTURE_SLACK * size || element->prescribed || !is_carried(in, element->row);
+  return a >= -FROT_DEPARTURE_SLACK * size;
+}
+
+/* Whether an element is about to slip by no acceleration of its own: it is held by others, or no
+ * speed moves it in this posture. */
+static int is_in_doubt(const frot_instant *in, int e) {
+  const frot_element *element = &in->m->elements[e];
+  const frot_contact_mode *mode = frot_element_mode(in->m, in->w->trial, e);
+  if (mode->friction <= FROT_STICK || !in->zero[e] || element->prescribed) return 0;
+  double size, a = acceleration(in, element->row, &size);
+  return fabs(a) <= FROT_DEPARTURE_SLACK * size && is_carried(in, element->row);
+}
+
+/* Whether what the accelerations leave in doubt goes on as the modes say: what is held in this
+ * posture alone must stay at rest when the mechanism moves on, what slips must slip. */
+static int goes_on(const frot_instant *in, const frot_group *g) {
+  const frot_model *m = in->m;
+  int doubt = !g->general && in->w->dependent;
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i];
+    if (!in->w->trial[m->elements[e].contact].closed || !is_in_doubt(in, e)) continue;
+    if (g->general) return 0;
+    doubt = 1;
+  }
+  if (!doubt) return 1;
+  unsigned char *departs = in->w->departs;
+  for (int e = 0; e < m->n_elements; e++)
+    departs[e] = m->row_group[m->elements[e].row] == m->contact_group[g->contacts[0]] &&
+                 in->w->trial[m->elements[e].contact].closed && is_in_doubt(in, e);
+  if (frot_look_ahead(in, g) != FROT_OK) return 0;
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i], ahead = in->w->ahead[e];
+    const frot_contact_mode *mode = frot_element_mode(m, in->w->trial, e);
+    if (!in->w->trial[m->elements[e].contact].closed) continue;
+    if (mode->friction == FROT_STICK && ahead != 0) return 0;
+    if (departs[e] && ahead != (mode->friction == FROT_SLIP_FORWARD ? 1 : -1)) return 0;
+  }
+  return 1;
 }
 
 static int has_law(const frot_instant *in, int i) {
@@ -181,5 +219,5 @@ int frot_is_admissible(const frot_instant *in, const int *chosen, int count) {
     int e = g->elements[i];
     if (w->trial[m->elements[e].contact].closed && !element_is_admissible(in, e)) return 0;
   }
-  return 1;
+  return goes_on(in, g);
 }

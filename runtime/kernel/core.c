@@ -236,8 +236,7 @@ double frot_metric_entry(const frot_model *m, const frot_work *w, int a, int b) 
                     : w->mass[g->matrix + k * g->n + i];
 }
 
-/* Twice the kinetic energy of a group. */
-static double square_of_speeds(const frot_work *w, const frot_group *g, const double *v) {
+double frot_square_of(const frot_work *w, const frot_group *g, const double *v) {
   int ns = g->n_speeds, order = g->general ? ns : g->n;
   const double *metric = g->general ? w->metric + g->metric : w->mass + g->matrix;
   double sum = 0;
@@ -249,7 +248,7 @@ static double square_of_speeds(const frot_work *w, const frot_group *g, const do
 
 double frot_kinetic(const frot_model *m, const frot_work *w, const double *v) {
   double sum = 0;
-  for (int k = 0; k < m->n_groups; k++) sum += square_of_speeds(w, &m->groups[k], v);
+  for (int k = 0; k < m->n_groups; k++) sum += frot_square_of(w, &m->groups[k], v);
   return 0.5 * sum;
 }
 
@@ -259,7 +258,7 @@ double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *
   double *half = w->rest;
   memcpy(half, frot_entries(m, w->rows, row), sizeof(double) * (size_t)ns);
   frot_forward(w->factor + g->metric, ns, ns, half);
-  return sqrt(square_of_speeds(w, g, v) * frot_dot(half, half, ns));
+  return sqrt(frot_square_of(w, g, v) * frot_dot(half, half, ns));
 }
 
 double frot_least_length(const frot_model *m, frot_work *w, int row, double own) {

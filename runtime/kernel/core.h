@@ -65,6 +65,9 @@ void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, 
 void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
                              const double *q, const double *v, const double *d, double *size);
 
+/* Square of speeds or accelerations (nv) of a group in the metric, after frot_dynamics. */
+double frot_square_of(const frot_work *w, const frot_group *g, const double *v);
+
 /* Half the square of the speeds in the metric, after frot_dynamics. */
 double frot_kinetic(const frot_model *m, const frot_work *w, const double *v);
 

@@ -188,6 +188,7 @@ static int orthonormalize(problem *p) {
     int row = w->unknown[k];
     double *x = w->basis + ns * rank, *parts = w->parts;
     memcpy(x, frot_entries(m, w->half, row), sizeof(double) * (size_t)ns);
+    w->carried[row] = 0;
     double length = sqrt(frot_dot(x, x, ns)), bias = w->c[row], size = fabs(bias);
     double rest = frot_reject(x, w->basis, rank, ns, parts);
     for (int i = 0; i < rank; i++) {
@@ -195,7 +196,7 @@ static int orthonormalize(problem *p) {
       size += fabs(parts[i] * w->bias[i]);
     }
     if (!(rest > frot_least_length(m, w, row, length))) {
-      w->dependent = 1;
+      w->dependent = w->carried[row] = 1;
       if (!(fabs(bias) <= FROT_AGREES * (size + frot_free_size(m, w, row)))) return 1;
       continue;
     }
@@ -312,8 +313,7 @@ static void solve_least(const problem *p, double *x) {
   }
 }
 
-double frot_row_rounding(const frot_model *m, const frot_work *w, int row) {
-  const frot_group *g = frot_group_of(m, row);
+double frot_size_of_motion(const frot_model *m, const frot_work *w, const frot_group *g) {
   int count = g->general ? g->n : g->n_speeds;
   const double *force = w->force + g->vector;
   double motion = sqrt(frot_dot(force, force, count));
@@ -323,8 +323,14 @@ double frot_row_rounding(const frot_model *m, const frot_work *w, int row) {
     if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
     motion += fabs(lam) * sqrt(frot_dot(half, half, count));
   }
+  return motion;
+}
+
+double frot_row_rounding(const frot_model *m, const frot_work *w, int row) {
+  const frot_group *g = frot_group_of(m, row);
+  int count = g->general ? g->n : g->n_speeds;
   const double *own = frot_entries(m, g->general ? w->rows : w->half, row);
-  return 4 * FROT_ROUNDING * sqrt(frot_dot(own, own, count)) * motion;
+  return 4 * FROT_ROUNDING * sqrt(frot_dot(own, own, count)) * frot_size_of_motion(m, w, g);
 }
 
 /* Whether the held rows do not accelerate and friction follows its reaction. */

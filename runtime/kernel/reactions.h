@@ -27,6 +27,10 @@ double frot_bound_of_rest(const frot_model *m, const frot_work *w, int element,
  * terms. */
 double frot_acceleration(const frot_model *m, const frot_work *w, int row, double *size);
 
+/* Length of what loads and each of the reactions w->lam do to the group, in the metric of its
+ * speeds: what its accelerations are the sum of. */
+double frot_size_of_motion(const frot_model *m, const frot_work *w, const frot_group *g);
+
 /* What rounding can do to a row's acceleration where loads and reactions cancel: a few units of the
  * last place of all that moves the group, without reactions and by each of them. */
 double frot_row_rounding(const frot_model *m, const frot_work *w, int row);

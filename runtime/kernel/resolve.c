@@ -158,7 +158,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + l.modes);
   size_t count = (size_t)(m->n_contacts + m->n_elements);
   note_left(m, s, t);
-  frot_instant in = {m, s, w, l, fired, s->data + l.unilateral, s->data + l.left, w->zero};
+  frot_instant in = {m, s, w, l, fired, s->data + l.unilateral, s->data + l.left, w->zero, t, q, v};
   memcpy(w->before, modes, sizeof *modes * count);
   memcpy(w->best, modes, sizeof *modes * count);
   memset(w->zero, 0, (size_t)m->n_elements);

@@ -13,6 +13,8 @@ typedef struct {
   const double *fired, *unilateral;
   const double *left;  /* n_elements: direction in which a rest was left at this instant */
   unsigned char *zero; /* n_elements: its motion is zero */
+  double t;
+  const double *q, *v;
 } frot_instant;
 
 /* Whether a law's coefficients can ever bound anything: a constant zero is skipped. */
@@ -22,6 +24,10 @@ int frot_bounds_something(const frot_model *m, const frot_work *w, int element);
  * they are not unique, sets those elements at their bounds and those contacts without load that let
  * the others carry. */
 int frot_is_admissible(const frot_instant *in, const int *chosen, int count);
+
+/* The signs of the slips a little later, moving on as w->trial and w->lam say, into w->ahead
+ * (n_elements): 0 where a motion stays none. Leaves the kinematics at the instant (ahead.c). */
+int frot_look_ahead(const frot_instant *in, const frot_group *g);
 
 /* Looks for the modes of the contacts `chosen`, which act on each other only and are closed in
  * w->best; leaves those preferred in w->best. Every combination is examined where there are few;

@@ -144,8 +144,13 @@ struct frot_work {
   double *motions;        /* search.c: accelerations of the motions found */
   double *pivot_bound;    /* pivot.c: bounds, gradient, step of each row */
   int *choice, *component, *chosen;
-  unsigned char *zero; /* n_elements: see search.h */
-  double t;            /* where dynamics was last evaluated */
+  unsigned char *zero;    /* n_elements: see search.h */
+  signed char *ahead;     /* n_elements: see search.h */
+  unsigned char *departs; /* n_elements: slips that no acceleration starts */
+  unsigned char *carried; /* n_rows: held rows that depend on those before them */
+  frot_contact_mode *guess_ahead;
+  double *nothing_frozen; /* nv zeros */
+  double t;               /* where dynamics was last evaluated */
 };
 
 /* Times that differ by less are one instant: both are sums, rounded in different ways. */
