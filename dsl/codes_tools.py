@@ -129,7 +129,7 @@ TOOLS: Mapping[str, Code] = {
         "A parameter or an input that is changed in a run takes effect at once, but no body is "
         "moved at once: the change would put a body into a line, take apart a liaison that cannot "
         "part, or carry a body along with its pin, its line or a relation of the text. The old "
-        "values stay, and the run can go on.",
+        "values stay, and the run can go on. A 'reinit' that would do so ends the run.",
         "Make the change before the start. A contact that can part opens where its line is taken "
         "away, so let what is lowered be able to part; let the text move a support as a function "
         "of time.",

@@ -38,6 +38,7 @@ static int ends_early(int fault) {
     case FROT_DIVERGE:
     case FROT_ALGEBRAIC:
     case FROT_ASSERT:
+    case FROT_JUMP:
       return 1;
     default:
       return 0;

@@ -41,7 +41,8 @@ enum frot_status {
   FROT_MISUSE = 21,    /* a call out of order or with bad arguments */
   FROT_ALGEBRAIC = 22, /* a block of equations has no solution, or a singular one */
   FROT_ASSERT = 23,    /* an `assert` of the text does not hold */
-  FROT_REFUSED = 24    /* a change from outside cannot be made in a run; the old values stay */
+  FROT_REFUSED = 24,   /* a change from outside cannot be made in a run; the old values stay */
+  FROT_JUMP = 25       /* a `reinit` puts a body where its liaisons cannot have it */
 };
 
 /* Why a change is refused: `other` of the fault. Of contacts, then of bodies that are carried

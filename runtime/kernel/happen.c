@@ -45,7 +45,8 @@ static int find_firing(const instant *in, int first) {
   return any;
 }
 
-/* Unilateral contacts that a new speed opens. One that it closes further is an impact. */
+/* Contacts that new places or speeds open. One that they close further is an impact; what would be
+ * inside, or apart though it cannot part, is a fault: no body is moved back. */
 static int release_contacts(const instant *in) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
@@ -55,15 +56,18 @@ static int release_contacts(const instant *in) {
   for (int i = 0; i < m->n_contacts; i++) {
     const frot_contact *contact = &m->contacts[i];
     int row = contact->row_n;
-    if (!frot_has_normal(contact) || contact->reduced || unilateral[i] == 0) continue;
-    if (!modes[i].closed) {
-      if (w->gap[i] < -TOUCH * frot_gap_size(m, w, row, in->q)) in->s->data[in->l.fired + i] = 1;
-      continue;
-    }
+    if (!frot_has_normal(contact) || contact->reduced) continue;
+    double gap = w->gap[i], rate = w->rate[row],
+           near = TOUCH * (fabs(gap) + frot_gap_size(m, w, row, in->q));
+    if (gap < -near) return frot_fail(in->s, FROT_JUMP, in->t, i, -1, FROT_ENTERS, -gap);
+    if (!modes[i].closed) continue;
     double usual = frot_row_size(m, w, row, in->v) + frot_row_size(m, w, row, scale);
-    if (w->rate[row] < -TOUCH * usual)
-      return frot_fail(in->s, FROT_IMPACT, in->t, i, -1, -1, w->rate[row]);
-    if (!(w->rate[row] > TOUCH * usual)) continue;
+    int apart = gap > near, leaves = rate > TOUCH * usual, meets = rate < -TOUCH * usual;
+    if (unilateral[i] == 0 && (apart || leaves || meets))
+      return frot_fail(in->s, FROT_JUMP, in->t, i, -1, apart ? FROT_PARTS : FROT_JERKS,
+                       apart ? gap : rate);
+    if (meets && !apart) return frot_fail(in->s, FROT_IMPACT, in->t, i, -1, -1, rate);
+    if (!apart && !leaves) continue;
     frot_note(in->recorder, in->s, in->t, FROT_EVENT_SEPARATION, i, frot_mode_value(m, modes, i),
               FROT_MODE_OPEN, 1);
     frot_open(m, modes, i);

@@ -209,7 +209,10 @@ void frot_refusal_text(const frot_model *m, const frot_fault *f, char *text, siz
   const frot_statement *relation = relation_of(m, f);
   char what[128];
   snprintf(what, sizeof what, words_of(f), f->value);
-  const char *before = "the change of parameters or inputs is refused, and the old values stay";
+  const char *before =
+      f->status == FROT_JUMP
+          ? "`reinit` moves a body against its liaisons"
+          : "the change of parameters or inputs is refused, and the old values stay";
   if (f->contact >= 0 && f->contact < m->n_contacts)
     snprintf(text, size, "%s at t = %.17g: liaison '%s': %s", before, f->t,
              m->contacts[f->contact].name, what);

@@ -185,6 +185,7 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       snprintf(text, size, "%s (assertion failed at t = %.17g)", m->outcomes[f->item].text, f->t);
       return;
     case FROT_REFUSED:
+    case FROT_JUMP:
       frot_refusal_text(m, f, text, size);
       return;
     case FROT_NAN:

@@ -276,3 +276,41 @@ def test_nor_does_one_that_follows_from_a_prescribed_place(w: float) -> None:
         bench.engine.settle()
     bench.to(0.1)
     assert bench["c.mode"] == 1 and bench["hinge.angle"] == 0
+
+
+REINIT = """planar model Moved
+  parameter Boolean parts = true;
+  body b: particle(mass = 1 kg);
+  curve floor on ground: line(through = (0, 1) m, direction = (1, 0));
+  liaison c: contact_ponctuel(b, floor, unilateral = parts) with coulomb(0.1);
+initial
+  b.position = (0, 1) m;
+  b.velocity = (3, 0) m/s;
+equation
+  when time > 0.5 s then
+    reinit({what});
+  end when;
+  experiment(stop = 0.6 s);
+end Moved;
+"""
+
+
+@pytest.mark.parametrize(
+    ("what", "parts", "words"),
+    [
+        ("b.position.y, 0.5 m", True, "the body would be inside by 0.5 m"),
+        ("b.position.y, 1.5 m", False, "it cannot part, and would be apart by 0.5 m"),
+        ("b.velocity.y, 2 m/s", False, "it cannot part, and would part with a speed of 2 m/s"),
+    ],
+)
+def test_a_reinit_against_the_liaisons_ends_the_run(what: str, parts: bool, words: str) -> None:
+    with pytest.raises(frot.SimulationError, match="E0908") as told:
+        frot.compile(REINIT.format(what=what)).simulate(parameters={"parts": parts})
+    assert words in " ".join(str(told.value).split()) and "reinit" in str(told.value)
+    assert told.value.result is not None and told.value.result.time[-1] == 0.5
+
+
+def test_a_reinit_that_lifts_a_block_lets_it_fall() -> None:
+    run = frot.compile(REINIT.format(what="b.position.y, 1.5 m")).simulate()
+    assert "c: slip -> open at t = 0.5" in [e.text for e in run.events]
+    assert run.at(0.6)["b.position.y"] == pytest.approx(1.5 - G * 0.1**2 / 2)
