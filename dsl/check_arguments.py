@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from frot.dsl import checked, tree
 from frot.dsl.catalogue import Argument, vector
@@ -45,6 +46,13 @@ def bind(
     result = Arguments({}, True)
     written: dict[str, tree.Argument] = {}
     position = 0
+    for before, item in pairwise(given):
+        if _is_decimal_comma(before, item):
+            number = f"{before.value.span.text}.{item.span.text}"
+            whole = Span(item.span.source, before.value.span.start, item.span.end)
+            help_text = f"the decimal sign is a point: '{number}'"
+            scope.log.report("E0101", "a comma in a number", whole, help=help_text)
+            return Arguments({}, False)
     for item in given:
         argument = _which(item, position, usable, by_name, what, bool(written), scope)
         if item.name is None:
@@ -65,6 +73,14 @@ def bind(
             result.values[argument.name] = value
     _fill(usable, written, what, span, scope, result)
     return result
+
+
+def _is_decimal_comma(before: tree.Argument, item: tree.Argument) -> bool:
+    """Whether two arguments are one number written with a comma: `mass = 0,5 kg`."""
+    first, second = before.value, item.value
+    numbers = isinstance(first, tree.Number) and isinstance(second, tree.Number)
+    glued = item.span.start == before.span.end + 1 and item.name is None
+    return numbers and glued and before.name is not None and first.span.text.isdigit()
 
 
 def _which(

@@ -79,6 +79,9 @@ def fitting(
         pass
     elif isinstance(node, tree.Number) and not node.unit and kind.is_scalar:
         help_text = f"write the unit: '{node.span.text} {unit or kind.dimension.unit}'"
+    elif found.type.is_scalar and found.type.dimension == kind.dimension and kind.shape == (2,):
+        zero = f"0 {kind.dimension.unit}".removesuffix(" 1")
+        help_text = f"a vector is written '(x, y)': '({node.span.text}, {zero})'"
     elif isinstance(node, tree.Tuple) and not node.unit and found.type.dimension.is_one:
         help_text = f"write the unit after the tuple: '{node.span.text} {kind.dimension.unit}'"
     scope.log.report(
@@ -350,7 +353,8 @@ def _infix_type(
         word = {"+": "add", "-": "subtract"}.get(op, "compare")
         if a.dimension != b.dimension or a.shape != b.shape:
             units = written_unit(left), written_unit(right)
-            return _refuse(node, f"cannot {word} these", a, b, scope, "E0301", units)
+            remedy = _unit_missing(node, a, b)
+            return _refuse(node, f"cannot {word} these", a, b, scope, "E0301", units, remedy)
         if word == "compare":
             return BOOLEAN if a.is_scalar else _refuse(node, "vectors have no order", a, b, scope)
         return Type(base, a.dimension, a.shape)
@@ -406,12 +410,21 @@ def _refuse(
     scope: Scope,
     code: str = "E0304",
     units: tuple[str, str] = ("", ""),
+    remedy: str = "",
 ) -> Type | None:
     """Report operands that do not fit; there is then no type."""
     left, right = pair(a, b, *units)
     operands = f"{left} {node.op} {right}"
-    scope.log.report(code, f"{message}: {operands}", node.span, caret=operands)
+    scope.log.report(code, f"{message}: {operands}", node.span, caret=operands, help=remedy)
     return None
+
+
+def _unit_missing(node: tree.Infix, a: Type, b: Type) -> str:
+    """The remedy where one side is a bare number and the other has a dimension."""
+    for side, other in ((node.left, b), (node.right, a)):
+        if isinstance(side, tree.Number) and not side.unit and not other.dimension.is_one:
+            return f"write the unit: '{side.span.text} {other.dimension.unit}'"
+    return ""
 
 
 def _conditional(node: tree.Conditional, scope: Scope) -> checked.Expression | None:

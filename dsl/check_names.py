@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 from frot.dsl import checked, tree
 from frot.dsl.catalogue import TYPES, body_members, point_members
@@ -10,6 +11,7 @@ from frot.dsl.classes import Class, Namespace
 from frot.dsl.dimensions import REAL, Type
 from frot.dsl.flanges import flange
 from frot.dsl.scope import Array, Entity, Instance, Record, Refused, Scope, did_you_mean, settled
+from frot.dsl.units import is_unit
 
 Thing = (
     checked.Expression
@@ -99,9 +101,18 @@ def _built_in(node: tree.Name, scope: Scope) -> Thing | None:
             "E0201",
             f"unknown name {node.text!r}",
             node.span,
-            help=did_you_mean(node.text, scope.visible(), scope.log),
+            help=_product_in_unit(node) or did_you_mean(node.text, scope.visible(), scope.log),
         )
     return None
+
+
+def _product_in_unit(node: tree.Name) -> str:
+    """The remedy where a unit is written as a product: `2 N*m`."""
+    text, start = node.span.source.text, node.span.start
+    before = re.search(r"([\d.]+)[ \t]+(\w+)\*$", text[max(start - 60, 0) : start])
+    if before is None or not is_unit(before[2]) or not is_unit(node.text):
+        return ""
+    return f"in a unit a product is a point: '{before[1]} {before[2]}.{node.text}'"
 
 
 def _constant_around(node: tree.Name, scope: Scope) -> Thing | None:

@@ -28,9 +28,7 @@ def choose(file: tree.Tree, name: str | None, log: Log) -> tree.Definition | Non
         return _named(file, name, models, whole, log)
     if not whole:
         if not (file.lost or log.failed):
-            message = "the text holds no model that can be run" if models else "there is no model"
-            start = models[0].header if models else file.span
-            log.report("E0509", message, start, help="write 'planar model Name ... end Name;'")
+            _tell_no_model(file, definitions, models, log)
         return None
     used = set().union(*(_types_used(d) - {d.name.text} for d in definitions))
     free = [d for d in whole if d.name.text not in used]
@@ -54,6 +52,25 @@ def choose(file: tree.Tree, name: str | None, log: Log) -> tree.Definition | Non
         help=f"name the one to use: --model {candidates[-1].name.text}, or model= in Python",
     )
     return None
+
+
+def _tell_no_model(
+    file: tree.Tree,
+    definitions: list[tree.Definition],
+    models: list[tree.Definition],
+    log: Log,
+) -> None:
+    """Report a text without a model that can be run: a library, bases alone, nothing."""
+    packages = [d for d in definitions if d.kind == "package"]
+    if packages:
+        name = packages[0].name.text
+        message = f"{name!r} is a package: it holds parts of models, and none that can be run"
+        help_text = f"run a model that uses it, with 'import {name}.*;'"
+        log.report("E0509", message, packages[0].header, help=help_text)
+        return
+    message = "the text holds no model that can be run" if models else "there is no model"
+    start = models[0].header if models else file.span
+    log.report("E0509", message, start, help="write 'planar model Name ... end Name;'")
 
 
 def _named(

@@ -42,6 +42,7 @@ def _end(node: tree.Expression, scope: Scope) -> Thing | None:
     help_text = ""
     if isinstance(thing, Instance):
         inner = [n for n, e in thing.names.items() if isinstance(e, Instance) and e.is_connector]
+        inner += [n for n in ("u", "y") if isinstance(thing.names.get(n), _Value)]
         if inner:
             help_text = f"name its connector, as '{node.span.text}.{inner[0]}'"
     elif isinstance(thing, checked.Liaison):

@@ -27,7 +27,16 @@ def describe(kind: Type, unit: str = "") -> str:
         if not word:
             return f"a quantity in {shown}"
         return f"{'an' if word[0] in 'aeiou' else 'a'} {word}{tail}"
-    return f"a vector of {_size(kind)} {word + ' items' if word else 'items'}{tail}"
+    return f"a vector of {_size(kind)} {_several(word) if word else 'items'}{tail}"
+
+
+def _several(word: str) -> str:
+    """The plural of a word for a quantity: `forces`, `masses`, `moments of inertia`."""
+    if " or " in word:
+        return " or ".join(_several(one) for one in word.split(" or "))
+    head, of, rest = word.partition(" of ")
+    ending = "ies" if head.endswith("y") else "es" if head.endswith(("s", "x")) else "s"
+    return (head.removesuffix("y") if ending == "ies" else head) + ending + of + rest
 
 
 def _size(kind: Type) -> str:

@@ -74,8 +74,14 @@ class Lexer:
 
     def _word(self, word: str, accepted: Container[str], text: str, end: int) -> str:
         keyword = self.keywords.get(word)
-        if keyword is None or (keyword not in accepted and "IDENT" in accepted):
+        if keyword is None:
             return "IDENT"
+        if keyword not in accepted and "IDENT" in accepted:
+            # What stands at the beginning of a line ends or opens a block: a ';' is missing.
+            ends = (
+                word == "end" and not text[text.rfind("\n", 0, end) + 1 : end - len(word)].strip()
+            )
+            return keyword if ends else "IDENT"
         if word in _NOUNS and "IDENT" in accepted:
             # `force = 2*k;` names a variable: a declaration goes on with a word.
             after = _BLANK.match(text, end)

@@ -293,8 +293,16 @@ def _tell_circle(first: Pending, build: Build) -> None:
 
 
 def near(word: str, names: Iterable[str]) -> str:
-    """The name most like `word`, accents and capitals apart, or an empty text."""
+    """The name most like `word`, accents and capitals apart, or an empty text.
+
+    A name of which the word is the beginning, `freq` of `frequency`, is like it if it is the only
+    one.
+    """
+    names = list(names)
     wanted = plain(word).lower()
+    begun = [n for n in names if plain(n).lower().startswith(wanted)] if wanted else []
+    if len(begun) == 1:
+        return begun[0]
     folded: dict[str, str] = {}
     for name in names:
         if abs(len(name) - len(word)) <= 2 + len(word) // 3:

@@ -76,6 +76,8 @@ _MEANT = {
     "⩵": "==",
 }
 _COMMA = re.compile(r"(\d+),(\d+)")
+_LIAISON = ("LIAISON", "JOINT")
+_ROLES = ("PARAMETER", "CONSTANT", "INPUT", "OUTPUT")
 _IN_UNIT = dict.fromkeys("·⋅", ", or '.' in a unit: 'N.m'")
 
 
@@ -176,6 +178,20 @@ def unexpected(
             Span(source, comma.start(), comma.end()),
             help=f"the decimal sign is a point: '{comma[1]}.{comma[2]}'",
         )
+    elif word == "*" and previous is not None and text[previous.start : token.end] == "**":
+        both = Span(source, previous.start, token.end)
+        log.report("E0101", "'**' is no sign of this language", both, help="a power is 'x^2'")
+    elif token.type == "COMMA" and statement and statement[0].type in _LIAISON:
+        help_text = "the laws of a liaison follow the word 'with': '... with coulomb(0.3);'"
+        log.report("E0101", "unexpected ','", span, help=help_text)
+    elif token.type == "EQUAL" and len(statement) == 2 and statement[0].type in _ROLES:
+        name = text[statement[1].start : statement[1].end]
+        log.report(
+            "E0101",
+            f"{name!r} is declared without a type",
+            _span(source, statement[1]),
+            help=f"write the type before the name: 'Real {name} = ...'",
+        )
     elif "IDENT" in expected and word.isidentifier() and token.type not in ("IDENT", JUNK):
         log.report(
             "E0101",
@@ -212,6 +228,9 @@ def _junk(log: Log, source: Source, token: Lexeme) -> None:
         )
     elif source.text.startswith("/*", token.start):
         log.report("E0107", "this comment is not closed", span, help="close it with '*/'")
+    elif character == "'":
+        help_text = "the derivative of x is written 'der(x)', a text in double quotes"
+        log.report("E0101", 'unexpected "\'"', span, help=help_text)
     elif character in _MEANT:
         log.report(
             "E0101",

@@ -216,7 +216,19 @@ def _simple(name: str) -> Unit:
         if prefix in PREFIXES and rest in PREFIXED:
             base = PREFIXED[rest]
             return Unit(base.dimension, PREFIXES[prefix] * base.factor)
+    raised = re.fullmatch(r"(\D+)([1-4])", name)
+    if raised is not None and is_unit(raised[1]):
+        raise UnknownUnit(name, f"unknown unit {name!r}", f"{raised[1]}^{raised[2]}")
     raise UnknownUnit(name, f"unknown unit {name!r}", nearest_unit(name))
+
+
+def is_unit(name: str) -> bool:
+    """Whether a word is a unit."""
+    try:
+        parse_unit(name)
+    except UnknownUnit:
+        return False
+    return True
 
 
 def nearest_unit(name: str) -> str:

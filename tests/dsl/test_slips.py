@@ -104,3 +104,40 @@ def test_a_rate_of_a_number_is_told_with_the_time_that_is_missing(
 )
 def test_units_are_told_as_people_write_them(declaration: str, words: str) -> None:
     assert words in only(f"model M\n {declaration}\nend M;\n")[1]
+
+
+def test_a_package_is_told_to_be_one() -> None:
+    code, message, help_text = only("package Parts\n model R\n  Real x = 1;\n end R;\nend Parts;\n")
+    assert code == "E0509"
+    assert "'Parts' is a package" in message
+    assert "import Parts.*;" in help_text
+
+
+PLANE = "planar model M\n body b: disc(mass = 1 kg, radius = 1 m);\n {}\nend M;\n"
+
+
+@pytest.mark.parametrize(
+    ("slip", "words", "remedy"),
+    [
+        ("body c: particle(mass = 0,5 kg);", "a comma in a number", "'0.5 kg'"),
+        ("body c: disc(m = 1 kg, radius = 1 m);", "no argument 'm'", "'mass'"),
+        ("body c: particle(mass = 1 kg2);", "unknown unit 'kg2'", "'kg^2'"),
+        ("output Real x = if b.position.x > 0 then 1 else 0;", "cannot compare", "'0 m'"),
+        ("force f: on(b, value = 3 N);", "a vector of 2 forces (N)", "'(3 N, 0 N)'"),
+        ("force f: couple(b, value = 2 N*m);", "unknown name 'm'", "'2 N.m'"),
+        ("output E = b.kinetic_energy;", "'E' is declared without a type", "'Real E = ...'"),
+        (
+            "liaison c: contact_ponctuel(b.rim, ground.line), coulomb(0.3);",
+            "unexpected ','",
+            "'... with coulomb(0.3);'",
+        ),
+        ("Real x;\nequation\n x' = 2;", 'unexpected "\'"', "'der(x)'"),
+        ("Real x;\nequation\n x = time**2;", "'**'", "'x^2'"),
+        ("experiment(stop = 5 s)", "missing ';'", ""),
+        ("Real x;\nequation\n x = 2", "missing ';'", ""),
+    ],
+)
+def test_a_slip_of_a_new_user_is_told(slip: str, words: str, remedy: str) -> None:
+    found = told(PLANE.format(slip))
+    assert words in found[0][1]
+    assert remedy in found[0][2]
