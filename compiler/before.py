@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 import casadi as ca
-from frot.compiler.text_symbols import Held, TextSymbols, scalars, shaped
+from frot.compiler.symbols import shaped
+from frot.compiler.text_symbols import Held, TextSymbols, scalars
 from frot.dsl.checked import Call, Element, Expression, Reference, Variable
 from frot.dsl.source import Span
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from typing import Any
 
 import casadi as ca
 from frot.compiler.before import Before, whole
@@ -121,8 +122,12 @@ class Conditions:
 
     def reorder(self, order: list[int]) -> None:
         """Put the conditions into another order."""
-        for items in (self.flags, self.values, self.strict, self.texts, self.spans, self.told):
-            items[:] = [items[k] for k in order]  # type: ignore[index]
+        columns: tuple[list[Any], ...] = (
+            *(self.flags, self.values, self.strict),
+            *(self.texts, self.spans, self.told),
+        )
+        for items in columns:
+            items[:] = [items[k] for k in order]
 
 
 @dataclass(slots=True)

@@ -14,9 +14,17 @@ T = TypeVar("T", Parameter, Input)
 
 
 def tunable(parameters: Sequence[Parameter]) -> dict[Parameter, tuple[Parameter, ...]]:
-    """The scalars of each parameter that a run can set; a text and a constant are fixed."""
+    """The scalars of each parameter that a run can set; a text and a constant are fixed.
+
+    Those of `mu` with two items are `mu[1]` and `mu[2]`, each with its own value.
+    """
     return {
-        p: _items(p, [*scalars(p.value)], "value")
+        p: tuple(
+            replace(p, name=name, type=p.type.of_shape(()), value=value)
+            for name, value in zip(_names(p), scalars(p.value), strict=True)
+        )
+        if p.type.shape
+        else (p,)
         for p in parameters
         if not p.constant and p.type.base != "string"
     }
@@ -24,17 +32,16 @@ def tunable(parameters: Sequence[Parameter]) -> dict[Parameter, tuple[Parameter,
 
 def by_input(inputs: Sequence[Input]) -> dict[Input, tuple[Input, ...]]:
     """The scalars of each input."""
-    return {i: _items(i, [*scalars(i.start)], "start") for i in inputs}
+    return {
+        i: tuple(
+            replace(i, name=name, type=i.type.of_shape(()), start=value)
+            for name, value in zip(_names(i), scalars(i.start), strict=True)
+        )
+        if i.type.shape
+        else (i,)
+        for i in inputs
+    }
 
 
-def _items(whole: T, values: Sequence[object], field: str) -> tuple[T, ...]:
-    """`mu` itself, or `mu[1]`, `mu[2]`, each with its own value."""
-    shape = whole.type.shape
-    if not shape:
-        return (whole,)
-    one = whole.type.of_shape(())
-    names = component_names(whole.name, shape)
-    return tuple(
-        replace(whole, name=name, type=one, **{field: value})
-        for name, value in zip(names, values, strict=True)
-    )
+def _names(whole: Parameter | Input) -> list[str]:
+    return component_names(whole.name, whole.type.shape)

@@ -125,9 +125,10 @@ def _converted(node: checked.Expression, factor: float) -> checked.Expression | 
             inner = _converted(operand, factor)
             return None if inner is None else replace(node, operand=inner)
         case checked.Binary(op="+" | "-", left=left, right=right):
-            sides = _converted(left, factor), _converted(right, factor)
-            both = sides[0] is not None and sides[1] is not None
-            return replace(node, left=sides[0], right=sides[1]) if both else None
+            first, second = _converted(left, factor), _converted(right, factor)
+            if first is None or second is None:
+                return None
+            return replace(node, left=first, right=second)
         case checked.Vector(items=items):
             made = [_converted(item, factor) for item in items]
             found = tuple(item for item in made if item is not None)

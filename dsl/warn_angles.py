@@ -30,7 +30,10 @@ def _angles(model: checked.Model) -> Iterator[checked.Expression]:
     for parameter in model.parameters:
         if parameter.quantity == "Angle":
             yield parameter.value
-    for variable in (*model.inputs, *model.variables):
+    for given in model.inputs:
+        if given.quantity == "Angle":
+            yield given.start
+    for variable in model.variables:
         if variable.quantity == "Angle" and variable.start is not None:
             yield variable.start
     for frame in model.frames:
