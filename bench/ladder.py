@@ -281,8 +281,7 @@ def measure(sizes: tuple[int, ...], repeats: int) -> int:
         "## Run time",
         "",
         "A ratio above 1 means that Frot takes longer. The second tolerance of CVODE follows small "
-        "voltages as closely as Frot does, which counts a state as at least a hundredth of the "
-        "largest of its dimension.",
+        "voltages about as closely as Frot does.",
         "",
         *common.table(head, runs),
     ]

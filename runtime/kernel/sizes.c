@@ -9,7 +9,7 @@
 /* Size of a small state at most, in units of the largest of its dimension. */
 #define SMALL_PART 1e-2
 /* Part of what a state had at most that it is always worth. */
-#define LEAST_WORTH 1e-20
+#define LEAST_WORTH 1e-30
 /* How long an error lives: in times in which a state's own damping would end it, in steps where
  * nothing damps it. */
 #define LASTING 2

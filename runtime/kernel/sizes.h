@@ -3,7 +3,7 @@
  *
  * A state is worth what it is now, or was a moment ago: the memory fades with the steps, which are
  * as long as the motion allows, so that a state that swings through zero keeps its size and one
- * that had a spike loses it. What it had at most counts by twenty decades less, and `nominal` by
+ * that had a spike loses it. What it had at most counts by thirty decades less, and `nominal` by
  * what its author says.
  *
  * A state that is small beside others of its dimension can be known no better than what the others
