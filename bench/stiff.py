@@ -226,7 +226,7 @@ def main() -> None:
         "",
         "E5 at 1e-6 is off by more than its tolerance: of a first concentration that dies out in "
         "steps of many of its time constants the estimate of the error sees less than is left, and "
-        "what is left feeds the second one. Written with the rate of the third concentration, whose "
+        "what is left feeds the second one. Written with the rate of the third one, whose "
         "terms cancel, E5 has no digits beyond 1e9 s at any tolerance.",
     ]
     common.write(common.RESULTS / "stiff.md", lines)
