@@ -111,7 +111,7 @@ end Two;
 
 
 def test_a_decayed_state_costs_nothing_more() -> None:
-    """A million time constants: the 69 of the first thirty decades are followed, nine steps each."""
+    """Of a million time constants the 69 of the first thirty decades are followed."""
     text = """model Decay
   Real x;
 initial
