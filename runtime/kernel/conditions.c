@@ -37,22 +37,34 @@ static int is_short(const frot_model *m, const frot_state *s, const frot_work *w
   return 0;
 }
 
-int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v) {
-  const double *slope = s->data + w->layout.slope;
-  double moved = 0, step = DBL_EPSILON * fmax(fabs(t), 1e-3 * s->h_max);
+int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q, double *v) {
+  const frot_layout *l = &w->layout;
+  const double *slope = s->data + l->slope, *d = s->data + l->d;
+  const double *fired = s->data + l->fired + FROT_GUARDS * m->n_contacts;
+  int located = 0, timed = 0;
+  for (int j = 0; j < m->n_located + m->n_timed; j++) {
+    located |= j < m->n_located && fired[j] != 0;
+    timed |= j >= m->n_located && fired[j] != 0;
+  }
+  if (!located) return FROT_OK;
+  int status = frot_kinematics(m, s, w, *t, q, v, d);
+  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, *t);
+  double moved = 0, step = DBL_EPSILON * fmax(fabs(*t), 1e-3 * s->h_max);
   double *there = w->ztry;
-  if (!is_short(m, s, w)) return FROT_OK;
-  for (int k = 0; k < CROSSINGS; k++, step *= 2) {
+  for (int k = 0; is_short(m, s, w); k++, step *= 2) {
+    if (k == CROSSINGS) return FROT_OK; /* one that has no rate does not cross */
     moved += step;
     for (int j = 0; j < m->nq; j++) there[j] = q[j] + moved * slope[j];
     for (int j = 0; j < m->nv; j++) there[m->nq + j] = v[j] + moved * slope[m->nq + j];
-    if (frot_kinematics(m, s, w, t, there, there + m->nq, s->data + w->layout.d) != FROT_OK) break;
-    if (is_short(m, s, w)) continue;
-    memcpy(q, there, sizeof(double) * (size_t)m->nq);
-    memcpy(v, there + m->nq, sizeof(double) * (size_t)m->nv);
-    break;
+    /* an instant known before stays what it is */
+    double then = timed ? *t : *t + moved;
+    if (frot_kinematics(m, s, w, then, there, there + m->nq, d) != FROT_OK) return FROT_OK;
   }
-  return frot_note_conditions(m, s, w, t, q, v); /* one that has no rate does not cross */
+  if (moved == 0) return FROT_OK;
+  memcpy(q, there, sizeof(double) * (size_t)m->nq);
+  memcpy(v, there + m->nq, sizeof(double) * (size_t)m->nv);
+  if (!timed) *t += moved;
+  return FROT_OK;
 }
 
 /* Whether the value of condition j is the one its flag was decided with. */

@@ -18,10 +18,10 @@
 int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
                          const double *q, const double *v);
 
-/* Move (q, v) on by a rounding of time, until the located conditions that fire at t have passed
+/* Move t and (q, v) on by a rounding of time, until the located conditions that fire have passed
  * through zero: so they hold truly after it, and no root or logarithm is left on the wrong side of
- * its switch. Notes the conditions there. */
-int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v);
+ * its switch. */
+int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q, double *v);
 
 /* Look at every condition anew with the values at (t, q, v), until none changes. Leaves what
  * `kinematics` gives there in w. FROT_OK or the status of the fault recorded: conditions that

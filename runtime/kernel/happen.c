@@ -233,8 +233,6 @@ static int change_conditions(const instant *in, int first) {
   if (status != FROT_OK) return status;
   memcpy(in->w->condition_before, d, sizeof(double) * (size_t)m->n_conditions);
   s->jumped = 0;
-  if (!first) status = frot_cross(m, s, in->w, in->t, in->q, in->v);
-  if (status != FROT_OK) return status;
   for (int j = 0; j < m->n_conditions; j++) {
     if (fired[j] != 0) d[j] = 1 - d[j];
     fired[j] = 0;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "blocks.h"
+#include "conditions.h"
 #include "groups.h"
 #include "happen.h"
 #include "initial.h"
@@ -172,9 +173,12 @@ static int condition_at_fault(const frot_model *m, const frot_state *s) {
 static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
                          frot_recorder *recorder) {
   frot_layout l = frot_layout_of(m);
-  double *x = s->data + l.x, t = *frot_segment_at(m, s->data + l.segment).t1;
+  frot_segment g = frot_segment_at(m, s->data + l.segment);
+  double *x = s->data + l.x;
   memcpy(w->y, s->data + l.y, sizeof(double) * (size_t)m->ny);
-  int status = frot_happen(m, s, w, t, x, x + m->nq, 0, recorder);
+  int status = frot_cross(m, s, w, g.t1, x, x + m->nq);
+  double t = *g.t1;
+  if (status == FROT_OK) status = frot_happen(m, s, w, t, x, x + m->nq, 0, recorder);
   memcpy(s->data + l.y, w->y, sizeof(double) * (size_t)m->ny);
   frot_tell(m, s, recorder);
   if (status != FROT_TERMINATED) return status;

@@ -318,3 +318,25 @@ end Sliding;
 def test_branches_that_drive_each_other_back_are_told(law: str, tolerance: float) -> None:
     with pytest.raises(frot.FrotError, match=r"E0903.*`x [<>] 0`"):
         frot.compile(SLIDING.format(law=law)).simulate(tolerance=tolerance)
+
+BRAKE = """
+model Brake
+  parameter Real w = 7;
+  AngularVelocity omega;
+initial
+  omega = 30 rad/s;
+equation
+  1 kg.m^2*der(omega) = friction(omega, 20 N.m*max(0, sin(w*time/(1 s))));
+  experiment(stop = 3 s);
+end Brake;
+"""
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-12])
+@pytest.mark.parametrize("w", [7.0, 50.0])
+def test_a_bound_of_friction_may_begin_and_end_at_zero(w: float, tolerance: float) -> None:
+    """The brake takes 20/w (1 - cos) in every first half of a period."""
+    result = frot.compile(BRAKE).simulate(tolerance=tolerance, parameters={"w": w})
+    cycles, rest = divmod(w * 3, 2 * np.pi)
+    taken = 2 * cycles + (1 - np.cos(rest) if rest < np.pi else 2)
+    assert result["omega"][-1] == pytest.approx(30 - 20 / w * taken, abs=30 * tolerance)
