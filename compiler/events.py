@@ -25,7 +25,7 @@ from frot.dsl.checked import (
 )
 from frot.dsl.source import Span
 
-TERMINATE, FAIL, WARN = range(3)
+TERMINATE, FAIL, WARN, FAULT = range(4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,6 +117,9 @@ class _Gatherer:
         due = self.conditions.add(time - (first + count * interval), False, text, call.span, RISING)
         fired = self.fire(due, True, text, call.span)
         self.set(count, fired, was + 1)
+        lost = first + (was + 1) * interval <= first + was * interval
+        told = f"the ticks of `{words(call)}` lie closer than time can tell apart"
+        self._ask(Outcome(FAULT, told, call.span), fired * lost)
         return fired
 
     def _once(self, call: Call) -> ca.SX:

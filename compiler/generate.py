@@ -79,6 +79,11 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             [_record(_text(f.name), _text(_place(f.span))) for f in reduced.mechanism.forces],
         ),
         _array(
+            "frot_load",
+            "equations",
+            [_record(_text(o.text), _text(_place(o.span))) for o in lowered.watched],
+        ),
+        _array(
             "frot_held",
             "held",
             [_record(_text(h.name), _text(_place(h.span))) for h in reduced.text.held],
@@ -151,6 +156,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_groups": len(lowered.grouping.groups),
         **_packed_sizes(lowered),
         "n_discrete": system.discrete.numel(),
+        "n_watched": len(lowered.watched),
         "n_held": len(reduced.text.held),
         "n_located": reduced.conditions.located,
         "n_timed": reduced.conditions.timed,
@@ -187,6 +193,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "loads",
             "states",
             "held",
+            "equations",
             "position_statement",
             "velocity_statement",
             "p_dependent",

@@ -11,12 +11,14 @@ from frot.compiler.assembled import Assembled, Block
 from frot.compiler.checks import Check, parameter_checks
 from frot.compiler.explicit import make_explicit
 from frot.compiler.expressions import Lowering
+from frot.compiler.finite import watch_numbers
 from frot.compiler.groups import Grouping, make_groups
 from frot.compiler.initial_values import Statement, lower_initial
 from frot.compiler.jacobian import Jacobian, make_jacobian, why_explicit
 from frot.compiler.listing import Listed, list_variables
 from frot.compiler.lower_events import lower_update
 from frot.compiler.lower_parameters import lower_parameters, parameters_needed
+from frot.compiler.origins import Origin
 from frot.compiler.pace import make_pace
 from frot.compiler.reduce import Reduced
 from frot.compiler.supports import Carried, carried_bodies
@@ -47,6 +49,7 @@ class Lowered:
     row_depends: tuple[tuple[bool, ...], ...]
     dependent: tuple[bool, ...]
     jacobian: Jacobian | None
+    watched: tuple[Origin, ...]
 
 
 def lower(reduced: Reduced, log: Log) -> Lowered | None:
@@ -72,6 +75,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     initial = lower_initial(system, looking, log)
     variables = list_variables(system, looking)
     conditions, timers = sort_conditions(system, _conditions(system, explicit, log))
+    watched, watched_origins = watch_numbers(system)
     checks = parameter_checks(reduced.mechanism, s.parameters, system.pivots)
     update = lower_update(system, log)
     values = resolve(settled(column(v.value for v in variables)))
@@ -144,6 +148,8 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     if update is not None:
         events = reduced.events
         outputs["update"] = ([*solution, column(events.fired), column(events.before)], update)
+    if watched.numel():
+        outputs["watched"] = (solution, [watched])
     if reduced.conditions.timed:
         outputs["timers"] = ([s.u, s.p, state[5]], timers)
     functions = {
@@ -165,6 +171,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         _row_depends(system),
         tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
         jacobian,
+        tuple(watched_origins),
     )
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.assembled import Assembled
+from frot.compiler.events import FAULT, Outcome
 from frot.compiler.symbols import column
 from frot.dsl import Log
+from frot.dsl.source import Span
 
 
 def lower_update(system: Assembled, log: Log) -> list[ca.SX] | None:
@@ -16,6 +18,7 @@ def lower_update(system: Assembled, log: Log) -> list[ca.SX] | None:
     states = [x for part in (system.q, system.v) if part.numel() for x in ca.vertsplit(part)]
     place = {x.element_hash(): k for k, x in enumerate(states)}
     after = list(states)
+    actives: dict[int, list[tuple[ca.SX, Span]]] = {}
     settled = system.reduced.variables.settled
     for active, jump in events.jumps:
         target = system.resolve(settled(jump.target))
@@ -33,6 +36,12 @@ def lower_update(system: Assembled, log: Log) -> list[ca.SX] | None:
         value = (system.resolve(settled(jump.value)) - rest) / slope
         k = place[inside[0].element_hash()]
         after[k] = ca.if_else(active, value, after[k])
+        actives.setdefault(k, []).append((active, jump.span))
+    for k, jumps in actives.items():
+        if len(jumps) > 1:
+            told = f"two `reinit`s give '{system.names[k]}' a value at one instant"
+            events.outcomes.append(Outcome(FAULT, told, jumps[-1][1]))
+            events.asked.append(sum((a for a, _ in jumps), ca.SX(0)) > 1)
     nq = system.q.numel()
     return [
         column(after[:nq]),

@@ -117,6 +117,13 @@ TOOLS: Mapping[str, Code] = {
         "Look at what leads there; 'level = warning' tells it and goes on.",
         "",
     ),
+    "E0909": Code(
+        "event that cannot be",
+        "An event of the text cannot do what it says: two 'reinit's give one state two values at "
+        "one instant, or the ticks of a 'sample' lie closer than time can tell apart.",
+        "Join the 'when's with 'elsewhen', which says which comes first; sample less often.",
+        "",
+    ),
     "E0907": Code(
         "equations without a solution",
         "The equations named do not determine their unknowns at this instant: no solution was "

@@ -43,6 +43,7 @@ CODES = {
     23: "E0906",
     24: "E0908",
     25: "E0908",
+    30: "E0909",
 }
 
 
@@ -226,6 +227,7 @@ _HELP = {
     "growth without limit, or at a load that jams a liaison",
     22: "give start values near the solution, or keep the motion away from there",
     23: "look at what leads there, or weaken the assertion",
+    30: "write the event so that it says one thing",
     19: "give every body a mass and an inertia of a usual size",
     20: "leave friction out of some of the liaisons that act on each other",
 }

@@ -39,6 +39,7 @@ static int ends_early(int fault) {
     case FROT_ALGEBRAIC:
     case FROT_ASSERT:
     case FROT_JUMP:
+    case FROT_EVENT_FAULT:
       return 1;
     default:
       return 0;

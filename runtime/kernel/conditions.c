@@ -40,7 +40,7 @@ static int is_short(const frot_model *m, const frot_state *s, const frot_work *w
 int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q, double *v) {
   const frot_layout *l = &w->layout;
   const double *slope = s->data + l->slope, *d = s->data + l->d;
-  const double *fired = s->data + l->fired + FROT_GUARDS * m->n_contacts;
+  const double *fired = s->data + l->fired + frot_condition_guard(m);
   int located = 0, timed = 0;
   for (int j = 0; j < m->n_located + m->n_timed; j++) {
     located |= j < m->n_located && fired[j] != 0;

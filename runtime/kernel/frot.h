@@ -25,24 +25,25 @@ extern "C" {
 /* Status of every call that can fail. Positive: told in state->fault. */
 enum frot_status {
   FROT_OK = 0,
-  FROT_FULL = 1,       /* the recorder is full: drain it and call again */
-  FROT_STOPPED = 2,    /* the monitor asked to stop */
-  FROT_TERMINATED = 3, /* the model's own `terminate`: the run is over and good */
-  FROT_CHECK = 10,     /* a parameter has a value the model cannot have */
-  FROT_INITIAL = 11,   /* contradictory initial values */
-  FROT_IMPACT = 13,    /* two bodies meet: impacts are not computed */
-  FROT_IMPASSE = 14,   /* no admissible motion */
-  FROT_SEVERAL = 15,   /* several admissible motions and on_indeterminate = stop */
-  FROT_CHATTER = 16,   /* events without end at one instant */
-  FROT_NAN = 17,       /* a force or an equation gives no number */
-  FROT_DIVERGE = 18,   /* the step went to zero: jamming or a singular point */
-  FROT_SINGULAR = 19,  /* the mass matrix is singular */
-  FROT_TOO_LARGE = 20, /* too many coupled friction elements change at once */
-  FROT_MISUSE = 21,    /* a call out of order or with bad arguments */
-  FROT_ALGEBRAIC = 22, /* a block of equations has no solution, or a singular one */
-  FROT_ASSERT = 23,    /* an `assert` of the text does not hold */
-  FROT_REFUSED = 24,   /* a change from outside cannot be made in a run; the old values stay */
-  FROT_JUMP = 25       /* a `reinit` puts a body where its liaisons cannot have it */
+  FROT_FULL = 1,         /* the recorder is full: drain it and call again */
+  FROT_STOPPED = 2,      /* the monitor asked to stop */
+  FROT_TERMINATED = 3,   /* the model's own `terminate`: the run is over and good */
+  FROT_CHECK = 10,       /* a parameter has a value the model cannot have */
+  FROT_INITIAL = 11,     /* contradictory initial values */
+  FROT_IMPACT = 13,      /* two bodies meet: impacts are not computed */
+  FROT_IMPASSE = 14,     /* no admissible motion */
+  FROT_SEVERAL = 15,     /* several admissible motions and on_indeterminate = stop */
+  FROT_CHATTER = 16,     /* events without end at one instant */
+  FROT_NAN = 17,         /* a force or an equation gives no number */
+  FROT_DIVERGE = 18,     /* the step went to zero: jamming or a singular point */
+  FROT_SINGULAR = 19,    /* the mass matrix is singular */
+  FROT_TOO_LARGE = 20,   /* too many coupled friction elements change at once */
+  FROT_MISUSE = 21,      /* a call out of order or with bad arguments */
+  FROT_ALGEBRAIC = 22,   /* a block of equations has no solution, or a singular one */
+  FROT_ASSERT = 23,      /* an `assert` of the text does not hold */
+  FROT_REFUSED = 24,     /* a change from outside cannot be made in a run; the old values stay */
+  FROT_EVENT_FAULT = 30, /* an event of the text cannot do what it says */
+  FROT_JUMP = 25         /* a `reinit` puts a body where its liaisons cannot have it */
 };
 
 /* Why a change is refused: `other` of the fault. Of contacts, then of bodies that are carried
@@ -189,7 +190,12 @@ typedef struct {
 } frot_condition;
 
 /* What `update` may ask for beside new values. */
-enum frot_outcome_kind { FROT_OUTCOME_TERMINATE = 0, FROT_OUTCOME_FAIL = 1, FROT_OUTCOME_WARN = 2 };
+enum frot_outcome_kind {
+  FROT_OUTCOME_TERMINATE = 0,
+  FROT_OUTCOME_FAIL = 1,
+  FROT_OUTCOME_WARN = 2,
+  FROT_OUTCOME_FAULT = 3 /* the event cannot do what it says */
+};
 typedef struct {
   int kind;
   const char *text, *place;
@@ -230,7 +236,8 @@ typedef struct {
   /* the first n_located conditions change by the motion; the n_timed after them are linear in time
    * and depend on nothing else that moves; the rest change at events only */
   int n_located, n_timed;
-  int n_held; /* the last n_held discrete values are what others were before: see `update` */
+  int n_watched; /* equations of `watched` */
+  int n_held;    /* the last n_held discrete values are what others were before: see `update` */
   int n_groups;
   int n_matrix, n_metric, n_entries, n_square; /* items of the packed arrays of all groups */
   int general;                                 /* a group is general */
@@ -301,6 +308,10 @@ typedef struct {
   /* variables(..., y, z (nw), lam (n_rows), energy (dissipated, work)) -> values (n_variables)
    *   without the modes, which the kernel fills */
   frot_callable variables;
+  /* watched(..., y, z (nw), lam (n_rows)) -> a number for each of the equations that may give none,
+   *   not finite where that equation by itself gives none (n_watched). Called after a failure,
+   * where n_watched > 0. */
+  frot_callable watched;
   /* energy -> kinetic, potential */
   frot_callable energy;
 
@@ -321,6 +332,7 @@ typedef struct {
   const frot_load *loads;
   const frot_load *states;       /* nq + nv: names and places of q and v; may be NULL */
   const frot_held *held;         /* n_held */
+  const frot_load *equations;    /* n_watched: their words and places */
   const int *position_statement; /* n_position: statement of each scalar equation */
   const int *velocity_statement; /* n_velocity */
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */

@@ -82,6 +82,8 @@ static int take_outcomes(const instant *in) {
   int ends = 0;
   for (int i = 0; i < m->n_outcomes; i++) {
     if (in->w->outcome[i] == 0) continue;
+    if (m->outcomes[i].kind == FROT_OUTCOME_FAULT)
+      return frot_fail(s, FROT_EVENT_FAULT, in->t, -1, i, -1, 0);
     if (m->outcomes[i].kind == FROT_OUTCOME_FAIL)
       return frot_fail(s, FROT_ASSERT, in->t, -1, i, -1, 0);
     s->data[in->l.asked + i] = in->t;

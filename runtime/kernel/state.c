@@ -110,7 +110,8 @@ static frot_callable scratch_of_all(const frot_model *m) {
                                   &m->sizes,
                                   &m->variables,
                                   &m->energy,
-                                  &m->timers};
+                                  &m->timers,
+                                  &m->watched};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
   for (int i = 0; i < count + m->n_blocks; i++) {
@@ -167,7 +168,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(implicit, frot_implicit_doubles(m)), TAKE(implicit_pivot, frot_implicit_integers(m));
   TAKE(z0, l.nz), TAKE(z1, l.nz), TAKE(ztry, l.nz), TAKE(f, DP_DENSE * l.nz);
   int nvar = m->np > l.nw ? m->np : l.nw;
-  TAKE(values, nvar + m->n_checks + m->nq + m->nv + m->n_loads + 4);
+  TAKE(values, nvar + m->n_checks + m->nq + m->nv + m->n_loads + m->n_watched + 4);
   TAKE(jacobian, wide * ne), TAKE(residual, ne + l.nw), TAKE(size, ne);
   TAKE(step, wide + l.nw + ne);
   int asked = m->n_position + m->n_velocity > 0 ? l.early : 0;

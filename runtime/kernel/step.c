@@ -467,6 +467,18 @@ static int wrong_load(const frot_model *m, frot_state *s, frot_work *w, const fr
   return -1;
 }
 
+/* The equation of the text that gives no number at the last evaluation (values w->z1), or -1. */
+static int wrong_equation(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l) {
+  if (m->n_watched == 0) return -1;
+  frot_inputs(m, s, w, &w->t, w->z1, w->z1 + m->nq, s->data + l->d);
+  w->arg[7] = w->a, w->arg[8] = w->lam;
+  w->res[0] = w->values;
+  m->watched.call(w->arg, w->res, w->iw, w->w, 0);
+  for (int i = 0; i < m->n_watched; i++)
+    if (!isfinite(w->values[i])) return i;
+  return -1;
+}
+
 /* Record a fault with what is to blame: a block of equations, the contact of a coefficient or the
  * force that is no number or, when the step goes to zero, the state whose error forced it, or the
  * contact with the largest reaction where that is a coordinate or a speed. */
@@ -474,6 +486,9 @@ static int fail_at(const frot_model *m, frot_state *s, frot_work *w, int status,
                    double h) {
   int blamed = -1;
   double largest = 0;
+  frot_layout l = frot_layout_of(m);
+  int equation = status == FROT_NAN ? wrong_equation(m, s, w, &l) : -1;
+  if (equation >= 0) return frot_fail(s, FROT_NAN, t, -1, m->n_loads + equation, -1, h);
   if (status == FROT_ALGEBRAIC || (status == FROT_NAN && w->block >= 0))
     return frot_fail_evaluation(m, s, w, status, t);
   for (int e = 0; e < m->n_elements; e++) {
@@ -488,7 +503,6 @@ static int fail_at(const frot_model *m, frot_state *s, frot_work *w, int status,
     int row = m->contacts[i].row_n;
     if (row >= 0 && fabs(w->lam[row]) > largest) largest = fabs(w->lam[row]), blamed = i;
   }
-  frot_layout l = frot_layout_of(m);
   int load = status == FROT_NAN && blamed < 0 ? wrong_load(m, s, w, &l) : -1, state = -1;
   if (status == FROT_DIVERGE && w->worst >= 0) {
     int own = w->worst < m->nq && m->q_speed[w->worst] < 0;

@@ -181,6 +181,9 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
     case FROT_ALGEBRAIC:
       block_text(m, f, text, size);
       return;
+    case FROT_EVENT_FAULT:
+      snprintf(text, size, "%s (at t = %.17g)", m->outcomes[f->item].text, f->t);
+      return;
     case FROT_ASSERT:
       snprintf(text, size, "%s (assertion failed at t = %.17g)", m->outcomes[f->item].text, f->t);
       return;
@@ -192,6 +195,13 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       if (f->other >= 0) {
         snprintf(text, size, "the equations for %s give no finite number at t = %.17g",
                  m->blocks[f->other].name, f->t);
+        return;
+      }
+      if (f->item >= m->n_loads) {
+        snprintf(text, size,
+                 "the equation `%s` gives no finite number at t = %.17g: look for a division by "
+                 "zero, a root or a logarithm of a negative value",
+                 m->equations[f->item - m->n_loads].name, f->t);
         return;
       }
       if (f->item >= 0) {
@@ -256,12 +266,15 @@ void frot_fault_places(const frot_model *m, const frot_state *s, char *text, siz
   if (f->status == FROT_CHATTER && f->item >= 0) places[0] = cause_place(m, f->item);
   if (f->status == FROT_CHATTER && f->other >= 0) places[1] = cause_place(m, f->other);
   if (f->status == FROT_CHECK && f->item >= 0) places[0] = m->checks[f->item].place;
-  if (f->status == FROT_NAN && f->item >= 0) places[0] = m->loads[f->item].place;
+  if (f->status == FROT_NAN && f->item >= 0)
+    places[0] =
+        f->item < m->n_loads ? m->loads[f->item].place : m->equations[f->item - m->n_loads].place;
   if (f->status == FROT_NAN && f->other >= 0) places[0] = m->blocks[f->other].place;
   if (f->status == FROT_DIVERGE && f->other >= 0 && m->states)
     places[0] = m->states[f->other].place;
   if (f->status == FROT_ALGEBRAIC && f->item >= 0) places[0] = m->blocks[f->item].place;
-  if (f->status == FROT_ASSERT && f->item >= 0) places[0] = m->outcomes[f->item].place;
+  if ((f->status == FROT_ASSERT || f->status == FROT_EVENT_FAULT) && f->item >= 0)
+    places[0] = m->outcomes[f->item].place;
   if (f->status == FROT_REFUSED) places[0] = frot_refusal_place(m, f);
   if (f->status == FROT_INITIAL) {
     if (f->item >= 0) places[0] = m->statements[f->item].place;

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -319,6 +321,7 @@ def test_branches_that_drive_each_other_back_are_told(law: str, tolerance: float
     with pytest.raises(frot.FrotError, match=r"E0903.*`x [<>] 0`"):
         frot.compile(SLIDING.format(law=law)).simulate(tolerance=tolerance)
 
+
 BRAKE = """
 model Brake
   parameter Real w = 7;
@@ -340,3 +343,62 @@ def test_a_bound_of_friction_may_begin_and_end_at_zero(w: float, tolerance: floa
     cycles, rest = divmod(w * 3, 2 * np.pi)
     taken = 2 * cycles + (1 - np.cos(rest) if rest < np.pi else 2)
     assert result["omega"][-1] == pytest.approx(30 - 20 / w * taken, abs=30 * tolerance)
+
+
+NEAR_ZERO = """
+model Falls
+  Real x, y, z;
+initial
+  x = 1;
+  z = 0;
+equation
+  y = {value};
+  der(x) = -1/(1 s);
+  der(z) = (2*y + x)/(1 s);
+  experiment(stop = 3 s);
+end Falls;
+"""
+
+
+@pytest.mark.parametrize("value", ["sqrt(x)", "log(x)", "asin(2 - x)", "(x - 0.2)^1.5"])
+def test_an_equation_without_a_number_is_named_with_its_place(value: str) -> None:
+    told = rf"(?s)E0904.*`y = {re.escape(value)}`.*<text>:8:3"
+    with pytest.raises(frot.FrotError, match=told):
+        frot.compile(NEAR_ZERO.format(value=value)).simulate()
+
+
+TWO_REINITS = """
+model Twice
+  Real x, v;
+initial
+  x = 0;
+  v = 1;
+equation
+  der(x) = v/(1 s);
+  der(v) = 0/(1 s);
+  when x > 1 then
+    reinit(v, 2);
+  end when;
+  when {second} then
+    reinit(v, -1);
+  end when;
+  experiment(stop = 3 s);
+end Twice;
+"""
+
+
+def test_two_reinits_of_one_state_at_one_instant_are_told() -> None:
+    with pytest.raises(frot.FrotError, match=r"E0909.*'v'"):
+        frot.compile(TWO_REINITS.format(second="x >= 1")).simulate()
+
+
+def test_two_reinits_of_one_state_at_two_instants_are_none() -> None:
+    """v = 1 up to t = 1, 2 up to x = 2 at t = 1.5, then -1."""
+    result = frot.compile(TWO_REINITS.format(second="x >= 2")).simulate()
+    assert result["x"][-1] == pytest.approx(0.5, abs=1e-12)
+
+
+@pytest.mark.parametrize("interval", [1e-300, 1e-20, 1e-17])
+def test_ticks_that_time_cannot_tell_apart_are_told(interval: float) -> None:
+    with pytest.raises(frot.FrotError, match=r"E0909.*sample\(start, interval\)"):
+        frot.compile(TICKS).simulate(parameters={"interval": interval})
