@@ -60,7 +60,8 @@ def fitting(
     """
     if any(agrees(found.type, k) for k in (kind, *others)):
         return as_rate(found, rate, scope)
-    if kind.base == "integer" and kind.enumeration is None and is_whole(found):
+    by_form = found.type.base != "integer" and is_whole(found)
+    if kind.base == "integer" and kind.enumeration is None and by_form:
         whole = as_integer(found)
         return fitting(whole, node, kind, scope, others=others, unit=unit, remedy=remedy)
     if scope.element is not None and found.type.shape[:1] == scope.element[1:]:
