@@ -594,11 +594,15 @@ static void turn_at_end(const frot_model *m, frot_state *s, frot_work *w, const 
   }
 }
 
-/* Whether condition j is zero at the start of the step as far as steps of length h can tell. */
-static int is_at_zero(const frot_model *m, const frot_state *s, const frot_work *w,
-                      const frot_layout *l, int j) {
-  double size = s->data[l->scale_g + frot_condition_guard(m) + j];
-  return fabs(w->k[l->nx + first_condition(m, w) + j]) <= FROT_GUARD_FLOOR * fmax(size, 1e-300);
+/* Where no step is possible: a condition that is zero there, so that the branch may end before it,
+ * as that of a tank that runs empty. -1 if there is none. */
+static int condition_at_zero(const frot_model *m, const frot_state *s, const frot_work *w,
+                             const frot_layout *l) {
+  const double *guard = w->k + l->nx + first_condition(m, w);
+  for (int j = 0; j < m->n_located; j++)
+    if (fabs(guard[j]) <= FROT_GUARD_FLOOR * s->data[l->scale_g + frot_condition_guard(m) + j])
+      return j;
+  return -1;
 }
 
 /* What the ratio of an error to its bound is raised to for the change of the step. */
@@ -630,13 +634,14 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
     double paced = frot_pace_step(m, s, w, t, h);
     if (paced < h) h = paced, to_due = 0;
     if (!to_due && !(h > LEAST_STEP * fmax(fabs(t), LEAST_TIME * s->h_max))) {
-      if (passed >= 0 && is_at_zero(m, s, w, &l, passed))
-        return fire_at_start(s, w, &l, first_condition(m, w) + passed);
-      if (!changed && frot_change_method(m, s)) {
+      int ends = condition_at_zero(m, s, w, &l);
+      int over = passed >= 0 && ends >= 0; /* no method has a value beyond it */
+      if (!over && !changed && frot_change_method(m, s)) {
         int begun = s->implicit ? frot_implicit_begin(m, s, w, t) : FROT_OK;
         changed = 1, h = first, power = order_power(s);
         if (begun == FROT_OK) continue;
       }
+      if (ends >= 0) return fire_at_start(s, w, &l, first_condition(m, w) + ends);
       return fail_at(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, t, h);
     }
     status = run_stages(m, s, w, &l, t, h);
