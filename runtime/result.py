@@ -223,7 +223,8 @@ class Result(Mapping[str, Floats]):
             f"{balance.scale:.6g} J (dissipated {balance.dissipated:.6g} J)"
         )
         # Where nothing ever moves, all energies are rounding, and so is their balance.
-        moved = bool(np.any(self["energy.kinetic"]))
+        kinetic = self.get("energy.kinetic")
+        moved = kinetic is None or bool(np.any(kinetic))
         if moved and balance.relative > SUSPICIOUS:
             lines.append(
                 "  warning: energy is not kept, do not trust this run; try a smaller tolerance"
