@@ -162,18 +162,20 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     }
     if (j >= m->nq + m->nv && j < l->nx) continue; /* energies follow */
     if (e5[at] == 0 && e3[at] == 0) continue;
-    double bound, fifth = h * e5[at], third = h * e3[at];
+    double bound, noise = 0, fifth = h * e5[at], third = h * e3[at];
     if (j < l->nx) {
       double margin = j < m->nq && m->q_speed[j] < 0 ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN;
-      double noise = margin * h * s->data[l->noise + j];
-      bound = fmax(tolerance * size_at_start(m, s, w, l, j, h), noise);
+      noise = margin * h * s->data[l->noise + j];
+      bound = tolerance * size_at_start(m, s, w, l, j, h);
     } else {
       double largest = GUARD_LOOSEST * s->data[l->scale_g + w->guards[j - l->nx]];
       for (int k = 0; k <= DP_STAGES; k++) largest = fmax(largest, fabs(w->k[k * l->nz + j]));
       bound = guard_tolerance * h * largest;
     }
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
-    double ratio = joint > 0 ? fifth * fifth / joint / bound : joint;
+    double error = joint > 0 ? fifth * fifth / joint : joint;
+    /* what rounding makes grows with the step as its bound does: it is no reason for a shorter one */
+    double ratio = error <= noise ? 0 : (error - noise) / bound;
     if (!(ratio <= worst)) worst = ratio, w->worst = j < m->nq + m->nv ? j : -1;
     if (isnan(worst)) break;
   }
@@ -208,11 +210,14 @@ static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, const
   }
 }
 
-/* What rounding of the values and of the time does to the derivatives at time t, into the state. A
- * value whose derivative is nothing but rounding would shrink the step without end. */
+/* What rounding does to the derivatives at time t, into the state: that of the values and of the
+ * time, by their influence, and that of the evaluation, by what a second difference leaves where
+ * nothing bends so fast. A value whose derivative is nothing but rounding would shrink the step
+ * without end. */
 static void measure_noise(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                           double t) {
-  double *base = stage(l, w, 1), *slope = stage(l, w, 2), *noise = s->data + l->noise;
+  double *base = stage(l, w, 1), *forth = stage(l, w, 2), *back = stage(l, w, 3);
+  double *noise = s->data + l->noise;
   int n = m->nq + m->nv;
   double *largest = w->f;
   for (int j = 0; j < n; j++) {
@@ -223,13 +228,19 @@ static void measure_noise(const frot_model *m, frot_state *s, frot_work *w, cons
   if (slope_at(m, s, w, l, t, w->z0, base) != FROT_OK) return;
   memset(noise, 0, sizeof(double) * (size_t)n);
   for (int pattern = 0; pattern < 2; pattern++) {
-    memcpy(w->ztry, w->z0, sizeof(double) * (size_t)l->nz);
-    for (int j = 0; j < n; j++)
-      w->ztry[j] *= 1 + (((j >> pattern) & 1) != 0 ? FROT_NUDGE : -FROT_NUDGE);
-    memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
-    double later = t * (1 + (pattern ? FROT_NUDGE : -FROT_NUDGE));
-    if (slope_at(m, s, w, l, later, w->ztry, slope) != FROT_OK) return;
-    for (int j = 0; j < n; j++) noise[j] = fmax(noise[j], fabs(slope[j] - base[j]));
+    for (int side = 0; side < 2; side++) {
+      double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
+      memcpy(w->ztry, w->z0, sizeof(double) * (size_t)l->nz);
+      for (int j = 0; j < n; j++)
+        w->ztry[j] *= 1 + (((j >> pattern) & 1) != 0 ? moved : -moved);
+      memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
+      if (slope_at(m, s, w, l, t * (1 + moved), w->ztry, there) != FROT_OK) return;
+    }
+    for (int j = 0; j < n; j++) {
+      double sensitivity = 0.5 * fabs(forth[j] - back[j]) * (FROT_NUDGE / FROT_APART);
+      double rounding = 0.5 * fabs(forth[j] - 2 * base[j] + back[j]);
+      noise[j] = fmax(noise[j], sensitivity + rounding);
+    }
   }
   if (slope_at(m, s, w, l, t, w->z0, base) == FROT_OK) add_rounding(m, s, w, l, t, largest);
   /* a position can be no better than its speed */

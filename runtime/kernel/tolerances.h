@@ -15,7 +15,9 @@
 /* Part by which values are moved to see what rounding does to derivatives, and how much larger than
  * what is seen the noise is taken to be. */
 #define FROT_NUDGE (2 * DBL_EPSILON)
-#define FROT_NOISE_MARGIN 4.0
+#define FROT_NOISE_MARGIN 8.0
+/* Part by which values are moved apart to see the rounding of the evaluation itself. */
+#define FROT_APART (1024 * DBL_EPSILON)
 /* The same for states whose rates no inertia smooths. */
 #define FROT_NOISE_OF_RATES 32.0
 /* Least tolerance of a step: below, rounding decides. */
