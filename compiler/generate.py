@@ -9,7 +9,7 @@ from pathlib import Path
 
 import casadi as ca
 from frot.compiler.assembled import Assembled
-from frot.compiler.elements import Bound
+from frot.compiler.elements import Bound, Element
 from frot.compiler.groups import Group
 from frot.compiler.jacobian import alike
 from frot.compiler.lower import Lowered
@@ -230,12 +230,17 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
         for x, r in joints
     ]
     contacts += [(e.name, e.span, -1, 1) for e in system.elements]
+    places = {v.name: k for k, v in enumerate(lowered.variables)}
     arrays = [
         _array(
             "frot_contact",
             "contacts",
             [
-                _record(_text(name), _text(_place(span)), row, kept, sliding.get(i, -1))
+                _record(
+                    _text(name),
+                    _text(_place(span)),
+                    *(row, kept, sliding.get(i, -1), places.get(f"{name}.power", -1)),
+                )
                 for i, (name, span, row, kept) in enumerate(contacts)
             ],
         ),
@@ -247,6 +252,7 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
                     *(e.contact, e.bound.value, e.row),
                     _record(*(*e.bounded_by, -1, -1)[:2]),
                     *(int(e.rolling), int(e.fixed), int(e.row in grouping.prescribed)),
+                    _record(*_shown(e, contacts[e.contact][0], places)),
                 )
                 for e in grouping.elements
             ],
@@ -287,6 +293,13 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
     arrays.append(_array("frot_group", "groups", records))
     arrays += [_array("int", name, [str(i) for i in table]) for name, table in tables.items()]
     return arrays
+
+
+def _shown(element: Element, name: str, places: dict[str, int]) -> tuple[int, int]:
+    """The variables that are the motion of an element of the liaison `name`."""
+    if element.rolling or element.bound is Bound.VALUE:
+        return -1, -1
+    return places.get(f"{name}.slip", -1), places.get(f"{name}.speed", -1)
 
 
 def _places(values: dict[int, int]) -> list[int]:

@@ -104,6 +104,7 @@ typedef struct {
   int row_n;         /* row of the normal, -1 where it has none: it is never open */
   int reduced;       /* 1: the relation is built into the coordinates: row_n is a reading */
   int sliding;       /* the element that its variable `mode` tells of, or -1 */
+  int power;         /* its variable `power`, zero where all its elements hold, or -1 */
 } frot_contact;
 
 /* A law of friction on one relative motion: sliding, rolling, turning in a pin, slip of a clutch.
@@ -118,6 +119,7 @@ typedef struct {
   int rolling;       /* 1: told as rolling, not as slip */
   int fixed;         /* 1: its coefficients depend on parameters only */
   int prescribed;    /* 1: its motion depends on no speed: both sides are prescribed */
+  int shown[2];      /* variables that are its motion: zero while it holds; else -1 */
 } frot_element;
 
 /* Unknowns of the core and rows that act on each other, in no posture on others: they share no

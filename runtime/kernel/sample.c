@@ -3,9 +3,31 @@
 
 #include "blocks.h"
 #include "invariants.h"
+#include "core.h"
 #include "mechanics.h"
+#include "projection.h"
 #include "state.h"
 #include "step.h"
+
+/* Whether a mode holds anything that coordinates do not. */
+static int holds_anything(const frot_model *m, frot_work *w, const frot_contact_mode *modes) {
+  return m->n_rows > 0 && frot_holding_rows(m, w, modes, NULL, 0) > 0;
+}
+
+/* A motion that the mode holds is zero to the last bit. */
+static void rest_exactly(const frot_model *m, const frot_contact_mode *modes, double *values) {
+  for (int i = 0; i < m->n_contacts; i++) {
+    int held = modes[i].closed, laws = 0;
+    for (int e = 0; e < m->n_elements; e++) {
+      if (m->elements[e].contact != i) continue;
+      int rests = modes[i].closed && frot_element_mode(m, modes, e)->friction == FROT_STICK;
+      for (int k = 0; k < 2; k++)
+        if (rests && m->elements[e].shown[k] >= 0) values[m->elements[e].shown[k]] = 0;
+      held &= rests, laws++;
+    }
+    if (held && laws > 0 && m->contacts[i].power >= 0) values[m->contacts[i].power] = 0;
+  }
+}
 
 static int values_in(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g,
                      double t, double *values) {
@@ -18,6 +40,10 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   /* relations between the states hold at every instant looked at, not only at the ends of steps */
   if (m->n_invariants > 0)
     status = frot_project_jointly(m, s, w, t, q, v, g->d, g->modes, NULL, NULL, g->frozen, &moved);
+  else if (holds_anything(m, w, g->modes)) {
+    status = frot_dynamics(m, s, w, t, q, v, g->d, g->modes, FROT_MOTION);
+    if (status == FROT_OK) status = frot_project(m, s, w, t, q, v, g->d, g->modes, NULL, &moved);
+  }
   if (status == FROT_OK)
     status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, g->along, 1);
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
@@ -27,6 +53,7 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   w->res[0] = values;
   m->variables.call(w->arg, w->res, w->iw, w->w, 0);
   for (int i = 0; i < m->n_contacts; i++) values[i] = frot_mode_value(m, g->modes, i);
+  rest_exactly(m, g->modes, values);
   return frot_all_finite(values, m->n_variables) ? FROT_OK : FROT_NAN;
 }
 

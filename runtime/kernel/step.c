@@ -174,7 +174,8 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     }
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
     double error = joint > 0 ? fifth * fifth / joint : joint;
-    /* what rounding makes grows with the step as its bound does: it is no reason for a shorter one */
+    /* what rounding makes grows with the step as its bound does: it is no reason for a shorter one
+     */
     double ratio = error <= noise ? 0 : (error - noise) / bound;
     if (!(ratio <= worst)) worst = ratio, w->worst = j < m->nq + m->nv ? j : -1;
     if (isnan(worst)) break;
@@ -231,8 +232,7 @@ static void measure_noise(const frot_model *m, frot_state *s, frot_work *w, cons
     for (int side = 0; side < 2; side++) {
       double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
       memcpy(w->ztry, w->z0, sizeof(double) * (size_t)l->nz);
-      for (int j = 0; j < n; j++)
-        w->ztry[j] *= 1 + (((j >> pattern) & 1) != 0 ? moved : -moved);
+      for (int j = 0; j < n; j++) w->ztry[j] *= 1 + (((j >> pattern) & 1) != 0 ? moved : -moved);
       memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
       if (slope_at(m, s, w, l, t * (1 + moved), w->ztry, there) != FROT_OK) return;
     }

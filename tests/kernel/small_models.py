@@ -282,12 +282,12 @@ def source(m: Small, folder: Path) -> str:
         ("double", "u_default"): list(m.inputs.values()),
         ("frot_contact", "contacts"): [
             f'{{"element {i + 1}", "small:{i + 1}:1", '
-            f"{e.normal if e.bound == 'normal' else -1}, {int(e.reduced)}, {laws.get(i, -1)}}}"
+            f"{e.normal if e.bound == 'normal' else -1}, {int(e.reduced)}, {laws.get(i, -1)}, -1}}"
             for i, e in enumerate(m.elements)
         ],
         ("frot_element", "elements"): [
             f"{{{i}, {bound[m.elements[i].bound]}, {m.elements[i].tangent}, "
-            f"{{{m.elements[i].normal}, {m.elements[i].second}}}, 0, 0, {int(still)}}}"
+            f"{{{m.elements[i].normal}, {m.elements[i].second}}}, 0, 0, {int(still)}, {{-1, -1}}}}"
             for i, still in zip(laws, _prescribed(m, laws), strict=True)
         ],
         ("int", "all_unknowns"): range(nw),
