@@ -20,9 +20,9 @@
  */
 static int rests(const frot_instant *in, const frot_group *g) {
   double limit = FROT_AGREES * frot_size_of_motion(in->m, in->w, g);
-  for (int k = 0; k < g->n_speeds; k++)
-    if (in->v[g->unknowns[k]] != 0) return 0;
-  return frot_square_of(in->w, g, in->w->a) <= limit * limit;
+  double energy = FROT_ZERO * FROT_ZERO * in->s->energy_scale;
+  return 0.5 * frot_square_of(in->w, g, in->v) <= energy &&
+         frot_square_of(in->w, g, in->w->a) <= limit * limit;
 }
 
 /* Time in which the fastest coordinate of the group has gone its way; 0 when nothing moves. */
