@@ -210,9 +210,9 @@ int frot_is_admissible(const frot_instant *in, const int *chosen, int count) {
   frot_work *w = in->w;
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
   memcpy(w->along, in->s->data + in->l.along, sizeof(double) * 2 * (size_t)m->n_elements);
-  if (frot_group_reactions(m, w, g, w->trial, in->zero)) return 0;
+  if (frot_group_reactions(m, w, g, w->trial, in->at_rest)) return 0;
   for (int dependent = w->dependent; dependent && let_others_carry(in, chosen, count);)
-    if (frot_group_reactions(m, w, g, w->trial, in->zero)) return 0;
+    if (frot_group_reactions(m, w, g, w->trial, in->at_rest)) return 0;
   for (int c = 0; c < count; c++)
     if (!contact_is_admissible(in, chosen[c])) return 0;
   for (int i = 0; i < g->n_elements; i++) {

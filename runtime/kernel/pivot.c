@@ -74,7 +74,7 @@ static double follow(const box *b, const int *chosen, int count) {
     double bounding = 1;
     if (element->bound != FROT_BY_VALUE) bounding = fabs(w->lam[element->bounded_by[0]]);
     if (element->bound == FROT_BY_PIN) bounding = hypot(bounding, w->lam[element->bounded_by[1]]);
-    int rests = b->in->zero[e];
+    int rests = b->in->at_rest[e];
     double bound = w->coefficient[2 * e + rests] * bounding * (b->ends ? 1 - PAST : 1),
            before = b->most[r];
     b->least[r] = -bound, b->most[r] = bound;

@@ -111,12 +111,44 @@ static int settle_speeds(frot_instant *in, double t, double *q, double *v) {
     int slipped = frot_element_mode(m, w->before, e)->friction > FROT_STICK;
     in->zero[e] = w->best[m->elements[e].contact].closed && frot_bounds_something(m, w, e) &&
                   is_zero_rate(in, e, v, slipped);
+    in->at_rest[e] = in->zero[e];
   }
   size_t modes = (size_t)(m->n_contacts + m->n_elements);
   memcpy(w->trial, w->best, sizeof *w->trial * modes);
   for (int e = 0; e < m->n_elements; e++) w->trial[m->n_contacts + e].friction = FROT_NONE;
   int moved;
   return frot_project(m, in->s, w, t, q, v, in->s->data + in->l.d, w->trial, in->zero, &moved);
+}
+
+/* Elements of the contacts chosen that start to slip against less friction than held them: from now
+ * on they are looked at with that. Returns how many. */
+static int note_departures(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  int departed = 0;
+  for (int c = 0; c < count; c++)
+    for (int e = 0; e < m->n_elements; e++) {
+      const double *k = in->w->coefficient + 2 * e;
+      if (m->elements[e].contact != chosen[c] || !in->at_rest[e] || k[0] == k[1]) continue;
+      if (!in->w->best[chosen[c]].closed) continue;
+      if (frot_element_mode(m, in->w->best, e)->friction <= FROT_STICK) continue;
+      in->at_rest[e] = 0, departed++;
+    }
+  return departed;
+}
+
+/* Motions of a component, the one preferred into w->best. What departs has the friction of motion at
+ * once, and what the others do follows from that: looked for again until nothing more departs. */
+static int look_for_motions(const frot_instant *in, const int *chosen, int count,
+                            int *unsearched) {
+  int motions = frot_search(in, chosen, count, 1, unsearched);
+  if (motions == 0) motions = frot_search(in, chosen, count, 0, unsearched);
+  while (motions > 0 && note_departures(in, chosen, count)) {
+    int again = frot_search(in, chosen, count, 1, unsearched);
+    if (again == 0) again = frot_search(in, chosen, count, 0, unsearched);
+    if (again == 0) break; /* it departs, and is held at once: told as it was found */
+    motions = again;
+  }
+  return motions;
 }
 
 /* The modes into w->best, component after component; each that has several motions is told. */
@@ -131,8 +163,7 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
     for (int i = 0; i < m->n_contacts; i++)
       if (w->component[i] == root) chosen[count++] = i;
     if (count == 0) continue;
-    int motions = frot_search(in, chosen, count, 1, &unsearched);
-    if (motions == 0) motions = frot_search(in, chosen, count, 0, &unsearched);
+    int motions = look_for_motions(in, chosen, count, &unsearched);
     in->s->statistics.unsearched += unsearched;
     if (motions == 0)
       return frot_fail(in->s, unsearched ? FROT_TOO_LARGE : FROT_IMPASSE, t, chosen[0], -1, -1,
@@ -158,7 +189,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + l.modes);
   size_t count = (size_t)(m->n_contacts + m->n_elements);
   note_left(m, s, t);
-  frot_instant in = {m, s, w, l, fired, s->data + l.unilateral, s->data + l.left, w->zero, t, q, v};
+  frot_instant in = {m, s, w, l, fired, s->data + l.unilateral, s->data + l.left, w->zero, w->at_rest, t, q, v};
   memcpy(w->before, modes, sizeof *modes * count);
   memcpy(w->best, modes, sizeof *modes * count);
   memset(w->zero, 0, (size_t)m->n_elements);

@@ -50,6 +50,11 @@ static int element_options(const frot_instant *in, int e, int forced, frot_conta
     double rate = in->w->rate[in->m->elements[e].row];
     return list[0].friction = rate > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD, 1;
   }
+  if (!in->at_rest[e]) { /* it departs, in either direction */
+    list[0].friction = FROT_SLIP_FORWARD;
+    list[1] = still, list[1].friction = FROT_SLIP_BACKWARD;
+    return 2;
+  }
   if (left != 0 && forced)
     return list[0].friction = left > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD, 1;
   if (left != 0 && !in->m->elements[e].prescribed) /* others may hold what it cannot */
@@ -70,6 +75,8 @@ static int contact_options(const frot_instant *in, int i, int forced, option *li
     counts[k] = element_options(in, own[k], forced, modes[k]);
     acts |= modes[k][0].friction != FROT_NONE;
   }
+  /* a reaction that came to zero may stay there, if others carry the load */
+  int unloads = before.closed && can_open && !contact->reduced && in->fired[i] != 0;
   for (int a = 0; a < counts[0] && !(changes && can_open); a++)
     for (int b = 0; b < counts[1]; b++)
       for (int side = 1; side >= -1; side -= 2) {
@@ -78,8 +85,9 @@ static int contact_options(const frot_instant *in, int i, int forced, option *li
         if (side < 0 && (one_sided || !acts)) continue;
         if (turns && side == before.side) continue;
         if (side < 0 && !turns && held) continue; /* the side follows from the reaction */
-        list[n] = (option){{1, (signed char)side, 0, 0, 0, {0}}, {modes[0][a], modes[1][b]}};
-        n++;
+        for (int unloaded = unloads; unloaded >= 0; unloaded--, n++)
+          list[n] = (option){{1, (signed char)side, (signed char)unloaded, 0, 0, {0}},
+                             {modes[0][a], modes[1][b]}};
       }
   if (can_open) list[n] = (option){OPEN, {{0}, {0}}}, n++;
   return n;
@@ -217,7 +225,7 @@ int frot_search(const frot_instant *in, const int *chosen, int count, int forced
   combinations = 1;
   for (int c = 0; c < count; c++) {
     int options = contact_options(in, chosen[c], forced, lists);
-    if (forced && left_here(in, chosen[c])) w->certain[chosen[c]] = 0;
+    if (left_here(in, chosen[c])) w->certain[chosen[c]] = 0;
     if (w->certain[chosen[c]]) continue;
     if (combinations * options > FROT_ENOUGH)
       w->certain[chosen[c]] = 1;

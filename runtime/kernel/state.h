@@ -144,7 +144,7 @@ struct frot_work {
   double *motions;        /* search.c: accelerations of the motions found */
   double *pivot_bound;    /* pivot.c: bounds, gradient, step of each row */
   int *choice, *component, *chosen;
-  unsigned char *zero;    /* n_elements: see search.h */
+  unsigned char *zero, *at_rest; /* n_elements: see search.h */
   signed char *ahead;     /* n_elements: see search.h */
   unsigned char *departs; /* n_elements: slips that no acceleration starts */
   unsigned char *carried; /* n_rows: held rows that depend on those before them */
