@@ -136,10 +136,10 @@ static int note_departures(const frot_instant *in, const int *chosen, int count)
   return departed;
 }
 
-/* Motions of a component, the one preferred into w->best. What departs has the friction of motion at
- * once, and what the others do follows from that: looked for again until nothing more departs. */
-static int look_for_motions(const frot_instant *in, const int *chosen, int count,
-                            int *unsearched) {
+/* Motions of a component, the one preferred into w->best. What departs has the friction of motion
+ * at once, and what the others do follows from that: looked for again until nothing more departs.
+ */
+static int look_for_motions(const frot_instant *in, const int *chosen, int count, int *unsearched) {
   int motions = frot_search(in, chosen, count, 1, unsearched);
   if (motions == 0) motions = frot_search(in, chosen, count, 0, unsearched);
   while (motions > 0 && note_departures(in, chosen, count)) {
@@ -189,7 +189,8 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + l.modes);
   size_t count = (size_t)(m->n_contacts + m->n_elements);
   note_left(m, s, t);
-  frot_instant in = {m, s, w, l, fired, s->data + l.unilateral, s->data + l.left, w->zero, w->at_rest, t, q, v};
+  frot_instant in = {m,       s,          w, l, fired, s->data + l.unilateral, s->data + l.left,
+                     w->zero, w->at_rest, t, q, v};
   memcpy(w->before, modes, sizeof *modes * count);
   memcpy(w->best, modes, sizeof *modes * count);
   memset(w->zero, 0, (size_t)m->n_elements);

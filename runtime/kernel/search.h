@@ -11,7 +11,7 @@ typedef struct {
   frot_work *w;
   frot_layout l;
   const double *fired, *unilateral;
-  const double *left;  /* n_elements: direction in which a rest was left at this instant */
+  const double *left;     /* n_elements: direction in which a rest was left at this instant */
   unsigned char *zero;    /* n_elements: its motion is zero */
   unsigned char *at_rest; /* n_elements: and its friction that of rest: it has not departed */
   double t;

@@ -182,7 +182,8 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(trial, nc + n_el), TAKE(best, nc + n_el), TAKE(before, nc + n_el);
   TAKE(guess, nc + n_el), TAKE(certain, nc), TAKE(pivot_bound, 4 * nr);
   TAKE(motions, FROT_MOTIONS * nr), TAKE(choice, 4 * nc + 4 * n_el), TAKE(component, nc);
-  TAKE(chosen, nc), TAKE(zero, n_el), TAKE(at_rest, n_el), TAKE(ahead, n_el), TAKE(departs, n_el), TAKE(carried, nr);
+  TAKE(chosen, nc), TAKE(zero, n_el), TAKE(at_rest, n_el), TAKE(ahead, n_el), TAKE(departs, n_el),
+      TAKE(carried, nr);
   TAKE(guess_ahead, nc + n_el), TAKE(nothing_frozen, m->nv);
   for (int k = 0; base && k < m->nv; k++) w->nothing_frozen[k] = 0;
   return a.used;

@@ -145,9 +145,9 @@ struct frot_work {
   double *pivot_bound;    /* pivot.c: bounds, gradient, step of each row */
   int *choice, *component, *chosen;
   unsigned char *zero, *at_rest; /* n_elements: see search.h */
-  signed char *ahead;     /* n_elements: see search.h */
-  unsigned char *departs; /* n_elements: slips that no acceleration starts */
-  unsigned char *carried; /* n_rows: held rows that depend on those before them */
+  signed char *ahead;            /* n_elements: see search.h */
+  unsigned char *departs;        /* n_elements: slips that no acceleration starts */
+  unsigned char *carried;        /* n_rows: held rows that depend on those before them */
   frot_contact_mode *guess_ahead;
   double *nothing_frozen; /* nv zeros */
   double t;               /* where dynamics was last evaluated */
