@@ -96,10 +96,10 @@ def make_groups(system: Assembled) -> Grouping:
         sets.join(nw + r, k)
     owners: dict[int, int] = {}
     for i, found in enumerate(reduced.contact_rows):
-        own = [r for r in (found.normal, found.second, found.tangent, found.rolling) if r >= 0]
-        owners.update(dict.fromkeys(own, i))
-        for r in own[1:]:
-            sets.join(nw + own[0], nw + r)
+        among = [r for r in (found.normal, found.second, found.tangent, found.rolling) if r >= 0]
+        owners.update(dict.fromkeys(among, i))
+        for r in among[1:]:
+            sets.join(nw + among[0], nw + r)
     owners.update({first + k: len(joints) + k for k in range(len(system.elements))})
     members: dict[int, list[int]] = {}
     for item in range(nw + n_rows):

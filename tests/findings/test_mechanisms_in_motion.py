@@ -1,0 +1,127 @@
+"""A trammel with friction and chains of many links, against integrations of their own equations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import frot
+
+Finding = Callable[..., frot.Model]
+G = 9.81
+
+
+def trammel_rates(y: np.ndarray, mu: float, tilt: float, sense: int) -> tuple[list[float], float]:
+    """Rates of the angle and of its rate, and the acceleration along the tilted line.
+
+    The middle of the rod lies at -cos(angle)/cos(tilt) along the tilted line. The other line
+    pushes the tip by p, the tilted one by n = G cos(tilt) + p sin(tilt), whose sign is tried.
+    """
+    angle, rate = y
+    inertia, c, s = 1 / 3, np.cos(tilt), np.sin(tilt)
+    for side in (1, -1):
+        held = mu * side * sense
+        push = np.cos(angle) * rate**2 / c + G * s + held * G * c
+        p = push / (c - held * s + np.sin(angle) ** 2 / (inertia * c))
+        if (G * c + p * s) * side >= 0:
+            break
+    turned = -p * np.sin(angle) / inertia
+    return [rate, turned], (np.sin(angle) * turned + np.cos(angle) * rate**2) / c
+
+
+def trammel_reference(
+    y: list[float], stop: float, mu: float, tilt: float
+) -> tuple[list[float], np.ndarray]:
+    """The times at which the slip turns, and the end, by order 8 from turn to turn."""
+    time, turns = 0.0, []
+    state, sense = np.array(y), int(np.sign(np.sin(y[0]) * y[1]))
+    while True:
+
+        def slip(_: float, z: np.ndarray) -> float:
+            return float(np.sin(z[0]) * z[1])
+
+        slip.terminal, slip.direction = True, -sense  # type: ignore[attr-defined]
+        part = solve_ivp(
+            lambda _, z, sense=sense: trammel_rates(z, mu, tilt, sense)[0],
+            (time, stop), state, method="DOP853", rtol=1e-12, atol=1e-14, events=slip,
+        )  # fmt: skip
+        time, state = part.t[-1], part.y[:, -1]
+        if part.status == 0:
+            return turns, state
+        turns.append(time)
+        (sense,) = (q for q in (1, -1) if q * trammel_rates(state, mu, tilt, q)[1] > 0)
+
+
+@pytest.mark.parametrize(
+    ("mu", "tilt", "angle", "rate"),
+    [
+        (0.20106, -0.57045, -0.58132, -1.77927),
+        (0.20106, 0.57045, 0.58132 - np.pi, 1.77927),
+        (0.05, 0.3, 1.0, 4.0),
+        (0.0, -0.57045, -0.58132, -1.77927),
+    ],
+)
+def test_a_rod_on_two_lines_passes_where_sticking_is_singular(
+    finding: Finding, mu: float, tilt: float, angle: float, rate: float
+) -> None:
+    changes = {"-0.58132": str(angle), "-1.77927": str(rate)}
+    model = finding("trammel", changes)
+    stop = 3.0
+    turns, end = trammel_reference([angle, rate], stop, mu, tilt)
+    assert len(turns) > 1
+    for tolerance in (1e-6, 1e-9, 1e-12):
+        result = model.simulate(stop=stop, tolerance=tolerance, parameters={"mu": mu, "tilt": tilt})
+        at = result.at(stop)
+        allowed = 100 * tolerance + 1e-10
+        assert at["b.angle"] == pytest.approx(end[0], abs=allowed)
+        assert at["b.angular_velocity"] == pytest.approx(end[1], abs=allowed * 10)
+        if mu:
+            # the kinds besides are reactions that pass zero
+            found = [e.time for e in result.events if e.kind == "reversal"]
+            assert found == pytest.approx(turns, abs=allowed)
+            assert {e.kind for e in result.events} <= {"reversal", "reaction"}
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-12])
+def test_friction_of_a_rod_on_two_lines_brakes_and_the_energy_is_told(
+    finding: Finding, tolerance: float
+) -> None:
+    result = finding("trammel").simulate(tolerance=tolerance)
+    assert result.time[-1] == 10
+    assert result.balance.relative < 100 * tolerance
+    normal, friction = result["A.normal_force"], result["A.tangential_force"]
+    largest = np.abs(normal).max()
+    assert np.abs(friction).max() > 0
+    assert np.all(np.abs(friction) <= 0.20106 * np.abs(normal) + 1e-10 * largest)
+    assert np.all(friction * np.sign(result["A.slip"]) <= 1e-10 * largest)
+
+
+def chain_reference(n: int) -> np.ndarray:
+    """The angles of n uniform rods after 1 s: Lagrange's equations in absolute angles."""
+    links = np.arange(n)
+    after = n - 1 - np.maximum.outer(links, links)
+    masses = np.where(np.eye(n, dtype=bool), 1 / 3, 1 / 2) + after
+    weights = 0.5 + n - 1 - links
+
+    def rates(_: float, y: np.ndarray) -> np.ndarray:
+        angle, rate = y[:n], y[n:]
+        apart = np.subtract.outer(angle, angle)
+        pull = masses * np.sin(apart) @ rate**2 + G * weights * np.cos(angle)
+        return np.concatenate([rate, -np.linalg.solve(masses * np.cos(apart), pull)])
+
+    start = np.concatenate([-np.pi / 2 + 0.5 + 0.2 * links, np.zeros(n)])
+    return solve_ivp(rates, (0, 1), start, method="DOP853", rtol=2.3e-14, atol=1e-14).y[:n, -1]
+
+
+@pytest.mark.parametrize("n", [2, 5, 10, 20])
+def test_the_tolerance_has_its_effect_on_a_long_chain(finding: Finding, n: int) -> None:
+    model = finding("chain", {"n = 20;": f"n = {n};"})
+    exact = chain_reference(n)
+    for tolerance in (1e-4, 1e-6, 1e-8, 1e-10, 1e-12):
+        at = model.simulate(tolerance=tolerance).at(1.0)
+        joints = [f"j[{k}]" for k in range(1, n)]
+        angles = np.cumsum([float(at[f"{joint}.angle"]) for joint in ["o", *joints]])
+        assert np.abs(angles - exact).max() < 10 * tolerance + 1e-12
