@@ -1,0 +1,60 @@
+"""Slider cranks of random friction, lengths, couples and starts, dead centres among the starts."""
+
+from __future__ import annotations
+
+import math
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import frot
+
+PLAIN = Path(__file__).parents[2] / "models" / "slider_crank.frot"
+CHANGES = {
+    "input Torque drive(start = 4 N.m);": (
+        "parameter Torque c = 4 N.m, a = 0 N.m;\n"
+        "  parameter Angle start = 30 deg;\n  parameter Real mu_g = 0.08;"
+    ),
+    "value = drive": "value = c + a*sin(5*time/(1 s))",
+    "O.angle = 30 deg": "O.angle = start",
+    "coulomb(mu = 0.08, mu_s = 0.10)": "coulomb(mu = mu_g, mu_s = 1.25*mu_g)",
+}
+
+
+@pytest.fixture(scope="module")
+def crank() -> frot.Model:
+    text = PLAIN.read_text(encoding="utf-8")
+    for old, new in CHANGES.items():
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    return frot.compile(text)
+
+
+def setting(seed: int) -> tuple[dict[str, float], float]:
+    """Parameters and a tolerance."""
+    draw = random.Random(seed)
+    couple = draw.uniform(1, 12) * draw.choice([1, 1, -1])
+    swings = draw.random() < 0.5
+    given = {
+        "mu": draw.choice([0, draw.uniform(0, 0.3)]),
+        "mu_g": draw.choice([0, draw.uniform(0, 0.3)]),
+        "l": draw.uniform(0.17, 0.4),
+        "c": 4 if swings else couple,
+        "a": 3 if swings else 0,
+        "start": draw.choice([draw.uniform(-math.pi, math.pi), 0.0, math.pi]),
+    }
+    return given, 10.0 ** -draw.randint(3, 10)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_slider_crank_runs_as_exactly_as_it_is_asked(crank: frot.Model, seed: int) -> None:
+    given, tolerance = setting(seed)
+    result = crank.simulate(stop=1.0, tolerance=tolerance, parameters=given)
+    reference = crank.simulate(stop=1.0, tolerance=1e-12, parameters=given)
+    assert result.time[-1] == reference.time[-1] == 1
+    speed, turned = reference["O.speed"], np.abs(reference["O.angle"]).max()
+    error = np.abs(result["O.speed"] - speed).max() / max(np.abs(speed).max(), 1e-3)
+    # an error of the speed grows with the turns that were made
+    assert error < 30 * tolerance * max(1, turned) + 1e-9
