@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.kinematics import Kinematics, Line
+from frot.compiler.kinematics import Kinematics, Line, rotation
 from frot.compiler.mechanism import Contact, Joint, Pin, is_unilateral, owner_body, point_body
 from frot.compiler.pins import PinGeometry, pin_geometry
 from frot.dsl.checked import World
@@ -21,15 +21,17 @@ class Geometry:
     `line.normal` points to the left of the line's direction; `side`, chosen once, multiplies it by
     the side of the body. `gap` >= 0 while apart. `witness` are the three numbers the first of which
     that is not zero has the sign of the side: height of the point or of the rim's centre over the
-    line, part of the normal that is against gravity, height of the body's G. `slip` and `roll` are
-    the velocity of the body's material point relative to the line's, along the line's direction,
-    and the relative angular velocity.
+    line, part of the normal that is against gravity, height of the body's G. `reach` is the size of
+    the lengths that the gap is made of beside the coordinates, even where they cancel out. `slip`
+    and `roll` are the velocity of the body's material point relative to the line's, along the
+    line's direction, and the relative angular velocity.
     """
 
     line: Line
     side: ca.SX
     gap: ca.SX
     witness: ca.SX
+    reach: ca.SX
     slip: ca.SX
     roll: ca.SX
     abscissa: ca.SX
@@ -51,6 +53,23 @@ def _witness(contact: Contact, line: Line, kinematics: Kinematics, world: World)
 
 def _keeps_left(contact: Contact) -> bool:
     return contact.liaison.kind.name == "point_courbe" and not is_unilateral(contact.liaison)
+
+
+def _reach(contact: Contact, line: Line, kinematics: Kinematics) -> ca.SX:
+    """Size of the vectors from the bodies' coordinates to the point and to the line.
+
+    What both hang on is left out: it cancels out before any rounding.
+    """
+    body, base = point_body(contact.point), owner_body(contact.line.owner)
+    own, other = kinematics.arms[body], kinematics.arms[base]
+    while own and other and own[0][0] is other[0][0]:
+        own, other = own[1:], other[1:]
+    arm = kinematics.arm(body, kinematics.local_point(contact.point))
+    arm = sum((size for _, size in (*own, *other)), arm)
+    # along a line its given point counts for nothing, wherever its body turns
+    turn = rotation(kinematics.poses[base].angle).T
+    through = kinematics.local_through(contact.line)
+    return ca.dot(ca.fabs(line.normal), arm) + ca.dot(ca.fabs(turn @ line.normal), ca.fabs(through))
 
 
 def gravity(world: World, kinematics: Kinematics) -> ca.SX:
@@ -118,6 +137,7 @@ def contact_geometry(
         side=side,
         gap=side * height - radius,
         witness=_witness(contact, line, kinematics, world),
+        reach=radius + _reach(contact, line, kinematics),
         slip=slip,
         roll=roll,
         abscissa=ca.dot(line.direction, centre - line.through),

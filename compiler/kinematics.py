@@ -11,6 +11,8 @@ from frot.compiler.mechanism import (
     Mechanism,
     PinCoordinates,
     Point,
+    owner_body,
+    point_body,
     turns,
 )
 from frot.compiler.names import coordinate_names
@@ -58,7 +60,8 @@ class Kinematics:
     """Where everything is, with the auxiliary coordinates w and speeds sw still in.
 
     `auxiliary` gives the first auxiliary coordinate of a liaison, `pin_angles` the coordinate that
-    is the angle of a pin.
+    is the angle of a pin. `arms` are the bodies that one hangs on, itself last, each with the sizes
+    in ground axes (2) of the vectors from the body before to its own G.
     """
 
     def __init__(self, mechanism: Mechanism, symbols: Symbols, fixed: Lowering) -> None:
@@ -69,6 +72,7 @@ class Kinematics:
         self.poses: dict[Body, Pose] = {mechanism.model.ground: ground}
         self.auxiliary, _ = auxiliary_places(mechanism)
         self.pin_angles: dict[Liaison, int] = {}
+        self.arms: dict[Body, tuple[tuple[Body, ca.SX], ...]] = {mechanism.model.ground: ()}
         at = 0
         for coordinates in mechanism.coordinates:
             body = coordinates.body
@@ -90,8 +94,12 @@ class Kinematics:
                 local = self.local_point(coordinates.point)
                 offset = Pose(ca.SX.zeros(2), angle).direction(local)
                 self.poses[body] = Pose(place - offset, angle)
+                base, through = owner_body(coordinates.line.owner), self.local_through
+                arm = self.arm(base, through(coordinates.line)) + self.arm(body, local)
+                self.arms[body] = (*self.arms[base], (body, arm))
             else:
                 self.poses[body] = Pose(q[:2], angle)
+                self.arms[body] = ((body, ca.SX.zeros(2)),)
 
     def _pinned(self, coordinates: PinCoordinates, q: ca.SX) -> Pose:
         """Pose of a body that hangs on another; q is empty for one that does not turn."""
@@ -103,6 +111,9 @@ class Kinematics:
             place += sign * self.symbols.w[at : at + 2]
         if q.numel():
             angle = self.angle(base) + sign * q - self.local_angle(own)
+        body, carrier = point_body(own), point_body(base)
+        arm = self.arm(carrier, self.local_point(base)) + self.arm(body, self.local_point(own))
+        self.arms[body] = (*self.arms[carrier], (body, arm))
         return Pose(place - Pose(ca.SX.zeros(2), angle).direction(self.local_point(own)), angle)
 
     def frame(self, owner: Body | Frame) -> Pose:
@@ -117,19 +128,31 @@ class Kinematics:
     def local_point(self, point: Point) -> ca.SX:
         """A point of a body in the body's own axes at G."""
         if isinstance(point, Frame):
-            local = ca.SX.zeros(2)
-            frame: Body | Frame = point
-            while isinstance(frame, Frame):
-                if frame.angle is not None:
-                    local = rotation(self.fixed.lower(frame.angle)) @ local
-                if frame.origin is not None:
-                    local = local + self.fixed.lower(frame.origin)
-                frame = frame.owner
-            return local
+            return self._in_body(point, ca.SX.zeros(2))
         if point.name in ("start", "tip"):
             half = self.fixed.lower(point.body.arguments["length"]) / 2
             return ca.vertcat(-half if point.name == "start" else half, 0)
         return ca.SX.zeros(2)
+
+    def local_through(self, curve: Curve) -> ca.SX:
+        """The given point of a line in the body's own axes at G."""
+        return self._in_body(curve.owner, self.fixed.lower(curve.arguments["through"]))
+
+    def _in_body(self, frame: Body | Frame, local: ca.SX) -> ca.SX:
+        """What is given in the axes of a frame, in those of its body."""
+        while isinstance(frame, Frame):
+            if frame.angle is not None:
+                local = rotation(self.fixed.lower(frame.angle)) @ local
+            if frame.origin is not None:
+                local = local + self.fixed.lower(frame.origin)
+            frame = frame.owner
+        return local
+
+    def arm(self, body: Body, local: ca.SX) -> ca.SX:
+        """Sizes in ground axes (2) of a vector given in a body's axes, however the body turns."""
+        if not turns(body):
+            return ca.fabs(local)
+        return ca.sqrt(ca.sumsqr(local)) * ca.SX.ones(2)
 
     def local_angle(self, point: Point) -> ca.SX:
         """Angle of the axes at a point of a body, from those of the body."""

@@ -97,7 +97,7 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         "initial_position": (state, initial.position),
         "initial_velocity": (state, initial.velocity),
         "kinematics": (state, [system.gap, grouping.rows, system.rate, conditions]),
-        "sides": (state, [_witnesses(system)]),
+        "sides": (state, list(_sides(system))),
         "dynamics": (
             state,
             [
@@ -175,10 +175,13 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     )
 
 
-def _witnesses(system: Assembled) -> ca.SX:
-    """What chooses the sides; an element of the text has none to choose from."""
-    none = ca.SX.ones(3 * len(system.elements))
-    return ca.vertcat(system.resolve(system.reduced.witness), none)
+def _sides(system: Assembled) -> tuple[ca.SX, ca.SX]:
+    """What chooses the sides, and the reaches; an element of the text has none to choose from."""
+    none, reduced = len(system.elements), system.reduced
+    return (
+        ca.vertcat(system.resolve(reduced.witness), ca.SX.ones(3 * none)),
+        ca.vertcat(system.resolve(reduced.reach), ca.SX.zeros(none)),
+    )
 
 
 def _without_reactions(sizes: ca.SX, system: Assembled) -> ca.SX:

@@ -34,6 +34,11 @@ class PinGeometry:
         """A pin has no sides to choose from."""
         return ca.SX.ones(3)
 
+    @property
+    def reach(self) -> ca.SX:
+        """Nor a gap made of lengths."""
+        return ca.SX(0)
+
 
 def pin_geometry(pin: Pin, kinematics: Kinematics) -> PinGeometry:
     """Angle and relative velocities of a pin, be it ideal or with friction."""

@@ -39,7 +39,7 @@ class Reduced:
     the others may hold too. `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes
     of its terms, `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a +
     bias is the rows' acceleration), `rate` (n_rows), `gap` (n_contacts), `witness` (3
-    each: see contacts.py), `coefficients` (of motion and of rest, of each element), `power` of the
+    each) and `reach` (see contacts.py), `coefficients` (of motion and of rest, of each element), `power` of the
     loads without potential, `kinetic`, `potential`.
     """
 
@@ -61,6 +61,7 @@ class Reduced:
     rate: ca.SX
     gap: ca.SX
     witness: ca.SX
+    reach: ca.SX
     coefficients: ca.SX
     power: ca.SX
     kinetic: ca.SX
@@ -132,6 +133,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         rate=settled(rates),
         gap=settled(column(g.gap for g in geometry)),
         witness=settled(column(g.witness for g in geometry)),
+        reach=settled(column(g.reach for g in geometry)),
         coefficients=settled(coefficients),
         power=settled(loads.power),
         kinetic=settled(motion.kinetic),

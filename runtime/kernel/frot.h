@@ -267,7 +267,8 @@ typedef struct {
   frot_callable kinematics;
   /* sides -> what chooses the side of each contact at the start (3 x n_contacts): height of its
    * point or rim's centre over the line, then what tells where that is zero: the part of the normal
-   * that is against gravity, and the height of the body's G. A side chosen once is kept. */
+   * that is against gravity, and the height of the body's G. A side chosen once is kept.
+   * -> sizes of the lengths that each gap is made of beside the coordinates (n_contacts) */
   frot_callable sides;
   /* places -> FROT_PLACE values of each carried body. Called where n_carried > 0. */
   frot_callable places;

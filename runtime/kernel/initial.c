@@ -17,6 +17,11 @@
  * but for rounding would be moved so far that the rounding there fits. */
 #define FAR 1e10
 #define ROUNDING 1e-14
+#define KEEPS 1e-12 /* slopes of a gap, relative to its lengths, below which they are rounding */
+#define TRIES 8     /* beginnings of the search beside the given one, each to both hands */
+#define NEARER 1e-6 /* part by which a place must be nearer to be taken instead */
+#define PULLS 10    /* towards the beginning */
+#define WHOLE_TURN 6.3
 
 /* One system to solve: statements, then contact rows. */
 typedef struct {
@@ -30,6 +35,7 @@ typedef struct {
   const double *factor; /* of the metric of the unknowns that have a speed, of the given order */
   int order, attached;
   double scene; /* largest value, term and residual where the search begins */
+  int wide;     /* the search may begin elsewhere too */
 } problem;
 
 static double *unknown(const problem *p) { return p->velocity ? p->v : p->q; }
@@ -62,6 +68,12 @@ static int through_blocks(const problem *p, int n) {
   return FROT_OK;
 }
 
+/* Size of the terms of a contact's gap, of those too that cancel out. */
+static double length_size(const frot_model *m, const frot_work *w, int contact, const double *q) {
+  return fabs(w->gap[contact]) + w->reach[contact] +
+         frot_gap_size(m, w, m->contacts[contact].row_n, q);
+}
+
 /* Residuals (w->residual) and the rows of the Jacobian (w->jacobian); sets p->n. */
 static int evaluate(problem *p) {
   const frot_model *m = p->m;
@@ -92,7 +104,14 @@ static int evaluate(problem *p) {
       int speed = group->unknowns[k], at = p->velocity ? speed : m->speed_coordinate[speed];
       if (at >= 0) equation[at] = entries[k];
     }
-    w->size[n] = fabs(w->residual[n]);
+    w->size[n] = p->velocity ? fabs(w->residual[n]) : length_size(m, w, i, p->q);
+    double steepest = 0;
+    for (int k = 0; k < nx; k++) steepest = fmax(steepest, fabs(equation[k]));
+    if (steepest <= KEEPS * w->reach[i]) {
+      /* the lengths cancel out: no unknown moves this gap, and none is moved for it */
+      memset(equation, 0, sizeof(double) * (size_t)nx);
+      if (p->velocity) w->residual[n] = w->size[n] = 0;
+    }
     n++;
   }
   p->n = n;
@@ -206,26 +225,35 @@ static int no_number(const problem *p, int status) {
   return frot_fail_evaluation(p->m, p->s, p->w, status, p->t);
 }
 
-/* Sum of the squares of the residuals, and whether they are all near rounding. */
+/* Sum of the squares of the residuals, each as the change that would remove it alone, so that units
+ * do not matter, and whether they are all near rounding. */
 static double square(const problem *p, int *close) {
   double sum = 0;
   *close = 1;
   for (int i = 0; i < p->n; i++) {
-    sum += p->w->residual[i] * p->w->residual[i];
+    double change = p->w->residual[i] * p->w->row_weight[i];
+    sum += change * change;
     if (!agrees(p, i, 0)) *close = 0;
   }
   return sum;
 }
 
-/* Least change of the unknowns that removes the residuals to first order, over L, into w->step. */
-static void least_change(const problem *p) {
+/* Least change of the unknowns that removes the residuals to first order, over L, into w->step.
+ * With `from`, the change from there is the least one, that is from the present values what is left
+ * of it. Each row is divided by its length in the metric. */
+static void least_change(const problem *p, const double *from) {
   frot_work *w = p->w;
   int nx = unknown_count(p);
   double *a = w->active, *b = w->right, *y = w->step;
   for (int i = 0; i < p->n; i++) {
     into_metric(p, w->jacobian + nx * i, y);
-    for (int k = 0; k < nx; k++) a[k * p->n + i] = y[k];
+    double length = sqrt(frot_dot(y, y, nx)), *weight = w->row_weight + i;
+    *weight = length > 0 && isfinite(1 / length) ? 1 / length : 0;
+    for (int k = 0; k < nx; k++) a[k * p->n + i] = y[k] * *weight;
     b[i] = -w->residual[i];
+    for (int k = 0; from != NULL && k < nx; k++)
+      b[i] += w->jacobian[nx * i + k] * (unknown(p)[k] - from[k]);
+    b[i] *= *weight;
   }
   frot_least_norm(a, b, p->n, nx, y, w->lstsq, w->pivot);
   frot_backward(p->factor, p->order, p->attached, y);
@@ -263,7 +291,7 @@ static double scene_of(const problem *p) {
 /* Damped Gauss-Newton to the nearest values in the metric. */
 static int solve(problem *p) {
   frot_work *w = p->w;
-  double start = -1, last = INFINITY;
+  double last = INFINITY;
   if (unknown_count(p) == 0) return FROT_OK;
   for (int k = 0; !p->velocity && k < p->m->nq; k++) w->unit[k] = p->q[k] != 0 ? fabs(p->q[k]) : 1;
   for (int pass = 0;; pass++) {
@@ -271,21 +299,24 @@ static int solve(problem *p) {
     if (status == FROT_OK) status = evaluate(p);
     if (status != FROT_OK) return no_number(p, status);
     int good = 1;
-    double largest = 0;
+    double largest = 0; /* relative to the terms */
     for (int i = 0; i < p->n; i++) {
-      largest = fmax(largest, fabs(w->residual[i]));
-      if (fabs(w->residual[i]) > 2 * DBL_EPSILON * size_of(p, i)) good = 0;
+      double off = fabs(w->residual[i]), size = size_of(p, i);
+      if (pass == 0) w->off_at_first[i] = off;
+      if (off > 2 * DBL_EPSILON * size) good = 0;
+      size = fmax(size, w->off_at_first[i]);
+      if (off > 0) largest = fmax(largest, off / size);
     }
-    if (start < 0) start = largest, p->scene = scene_of(p);
+    if (pass == 0) p->scene = scene_of(p);
     if (good || p->n == 0) return FROT_OK;
-    if (pass > 3 && largest >= last && largest <= AGREES * start) return FROT_OK;
+    if (pass > 3 && largest >= last && largest <= AGREES) return FROT_OK;
     last = largest;
-    least_change(p);
+    least_change(p, NULL);
     if (!take(p) && pass < PASSES - 1) continue;
     status = evaluate(p);
     if (status != FROT_OK) return no_number(p, status);
     for (int i = 0; i < p->n; i++)
-      if (!agrees(p, i, start)) return contradiction(p);
+      if (!agrees(p, i, w->off_at_first[i])) return contradiction(p);
     return FROT_OK;
   }
 }
@@ -316,16 +347,108 @@ static int solve_and_look(problem *p) {
   return status == FROT_OK ? FROT_OK : no_number(p, status);
 }
 
-/* Size of the terms of a contact's gap. */
-static double length_size(const frot_model *m, const frot_work *w, int contact, const double *q) {
-  return fabs(w->witness[3 * contact]) + fabs(w->gap[contact]) +
-         frot_gap_size(m, w, m->contacts[contact].row_n, q);
+static void clear_fault(const problem *p) {
+  p->s->fault = (frot_fault){FROT_OK, -1, -1, -1, p->t, 0};
+  p->s->phase = FROT_CLEARED;
+}
+
+/* Distance of the coordinates from w->begin in the metric. */
+static double distance(const problem *p) {
+  const double *begin = p->w->begin;
+  double sum = 0;
+  for (int a = 0; a < p->m->nq; a++) {
+    double change = p->q[a] - begin[a];
+    if (!is_attached(p, a)) {
+      sum += change * change / (p->w->unit[a] * p->w->unit[a]);
+      continue;
+    }
+    for (int b = 0; b < p->m->nq; b++)
+      if (is_attached(p, b))
+        sum += change * frot_metric_entry(p->m, p->w, speed_of(p, a), speed_of(p, b)) *
+               (p->q[b] - begin[b]);
+  }
+  return sqrt(fmax(sum, 0));
+}
+
+/* A beginning of the search away from w->begin, the same in every run: turns of up to half a
+ * revolution. `alike`: of lengths that move as much mass, else in SI. */
+static void begin_elsewhere(const problem *p, int k, int alike) {
+  const frot_model *m = p->m;
+  double least = INFINITY;
+  for (int i = 0; i < m->nq; i++)
+    if (is_attached(p, i))
+      least = fmin(least, sqrt(frot_metric_entry(m, p->w, speed_of(p, i), speed_of(p, i))));
+  for (int i = 0; i < m->nq; i++) {
+    double part = fmod((k / 2 + 1) * (0.3819660112501051 + 0.6180339887498949 * i), 1);
+    double unit = p->w->unit[i];
+    if (is_attached(p, i)) {
+      double own = sqrt(frot_metric_entry(m, p->w, speed_of(p, i), speed_of(p, i)));
+      unit = alike ? least / own : 1;
+    }
+    p->q[i] = p->w->begin[i] + (k % 2 ? -1 : 1) * 3 * (0.1 + 0.9 * part) * unit;
+  }
+}
+
+/* Go on from a place that is found to the nearest one to w->begin, if that can be found. */
+static int pull_back(problem *p) {
+  frot_work *w = p->w;
+  double *found = w->z1, size;
+  size_t bytes = sizeof(double) * (size_t)p->m->nq;
+  memcpy(found, p->q, bytes);
+  double before = distance(p);
+  int status = FROT_OK;
+  for (int k = 0; k < PULLS && status == FROT_OK; k++) {
+    status = find_metric(p);
+    if (status == FROT_OK) status = evaluate(p);
+    if (status != FROT_OK) break;
+    least_change(p, w->begin);
+    move(p, w->step, w->begin, 1, p->q, &size);
+  }
+  if (status == FROT_OK && solve_and_look(p) == FROT_OK && distance(p) <= before) return FROT_OK;
+  memcpy(p->q, found, bytes);
+  clear_fault(p);
+  return solve_and_look(p);
+}
+
+/* Whether a coordinate came so far from w->begin that, if it is an angle, it went round. */
+static int went_far(const problem *p) {
+  for (int k = 0; k < p->m->nq; k++)
+    if (fabs(p->q[k] - p->w->begin[k]) > WHOLE_TURN) return 1;
+  return 0;
+}
+
+/* As solve_and_look. A posture in which nothing moves a gap, such as a dead centre, tells no way to
+ * close it, and one beside it a way too far: then other beginnings are tried, and the nearest place
+ * taken that is found. */
+static int solve_nearest(problem *p) {
+  frot_work *w = p->w;
+  size_t bytes = sizeof(double) * (size_t)p->m->nq;
+  double best = INFINITY;
+  memcpy(w->begin, p->q, bytes);
+  int status = solve_and_look(p);
+  if (status == FROT_OK) {
+    if (!went_far(p)) return status;
+    best = 0.5 * distance(p);
+    memcpy(w->nearest, p->q, bytes);
+  } else if (status != FROT_INITIAL || !p->wide) {
+    return status;
+  }
+  for (int k = 0; k < 4 * TRIES; k++) {
+    clear_fault(p);
+    begin_elsewhere(p, k % (2 * TRIES), k >= 2 * TRIES);
+    if (solve_and_look(p) != FROT_OK || pull_back(p) != FROT_OK) continue;
+    double far = distance(p);
+    if (far < (1 - NEARER) * best) best = far, memcpy(w->nearest, p->q, bytes);
+  }
+  clear_fault(p);
+  memcpy(p->q, isfinite(best) ? w->nearest : w->begin, bytes);
+  return solve_and_look(p);
 }
 
 /* Values of `sides` at the coordinates at which kinematics was evaluated last. */
 static void look_at_sides(const problem *p) {
   frot_inputs(p->m, p->s, p->w, &p->t, p->q, p->v, p->d);
-  p->w->res[0] = p->w->witness;
+  p->w->res[0] = p->w->witness, p->w->res[1] = p->w->reach;
   p->m->sides.call(p->w->arg, p->w->res, p->w->iw, p->w->w, 0);
 }
 
@@ -378,12 +501,12 @@ static int solve_statements(problem *p, double *side) {
   int status = frot_kinematics(m, s, p->w, p->t, p->q, p->v, p->d);
   if (status != FROT_OK) return no_number(p, status);
   choose_sides(p, side, 1);
-  status = solve_and_look(p);
+  status = solve_nearest(p);
   if (status != FROT_INITIAL) return status;
   frot_fault first = s->fault;
   guess(p, p->q, p->v);
   int again = frot_kinematics(m, s, p->w, p->t, p->q, p->v, p->d) == FROT_OK &&
-              choose_sides(p, side, 0) > 0 && solve_and_look(p) == FROT_OK;
+              choose_sides(p, side, 0) > 0 && solve_nearest(p) == FROT_OK;
   s->fault = again ? (frot_fault){FROT_OK, -1, -1, -1, p->t, 0} : first;
   s->phase = again ? FROT_CLEARED : FROT_FAULTED;
   return again ? FROT_OK : status;
@@ -404,11 +527,11 @@ static int solve_positions(problem *p, double *side) {
     p->use[i] = frot_has_normal(contact) && !contact->reduced && unilateral[i] == 0;
   }
   /* what cannot part may move a point over a line: its side is the one where it comes to be */
-  status = solve_and_look(p);
+  status = solve_nearest(p);
   if (status != FROT_OK) return status;
   choose_sides(p, side, 0);
   for (;;) {
-    status = solve_and_look(p);
+    status = solve_nearest(p);
     if (status != FROT_OK) return status;
     look_at_sides(p);
     int added = 0;
@@ -466,6 +589,13 @@ static int solve_once(problem *p, double *q, double *v) {
   }
   guess(p, q, v);
   int status = solve_positions(p, side);
+  if (status == FROT_INITIAL) {
+    clear_fault(p);
+    guess(p, q, v);
+    p->wide = 1;
+    status = solve_positions(p, side);
+    p->wide = 0;
+  }
   if (status != FROT_OK) return status;
   set_conditions(m, w, d);
   for (int i = 0; i < nc; i++) {
@@ -485,7 +615,7 @@ static int solve_once(problem *p, double *q, double *v) {
 int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v) {
   frot_layout l = frot_layout_of(m);
-  problem p = {m, s, w, t, q, v, s->data + l.d, (unsigned char *)w->choice, 0, 0, NULL, 0, 0, 0};
+  problem p = {m, s, w, t, q, v, s->data + l.d, (unsigned char *)w->choice, 0, 0, NULL, 0, 0, 0, 0};
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
   size_t size = sizeof(double) * (size_t)m->n_conditions;
   guess(&p, q, v);
@@ -496,8 +626,7 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
     /* what has no solution under these conditions may have one under those found there */
     if (status != FROT_OK) look_at_conditions(&p);
     if (memcmp(w->condition_before, p.d, size) == 0) return status;
-    s->fault = (frot_fault){FROT_OK, -1, -1, -1, t, 0};
-    s->phase = FROT_CLEARED;
+    clear_fault(&p);
   }
   return frot_fail(s, FROT_CHATTER, t, -1, -1, -1, ROUNDS);
 }

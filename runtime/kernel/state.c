@@ -146,7 +146,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
     if (m->groups[k].n > widest) widest = m->groups[k].n;
   TAKE(qd, m->nq), TAKE(mass, m->n_matrix), TAKE(h, l.nw), TAKE(rows, m->n_entries), TAKE(c, nr);
   TAKE(rate, nr), TAKE(gap, nc), TAKE(condition, m->n_conditions), TAKE(coefficient, 2 * n_el);
-  TAKE(power, 1), TAKE(witness, 3 * nc);
+  TAKE(power, 1), TAKE(witness, 3 * nc), TAKE(reach, nc);
   TAKE(pace, 4 * m->n_paced);
   TAKE(stood, nc + nr + 2 * (FROT_PLACE * m->n_carried + ni));
   TAKE(effect, m->general ? m->n_entries : 0), TAKE(metric, m->general ? m->n_metric : 0);
@@ -175,6 +175,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(residual_y, m->ny * ne), TAKE(slopes, (m->nq + m->nv) * asked);
   TAKE(slopes_y, asked * asked + 3 * asked), TAKE(slopes_pivot, asked), TAKE(unit, wide);
   TAKE(position_factor, m->nv * m->nv);
+  TAKE(row_weight, ne), TAKE(off_at_first, ne), TAKE(begin, wide), TAKE(nearest, wide);
   TAKE(rose, m->n_conditions), TAKE(firing, m->n_whens), TAKE(outcome, m->n_outcomes);
   TAKE(condition_before, m->n_conditions), TAKE(condition_known, m->n_conditions);
   TAKE(timer, 2 * m->n_timed), TAKE(discrete, m->n_discrete);

@@ -100,9 +100,9 @@ struct frot_work {
   double *residual_y; /* ny x equations: transposed Jacobian in y of initial values */
   /* results of `dynamics` and `kinematics` */
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
-  double *witness; /* 3 per contact: results of `sides` */
-  double *pace;    /* see pace.c */
-  double *stood;   /* see supports.c */
+  double *witness, *reach; /* 3 and 1 per contact: results of `sides` */
+  double *pace;            /* see pace.c */
+  double *stood;           /* see supports.c */
   double *effect, *metric;
   /* Packed by groups. Mass matrix: Cholesky factor L of the metric, L^-1 h, L^-1 J'. General core:
    * LU of A, A^-1 h, A^-1 E. */
@@ -133,8 +133,9 @@ struct frot_work {
   double *change, *own_size, *largest_alike; /* nq: see sizes.h */
   double *implicit;                          /* see jacobian.h */
   int *implicit_pivot;
-  double *values, *jacobian, *residual, *size, *step; /* initial values and projection */
-  double *slopes, *slopes_y, *unit, *position_factor; /* initial values: see initial.c */
+  double *values, *jacobian, *residual, *size, *step;  /* initial values and projection */
+  double *slopes, *slopes_y, *unit, *position_factor;  /* initial values: see initial.c */
+  double *row_weight, *off_at_first, *begin, *nearest; /* likewise */
   int *slopes_pivot;
   /* events of the text: see conditions.h and happen.c */
   double *rose, *firing, *outcome, *condition_before, *condition_known, *timer;

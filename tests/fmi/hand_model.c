@@ -62,6 +62,7 @@ static int kinematics(const double **arg, double **res, long long *iw, double *w
 static int sides(const double **arg, double **res, long long *iw, double *w, int mem) {
   (void)arg, (void)iw, (void)w, (void)mem;
   res[0][0] = res[0][1] = res[0][2] = 1.0;
+  res[1][0] = 0.0;
   return 0;
 }
 

@@ -199,7 +199,7 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
             ],
         ),
         "kinematics": (s.state, [gaps, rows.T, row_rates, conditions]),
-        "sides": (s.state, [ca.vec(ca.repmat(gaps.T, 3, 1))]),
+        "sides": (s.state, [ca.vec(ca.repmat(gaps.T, 3, 1)), 0 * gaps]),
         "dynamics": (
             s.state,
             [

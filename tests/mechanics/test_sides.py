@@ -204,3 +204,40 @@ def test_the_reaction_of_a_turning_line_that_holds_has_no_jump(
     if kind == "point_courbe":
         assert sign == direction
     assert run["arm.angle"][-1] > math.radians(100)
+
+
+LYING = """planar model Lying
+  parameter Length a = 1 mm;
+  parameter Length b = 1 mm;
+  parameter Length c = 1 mm;
+  body p: rod(mass = 1 kg, length = a);
+  body q: rod(mass = 1 kg, length = b);
+  body r: rod(mass = 1 kg, length = c);
+  liaison j: rotoide(p.tip, q.start);
+  liaison k: rotoide(q.tip, r.start);
+  curve floor on ground: line(through = (0, 0) m, direction = (SENSE, 0));
+  liaison foot: contact_ponctuel(r.tip, floor);
+initial
+  p.position = (a/2, HEIGHT);
+  p.angle = 0 rad;
+  q.position = (a + b/2, HEIGHT);
+  q.angle = 0 rad;
+  r.position = (a + b + c/2, HEIGHT);
+  r.angle = 0 rad;
+  experiment(stop = 1 ms);
+end Lying;
+"""
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("height", [0.0, 1e-40, -1e-40])
+def test_a_height_of_rounding_tells_no_side(sense: int, height: float) -> None:
+    """All the heights are rounding; the lengths of the rods tell how small that is."""
+    text = LYING.replace("SENSE", str(sense)).replace("HEIGHT", f"{height!r} m")
+    model, chance = frot.compile(text), np.random.default_rng(3)
+    for _ in range(20):
+        given = dict(zip("abc", chance.uniform(0.5e-3, 2e-3, 3), strict=True))
+        run = model.simulate(parameters=given)
+        assert run.at(0)["foot.normal_force"] > 0
+        end = run.at(1e-3)
+        assert end["r.position.y"] + given["c"] / 2 * math.sin(end["r.angle"]) > -1e-12
