@@ -74,6 +74,16 @@ static double length_size(const frot_model *m, const frot_work *w, int contact, 
          frot_gap_size(m, w, m->contacts[contact].row_n, q);
 }
 
+/* What unknowns of their usual sizes, at least 1 in SI, change in equation i. An angle that is zero
+ * but for rounding leaves that much of it. */
+static double reach_of(const problem *p, int i) {
+  int nx = unknown_count(p);
+  double sum = 0;
+  for (int k = 0; k < nx; k++)
+    sum += fabs(p->w->jacobian[nx * i + k]) * fmax(fabs(unknown(p)[k]), 1);
+  return sum;
+}
+
 /* Residuals (w->residual) and the rows of the Jacobian (w->jacobian); sets p->n. */
 static int evaluate(problem *p) {
   const frot_model *m = p->m;
@@ -91,6 +101,10 @@ static int evaluate(problem *p) {
     call->call(w->arg, w->res, w->iw, w->w, 0);
     status = through_blocks(p, n);
     if (status != FROT_OK) return status;
+    /* slopes that are rounding of what cancels out tell no way */
+    for (int i = 0; i < n; i++)
+      if (reach_of(p, i) <= KEEPS * w->size[i])
+        memset(w->jacobian + nx * i, 0, sizeof(double) * (size_t)nx);
   }
   for (int i = 0; i < m->n_contacts; i++) {
     if (!p->use[i]) continue;
@@ -182,7 +196,8 @@ static double size_of(const problem *p, int i) {
 }
 
 static int agrees(const problem *p, int i, double before) {
-  return fabs(p->w->residual[i]) <= AGREES * fmax(size_of(p, i), before);
+  double off = fabs(p->w->residual[i]);
+  return off <= AGREES * fmax(size_of(p, i), before) || off <= ROUNDING * reach_of(p, i);
 }
 
 /* The contradiction: the statement with the largest residual and the one most at odds with it. */
