@@ -39,8 +39,8 @@ class Reduced:
     the others may hold too. `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes
     of its terms, `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a +
     bias is the rows' acceleration), `rate` (n_rows), `gap` (n_contacts), `witness` (3
-    each) and `reach` (see contacts.py), `coefficients` (of motion and of rest, of each element), `power` of the
-    loads without potential, `kinetic`, `potential`.
+    each) and `reach` (see contacts.py), `coefficients` (of motion and of rest, of each element),
+    `power` of the loads without potential, `kinetic`, `potential`.
     """
 
     mechanism: Mechanism
