@@ -70,12 +70,17 @@ class Balance:
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """What the run took: accepted and rejected steps, evaluations, wall time of the kernel (s)."""
+    """What the run took: accepted and rejected steps, evaluations, wall time of the kernel (s).
+
+    `unsearched`: instants with so many possible modes that one motion was found, and others were
+    not looked for.
+    """
 
     steps: int
     rejected: int
     evaluations: int
     wall_time: float
+    unsearched: int = 0
 
 
 class Values(Mapping[str, Floats]):
@@ -214,6 +219,11 @@ class Result(Mapping[str, Floats]):
             f"  {figures.steps} steps ({figures.rejected} rejected), {figures.evaluations} "
             f"evaluations, {1e3 * figures.wall_time:.3g} ms in the kernel"
         )
+        if figures.unsearched:
+            lines.append(
+                f"  at {figures.unsearched} instants one motion was found; with so many contacts, "
+                "others were not looked for"
+            )
         if not self.program.balanced:
             if balance.dissipated > 0:
                 lines.append(f"  dissipated in friction {balance.dissipated:.6g} J")

@@ -137,7 +137,7 @@ def simulate(
     kept = times[times < end]
     grid = np.append(kept, end) if run.status != OK else times
     counts = engine.statistics
-    figures = Figures(counts.steps, counts.rejected, counts.evaluations, wall)
+    figures = Figures(counts.steps, counts.rejected, counts.evaluations, wall, counts.unsearched)
     events = tuple(_event(engine, raw) for raw in run.events if raw.t <= reached)
     result = (
         Result(program, engine, grid, run.segments, events, figures) if len(run.segments) else None
