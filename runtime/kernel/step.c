@@ -164,9 +164,10 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     if (e5[at] == 0 && e3[at] == 0) continue;
     double bound, noise = 0, fifth = h * e5[at], third = h * e3[at];
     if (j < l->nx) {
-      double margin = j < m->nq && m->q_speed[j] < 0 ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN;
-      noise = margin * h * s->data[l->noise + j];
+      int plain = j < m->nq && m->q_speed[j] < 0;
+      noise = (plain ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN) * h * s->data[l->noise + j];
       bound = tolerance * size_at_start(m, s, w, l, j, h);
+      if (plain) bound = fmax(bound, noise), noise = 0; /* no inertia smooths it */
     } else {
       double largest = GUARD_LOOSEST * s->data[l->scale_g + w->guards[j - l->nx]];
       for (int k = 0; k <= DP_STAGES; k++) largest = fmax(largest, fabs(w->k[k * l->nz + j]));
