@@ -18,12 +18,12 @@ STAGES = ("tree", "instance", "mechanism", "equations", "cost")
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; the exit status is 0, 1 after an error message, 2 after wrong usage."""
-    parser = _parser()
-    options = parser.parse_args(arguments)
-    if options.command is None:
-        parser.print_help()
-        return 0
     try:
+        parser = _parser()
+        options = parser.parse_args(arguments)
+        if options.command is None:
+            parser.print_help()
+            return 0
         status = int(options.run(options))
         sys.stdout.flush()
         return status
