@@ -9,12 +9,12 @@
 #include "mechanics.h"
 #include "record.h"
 #include "resolve.h"
+#include "tolerances.h"
 
 #define SHRINKING 3 /* gaps in a row, each shorter than the last in the same ratio, ... */
 #define SAME_RATIO 0.01
 #define LIMIT 1e-5 /* ... down to this part of the first one: they have a limit */
 #define CROWD 100  /* rounds at one instant after which the events will not settle */
-#define TOUCH 1e-9 /* part of the usual speed, or of the terms of a gap, that is none */
 
 typedef struct {
   const frot_model *m;
@@ -58,11 +58,11 @@ static int release_contacts(const instant *in) {
     int row = contact->row_n;
     if (!frot_has_normal(contact) || contact->reduced) continue;
     double gap = w->gap[i], rate = w->rate[row],
-           near = TOUCH * (fabs(gap) + frot_gap_size(m, w, row, in->q));
+           near = FROT_TOUCH * (fabs(gap) + frot_gap_size(m, w, row, in->q));
     if (gap < -near) return frot_fail(in->s, FROT_JUMP, in->t, i, -1, FROT_ENTERS, -gap);
     if (!modes[i].closed) continue;
     double usual = frot_row_size(m, w, row, in->v) + frot_row_size(m, w, row, scale);
-    int apart = gap > near, leaves = rate > TOUCH * usual, meets = rate < -TOUCH * usual;
+    int apart = gap > near, leaves = rate > FROT_TOUCH * usual, meets = rate < -FROT_TOUCH * usual;
     if (unilateral[i] == 0 && (apart || leaves || meets))
       return frot_fail(in->s, FROT_JUMP, in->t, i, -1, apart ? FROT_PARTS : FROT_JERKS,
                        apart ? gap : rate);

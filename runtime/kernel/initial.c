@@ -7,12 +7,11 @@
 #include "blocks.h"
 #include "core.h"
 #include "linear.h"
+#include "tolerances.h"
 
 #define PASSES 60
 #define LEAST_DAMPING 1e-9
-#define ROUNDS 10   /* of conditions that depend on values that depend on conditions */
-#define AGREES 1e-9 /* largest residual, relative to the terms, of statements that agree */
-#define TOUCHES 1e-9
+#define ROUNDS 10 /* of conditions that depend on values that depend on conditions */
 /* Change, in sizes of the scene, that no statement asks for: what an equation does not depend on
  * but for rounding would be moved so far that the rounding there fits. */
 #define FAR 1e10
@@ -197,7 +196,7 @@ static double size_of(const problem *p, int i) {
 
 static int agrees(const problem *p, int i, double before) {
   double off = fabs(p->w->residual[i]);
-  return off <= AGREES * fmax(size_of(p, i), before) || off <= ROUNDING * reach_of(p, i);
+  return off <= FROT_AGREES * fmax(size_of(p, i), before) || off <= ROUNDING * reach_of(p, i);
 }
 
 /* The contradiction: the statement with the largest residual and the one most at odds with it. */
@@ -324,7 +323,7 @@ static int solve(problem *p) {
     }
     if (pass == 0) p->scene = scene_of(p);
     if (good || p->n == 0) return FROT_OK;
-    if (pass > 3 && largest >= last && largest <= AGREES) return FROT_OK;
+    if (pass > 3 && largest >= last && largest <= FROT_AGREES) return FROT_OK;
     last = largest;
     least_change(p, NULL);
     if (!take(p) && pass < PASSES - 1) continue;
@@ -480,9 +479,9 @@ static int choose_sides(const problem *p, double *side, int natural) {
   for (int i = 0; i < m->n_contacts; i++) {
     if (!frot_has_normal(&m->contacts[i])) continue;
     const double *witness = p->w->witness + 3 * i;
-    double rounding = TOUCHES * length_size(m, p->w, i, p->q);
+    double rounding = FROT_TOUCH * length_size(m, p->w, i, p->q);
     int sign = natural ? 0 : sign_beyond(witness[0], rounding);
-    if (sign == 0) sign = sign_beyond(witness[1], TOUCHES);
+    if (sign == 0) sign = sign_beyond(witness[1], FROT_TOUCH);
     if (sign == 0) sign = sign_beyond(witness[2], rounding);
     if (sign == 0) sign = 1;
     changes += sign != (int)side[i];
@@ -552,7 +551,7 @@ static int solve_positions(problem *p, double *side) {
     int added = 0;
     for (int i = 0; i < nc; i++) {
       if (p->use[i] || m->contacts[i].reduced || !frot_has_normal(&m->contacts[i])) continue;
-      if (w->gap[i] < -TOUCHES * length_size(m, w, i, p->q)) p->use[i] = 1, added = 1;
+      if (w->gap[i] < -FROT_TOUCH * length_size(m, w, i, p->q)) p->use[i] = 1, added = 1;
     }
     if (!added) return FROT_OK;
   }
@@ -617,7 +616,7 @@ static int solve_once(problem *p, double *q, double *v) {
     const frot_contact *contact = &m->contacts[i];
     if (!frot_has_normal(contact)) continue;
     int touches =
-        unilateral[i] == 0 || p->use[i] || fabs(w->gap[i]) <= TOUCHES * length_size(m, w, i, q);
+        unilateral[i] == 0 || p->use[i] || fabs(w->gap[i]) <= FROT_TOUCH * length_size(m, w, i, q);
     modes[i].closed = (signed char)touches;
     p->use[i] = touches && unilateral[i] == 0 && !contact->reduced;
   }

@@ -7,10 +7,10 @@
 #include "core.h"
 #include "linear.h"
 #include "projection.h"
+#include "tolerances.h"
 
 #define PASSES 5
-#define ROUNDING (4 * DBL_EPSILON) /* residual, in sizes of the terms, that is none */
-#define LEAST_SIZE 1e-3            /* of the largest size of its kind, for a state still small */
+#define LEAST_SIZE 1e-3 /* of the largest size of its kind, for a state still small */
 
 /* Units in which the changes of the states are measured, into w->unit (nq + nv): their sizes. What
  * is frozen does not change. */
@@ -41,7 +41,7 @@ static int add(const frot_model *m, frot_work *w, int *n, double residual, doubl
   if (!(length > 0)) return 0;
   for (int k = 0; k < nx; k++) row[k] /= length;
   w->residual[(*n)++] = residual / length;
-  return fabs(residual) > ROUNDING * size;
+  return fabs(residual) > FROT_ROUNDING * size;
 }
 
 /* The equations into w->jacobian, by rows, and w->residual; returns whether one is off. */

@@ -12,8 +12,7 @@ typedef char frot_mode_fills_double[sizeof(frot_contact_mode) == sizeof(double) 
 
 frot_layout frot_layout_of(const frot_model *m) {
   frot_layout l;
-  l.nm = m->nv + m->na;
-  l.nw = l.nm + m->nc;
+  l.nw = m->nv + m->na + m->nc;
   l.nx = m->nq + m->nv + FROT_QUADRATURES;
   l.ng = m->n_contacts + 2 * m->n_elements + m->n_located;
   l.nf = m->n_contacts + 2 * m->n_elements + m->n_conditions;

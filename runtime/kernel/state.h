@@ -29,8 +29,8 @@ typedef struct {
 
 /* Offsets in doubles from the head of state->data, and sizes. Computed from the model. */
 typedef struct {
-  int nw, nm, nx, nz, ng, nf, nd, ns; /* nm: order of the metric; ns: doubles of a segment */
-  int early;                          /* unknowns of the blocks that are not late */
+  int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
+  int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, experiment, nominal, unilateral, x, y, slope, scale_x, scale_g, worth,
       noise, along, fired, several, due, left, asked, fresh, modes, d, frozen, segment, size;
 } frot_layout;
