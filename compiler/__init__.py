@@ -4,26 +4,26 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from frot.compiler.cache import find_program, program_key
-    from frot.compiler.dae import Dae, make_dae
     from frot.compiler.driver import build
-    from frot.compiler.objects import compile_library
-    from frot.compiler.printing import print_stage
-    from frot.compiler.report import Report, make_report
-    from frot.compiler.toolchain import Toolchain, find_toolchain
+    from frot.compiler.product.dae import Dae, make_dae
+    from frot.compiler.product.printing import print_stage
+    from frot.compiler.product.report import Report, make_report
+    from frot.compiler.toolchain.cache import find_program, program_key
+    from frot.compiler.toolchain.compilers import Toolchain, find_toolchain
+    from frot.compiler.toolchain.objects import compile_library
 
 _HOMES = {
-    "Dae": "dae",
-    "Report": "report",
-    "Toolchain": "toolchain",
+    "Dae": "product.dae",
+    "Report": "product.report",
+    "Toolchain": "toolchain.compilers",
     "build": "driver",
-    "compile_library": "objects",
-    "find_program": "cache",
-    "find_toolchain": "toolchain",
-    "make_dae": "dae",
-    "make_report": "report",
-    "print_stage": "printing",
-    "program_key": "cache",
+    "compile_library": "toolchain.objects",
+    "find_program": "toolchain.cache",
+    "find_toolchain": "toolchain.compilers",
+    "make_dae": "product.dae",
+    "make_report": "product.report",
+    "print_stage": "product.printing",
+    "program_key": "toolchain.cache",
 }
 __all__ = [
     "Dae",

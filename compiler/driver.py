@@ -7,12 +7,12 @@ from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from pathlib import Path
 
-from frot.compiler.cache import store, write_manifest
-from frot.compiler.mechanize import mechanize
-from frot.compiler.objects import kept_objects
-from frot.compiler.toolchain import FLAGS, Toolchain, compile_objects, link_library
-from frot.compiler.units import unit_of
-from frot.compiler.walk import as_number
+from frot.compiler.lowering.walk import as_number
+from frot.compiler.mechanics.mechanize import mechanize
+from frot.compiler.product.units import unit_of
+from frot.compiler.toolchain.cache import store, write_manifest
+from frot.compiler.toolchain.compilers import FLAGS, Toolchain, compile_objects, link_library
+from frot.compiler.toolchain.objects import kept_objects
 from frot.dsl import Log, default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
 from frot.dsl.dimensions import dimension
@@ -49,9 +49,9 @@ def build(model: Model, file: str, key: str, toolchain: Toolchain, log: Log) -> 
 
     `file` is the name of the text in the places of its equations.
     """
-    from frot.compiler.generate import generate
-    from frot.compiler.lower import lower
-    from frot.compiler.reduce import reduce
+    from frot.compiler.lowering.lower import lower
+    from frot.compiler.mechanics.reduce import reduce
+    from frot.compiler.product.generate import generate
 
     mechanism = mechanize(model, log)
     if mechanism is None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from frot.compiler.cache import cache_folder
-from frot.compiler.cache_size import (
+from frot.compiler.toolchain.cache import cache_folder
+from frot.compiler.toolchain.cache_size import (
     Entry,
     bytes_of,
     entries,

@@ -13,8 +13,8 @@ from frot.dsl.import_scan import imported_files
 from frot.dsl.reading import read_text
 
 if TYPE_CHECKING:
-    from frot.compiler.dae import Dae
-    from frot.compiler.report import Report
+    from frot.compiler.product.dae import Dae
+    from frot.compiler.product.report import Report
     from frot.dsl import checked
     from frot.runtime.program import Program
     from frot.runtime.result import Result

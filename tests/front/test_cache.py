@@ -88,7 +88,10 @@ def test_what_is_not_needed_is_not_imported(command: str, filled: Path, shell: S
     assert "argparse" in loaded
     heavy = {"casadi", "matplotlib", "scipy", "fmpy", "rich"}
     heavy |= {
-        "simulate": {"lark", "frot.compiler.generate", "frot.dsl.catalogue", "frot.dsl.codes"},
+        "simulate": {
+            *("lark", "frot.dsl.catalogue", "frot.dsl.codes"),
+            "frot.compiler.product.generate",
+        },
         "check": {"numpy"},
         "--help": {"lark", "numpy", "frot.dsl", "frot.model"},
         "--version": {"lark", "numpy", "frot.dsl", "frot.model"},

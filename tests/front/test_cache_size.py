@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 from front_door import HOOP, Door, Shell
-from frot.compiler.cache import find_program, store
-from frot.compiler.cache_size import bytes_of, entries, shown, shrink, sweep, write_limit
-from frot.compiler.hold import hold
+from frot.compiler.toolchain.cache import find_program, store
+from frot.compiler.toolchain.cache_size import bytes_of, entries, shown, shrink, sweep, write_limit
+from frot.compiler.toolchain.hold import hold
 
 import frot
 

@@ -1,0 +1,1 @@
+"""The equations of a text: index, order, blocks, core."""

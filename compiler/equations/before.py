@@ -1,0 +1,98 @@
+"""Values before an event: `pre`, `change` and `edge`.
+
+Modelica Language Specification 3.6, sect. 3.7.5: at an event all values are found anew; then those
+before become those found, and all is found again, until none changes. What a `when` sets has its
+value before in the equations of its conditions already. What an equation gives is held apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+import casadi as ca
+from frot.compiler.equations.text_symbols import Held, TextSymbols, scalars
+from frot.compiler.lowering.symbols import shaped
+from frot.dsl.checked import Call, Element, Expression, Reference, Variable
+from frot.dsl.source import Span
+
+
+@dataclass(slots=True)
+class Before:
+    """`variable` gives the value of a variable before the event.
+
+    `set_before` gives that of what a `when` sets; where an expression reads both such a value and
+    the one before (`lagging`), the one before is held until the next round at the event.
+    """
+
+    text: TextSymbols
+    set_before: Callable[[Variable], ca.SX]
+    first: Callable[[Variable], list[ca.SX]]
+    lagging: set[Variable] = field(default_factory=set)
+
+    def variable(self, variable: Variable, span: Span) -> ca.SX:
+        """The value before, in the shape of the variable."""
+        if variable.discrete and variable not in self.lagging:
+            return self.set_before(variable)
+        if not variable.discrete and variable.type.base == "real":
+            return self.text.values[variable]
+        return self.held(variable, span)
+
+    def held(self, variable: Variable, span: Span) -> ca.SX:
+        """The value that the variable had in the last round at an event."""
+        items = [
+            self.hold(value, value.name(), start, span)
+            for value, start in zip(
+                scalars(self.text.values[variable]), self.first(variable), strict=True
+            )
+        ]
+        return shaped(items, variable.type.shape)
+
+    def hold(self, value: ca.SX, name: str, start: ca.SX, span: Span) -> ca.SX:
+        """A symbol for the value that the scalar `value` had in the last round at an event."""
+        for known in self.text.held:
+            if ca.is_equal(known.value, value, 20):
+                return known.symbol
+        symbol = ca.SX.sym(f"pre({name})")
+        self.text.held.append(Held(name, symbol, start, value, span))
+        return symbol
+
+    def look_at(self, expressions: Iterable[Expression]) -> None:
+        """Find what the expressions, lowered next, read both now and before."""
+        now: set[Variable] = set()
+        before: set[Variable] = set()
+        for expression in expressions:
+            _reads(expression, now, before)
+        self.lagging = {v for v in now & before if v.discrete}
+
+
+def _reads(root: Expression, now: set[Variable], before: set[Variable]) -> None:
+    """The variables that an expression reads, and those that it reads before the event."""
+    from frot.compiler.lowering.walk import parts
+
+    stack: list[tuple[Expression, bool, bool]] = [(root, True, False)]
+    seen: set[tuple[int, bool, bool]] = set()
+    while stack:
+        node, is_now, is_before = stack.pop()
+        if (id(node), is_now, is_before) in seen:
+            continue
+        seen.add((id(node), is_now, is_before))
+        if isinstance(node, Reference) and isinstance(node.target, Variable):
+            if is_now:
+                now.add(node.target)
+            if is_before:
+                before.add(node.target)
+        if isinstance(node, Call) and node.function in ("pre", "change", "edge"):
+            is_now, is_before = node.function != "pre", True
+        stack.extend((part, is_now, is_before) for part in parts(node))
+
+
+def whole(expression: Expression) -> tuple[Variable, list[int]] | None:
+    """The variable an expression names, and the indices of its item; None if it names none."""
+    indices: list[int] = []
+    while isinstance(expression, Element):
+        indices.append(expression.index)
+        expression = expression.operand
+    if isinstance(expression, Reference) and isinstance(expression.target, Variable):
+        return expression.target, indices[::-1]
+    return None

@@ -1,0 +1,159 @@
+"""Equations that look independent and are not: the combination that shows what they say.
+
+Capacitors in a loop, say, hide the relation of their voltages among the potentials of the nodes.
+Where the highest derivatives of some equations are dependent, whatever the values, a combination
+of the equations without them takes the place of one of these: the method of linear combinations of
+G. Tan, N. S. Nedialkov, J. D. Pryce (2017).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import casadi as ca
+import numpy as np
+from frot.compiler.equations.chains import Chains
+from frot.compiler.equations.differentiate import find_incidence
+from frot.compiler.equations.eliminate import Residuals
+from frot.compiler.equations.index import Index, find_unbalanced, reduce_index
+from frot.compiler.equations.order import find_components
+from frot.compiler.lowering.symbols import column
+
+NEGLIGIBLE = 1e-10  # of numbers of order one that should be nothing but rounding
+ECHELON = 1e-6  # below it an item of a vector of length one is no pivot
+POINTS = 3  # random places at which a dependence must be the same
+
+
+def combine(system: Residuals, newton: int, chains: Chains, left: Sequence[int]) -> Residuals:
+    """The system, the first `newton` equations as they are, without hidden dependences.
+
+    `left` are the chains that are its unknowns.
+    """
+    values = list(system.values)
+    for _ in values:
+        incidence = find_incidence(values, chains, left)
+        if find_unbalanced([tuple(row) for row in incidence], len(left)) is not None:
+            break
+        index = reduce_index(incidence, len(left))
+        found = next(_dependences(values, incidence, index, newton, chains, left), None)
+        if found is None:
+            break
+        place, value = found
+        values[place] = value
+    return Residuals(values, system.origins)
+
+
+def _dependences(
+    values: list[ca.SX],
+    incidence: Sequence[dict[int, int]],
+    index: Index,
+    newton: int,
+    chains: Chains,
+    left: Sequence[int],
+) -> Iterator[tuple[int, ca.SX]]:
+    """Equations to replace, each with what takes its place."""
+    uses = [
+        [j for j, order in row.items() if order + times == index.unknowns[j]]
+        for row, times in zip(incidence, index.equations, strict=True)
+    ]
+    solves = [-1] * len(values)
+    for j, i in enumerate(index.solver):
+        solves[i] = j
+    for component in find_components(uses, solves):
+        rows = component.equations
+        if len(rows) < 2 or min(rows) < newton:
+            continue
+        weights = _weights(values, component.unknowns, rows, index, chains, left)
+        if weights is None:
+            continue
+        inside = {i: w for i, w in zip(rows, weights, strict=True) if abs(w) > NEGLIGIBLE}
+        lowest = min(index.equations[i] for i in inside)
+        place = next(i for i in inside if index.equations[i] == lowest)
+        terms = []
+        for i, weight in inside.items():
+            if index.equations[i] > lowest and chains.without_rate(values[i]):
+                break
+            term = values[i]
+            for _ in range(index.equations[i] - lowest):
+                term = chains.rate(term)
+            terms.append(weight / inside[place] * term)
+        else:
+            yield place, _without_nothing(sum(terms, ca.SX(0)), chains)
+
+
+def _weights(
+    values: list[ca.SX],
+    unknowns: Sequence[int],
+    rows: Sequence[int],
+    index: Index,
+    chains: Chains,
+    left: Sequence[int],
+) -> np.ndarray | None:
+    """What the equations must be multiplied with to lose their highest derivatives; None: cannot.
+
+    They must be the same whatever the values of variables and parameters.
+    """
+    entries = ca.SX(len(rows), len(unknowns))
+    for k, i in enumerate(rows):
+        for at, j in enumerate(unknowns):
+            order = index.unknowns[j] - index.equations[i]
+            if order >= 0:
+                symbol = chains.symbol(left[j], order)
+                if ca.depends_on(values[i], symbol):
+                    entries[k, at] = ca.jacobian(values[i], symbol)
+    found: list[np.ndarray] = []
+    for matrix in _at_random(entries):
+        sizes = np.abs(matrix).max(axis=0)
+        if not np.isfinite(matrix).all() or not sizes.all():
+            return None
+        u, s, _ = np.linalg.svd(matrix / sizes)
+        if s[-1] > NEGLIGIBLE * s[0]:
+            return None
+        null = _sparsest(u[:, s <= NEGLIGIBLE * s[0]])
+        found.append(null)
+    if any(np.abs(one - found[0]).max() > NEGLIGIBLE for one in found):
+        return None
+    near = np.round(found[0])
+    return near if np.abs(near - found[0]).max() < NEGLIGIBLE else found[0]
+
+
+def _sparsest(basis: np.ndarray) -> np.ndarray:
+    """The last row of the reduced echelon form of the space that the columns of `basis` span.
+
+    It is the same for every basis of the space.
+    """
+    space = basis.T.copy()
+    row = 0
+    for at in range(space.shape[1]):
+        best = row + int(np.argmax(np.abs(space[row:, at])))
+        if abs(space[best, at]) < ECHELON:
+            continue
+        space[[row, best]] = space[[best, row]]
+        space[row] /= space[row, at]
+        others = np.arange(len(space)) != row
+        space[others] -= np.outer(space[others, at], space[row])
+        row += 1
+        if row == len(space):
+            break
+    return np.asarray(space[-1])
+
+
+def _at_random(values: ca.SX) -> Iterator[np.ndarray]:
+    symbols = ca.symvar(values)
+    function = ca.Function("entries", symbols, [values])
+    random = np.random.default_rng(1)
+    for _ in range(POINTS):
+        points = [ca.DM(x) for x in random.uniform(0.5, 2, len(symbols))]
+        yield function.call(points)[0].full()
+
+
+def _without_nothing(value: ca.SX, chains: Chains) -> ca.SX:
+    """The value without the unknowns on which it depends in writing only."""
+    own = [s for s in ca.symvar(value) if s.element_hash() in chains.place]
+    if not own:
+        return value
+    slopes = np.vstack(list(_at_random(ca.jacobian(value, column(own)))))
+    idle = [s for s, size in zip(own, np.abs(slopes).max(axis=0), strict=True) if size < NEGLIGIBLE]
+    if not idle:
+        return value
+    return ca.substitute(value, column(idle), ca.SX.zeros(len(idle)))

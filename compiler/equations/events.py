@@ -1,0 +1,275 @@
+"""The `when`s of a text: what fires them, and what they change."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from graphlib import CycleError, TopologicalSorter
+
+import casadi as ca
+from frot.compiler.equations.before import Before
+from frot.compiler.equations.text_symbols import TextSymbols, scalars
+from frot.compiler.lowering.expressions import NEVER, RISING, Conditions, Lowering, words
+from frot.compiler.lowering.symbols import column, shaped
+from frot.compiler.mechanics.names import component_names
+from frot.dsl import Log
+from frot.dsl.checked import (
+    Assertion,
+    Assign,
+    Call,
+    Expression,
+    Model,
+    Reinit,
+    Terminate,
+    Variable,
+    When,
+)
+from frot.dsl.source import Span
+
+TERMINATE, FAIL, WARN, FAULT = range(4)
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What a `when` may ask of the run: to end, to fail or to warn, with a text."""
+
+    kind: int
+    text: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Jump:
+    """`reinit(target, value)`: the scalar `target` has this value after the event."""
+
+    target: ca.SX
+    value: ca.SX
+    span: Span
+
+
+@dataclass(slots=True, eq=False)
+class Events:
+    """Conditions that fire (indices into the located conditions), and what follows.
+
+    `fired` are symbols, one for each entry of `conditions`, `before` those of the discrete values
+    before the event; `values` are the ones after it, in the order of the text's memory; `asked[k]`
+    is 1 where outcome k is.
+    """
+
+    fired: list[ca.SX] = field(default_factory=list)
+    before: list[ca.SX] = field(default_factory=list)
+    conditions: list[int] = field(default_factory=list)
+    at_start: list[bool] = field(default_factory=list)
+    values: list[ca.SX] = field(default_factory=list)
+    jumps: list[tuple[ca.SX, Jump]] = field(default_factory=list)
+    outcomes: list[Outcome] = field(default_factory=list)
+    asked: list[ca.SX] = field(default_factory=list)
+
+
+class _Gatherer:
+    """Lowers the `when`s: `moving` locates the conditions, `looking` reads values at an event."""
+
+    def __init__(
+        self, text: TextSymbols, conditions: Conditions, moving: Lowering, looking: Lowering
+    ) -> None:
+        self.text, self.conditions = text, conditions
+        self.moving, self.looking = moving, looking
+        self.events = Events()
+        self.before: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value before
+        self.after: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value after
+        self.new: dict[int, ca.SX] = {}  # discrete symbol -> its value after, in those symbols
+
+    def fire(self, condition: ca.SX, at_start: bool, text: str, span: Span) -> ca.SX:
+        """A symbol that is 1 at the event at which `condition`, 0 or 1, comes to hold."""
+        symbol = ca.SX.sym(f"fired_{len(self.events.fired)}")
+        index = next(
+            (i for i, f in enumerate(self.conditions.flags) if ca.is_equal(f, condition)), -1
+        )
+        if index < 0:
+            flag = self.conditions.add(condition - 0.5, True, self._told(text), span, NEVER)
+            index = next(i for i, f in enumerate(self.conditions.flags) if ca.is_equal(f, flag))
+        self.events.fired.append(symbol)
+        self.events.conditions.append(index)
+        self.events.at_start.append(at_start)
+        return symbol
+
+    def _told(self, text: str) -> str:
+        return f"{self.moving.owner}: {text}" if self.moving.owner else text
+
+    def condition(self, expression: Expression) -> ca.SX:
+        """What fires for one condition of a `when`."""
+        if isinstance(expression, Call) and expression.function == "edge":
+            expression = expression.arguments[0]
+        if isinstance(expression, Call) and expression.function == "sample":
+            return self._sample(expression)
+        if isinstance(expression, Call) and expression.function == "initial":
+            return self._once(expression)
+        self.moving.look_at(expression)
+        return self.fire(self.moving.lower(expression), False, words(expression), expression.span)
+
+    def _sample(self, call: Call) -> ca.SX:
+        first, interval = (self.moving.lower(a) for a in call.arguments)
+        time = self.moving.symbols.t
+        count = ca.SX.sym(f"samples_{len(self.text.discrete)}")
+        # the first sample at or after the start of the run
+        start = ca.fmax(ca.ceil((time - first) / interval - 1e-9), 0)
+        was = self._counted(count, start)
+        text = self._told(words(call))
+        due = self.conditions.add(time - (first + count * interval), False, text, call.span, RISING)
+        fired = self.fire(due, True, text, call.span)
+        self.set(count, fired, was + 1)
+        lost = first + (was + 1) * interval <= first + was * interval
+        told = f"the ticks of `{words(call)}` lie closer than time can tell apart"
+        self._ask(Outcome(FAULT, told, call.span), fired * lost)
+        return fired
+
+    def _once(self, call: Call) -> ca.SX:
+        begun = ca.SX.sym(f"begun_{len(self.text.discrete)}")
+        self._counted(begun, ca.SX(0))
+        fired = self.fire(1 - begun, True, words(call), call.span)
+        self.set(begun, fired, ca.SX(1))
+        return fired
+
+    def _counted(self, symbol: ca.SX, start: ca.SX) -> ca.SX:
+        """Add a discrete value; its value before the event."""
+        self.text.add_discrete(symbol.name(), symbol, start)
+        was = ca.SX.sym(f"{symbol.name()} before")
+        self.before[symbol.element_hash()] = was
+        return was
+
+    def set(self, symbol: ca.SX, active: ca.SX, value: ca.SX) -> None:
+        """Where `active`, the discrete value is `value` after the event."""
+        key = symbol.element_hash()
+        self.new[key] = ca.if_else(active, value, self.new.get(key, self.before[key]))
+
+    def when(self, when: When) -> None:
+        """One `when` with its branches; the first that fires excludes the others."""
+        free = ca.SX(1)
+        for conditions, actions in when.branches:
+            self.moving.owner = when.owner
+            fired = [self.condition(c) for c in conditions]
+            some = 1 - _product([1 - f for f in fired])
+            active = some * free
+            free = free * (1 - some)
+            for action in actions:
+                self._act(action, active)
+
+    def _act(self, action: Assign | Reinit | Terminate | Assertion, active: ca.SX) -> None:
+        match action:
+            case Assign():
+                value = self.looking.lower(action.value)
+                targets = scalars(self.text.values[action.variable])
+                values = scalars(value)
+                if len(values) == 1:
+                    values = values * len(targets)
+                for symbol, item in zip(targets, values, strict=True):
+                    self.set(symbol, active, item)
+            case Reinit():
+                targets = scalars(self.looking.lower(action.target))
+                for target, value in zip(
+                    targets, scalars(self.looking.lower(action.value)), strict=True
+                ):
+                    self.events.jumps.append((active, Jump(target, value, action.span)))
+            case Terminate():
+                self._ask(Outcome(TERMINATE, action.message, action.span), active)
+            case Assertion():
+                holds = self.looking.lower(action.condition)
+                kind = WARN if action.level == "warning" else FAIL
+                self._ask(Outcome(kind, action.message, action.span), active * (1 - holds))
+
+    def _ask(self, outcome: Outcome, active: ca.SX) -> None:
+        self.events.outcomes.append(outcome)
+        self.events.asked.append(active)
+
+    def assertion(self, assertion: Assertion) -> None:
+        """A condition that must always hold: it is watched."""
+        self.moving.owner = assertion.owner
+        self.moving.look_at(assertion.condition)
+        broken = 1 - self.moving.lower(assertion.condition)
+        kind = WARN if assertion.level == "warning" else FAIL
+        fired = self.fire(broken, True, words(assertion.condition), assertion.span)
+        self._ask(Outcome(kind, assertion.message, assertion.span), fired)
+
+
+def gather_events(
+    model: Model,
+    text: TextSymbols,
+    conditions: Conditions,
+    moving: Lowering,
+    looking: Lowering,
+    log: Log,
+) -> Events:
+    """Lower every `when` and `assert`. `looking` is given the discrete values after the event."""
+    gatherer = _Gatherer(text, conditions, moving, looking)
+    after: dict[Variable, ca.SX] = {}
+    before: dict[Variable, ca.SX] = {}
+    for variable in model.variables:
+        if not variable.discrete:
+            continue
+        shape = variable.type.shape
+        names = component_names(variable.name, shape)
+        news, olds = ([ca.SX.sym(f"{n} {w}") for n in names] for w in ("after", "before"))
+        after[variable], before[variable] = shaped(news, shape), shaped(olds, shape)
+        for symbol, new, old in zip(scalars(text.values[variable]), news, olds, strict=True):
+            gatherer.after[symbol.element_hash()] = new
+            gatherer.before[symbol.element_hash()] = old
+    looking.variable = lambda v: after[v] if v.discrete else text.values[v]
+    assert moving.before is not None
+    looking.before = Before(text, before.__getitem__, moving.before.first)
+    looking.known = conditions
+    for when in model.whens:
+        gatherer.when(when)
+    for assertion in model.assertions:
+        gatherer.assertion(assertion)
+    _settle(gatherer, log, model)
+    return gatherer.events
+
+
+def _settle(gatherer: _Gatherer, log: Log, model: Model) -> None:
+    """Put the new discrete values into each other, in the order in which they need each other."""
+    text, events = gatherer.text, gatherer.events
+    symbols = [d.symbol for d in text.discrete]
+    keys = [s.element_hash() for s in symbols]
+    events.before = [gatherer.before[k] for k in keys] + [
+        ca.SX.sym(f"{h.name} before") for h in text.held
+    ]
+    own = {gatherer.after[k].element_hash(): k for k in keys if k in gatherer.after}
+    value = {k: gatherer.new.get(k, gatherer.before[k]) for k in keys}
+    needs = {
+        k: {own[s.element_hash()] for s in ca.symvar(v) if s.element_hash() in own}
+        for k, v in value.items()
+    }
+    try:
+        order = list(TopologicalSorter(needs).static_order())
+    except CycleError as error:
+        names = {k: s.name() for k, s in zip(keys, symbols, strict=True)}
+        circle = " -> ".join(names[k] for k in error.args[1])
+        log.report(
+            "E0609",
+            f"the values of a 'when' need each other in a circle: {circle}",
+            model.whens[0].span,
+            help="use 'pre(...)' for the value before the event",
+        )
+        return
+    settled: dict[int, ca.SX] = {}
+    for k in order:
+        settled[k] = _put(value[k], gatherer.after, settled)
+    events.values = [settled[k] for k in keys] + [h.value for h in text.held]
+    events.asked = [_put(a, gatherer.after, settled) for a in events.asked]
+    events.jumps = [
+        (active, Jump(j.target, _put(j.value, gatherer.after, settled), j.span))
+        for active, j in events.jumps
+    ]
+
+
+def _put(value: ca.SX, after: dict[int, ca.SX], settled: dict[int, ca.SX]) -> ca.SX:
+    known = [(after[k], v) for k, v in settled.items() if k in after]
+    if not known:
+        return value
+    return ca.substitute(value, column(s for s, _ in known), column(v for _, v in known))
+
+
+def _product(items: list[ca.SX]) -> ca.SX:
+    result = ca.SX(1)
+    for item in items:
+        result = result * item
+    return result

@@ -1,0 +1,255 @@
+"""Orders the equations of a text for solving: explicit formulas, blocks, and the core system.
+
+The core holds the accelerations of the mechanism, and every unknown that friction changes and that
+in turn changes the motion friction opposes. What does not depend on it is solved before, what
+depends on it after.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import casadi as ca
+import numpy as np
+from frot.compiler.equations.chains import Chains, replace_known
+from frot.compiler.equations.combine import combine
+from frot.compiler.equations.core import Core, make_core
+from frot.compiler.equations.differentiate import (
+    Differentiated,
+    differentiate,
+    find_incidence,
+    is_balanced,
+)
+from frot.compiler.equations.eliminate import (
+    Eliminated,
+    Entries,
+    Pivot,
+    Residuals,
+    eliminate,
+    resolve_all,
+)
+from frot.compiler.equations.floating import is_tied_down
+from frot.compiler.equations.index import reduce_index
+from frot.compiler.equations.order import Component, closure
+from frot.compiler.equations.origins import Origin
+from frot.compiler.equations.tear import tear
+from frot.compiler.lowering.assembled import Assembled, Block, Invariants
+from frot.compiler.lowering.symbols import column
+from frot.compiler.lowering.walk import as_number
+from frot.compiler.mechanics.reduce import Reduced
+from frot.dsl import Log, default_values, evaluate
+
+
+@dataclass(slots=True, eq=False)
+class Solving:
+    """What is known while the components are gone through."""
+
+    known: dict[int, ca.SX] = field(default_factory=dict)
+    y: list[ca.SX] = field(default_factory=list)
+    blocks: list[Block] = field(default_factory=list)
+    pivots: list[Pivot] = field(default_factory=list)
+
+
+def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
+    """The kernel's system of a mechanism and the equations of its text; faults are reported."""
+    chains, s = reduced.text.chains, reduced.symbols
+    values = default_values(reduced.mechanism.model, {})
+    defaults = ca.DM(np.array([as_number(evaluate(p.value, values)) for p in s.parameters]))
+    newton, count = _newton(reduced), s.v.numel()
+    own = [Origin(reduced.mechanism.model.span, "the equations of motion", "")] * count
+    raw = Residuals(
+        [*(ca.vertsplit(newton[:count]) if count else ()), *reduced.equations.values],
+        [*own, *reduced.equations.origins],
+    )
+    everything = range(len(chains.items))
+    incidence = find_incidence(raw.values, chains, everything)
+    if not is_balanced(incidence, everything, raw.origins, chains, log):
+        return None
+    if not is_tied_down(raw.values, chains, reduced.mechanism.model, log):
+        return None
+    index = reduce_index(incidence, len(everything))
+
+    def may_define(i: int, j: int, entries: Entries) -> bool:
+        """States only where the equation is differentiated as often; other unknowns if aliases."""
+        states = index.unknowns[j]
+        alias = len(entries) <= 2 and not any(entries.values())
+        return index.equations[count + i] == states and (states > 0 or alias)
+
+    left = eliminate(reduced.equations, may_define, chains, s.p, defaults)
+    if not _are_equations(left, chains, log):
+        return None
+    forces = resolve_all(newton, chains, left.resolver)
+    system = Residuals(
+        [*ca.vertsplit(forces[:count]), *left.residuals.values] if count else left.residuals.values,
+        [*own, *left.residuals.origins],
+    )
+    unknowns = [j for j in everything if j not in left.removed]
+    system = combine(system, count, chains, unknowns)
+    found = differentiate(system, count, chains, left.removed, log)
+    if found is None:
+        return None
+    core, late = _core_components(found, reduced)
+    solving = Solving()
+    for k, component in enumerate(found.components):
+        if k not in core and k not in late:
+            _solve(component, found, solving, False, s.p, defaults)
+    built = make_core(reduced, left, found, core, forces, solving.known, defaults, log)
+    if built is None:
+        return None
+    solving.known.update(built.known)
+    for k, component in enumerate(found.components):
+        if k in late:
+            _solve(component, found, solving, True, s.p, defaults)
+    return _finish(reduced, left, found, solving, built, log)
+
+
+def _newton(reduced: Reduced) -> ca.SX:
+    """M a - h - J' lam, auxiliary accelerations at zero; the auxiliary rows last."""
+    s = reduced.symbols
+    accelerations = ca.vertcat(s.a, ca.SX.zeros(s.w.shape))
+    return reduced.mass @ accelerations - reduced.force - reduced.rows.T @ s.lam
+
+
+def _are_equations(left: Eliminated, chains: Chains, log: Log) -> bool:
+    """Whether every equation left still holds an unknown, and every condition is defined."""
+    good = True
+    for j, chain in enumerate(chains.items):
+        variable = chain.variable
+        if j not in left.removed and variable is not None and variable.type.base != "real":
+            log.report(
+                "E0610",
+                f"'{chain.name}' is neither set by a 'when' nor given by an equation of its own",
+                variable.span,
+                help=f"write '{chain.name} = ...' in the equations, or in a 'when'",
+            )
+            good = False
+    for value, origin in zip(left.residuals.values, left.residuals.origins, strict=True):
+        if not ca.symvar(value):
+            zero = value.is_zero()
+            log.report(
+                "E0604",
+                f"the equation `{origin.text}` "
+                + ("follows from the others" if zero else "contradicts the others"),
+                origin.span,
+                notes=(f"in component '{origin.owner}'",) if origin.owner else (),
+                help="leave it out, or an equation that says the same",
+            )
+            good = False
+    return good
+
+
+def _core_components(found: Differentiated, reduced: Reduced) -> tuple[set[int], set[int]]:
+    """Components between what friction acts on and what its slip depends on; those after them."""
+    chains = reduced.text.chains
+    elements = reduced.text.elements
+    lam = ca.vertcat(reduced.symbols.lam, column(e.force for e in elements))
+    mechanism = {
+        k
+        for k, c in enumerate(found.components)
+        if min(c.equations) < found.newton or min(c.unknowns) < found.newton
+    }
+    sources, sinks = set(mechanism), set(mechanism)
+    if lam.numel():
+        acted_on = set(ca.jacobian_sparsity(column(found.values), lam).row())
+        sources |= {found.component_of_equation[i] for i in acted_on}
+    for element in elements:
+        place = chains.place[element.acceleration.element_hash()]
+        if place in found.component_of_unknown:
+            sinks.add(found.component_of_unknown[place])
+    touched = closure(sources, found.users)
+    core = touched & closure(sinks, [c.needs for c in found.components])
+    return core, touched - core
+
+
+def _solve(
+    component: Component,
+    found: Differentiated,
+    solving: Solving,
+    late: bool,
+    p: ca.SX,
+    defaults: ca.DM,
+) -> None:
+    """Solve one component: by formulas as far as they go, the rest as a block."""
+    unknowns = [found.unknown(j) for j in component.unknowns]
+    residual = [replace_known(found.values[i], solving.known) for i in component.equations]
+    torn = tear(residual, unknowns, p, defaults)
+    parameters = {x.element_hash() for x in (ca.vertsplit(p) if p.numel() else ())}
+    for factor, unknown, number in torn.divisors:
+        inside = ca.symvar(factor)
+        if inside and all(x.element_hash() in parameters for x in inside):
+            origin = found.origins[component.equations[number]]
+            solving.pivots.append(Pivot(factor, unknown.name(), origin))
+    first = len(solving.y)
+    for symbol in torn.iterated:
+        solving.y.append(symbol)
+    for symbol, value in torn.explicit:
+        solving.known[symbol.element_hash()] = replace_known(value, solving.known)
+    if torn.iterated:
+        whole = replace_known(column(torn.residual), solving.known)
+        names = ", ".join(symbol.name() for symbol in torn.iterated[:4])
+        more = len(torn.iterated) - 4
+        origin = found.origins[component.equations[0]]
+        solving.blocks.append(
+            Block(
+                whole,
+                first,
+                torn.linear,
+                late,
+                names + (f" and {more} more" if more > 0 else ""),
+                origin.span,
+            )
+        )
+
+
+def _finish(
+    reduced: Reduced,
+    left: Eliminated,
+    found: Differentiated,
+    solving: Solving,
+    core: Core,
+    log: Log,
+) -> Assembled:
+    chains, s = reduced.text.chains, reduced.symbols
+
+    def resolve(value: ca.SX) -> ca.SX:
+        return replace_known(resolve_all(value, chains, left.resolver), solving.known)
+
+    rates = resolve(core.rates)
+    power = resolve(reduced.power)
+    y, early = column(solving.y), sum(b.residual.numel() for b in solving.blocks if not b.late)
+    later = ca.vertcat(core.z, core.lam, y[early:])
+    late = bool(later.numel()) and any(
+        value.numel() and ca.depends_on(value, later) for value in (rates, power)
+    )
+    invariants = resolve(column(found.invariants))
+    return Assembled(
+        reduced=reduced,
+        elements=tuple(reduced.text.elements),
+        q=core.q,
+        v=core.v,
+        y=y,
+        z=core.z,
+        lam=core.lam,
+        discrete=column(d.symbol for d in reduced.text.memory),
+        names=core.names,
+        q_speed=core.q_speed,
+        na=s.w.numel(),
+        nc=core.nc,
+        late=late,
+        rates=rates,
+        matrix=core.matrix,
+        force=core.force,
+        force_size=core.force_size,
+        spread=core.spread,
+        metric=core.metric,
+        rows=core.rows,
+        bias=core.bias,
+        rate=core.rate,
+        gap=ca.vertcat(reduced.gap, ca.SX.ones(len(reduced.text.elements))),
+        coefficients=core.coefficients,
+        power=power,
+        blocks=tuple(solving.blocks),
+        invariants=Invariants(invariants, tuple(found.invariant_origins)),
+        pivots=(*left.pivots, *solving.pivots, *core.pivots),
+        resolve=resolve,
+    )

@@ -1,0 +1,1 @@
+"""Equations to the CasADi functions of the kernel's contract, with their tables."""

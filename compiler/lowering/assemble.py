@@ -1,0 +1,65 @@
+"""Reduced mechanism and equations of the text to the one system that the kernel solves."""
+
+from __future__ import annotations
+
+import casadi as ca
+from frot.compiler.equations.solve_equations import solve_equations
+from frot.compiler.lowering.assembled import Assembled, Invariants
+from frot.compiler.mechanics.reduce import Reduced
+from frot.dsl import Log
+
+
+def assemble(reduced: Reduced, log: Log) -> Assembled | None:
+    """The kernel's system; what cannot be solved is reported."""
+    model = reduced.mechanism.model
+    has_text = bool(model.variables or model.equations or reduced.text.memory)
+    if has_text or _reads_solution(reduced):
+        return solve_equations(reduced, log)
+    return _plain(reduced)
+
+
+def _reads_solution(reduced: Reduced) -> bool:
+    s = reduced.symbols
+    return any(
+        x.numel() and reduced.force.numel() and ca.depends_on(reduced.force, x)
+        for x in (s.a, s.lam)
+    )
+
+
+def _plain(reduced: Reduced) -> Assembled:
+    """A mechanism alone: its mass matrix is the core."""
+    s = reduced.symbols
+    na = s.w.numel()
+    nothing = ca.SX.zeros(0)
+    names = reduced.text.chains.items
+    return Assembled(
+        reduced=reduced,
+        elements=(),
+        q=s.q,
+        v=s.v,
+        y=nothing,
+        z=ca.vertcat(s.a, ca.SX.sym("auxiliary", na)),
+        lam=s.lam,
+        discrete=nothing,
+        names=tuple(c.name for c in names),
+        q_speed=tuple(range(s.v.numel())),
+        na=na,
+        nc=0,
+        late=False,
+        rates=s.v,
+        matrix=reduced.mass,
+        force=reduced.force,
+        force_size=reduced.force_size,
+        spread=reduced.rows.T,
+        metric=reduced.mass,
+        rows=reduced.rows,
+        bias=reduced.bias,
+        rate=reduced.rate,
+        gap=reduced.gap,
+        coefficients=reduced.coefficients,
+        power=reduced.power,
+        blocks=(),
+        invariants=Invariants(nothing, ()),
+        pivots=(),
+        resolve=lambda value: value,
+    )

@@ -1,0 +1,85 @@
+"""The equations as the kernel takes them (runtime/kernel/frot.h), in CasADi expressions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.equations.eliminate import Pivot
+from frot.compiler.equations.origins import Origin
+from frot.compiler.equations.text_symbols import FrictionElement
+from frot.compiler.mechanics.reduce import Reduced
+from frot.dsl.source import Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Block:
+    """Equations 0 = `residual` that determine y[first .. first + count) together."""
+
+    residual: ca.SX
+    first: int
+    linear: bool
+    late: bool
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Invariants:
+    """Relations 0 = `values` between states, which every step is projected onto."""
+
+    values: ca.SX
+    origins: tuple[Origin, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Assembled:
+    """States (q, v), y, and the core system `matrix` z = `force` + `spread` lam.
+
+    z (nw): rates of v (nv), auxiliary accelerations (na), algebraic unknowns (nc). The rows
+    accelerate by `rows` z + `bias`, and have the speeds `rate`; those of the mechanism's contacts
+    come first, then one for each friction element. `rates` are those of q; with `late` they, or
+    `power`, depend on z, lam or the y of late blocks. `resolve` turns an expression of the text's
+    symbols into one of t, q, v, u, p, d, y, z and lam.
+    """
+
+    reduced: Reduced
+    elements: tuple[FrictionElement, ...]
+    q: ca.SX
+    v: ca.SX
+    y: ca.SX
+    z: ca.SX
+    lam: ca.SX
+    discrete: ca.SX
+    names: tuple[str, ...]
+    q_speed: tuple[int, ...]
+    na: int
+    nc: int
+    late: bool
+    rates: ca.SX
+    matrix: ca.SX
+    force: ca.SX
+    force_size: ca.SX
+    spread: ca.SX
+    metric: ca.SX
+    rows: ca.SX
+    bias: ca.SX
+    rate: ca.SX
+    gap: ca.SX
+    coefficients: ca.SX
+    power: ca.SX
+    blocks: tuple[Block, ...]
+    invariants: Invariants
+    pivots: tuple[Pivot, ...]
+    resolve: Callable[[ca.SX], ca.SX]
+
+    @property
+    def nv(self) -> int:
+        """The number of speeds."""
+        return int(self.v.numel())
+
+    @property
+    def early(self) -> int:
+        """The number of unknowns of blocks that are solved before the core."""
+        return sum(int(b.residual.numel()) for b in self.blocks if not b.late)

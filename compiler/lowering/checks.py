@@ -1,0 +1,96 @@
+"""Values that parameters must give: positive masses, finite numbers and the like."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.equations.eliminate import Pivot
+from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.mechanics.mechanism import Mechanism
+from frot.dsl.catalogue import Argument
+from frot.dsl.checked import Call, Expression, Liaison, Parameter, Place, Reference
+from frot.dsl.dimensions import REAL
+from frot.dsl.source import Span
+
+POSITIVE, NOT_NEGATIVE, FINITE, NOT_BELOW_PREVIOUS, NOT_ZERO = range(5)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Check:
+    """`value` must satisfy `rule` (frot_rule); `subject` names it in a sentence."""
+
+    rule: int
+    subject: str
+    value: Expression | ca.SX
+    span: Span | None
+
+
+def parameter_checks(
+    mechanism: Mechanism, parameters: Sequence[Parameter], pivots: Sequence[Pivot] = ()
+) -> tuple[Check, ...]:
+    """Every check that depends on parameters alone, in the order of the text.
+
+    `parameters` are scalars, `pivots` divisors that came from solving equations for an unknown.
+    """
+    first = {p.value.element_hash(): p for p in reversed(pivots)}
+    divisors = (
+        Check(
+            NOT_ZERO,
+            f"factor of '{p.unknown}' in `{p.origin.text}`"
+            + (f" of {p.origin.owner}" if p.origin.owner else ""),
+            p.value,
+            p.origin.span,
+        )
+        for p in pivots
+        if first[p.value.element_hash()] is p
+    )
+    return (*_checks(mechanism, parameters), *divisors)
+
+
+def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[Check]:
+    model = mechanism.model
+    for parameter in parameters:
+        value = Reference(parameter, parameter.type, parameter.span)
+        yield Check(FINITE, f"parameter '{parameter.name}'", value, parameter.span)
+    for when in model.whens:
+        for condition in (c for conditions, _ in when.branches for c in conditions):
+            if isinstance(condition, Call) and condition.function == "sample":
+                yield Check(
+                    POSITIVE, "interval of 'sample'", condition.arguments[1], condition.span
+                )
+    for body in model.bodies:
+        if body.shape is not None:
+            owner = f"body '{body.name}'"
+            yield from _arguments(owner, body.shape.arguments, body.arguments)
+    for curve in model.curves:
+        direction = curve.arguments["direction"]
+        length = Call("norm", (direction,), REAL, direction.span)
+        yield Check(
+            POSITIVE, f"length of the direction of curve '{curve.name}'", length, direction.span
+        )
+    for force in model.forces:
+        yield from _arguments(f"force '{force.name}'", force.kind.arguments, force.arguments)
+    for liaison in model.liaisons:
+        for law in liaison.laws:
+            owner = f"liaison '{liaison.name}'"
+            yield from _arguments(owner, law.kind.arguments, law.arguments)
+            mu, mu_s = law.arguments.get("mu"), law.arguments.get("mu_s")
+            if mu is not None and mu_s is not None and is_fixed(mu) and is_fixed(mu_s):
+                yield Check(FINITE, f"mu of liaison '{liaison.name}'", mu, mu.span)
+                yield Check(
+                    NOT_BELOW_PREVIOUS, f"mu_s of liaison '{liaison.name}'", mu_s, mu_s.span
+                )
+
+
+def _arguments(
+    owner: str, kinds: tuple[Argument, ...], values: Mapping[str, Expression | Place | Liaison]
+) -> Iterator[Check]:
+    rules = {"positive": POSITIVE, "nonnegative": NOT_NEGATIVE}
+    for kind in kinds:
+        value = values.get(kind.name)
+        if value is None or isinstance(value, (Place, Liaison)) or kind.sign not in rules:
+            continue
+        if is_fixed(value):
+            yield Check(rules[kind.sign], f"{kind.name} of {owner}", value, value.span)

@@ -1,0 +1,351 @@
+"""Expressions of the text to CasADi expressions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+import casadi as ca
+from frot.compiler.equations.before import Before, whole
+from frot.compiler.lowering.symbols import Symbols
+from frot.compiler.lowering.walk import is_fixed
+from frot.dsl import Log
+from frot.dsl.checked import (
+    Binary,
+    Call,
+    Derivative,
+    Element,
+    Expression,
+    If,
+    Input,
+    Literal,
+    Parameter,
+    Quantity,
+    Reference,
+    Time,
+    Unary,
+    Variable,
+    Vector,
+)
+from frot.dsl.source import Span
+
+FUNCTIONS: dict[str, Callable[..., ca.SX]] = {
+    name: getattr(ca, name)
+    for name in [
+        "sin",
+        "cos",
+        "tan",
+        "asin",
+        "acos",
+        "atan",
+        "sinh",
+        "cosh",
+        "tanh",
+        "asinh",
+        "acosh",
+        "atanh",
+        "exp",
+        "log",
+        "log10",
+        "sqrt",
+        "floor",
+        "ceil",
+        "sign",
+        "atan2",
+    ]
+} | {
+    "abs": ca.fabs,
+    "mod": lambda x, y: x - y * ca.floor(x / y),
+    "hypot": lambda x, y: ca.sqrt(x * x + y * y),
+    "dot": ca.dot,
+    "norm": lambda x: ca.sqrt(ca.sumsqr(x)),
+    "cross": lambda x, y: x[0] * y[1] - x[1] * y[0] if x.numel() == 2 else ca.cross(x, y),
+    "sum": lambda x: ca.sum1(ca.sum2(x)),
+    "transpose": lambda x: x.T,
+}
+
+NEVER, RISING, ALWAYS = range(3)
+
+
+def words(node: Expression) -> str:
+    """The author's text on one line; a parenthesis cut off at an end of it is put back."""
+    text = " ".join(node.span.text.split())
+    missing = text.count("(") - text.count(")")
+    return "(" * -missing + text + ")" * missing
+
+
+STEPPING = ("floor", "ceil", "mod")
+OF_EVENTS = ("pre", "edge", "change", "sample", "initial", "friction")
+
+
+@dataclass(slots=True)
+class Conditions:
+    """Conditions on time and motion that switch something: `value` > 0 while true.
+
+    `strict`: whether the condition is false where its value is zero. `texts` are as the author
+    wrote them, at `spans`; `told` says when a change is an event to him (frot_told). In their last
+    order the first `located` change by the motion, the `timed` after them by time alone.
+    """
+
+    flags: list[ca.SX] = field(default_factory=list)
+    values: list[ca.SX] = field(default_factory=list)
+    strict: list[bool] = field(default_factory=list)
+    texts: list[str] = field(default_factory=list)
+    spans: list[Span | None] = field(default_factory=list)
+    told: list[int] = field(default_factory=list)
+    located: int = 0
+    timed: int = 0
+
+    def add(
+        self, value: ca.SX, strict: bool, text: str, span: Span | None, told: int = ALWAYS
+    ) -> ca.SX:
+        """A flag, 0 or 1, that follows the sign of `value` by located events."""
+        found = self.find(value, strict)
+        if found is not None:
+            return found  # the same switch, written or read twice
+        flag = ca.SX.sym(f"condition_{len(self.flags)}")
+        self.flags.append(flag)
+        self.values.append(value)
+        self.strict.append(strict)
+        self.texts.append(text)
+        self.spans.append(span)
+        self.told.append(told)
+        return flag
+
+    def find(self, value: ca.SX, strict: bool) -> ca.SX | None:
+        """The flag of a condition."""
+        for flag, known, kind in zip(self.flags, self.values, self.strict, strict=True):
+            if kind == strict and ca.is_equal(known, value, 20):
+                return flag
+        return None
+
+    def reorder(self, order: list[int]) -> None:
+        """Put the conditions into another order."""
+        columns: tuple[list[Any], ...] = (
+            *(self.flags, self.values, self.strict),
+            *(self.texts, self.spans, self.told),
+        )
+        for items in columns:
+            items[:] = [items[k] for k in order]
+
+
+@dataclass(slots=True)
+class Lowering:
+    """Lowers expressions; `quantity` gives the variables of bodies and liaisons, `rate` d/dt.
+
+    `variable` gives the variables of the text, `before` those before an event;
+    `friction` makes a friction element of its call, in the component named by `owner`;
+    `without_rate` names what in a value has no derivative that anybody knows.
+
+    With `conditions`, every switch that depends on time, inputs or motion becomes a located event;
+    without, it is taken as it stands (for what is only looked at: outputs, initial statements), but
+    for those `known`, of which it is known what holds.
+    """
+
+    symbols: Symbols
+    quantity: Callable[[Quantity], ca.SX]
+    rate: Callable[[ca.SX], ca.SX]
+    log: Log
+    conditions: Conditions | None = None
+    known: Conditions | None = None
+    variable: Callable[[Variable], ca.SX] | None = None
+    before: Before | None = None
+    friction: Callable[[Call, list[ca.SX], str], ca.SX] | None = None
+    without_rate: Callable[[ca.SX], list[str]] | None = None
+    owner: str = ""
+    _done: dict[int, tuple[Expression, ca.SX]] = field(default_factory=dict)
+
+    def look_at(self, *expressions: Expression) -> None:
+        """Say which expressions are lowered next as one."""
+        if self.before is not None:
+            self.before.look_at(expressions)
+
+    def lower(self, expression: Expression) -> ca.SX:
+        """The CasADi value: a scalar, a column or a matrix. Shared parts are lowered once."""
+        known = self._done.get(id(expression))
+        if known is None:
+            known = (expression, self._lower(expression))
+            self._done[id(expression)] = known
+        return known[1]
+
+    def _lower(self, expression: Expression) -> ca.SX:
+        match expression:
+            case Literal():
+                return ca.SX(float(expression.value))
+            case Reference():
+                return self._reference(expression)
+            case Time():
+                return self.symbols.t
+            case Quantity():
+                return self.quantity(expression)
+            case Derivative():
+                return self._rate(expression)
+            case Element():
+                whole = self.lower(expression.operand)
+                if len(expression.operand.type.shape) == 2:
+                    return whole[expression.index, :].T
+                return whole[expression.index]
+            case Vector():
+                items = [self.lower(item) for item in expression.items]
+                rows = [i.T for i in items] if len(expression.type.shape) == 2 else items
+                return ca.vertcat(*rows) if rows else ca.SX.zeros(0)
+            case Unary():
+                value = self.lower(expression.operand)
+                return 1 - value if expression.op == "not" else -value
+            case Binary():
+                return self._binary(expression)
+            case If():
+                condition = self.lower(expression.condition)
+                return ca.if_else(condition, self.lower(expression.yes), self.lower(expression.no))
+            case Call():
+                return self._call(expression)
+        raise TypeError(f"no expression: {expression!r}")
+
+    def _rate(self, node: Derivative) -> ca.SX:
+        value = self.lower(node.operand)
+        unknown = self.without_rate(value) if self.without_rate is not None else []
+        if not unknown:
+            return self.rate(value)
+        self.log.report(
+            "E0606",
+            f"the derivative of {unknown[0]} is not known here",
+            node.span,
+            help="let the value act through a filter, `der(x) = (value - x)/T`, and read `der(x)`",
+        )
+        return value * 0
+
+    def _reference(self, node: Reference) -> ca.SX:
+        target = node.target
+        if isinstance(target, Parameter) and target.constant:
+            return self.lower(target.value)
+        if isinstance(target, Parameter | Input):
+            return self.symbols.value(target)
+        if isinstance(target, Variable):
+            assert self.variable is not None
+            return self.variable(target)
+        return self.lower(target.value)
+
+    def _located(self, expression: Expression) -> Conditions | None:
+        """Where the events of a switch go; None if it never changes or is only looked at."""
+        return None if is_fixed(expression) else self.conditions
+
+    def _binary(self, node: Binary) -> ca.SX:
+        left, right = self.lower(node.left), self.lower(node.right)
+        match node.op:
+            case "+":
+                return left + right
+            case "-":
+                return left - right
+            case "*":
+                shapes = node.left.type.shape, node.right.type.shape
+                return left @ right if (2 in map(len, shapes) and all(shapes)) else left * right
+            case "/":
+                return left / right
+            case "^":
+                return left**right
+            case "and":
+                return left * right
+            case "or":
+                return left + right - left * right
+        conditions = self._located(node)
+        if node.op in ("==", "<>"):
+            if conditions is not None and node.left.type.base == "real":
+                self._refuse(f"`{node.op}` between values that change", node)
+            return left == right if node.op == "==" else left != right
+        positive = left - right if node.op in (">", ">=") else right - left
+        strict = node.op in ("<", ">")
+        if conditions is not None:
+            return conditions.add(positive, strict, self._told(words(node)), node.span)
+        flag = None if self.known is None else self.known.find(positive, strict)
+        if flag is not None:
+            return flag
+        return positive > 0 if strict else positive >= 0
+
+    def _call(self, node: Call) -> ca.SX:
+        arguments = [self.lower(argument) for argument in node.arguments]
+        conditions = self._located(node)
+        name = node.function
+        if name in OF_EVENTS:
+            return self._of_events(node, arguments)
+        if name in ("min", "max"):
+            value, text = arguments[0], words(node.arguments[0])
+            for other, written in zip(arguments[1:], node.arguments[1:], strict=True):
+                sign = ">=" if name == "max" else "<="
+                value = self._least(
+                    value,
+                    other,
+                    conditions,
+                    name,
+                    self._told(f"{text} {sign} {words(written)}"),
+                    node.span,
+                )
+                text = f"{name}({text}, {words(written)})"
+            return value
+        if conditions is not None and name in ("abs", "sign"):
+            above = conditions.add(
+                arguments[0], False, self._told(f"{words(node.arguments[0])} >= 0"), node.span
+            )
+            return (2 * above - 1) * (arguments[0] if name == "abs" else 1)
+        if conditions is not None and name in STEPPING:
+            self._refuse(f"`{name}` of a value that changes, in a force or coefficient", node)
+        return FUNCTIONS[name](*arguments)
+
+    def _told(self, text: str) -> str:
+        """A condition's words, with the component it stands in."""
+        return f"{self.owner}: {text}" if self.owner else text
+
+    def _of_events(self, node: Call, arguments: list[ca.SX]) -> ca.SX:
+        """Functions that only equations and `when` may hold."""
+        name = node.function
+        if name in ("pre", "change", "edge"):
+            return self._of_jumps(node, arguments[0])
+        if name == "friction" and self.friction is not None:
+            return self.friction(node, arguments, self.owner)
+        if name == "friction":
+            self._refuse("`friction` outside of the equations", node)
+        else:
+            self._refuse(f"`{name}` other than as the condition of a 'when'", node)
+        return arguments[0] if arguments else ca.SX(0)
+
+    def _of_jumps(self, node: Call, now: ca.SX) -> ca.SX:
+        """`pre`, `change` and `edge`; where nothing happens, there is no difference."""
+        if self.before is None:
+            return now if node.function == "pre" else ca.SX(0)
+        named = whole(node.arguments[0])
+        if named is None:
+            if node.function == "pre":
+                return now
+            was = self.before.hold(now, words(node.arguments[0]), ca.SX(0), node.span)
+        else:
+            variable, indices = named
+            was = self.before.variable(variable, node.span)
+            for index in indices:
+                was = was[index, :].T if was.size2() > 1 else was[index]
+        if node.function == "pre":
+            return was
+        if node.function == "edge":
+            return now * (1 - was)
+        return 1 - _product(ca.eq(a, b) for a, b in zip(_items(now), _items(was), strict=True))
+
+    @staticmethod
+    def _least(
+        x: ca.SX, y: ca.SX, conditions: Conditions | None, name: str, text: str, span: Span
+    ) -> ca.SX:
+        below = x - y if name == "max" else y - x
+        flag = conditions.add(below, False, text, span) if conditions is not None else below >= 0
+        return ca.if_else(flag, x, y)
+
+    def _refuse(self, what: str, node: Expression) -> None:
+        self.log.report("E0701", f"{what} is not supported yet", node.span)
+
+
+def _items(value: ca.SX) -> list[ca.SX]:
+    return list(ca.vertsplit(ca.vec(value)))
+
+
+def _product(items: Iterable[ca.SX]) -> ca.SX:
+    result = ca.SX(1)
+    for item in items:
+        result = result * item
+    return result

@@ -1,0 +1,47 @@
+"""Parameters and inputs as the kernel holds them: scalars, those of an array by its items."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TypeVar
+
+from frot.compiler.mechanics.names import component_names
+from frot.dsl.arrays import scalars
+from frot.dsl.checked import Input, Parameter
+
+T = TypeVar("T", Parameter, Input)
+
+
+def tunable(parameters: Sequence[Parameter]) -> dict[Parameter, tuple[Parameter, ...]]:
+    """The scalars of each parameter that a run can set; a text and a constant are fixed.
+
+    Those of `mu` with two items are `mu[1]` and `mu[2]`, each with its own value.
+    """
+    return {
+        p: tuple(
+            replace(p, name=name, type=p.type.of_shape(()), value=value)
+            for name, value in zip(_names(p), scalars(p.value), strict=True)
+        )
+        if p.type.shape
+        else (p,)
+        for p in parameters
+        if not p.constant and p.type.base != "string"
+    }
+
+
+def by_input(inputs: Sequence[Input]) -> dict[Input, tuple[Input, ...]]:
+    """The scalars of each input."""
+    return {
+        i: tuple(
+            replace(i, name=name, type=i.type.of_shape(()), start=value)
+            for name, value in zip(_names(i), scalars(i.start), strict=True)
+        )
+        if i.type.shape
+        else (i,)
+        for i in inputs
+    }
+
+
+def _names(whole: Parameter | Input) -> list[str]:
+    return component_names(whole.name, whole.type.shape)

@@ -1,0 +1,182 @@
+"""Unknowns of the core, rows and elements that act on each other, found at compile time.
+
+Two unknowns belong together when an entry of the core's matrix joins them, a row and an unknown
+when the row moves with it or its reaction drives it, rows of one law always. Groups share no
+matrix, no scale and no search: what does not touch costs what it costs alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.mechanics.elements import Element, joint_elements, text_element
+from frot.compiler.mechanics.mechanism import Pin
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """One group: places in z (speeds, auxiliary, algebraic), rows, contacts, elements.
+
+    `general`: its part of the matrix is no mass matrix, or E is not J'.
+    """
+
+    unknowns: tuple[int, ...]
+    n_speeds: int
+    n_auxiliary: int
+    rows: tuple[int, ...]
+    contacts: tuple[int, ...]
+    elements: tuple[int, ...]
+    general: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Grouping:
+    """All groups, the elements, and what the kernel's functions give of them, packed.
+
+    `row_reads` is, for a row that is read off a liaison kept by coordinates, the place of its
+    auxiliary unknown in its group, else -1. `prescribed`: rows that no speed moves.
+    """
+
+    groups: tuple[Group, ...]
+    elements: tuple[Element, ...]
+    row_reads: tuple[int, ...]
+    prescribed: frozenset[int]
+    matrix: ca.SX
+    metric: ca.SX
+    rows: ca.SX
+    spread: ca.SX
+
+    @property
+    def is_mass_matrix(self) -> bool:
+        """Whether every group's is."""
+        return not any(g.general for g in self.groups)
+
+
+class _Sets:
+    """Sets of items that are joined pair by pair."""
+
+    def __init__(self, count: int) -> None:
+        self._of = list(range(count))
+
+    def find(self, item: int) -> int:
+        while self._of[item] != item:
+            self._of[item] = self._of[self._of[item]]
+            item = self._of[item]
+        return item
+
+    def join(self, a: int, b: int) -> None:
+        self._of[self.find(a)] = self.find(b)
+
+
+def make_groups(system: Assembled) -> Grouping:
+    """Divide the core into its groups."""
+    reduced = system.reduced
+    joints, n_rows = reduced.mechanism.contacts, int(system.lam.numel())
+    nw, nv, na = int(system.z.numel()), system.nv, system.na
+    elements = [
+        e
+        for i, (joint, rows) in enumerate(zip(joints, reduced.contact_rows, strict=True))
+        for e in joint_elements(i, joint, rows)
+    ]
+    first = n_rows - len(system.elements)
+    elements += [text_element(len(joints) + k, first + k) for k in range(len(system.elements))]
+    matrix, rows, spread = (ca.sparsify(x) for x in (system.matrix, system.rows, system.spread))
+    sets = _Sets(nw + n_rows)
+    for i, j in _entries(matrix):
+        sets.join(i, j)
+    moved = set()
+    for r, k in _entries(rows):
+        sets.join(nw + r, k)
+        moved.add(r)
+    for k, r in _entries(spread):
+        sets.join(nw + r, k)
+    owners: dict[int, int] = {}
+    for i, found in enumerate(reduced.contact_rows):
+        among = [r for r in (found.normal, found.second, found.tangent, found.rolling) if r >= 0]
+        owners.update(dict.fromkeys(among, i))
+        for r in among[1:]:
+            sets.join(nw + among[0], nw + r)
+    owners.update({first + k: len(joints) + k for k in range(len(system.elements))})
+    members: dict[int, list[int]] = {}
+    for item in range(nw + n_rows):
+        members.setdefault(sets.find(item), []).append(item)
+    groups: list[Group] = []
+    for items in members.values():
+        unknowns = tuple(i for i in items if i < nw)
+        own = tuple(i - nw for i in items if i >= nw)
+        groups.append(
+            Group(
+                unknowns,
+                sum(i < nv for i in unknowns),
+                sum(nv <= i < nv + na for i in unknowns),
+                own,
+                tuple(sorted({owners[r] for r in own})),
+                tuple(k for k, e in enumerate(elements) if e.row in own),
+                _is_general(system, unknowns, own),
+            )
+        )
+    return Grouping(
+        tuple(groups),
+        tuple(elements),
+        _readings(system, groups),
+        frozenset(range(n_rows)) - moved,
+        _pack(system.matrix[list(g.unknowns), list(g.unknowns)] for g in groups),
+        _pack(
+            system.metric[list(g.unknowns[: g.n_speeds]), list(g.unknowns[: g.n_speeds])]
+            for g in groups
+        ),
+        _pack(system.rows[r, list(g.unknowns)] for g in groups for r in g.rows),
+        _pack(system.spread[list(g.unknowns), r] for g in groups for r in g.rows),
+    )
+
+
+def _entries(matrix: ca.SX) -> Iterable[tuple[int, int]]:
+    pattern = matrix.sparsity()
+    return zip(pattern.row(), pattern.get_col(), strict=True)
+
+
+def _pack(parts: Iterable[ca.SX]) -> ca.SX:
+    """The parts by columns below one another, dense."""
+    items = [ca.vec(ca.densify(part)) for part in parts if part.numel()]
+    return ca.vertcat(*items) if items else ca.SX.zeros(0)
+
+
+def _readings(system: Assembled, groups: list[Group]) -> tuple[int, ...]:
+    """The auxiliary unknowns in the order of the liaisons kept by coordinates, and their rows."""
+    reduced = system.reduced
+    reads = [-1] * int(system.lam.numel())
+    place = {unknown: k for g in groups for k, unknown in enumerate(g.unknowns)}
+    at = system.nv
+    for joint, rows in zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True):
+        if not joint.reduced:
+            continue
+        for row in (rows.normal, rows.second) if isinstance(joint, Pin) else (rows.normal,):
+            reads[row] = place[at]
+            at += 1
+    return tuple(reads)
+
+
+def _is_general(system: Assembled, unknowns: tuple[int, ...], rows: tuple[int, ...]) -> bool:
+    """Whether this is no mass matrix with reactions along the rows: at a few random places."""
+    places, own = list(unknowns), list(rows)
+    if any(k >= system.nv + system.na for k in unknowns):
+        return True
+    matrix, effect = system.matrix[places, places], system.spread[places, own]
+    moved = system.rows[own, places].T
+    symbols = ca.symvar(ca.veccat(matrix, effect, moved))
+    both = ca.Function("core", symbols, [matrix, effect, moved])
+    random = np.random.default_rng(1)
+    for _ in range(3):
+        values = [ca.DM(x) for x in random.uniform(0.1, 2, len(symbols))]
+        a, e, j = (x.full() for x in both.call(values))
+        if not a.size:
+            return False
+        scale = np.abs(a).max()
+        symmetric = np.all(np.abs(a - a.T) <= 1e-12 * scale) and np.allclose(e, j, 1e-12, 0)
+        if not symmetric or np.linalg.eigvalsh((a + a.T) / 2)[0] <= 0:
+            return True
+    return False

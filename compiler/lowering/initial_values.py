@@ -1,0 +1,246 @@
+"""What `initial` says, sorted for the kernel: positions, then velocities, and guesses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.equations.chains import replace_known
+from frot.compiler.equations.text_symbols import scalars
+from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.lowering.symbols import column
+from frot.compiler.lowering.walk import is_fixed
+from frot.dsl import Log
+from frot.dsl.checked import InitialEquation, Reference, Variable
+from frot.dsl.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """A statement that the kernel can blame: its text, its place and the unit of its sides."""
+
+    text: str
+    span: Span
+    unit: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Initial:
+    """Outputs of `start`, `initial_position` and `initial_velocity`, and the statements behind."""
+
+    start: list[ca.SX]
+    position: list[ca.SX]
+    velocity: list[ca.SX]
+    statements: tuple[Statement, ...]
+    position_statement: tuple[int, ...]
+    velocity_statement: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Residual:
+    value: ca.SX
+    size: ca.SX
+    statement: int
+
+
+def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
+    """Lower the statements; one that cannot hold for positions and velocities is reported."""
+    model = system.reduced.mechanism.model
+    statements = [_statement(e) for e in model.initial]
+    found: list[_Residual] = []
+    for index, equation in enumerate(model.initial):
+        if not equation.guess and not _sets_memory(equation, system):
+            found += _residuals(index, equation, system, looking, log)
+    guess = {
+        "q": _guess(system, looking, system.q, ca.SX.zeros(system.q.shape)),
+        "v": _guess(system, looking, system.v, ca.SX.zeros(system.v.shape)),
+    }
+    direct, complete = _direct(found, system)
+    # values that are stated one by one are where the search begins, or all there is to find
+    guess = {
+        "q": _with(system.q, guess["q"], direct),
+        "v": _with(system.v, guess["v"], direct),
+    }
+    if complete and not (system.reduced.mechanism.contacts or system.invariants.origins):
+        found = []
+    for value, origin in zip(
+        ca.vertsplit(system.invariants.values) if system.invariants.origins else (),
+        system.invariants.origins,
+        strict=True,
+    ):
+        found.append(_Residual(value, _size(value, system), len(statements)))
+        statements.append(Statement(origin.text, origin.span, "1"))
+    moving = [_depends(r.value, system, system.v) for r in found]
+    position = [r for r, m in zip(found, moving, strict=True) if not m]
+    velocity = [r for r, m in zip(found, moving, strict=True) if m]
+    y_start = _guess(system, looking, system.y, ca.SX.zeros(system.y.shape))
+    discrete = column(d.start for d in system.reduced.text.memory)
+    return Initial(
+        [guess["q"], guess["v"], y_start, discrete],
+        _outputs(position, system.q, system.y),
+        _outputs(velocity, system.v, system.y),
+        tuple(statements),
+        tuple(r.statement for r in position),
+        tuple(r.statement for r in velocity),
+    )
+
+
+def _statement(equation: InitialEquation) -> Statement:
+    from frot.compiler.product.units import unit_of
+
+    text = " ".join(equation.span.text.split()).rstrip("; ")
+    return Statement(text, equation.span, unit_of(equation.left.type.dimension).name)
+
+
+def _sets_memory(equation: InitialEquation, system: Assembled) -> bool:
+    """Whether a statement gives what changes at events only its first value."""
+    left = equation.left
+    if not (isinstance(left, Reference) and isinstance(left.target, Variable)):
+        return False
+    own = scalars(system.reduced.text.values[left.target])
+    held = system.reduced.text.held
+    return left.target.discrete or any(ca.is_equal(h.value, x) for h in held for x in own)
+
+
+def _residuals(
+    index: int, equation: InitialEquation, system: Assembled, looking: Lowering, log: Log
+) -> list[_Residual]:
+    fixed = is_fixed(equation.left) and is_fixed(equation.right)
+    if fixed or equation.left.type.base == "boolean":
+        log.report(
+            "E0602",
+            "this initial statement depends on nothing that can change"
+            if fixed
+            else "this condition follows from the equations: no 'when' sets it",
+            equation.span,
+            help="state a coordinate, a speed or a state, or leave it out",
+        )
+        return []
+    settled = system.reduced.variables.settled
+    left = system.resolve(settled(looking.lower(equation.left)))
+    right = system.resolve(settled(looking.lower(equation.right)))
+    difference = left - right
+    later = ca.vertcat(system.z, system.lam, system.y[system.early :])
+    if difference.numel() and later.numel() and ca.depends_on(difference, later):
+        log.report(
+            "E0701",
+            "an initial statement on an acceleration or a reaction is not supported yet",
+            equation.span,
+            help="state positions and velocities",
+        )
+        return []
+    sizes = ca.fabs(left) + ca.fabs(right)
+    return [
+        _Residual(value, size, index)
+        for value, size in zip(
+            scalars(difference), scalars(ca.SX.zeros(difference.shape) + sizes), strict=True
+        )
+    ]
+
+
+def _direct(found: list[_Residual], system: Assembled) -> tuple[dict[int, ca.SX], bool]:
+    """The values of states that statements give one by one, and whether all statements do that."""
+    states = {s.element_hash() for s in (*_items(system.q), *_items(system.v))}
+    moving = states | {s.element_hash() for s in _items(system.y)}
+    known = system.reduced.symbols
+    given = {s.element_hash() for part in (known.t, known.u, known.p) for s in _items(part)}
+    values: dict[int, ca.SX] = {}
+    complete = True
+    for residual in found:
+        inside = [s for s in ca.symvar(residual.value) if s.element_hash() in moving]
+        slope = ca.jacobian(residual.value, inside[0]) if len(inside) == 1 else ca.SX.sym("no")
+        key = inside[0].element_hash() if inside else 0
+        if not slope.is_constant() or key in values or key not in states:
+            complete = False
+            continue
+        value = -ca.substitute(residual.value, inside[0], ca.SX(0)) / slope
+        # What conditions switch is known only with the values that they look at.
+        if all(s.element_hash() in given for s in ca.symvar(value)):
+            values[key] = value
+        else:
+            complete = False
+    return values, complete
+
+
+def _items(symbols: ca.SX) -> list[ca.SX]:
+    return list(ca.vertsplit(symbols)) if symbols.numel() else []
+
+
+def _with(symbols: ca.SX, guess: ca.SX, direct: dict[int, ca.SX]) -> ca.SX:
+    """The guess, replaced where a value is given."""
+    pairs = zip(_items(symbols), _items(guess), strict=True)
+    return column(direct.get(s.element_hash(), g) for s, g in pairs)
+
+
+def _size(value: ca.SX, system: Assembled) -> ca.SX:
+    """Size of the terms of a relation: what each state could change in it."""
+    states = ca.vertcat(system.q, system.v)
+    slope = ca.jacobian(value, states)
+    return ca.fabs(slope) @ ca.fabs(states)
+
+
+def _depends(value: ca.SX, system: Assembled, on: ca.SX) -> bool:
+    """Whether a value depends on speeds, itself or through the blocks."""
+    if not on.numel():
+        return False
+    if ca.depends_on(value, on):
+        return True
+    early = [b for b in system.blocks if not b.late]
+    if not early or not ca.depends_on(value, system.y[: system.early]):
+        return False
+    return any(bool(ca.depends_on(b.residual, on)) for b in early)
+
+
+def _outputs(residuals: list[_Residual], unknown: ca.SX, y: ca.SX) -> list[ca.SX]:
+    values = column(r.value for r in residuals)
+    return [
+        values,
+        ca.jacobian(values, unknown).T,
+        column(r.size for r in residuals),
+        ca.jacobian(values, y).T,
+    ]
+
+
+def _guess(system: Assembled, looking: Lowering, unknown: ca.SX, value: ca.SX) -> ca.SX:
+    """Where the search for the nearest values starts: `value`, moved by each guess in turn."""
+    if not unknown.numel():
+        return value
+    here = {s.element_hash(): ca.SX(0) for x in (system.q, system.v, system.y) for s in _items(x)}
+    own = {s.element_hash() for s in _items(unknown)}
+    here |= {s.element_hash(): x for s, x in zip(_items(unknown), _items(value), strict=True)}
+    for left, right in _guesses(system, looking):
+        inside = [s for s in ca.symvar(left) if s.element_hash() in here]
+        moved = [s for s in inside if s.element_hash() in own]
+        if not moved or (unknown is system.q and len(moved) < len(inside)):
+            continue
+        slopes = [replace_known(ca.jacobian(left, s), here) for s in moved]
+        short = right - replace_known(left, here)
+        length = sum((x * x for x in slopes), ca.SX(0))
+        for s, slope in zip(moved, slopes, strict=True):
+            move = ca.if_else(length > 0, slope * short / length, ca.SX(0))
+            here[s.element_hash()] = here[s.element_hash()] + move
+    return column(here[s.element_hash()] for s in _items(unknown))
+
+
+def _guesses(system: Assembled, looking: Lowering) -> list[tuple[ca.SX, ca.SX]]:
+    """Pairs of a scalar of the states and the value it is guessed to have, the strongest last.
+
+    A `guess` is stronger than a `start`, and a guess on a state than one on what follows from it.
+    """
+    model, settled = system.reduced.mechanism.model, system.reduced.variables.settled
+    starts: list[tuple[ca.SX, ca.SX]] = []
+    for variable in model.variables:
+        if variable.start is not None and not variable.discrete and is_fixed(variable.start):
+            left = system.resolve(system.reduced.text.values[variable])
+            right = scalars(looking.lower(variable.start))
+            items = scalars(left)
+            right = right * len(items) if len(right) == 1 else right
+            starts += zip(items, right, strict=True)
+    guesses: list[tuple[ca.SX, ca.SX]] = []
+    for equation in model.initial:
+        if equation.guess and is_fixed(equation.right):
+            left = system.resolve(settled(looking.lower(equation.left)))
+            guesses += zip(scalars(left), scalars(looking.lower(equation.right)), strict=True)
+    ordered = [sorted(pairs, key=lambda pair: pair[0].is_symbolic()) for pairs in (starts, guesses)]
+    return [*ordered[0], *ordered[1]]

@@ -1,0 +1,181 @@
+"""The variables a run gives: of bodies, of liaisons, declared outputs, energies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.equations.text_symbols import scalars
+from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.mechanics.names import component_names
+from frot.compiler.mechanics.pins import PinGeometry
+from frot.compiler.mechanics.reduce import Reduced
+from frot.dsl.checked import Body, Liaison, Variable
+from frot.dsl.dimensions import Dimension, dimension
+
+AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Listed:
+    """One scalar variable. `quantity` names its type (`Angle`), `unit` is the author's."""
+
+    name: str
+    value: ca.SX
+    dimension: Dimension
+    doc: str
+    quantity: str = ""
+    output: bool = False
+    mode: bool = False
+    unit: str = ""
+
+
+LENGTH, VELOCITY, ACCELERATION = (dimension(m=1, s=-k) for k in range(3))
+RATE, RATE_OF_RATE, NUMBER = dimension(s=-1), dimension(s=-2), dimension()
+FORCE, ENERGY, POWER = dimension(m=1, kg=1, s=-2), dimension(2, 1, -2), dimension(2, 1, -3)
+
+
+def list_variables(system: Assembled, looking: Lowering) -> tuple[Listed, ...]:
+    """Modes first, in the kernel's order; then outputs, variables, bodies, liaisons, energies.
+
+    A name that occurs twice (an output called as a body's variable) keeps its first meaning.
+    """
+    seen: set[str] = set()
+    variables: list[Listed] = []
+    for variable in _all(system, looking):
+        if variable.name not in seen:
+            seen.add(variable.name)
+            variables.append(variable)
+    return tuple(variables)
+
+
+def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
+    reduced = system.reduced
+    mechanism = reduced.mechanism
+    for contact in mechanism.contacts:
+        name = f"{contact.liaison.name}.mode"
+        yield Listed(name, ca.SX(0), NUMBER, "open, stick or slip", mode=True)
+    for element in system.elements:
+        yield Listed(f"{element.name}.mode", ca.SX(0), NUMBER, "stick or slip", mode=True)
+    for output in mechanism.model.outputs:
+        value = looking.lower(output.value)
+        for suffix, part in _components(output.name, value):
+            yield Listed(
+                suffix,
+                part,
+                output.type.dimension,
+                output.doc,
+                quantity=output.quantity,
+                output=True,
+                unit=output.unit,
+            )
+    for variable in mechanism.model.variables:
+        yield from _of_text(reduced, variable)
+    yield from _rates(system)
+    for body in mechanism.model.bodies:
+        yield from _of_body(reduced, body)
+    for contact in (*mechanism.contacts, *mechanism.ideal):
+        yield from _of_liaison(reduced, contact.liaison)
+    if not mechanism.model.bodies:
+        return
+    dissipated, work = reduced.symbols.energy[0], reduced.symbols.energy[1]
+    yield Listed("energy.kinetic", reduced.kinetic, ENERGY, "kinetic energy of all bodies")
+    yield Listed("energy.potential", reduced.potential, ENERGY, "gravity, springs, attractions")
+    yield Listed("energy.dissipated", dissipated, ENERGY, "lost in friction since the start")
+    yield Listed("energy.work", work, ENERGY, "work done by the other forces since the start")
+
+
+def _components(name: str, value: ca.SX) -> Iterator[tuple[str, ca.SX]]:
+    if value.numel() == 1:
+        yield name, value
+    elif value.numel() <= len(AXES):
+        for axis, k in zip(AXES, range(value.numel()), strict=False):
+            yield f"{name}.{axis}", value[k]
+    else:
+        for k in range(value.numel()):
+            yield f"{name}[{k + 1}]", value[k]
+
+
+def _of_text(reduced: Reduced, variable: Variable) -> Iterator[Listed]:
+    names = component_names(variable.name, variable.type.shape)
+    for name, value in zip(names, scalars(reduced.text.values[variable]), strict=True):
+        yield Listed(
+            name,
+            value,
+            variable.type.dimension,
+            variable.doc,
+            quantity=variable.quantity,
+            output=variable.output,
+            unit=variable.unit,
+        )
+
+
+def _rates(system: Assembled) -> Iterator[Listed]:
+    """States that are derivatives of variables, by the name `der(x)`."""
+    chains = system.reduced.text.chains
+    for symbol in (*ca.vertsplit(system.q), *ca.vertsplit(system.v)):
+        index, order = chains.place[symbol.element_hash()]
+        variable = chains.items[index].variable
+        if order == 1 and variable is not None:
+            name = chains.items[index].name
+            rate = variable.type.dimension / dimension(s=1)
+            yield Listed(f"der({name})", symbol, rate, f"rate of {name}")
+
+
+def _of_body(reduced: Reduced, body: Body) -> Iterator[Listed]:
+    def vector(name: str, of: Dimension, doc: str) -> Iterator[Listed]:
+        value = reduced.variables.of_body(body, name)
+        for suffix, part in _components(f"{body.name}.{name}", value):
+            yield Listed(suffix, part, of, doc)
+
+    yield from vector("position", LENGTH, "position of G")
+    yield from vector("velocity", VELOCITY, "velocity of G")
+    yield from vector("acceleration", ACCELERATION, "acceleration of G")
+    if body.shape is not None and body.shape.turns:
+        for name, of, doc, quantity in (
+            ("angle", NUMBER, "angle to the x axis", "Angle"),
+            ("angular_velocity", RATE, "angular velocity", "AngularVelocity"),
+            ("angular_acceleration", RATE_OF_RATE, "angular acceleration", "AngularAcceleration"),
+        ):
+            value = reduced.variables.of_body(body, name)
+            yield Listed(f"{body.name}.{name}", value, of, doc, quantity)
+    value = reduced.variables.of_body(body, "kinetic_energy")
+    yield Listed(f"{body.name}.kinetic_energy", value, ENERGY, "kinetic energy")
+
+
+def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
+    def one(name: str, of: Dimension, doc: str, quantity: str = "") -> Iterator[Listed]:
+        value = reduced.variables.of_liaison(liaison, name)
+        for suffix, part in _components(f"{liaison.name}.{name}", value):
+            yield Listed(suffix, part, of, doc, quantity)
+
+    geometry = reduced.variables.geometry[liaison]
+    reacts = liaison in reduced.variables.reactions
+    if isinstance(geometry, PinGeometry):
+        yield from one("angle", NUMBER, "angle of b's axes less that of a's", "Angle")
+        yield from one("speed", RATE, "its rate", "AngularVelocity")
+        yield from one("gap", LENGTH, "distance of the places")
+        if geometry.radius is not None:
+            yield from one("slip", VELOCITY, "relative velocity at the surface of the pin")
+        if reacts:
+            yield from one("normal_force", FORCE, "size of the reaction")
+            if geometry.radius is not None:
+                yield from one("tangential_force", FORCE, "friction at the surface of the pin")
+            yield from one("force", FORCE, "reaction of the first place on the second")
+            yield from one("torque", ENERGY, "couple of the first place on the second", "Torque")
+            yield from one("power", POWER, "power of the reaction")
+        return
+    if liaison.kind.name == "point_courbe":
+        yield from one("u", LENGTH, "abscissa along the line")
+        yield from one("abscissa", LENGTH, "abscissa along the line")
+    yield from one("gap", LENGTH, "distance of the places")
+    yield from one("slip", VELOCITY, "velocity of the body's point along the line")
+    if not reacts:
+        return
+    yield from one("normal_force", FORCE, "reaction along the normal, on the body")
+    yield from one("tangential_force", FORCE, "friction along the line, on the body")
+    yield from one("force", FORCE, "reaction of the first place on the second")
+    yield from one("torque", ENERGY, "couple of the first place on the second", "Torque")
+    yield from one("power", POWER, "power of the reaction")

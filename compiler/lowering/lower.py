@@ -1,0 +1,291 @@
+"""Assembled equations to the CasADi functions of the kernel's contract (runtime/kernel/frot.h)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.equations.origins import Origin
+from frot.compiler.lowering.assemble import assemble
+from frot.compiler.lowering.assembled import Assembled, Block
+from frot.compiler.lowering.checks import Check, parameter_checks
+from frot.compiler.lowering.explicit import make_explicit
+from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.lowering.finite import watch_numbers
+from frot.compiler.lowering.groups import Grouping, make_groups
+from frot.compiler.lowering.initial_values import Statement, lower_initial
+from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, why_explicit
+from frot.compiler.lowering.listing import Listed, list_variables
+from frot.compiler.lowering.lower_events import lower_update
+from frot.compiler.lowering.lower_parameters import lower_parameters, parameters_needed
+from frot.compiler.lowering.pace import make_pace
+from frot.compiler.lowering.symbols import column
+from frot.compiler.lowering.timing import sort_conditions
+from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.mechanics.supports import Carried, carried_bodies
+from frot.dsl import Log
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lowered:
+    """The functions by their names in the contract, and their tables.
+
+    `position_statement` and `velocity_statement` give, for each scalar initial equation, the index
+    of its statement in `statements`. `blocks` are the functions of the blocks of `system`.
+    """
+
+    reduced: Reduced
+    system: Assembled
+    grouping: Grouping
+    functions: dict[str, ca.Function]
+    blocks: tuple[ca.Function, ...]
+    carried: tuple[Carried, ...]
+    checks: tuple[Check, ...]
+    variables: tuple[Listed, ...]
+    statements: tuple[Statement, ...]
+    position_statement: tuple[int, ...]
+    velocity_statement: tuple[int, ...]
+    row_depends: tuple[tuple[bool, ...], ...]
+    dependent: tuple[bool, ...]
+    jacobian: Jacobian | None
+    watched: tuple[Origin, ...]
+
+
+def lower(reduced: Reduced, log: Log) -> Lowered | None:
+    """Build every function; what cannot be built is reported."""
+    system = assemble(reduced, log)
+    if system is None:
+        return None
+    s, resolve = reduced.symbols, system.resolve
+    explicit, chains = make_explicit(system), reduced.text.chains
+    settled = reduced.variables.settled
+
+    def formula(value: ca.SX) -> ca.SX:
+        return explicit(resolve(settled(value)))
+
+    looking = Lowering(
+        s,
+        reduced.variables.quantity,
+        lambda value: chains.rate(formula(value)),
+        log,
+        variable=reduced.text.values.__getitem__,
+        without_rate=lambda value: chains.without_rate(formula(value)),
+    )
+    initial = lower_initial(system, looking, log)
+    variables = list_variables(system, looking)
+    conditions, timers = sort_conditions(system, _conditions(system, explicit, log))
+    watched, watched_origins = watch_numbers(system)
+    checks = parameter_checks(reduced.mechanism, s.parameters, system.pivots)
+    update = lower_update(system, log)
+    values = resolve(settled(column(v.value for v in variables)))
+    if log.failed or not _is_known(values, system, variables, log):
+        return None
+    given, is_set = ca.SX.sym("given", s.p.numel()), ca.SX.sym("set", s.p.numel())
+    state = state_arguments(system)
+    solution = [*state, system.z, system.lam]
+    grouping = make_groups(system)
+    no_rates = ca.SX.zeros(system.rates.shape)
+    outputs: dict[str, tuple[list[ca.SX], list[ca.SX]]] = {
+        "parameters": (
+            [given, is_set, s.u],
+            lower_parameters(
+                reduced, looking, checks, len(system.elements), system.q, given, is_set
+            ),
+        ),
+        "start": ([s.t, s.u, s.p], initial.start),
+        "initial_position": (state, initial.position),
+        "initial_velocity": (state, initial.velocity),
+        "kinematics": (state, [system.gap, grouping.rows, system.rate, conditions]),
+        "sides": (state, list(_sides(system))),
+        "dynamics": (
+            state,
+            [
+                no_rates if system.late else system.rates,
+                grouping.matrix,
+                system.force,
+                grouping.rows,
+                system.bias,
+                system.rate,
+                system.gap,
+                conditions[: reduced.conditions.located],
+                system.coefficients,
+                ca.SX(0) if system.late else system.power,
+            ],
+        ),
+        "sizes": (
+            state,
+            [system.force_size, _without_reactions(resolve(reduced.load_sizes), system)],
+        ),
+        "variables": ([*solution, s.energy], [values]),
+        "energy": (state, [resolve(reduced.kinetic), resolve(reduced.potential)]),
+    }
+    if not grouping.is_mass_matrix:
+        outputs["spread"] = (state, [grouping.spread, grouping.metric])
+    carried = carried_bodies(system)
+    if carried:
+        outputs["places"] = (state, [column(body.value for body in carried)])
+    pace = make_pace(system, conditions[: reduced.conditions.located])
+    if pace is not None:
+        outputs["pace"] = (state, list(pace))
+    jacobian = make_jacobian(system)
+    if reduced.mechanism.model.experiment.method == "implicit" and jacobian is None:
+        log.report(
+            "E0701",
+            f"the method 'implicit' is not supported for {why_explicit(system)}",
+            reduced.mechanism.model.experiment.span,
+            help="`auto` and `explicit` are supported",
+        )
+        return None
+    if jacobian is not None:
+        outputs["jacobian"] = (state, jacobian.results)
+    if system.late:
+        outputs["rates"] = (solution, [system.rates, system.power])
+    if system.invariants.origins:
+        outputs["invariants"] = (state, _invariants(system))
+    if system.early:
+        outputs["block_slopes"] = (state, _block_slopes(system))
+    if update is not None:
+        events = reduced.events
+        outputs["update"] = ([*solution, column(events.fired), column(events.before)], update)
+    if watched.numel():
+        outputs["watched"] = (solution, [watched])
+    if reduced.conditions.timed:
+        outputs["timers"] = ([s.u, s.p, state[5]], timers)
+    functions = {
+        name: ca.Function(f"frot_{name}_at", arguments, _clean(results))
+        for name, (arguments, results) in outputs.items()
+    }
+    return Lowered(
+        reduced,
+        system,
+        grouping,
+        functions,
+        tuple(_block(k, b, system) for k, b in enumerate(system.blocks)),
+        carried,
+        checks,
+        variables,
+        initial.statements,
+        initial.position_statement,
+        initial.velocity_statement,
+        _row_depends(system),
+        tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
+        jacobian,
+        tuple(watched_origins),
+    )
+
+
+def _sides(system: Assembled) -> tuple[ca.SX, ca.SX]:
+    """What chooses the sides, and the reaches; an element of the text has none to choose from."""
+    none, reduced = len(system.elements), system.reduced
+    return (
+        ca.vertcat(system.resolve(reduced.witness), ca.SX.ones(3 * none)),
+        ca.vertcat(system.resolve(reduced.reach), ca.SX.zeros(none)),
+    )
+
+
+def _without_reactions(sizes: ca.SX, system: Assembled) -> ca.SX:
+    """Sizes of loads as the state gives them, without what accelerations and reactions add."""
+    solved = ca.vertcat(system.z, system.lam)
+    if not (sizes.numel() and solved.numel()):
+        return sizes
+    return ca.substitute(sizes, solved, ca.SX.zeros(solved.shape))
+
+
+def state_arguments(system: Assembled) -> list[ca.SX]:
+    """t, q, v, u, p, d, y."""
+    s = system.reduced.symbols
+    no_sides = ca.SX.sym("no_side", len(system.elements))
+    flags = column(system.reduced.conditions.flags)
+    d = ca.vertcat(flags, s.sides, no_sides, system.discrete)
+    return [s.t, system.q, system.v, s.u, s.p, d, system.y]
+
+
+def _clean(outputs: list[ca.SX]) -> list[ca.SX]:
+    """Dense outputs with common subexpressions shared."""
+    return [ca.densify(x) for x in ca.cse([ca.SX(x) for x in outputs])]
+
+
+def _conditions(system: Assembled, explicit: Callable[[ca.SX], ca.SX], log: Log) -> ca.SX:
+    """The located conditions; one that reads what is solved with or after the core is refused."""
+    values = explicit(system.resolve(column(system.reduced.conditions.values)))
+    later = ca.vertcat(system.z, system.lam, system.y[system.early :])
+    located = system.reduced.conditions
+    for value, text, span in zip(
+        ca.vertsplit(values) if values.numel() else (), located.texts, located.spans, strict=True
+    ):
+        if later.numel() and ca.depends_on(value, later):
+            log.report(
+                "E0701",
+                f"the condition `{text}` reads an acceleration, a reaction or a friction force "
+                "that dry friction or a contact changes: it is not supported yet",
+                span or system.reduced.mechanism.model.span,
+                help="write it in terms of time, positions and velocities",
+            )
+    return values
+
+
+def _is_known(values: ca.SX, system: Assembled, variables: tuple[Listed, ...], log: Log) -> bool:
+    """Whether the variables hold nothing but what the kernel knows: no third derivatives."""
+    known = {
+        x.element_hash()
+        for part in (*state_arguments(system), system.z, system.lam, system.reduced.symbols.energy)
+        for x in (ca.vertsplit(part) if part.numel() else ())
+    }
+    if all(x.element_hash() in known for x in ca.symvar(values)):
+        return True
+    for variable, value in zip(variables, ca.vertsplit(values), strict=True):
+        unknown = [x.name() for x in ca.symvar(value) if x.element_hash() not in known]
+        if unknown:
+            log.report(
+                "E0701",
+                f"'{variable.name}' needs {unknown[0]}, a derivative of an acceleration: it is not "
+                "supported yet",
+                system.reduced.mechanism.model.span,
+                help="leave it out",
+            )
+            break
+    return False
+
+
+def _block(index: int, block: Block, system: Assembled) -> ca.Function:
+    """Residual, its Jacobian in the block's own unknowns, the size of its terms."""
+    own = system.y[block.first : block.first + block.residual.numel()]
+    slope = ca.jacobian(block.residual, own)
+    size = ca.fabs(slope) @ ca.fabs(own) + ca.fabs(block.residual)
+    arguments = state_arguments(system)
+    if block.late:
+        arguments += [system.z, system.lam]
+    return ca.Function(f"frot_block_{index}", arguments, _clean([block.residual, slope, size]))
+
+
+def _block_slopes(system: Assembled) -> list[ca.SX]:
+    residual = column(b.residual for b in system.blocks if not b.late)
+    y = system.y[: system.early]
+    return [residual, *(ca.jacobian(residual, x).T for x in (system.q, system.v, y))]
+
+
+def _invariants(system: Assembled) -> list[ca.SX]:
+    values = system.invariants.values
+    states = ca.vertcat(system.q, system.v)
+    slope = ca.jacobian(values, states)
+    return [values, slope.T, ca.fabs(slope) @ ca.fabs(states)]
+
+
+def _row_depends(system: Assembled) -> tuple[tuple[bool, ...], ...]:
+    """For each row: on which coordinates, and last whether on anything else, its Jacobian depends.
+
+    Of the coordinates those count whose rates are speeds; any other state counts as anything else.
+    """
+    s = system.reduced.symbols
+    others = ca.vertcat(s.t, s.u, system.discrete, system.y)
+    table: list[tuple[bool, ...]] = []
+    for r in range(system.rows.size1()):
+        row = system.rows[r, :]
+        table.append(
+            (
+                *(bool(ca.depends_on(row, system.q[k])) for k in range(system.q.numel())),
+                bool(ca.depends_on(ca.horzcat(row, system.rate[r]), others)),
+            )
+        )
+    return tuple(table)

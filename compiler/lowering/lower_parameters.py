@@ -1,0 +1,90 @@
+"""Parameters in the order in which they depend on each other, and all that follows from them."""
+
+from __future__ import annotations
+
+import casadi as ca
+from frot.compiler.equations.chains import replace_known
+from frot.compiler.equations.text_symbols import scalars
+from frot.compiler.lowering.checks import Check
+from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.lowering.symbols import Symbols, column
+from frot.compiler.lowering.walk import subexpressions
+from frot.compiler.mechanics.reduce import Reduced
+from frot.dsl.checked import Parameter, Reference, Variable
+from frot.dsl.order import in_order
+
+
+def parameters_needed(parameter: Parameter, symbols: Symbols) -> list[Parameter]:
+    """The scalar parameters, constants apart, that a parameter's value names."""
+    return [
+        one
+        for node in subexpressions(parameter.value)
+        if isinstance(node, Reference) and isinstance(node.target, Parameter)
+        for one in symbols.items.get(node.target, ())
+    ]
+
+
+def lower_parameters(
+    reduced: Reduced,
+    looking: Lowering,
+    checks: tuple[Check, ...],
+    elements: int,
+    q: ca.SX,
+    given: ca.SX,
+    is_set: ca.SX,
+) -> list[ca.SX]:
+    """The outputs of the kernel's `parameters`; `q` are the states.
+
+    Friction elements are never unilateral.
+    """
+    s = reduced.symbols
+    place = {p.name: i for i, p in enumerate(s.parameters)}
+    needs = {p.name: [q.name for q in parameters_needed(p, s)] for p in s.parameters}
+    order, _ = in_order(needs)
+    known: dict[int, ca.SX] = {}
+    for name in order:
+        i = place[name]
+        value = given[i]
+        if needs[name]:
+            dependent = replace_known(looking.lower(s.parameters[i].value), known)
+            value = ca.if_else(is_set[i] != 0, given[i], dependent)
+        known[s.p[i].element_hash()] = value
+    experiment = reduced.mechanism.model.experiment
+    times = [
+        ca.SX.nan() if e is None else looking.lower(e)
+        for e in (
+            experiment.start,
+            experiment.stop,
+            experiment.tolerance,
+            experiment.interval,
+            experiment.max_step,
+        )
+    ]
+    values = [c.value if isinstance(c.value, ca.SX) else looking.lower(c.value) for c in checks]
+    nominal = _nominal_sizes(q, reduced, looking)
+    unilateral = [looking.lower(c.unilateral) for c in reduced.mechanism.contacts]
+    outputs = [column(values), column([*unilateral, *[ca.SX(0)] * elements]), column(times)]
+    outputs.append(column(nominal))
+    return [
+        column(known[s.p[i].element_hash()] for i in range(s.p.numel())),
+        *(replace_known(output, known) for output in outputs),
+    ]
+
+
+def _nominal_sizes(q: ca.SX, reduced: Reduced, looking: Lowering) -> list[ca.SX]:
+    """The usual size of each state by its author, zero where none is given."""
+    chains = reduced.text.chains
+    first: dict[Variable, int] = {}
+    for index, item in enumerate(chains.items):
+        if item.variable is not None:
+            first.setdefault(item.variable, index)
+    sizes = []
+    for symbol in ca.vertsplit(q) if q.numel() else ():
+        index, order = chains.place.get(symbol.element_hash(), (-1, 0))
+        variable = chains.items[index].variable if index >= 0 else None
+        if variable is None or variable.nominal is None or order > 0:
+            sizes.append(ca.SX(0))
+        else:
+            items = scalars(looking.lower(variable.nominal))
+            sizes.append(ca.fabs(items[index - first[variable]]))
+    return sizes

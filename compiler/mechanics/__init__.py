@@ -1,0 +1,1 @@
+"""Bodies, liaisons and forces to equations of motion in reduced coordinates."""

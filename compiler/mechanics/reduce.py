@@ -1,0 +1,368 @@
+"""Mechanism to reduced equations: M a = h + J' lam with the rows of the contacts.
+
+Auxiliary speeds along the normals of reduced liaisons (T. Kane, D. Levinson, Dynamics: Theory and
+Applications, 1985, sect. 4.9) bring their reactions to light without adding a coordinate: they are
+zero, and so are their accelerations, in every motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.equations.before import Before
+from frot.compiler.equations.chains import Chains
+from frot.compiler.equations.eliminate import Residuals
+from frot.compiler.equations.events import Events, gather_events
+from frot.compiler.equations.gather import gather
+from frot.compiler.equations.origins import Origin
+from frot.compiler.equations.text_symbols import (
+    FrictionElement,
+    TextSymbols,
+    make_text_symbols,
+    scalars,
+)
+from frot.compiler.lowering.expressions import Conditions, Lowering
+from frot.compiler.lowering.symbols import Rows, Symbols, column, contact_rows, make_symbols
+from frot.compiler.mechanics.contacts import Geometry, gravity, joint_geometry, row_rates
+from frot.compiler.mechanics.forces import load
+from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.mechanism import Joint, Mechanism, Pin
+from frot.compiler.mechanics.names import coordinate_names
+from frot.compiler.mechanics.pins import PinGeometry
+from frot.compiler.mechanics.variables import Variables
+from frot.dsl import Log
+from frot.dsl.checked import Call, Liaison, Model, Quantity, Reference, Variable
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reduced:
+    """Equations of the motion in CasADi expressions, auxiliary speeds at zero.
+
+    `text`, `equations` and `events` are what the text adds with its variables, which `force` and
+    the others may hold too. `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes
+    of its terms, `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a +
+    bias is the rows' acceleration), `rate` (n_rows), `gap` (n_contacts), `witness` (3
+    each) and `reach` (see contacts.py), `coefficients` (of motion and of rest, of each element),
+    `power` of the loads without potential, `kinetic`, `potential`.
+    """
+
+    mechanism: Mechanism
+    symbols: Symbols
+    text: TextSymbols
+    equations: Residuals
+    events: Events
+    contact_rows: tuple[Rows, ...]
+    variables: Variables
+    fixed: Lowering
+    conditions: Conditions
+    mass: ca.SX
+    force: ca.SX
+    force_size: ca.SX
+    load_sizes: ca.SX
+    rows: ca.SX
+    bias: ca.SX
+    rate: ca.SX
+    gap: ca.SX
+    witness: ca.SX
+    reach: ca.SX
+    coefficients: ca.SX
+    power: ca.SX
+    kinetic: ca.SX
+    potential: ca.SX
+
+
+def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
+    """Form the equations; what cannot be lowered is reported."""
+    symbols = make_symbols(mechanism)
+
+    def nothing(node: Quantity) -> ca.SX:
+        raise TypeError(f"{node.name} in an expression of parameters")
+
+    fixed = Lowering(symbols, nothing, lambda value: value * 0, log)
+    kinematics = Kinematics(mechanism, symbols, fixed)
+    text = _text(mechanism, symbols)
+    variables = _variables(mechanism, kinematics, symbols, text)
+    conditions = Conditions()
+    moving, looking = (
+        Lowering(
+            symbols,
+            variables.quantity,
+            variables.rate,
+            log,
+            located,
+            variable=text.values.__getitem__,
+            without_rate=text.chains.without_rate,
+        )
+        for located in (conditions, None)
+    )
+    moving.friction = _friction_maker(text)
+    first = _first_values(mechanism.model, text, symbols, looking, log)
+    moving.before = Before(text, text.values.__getitem__, first)
+    for variable in mechanism.model.variables:
+        if variable.discrete:
+            symbols_of = scalars(text.values[variable])
+            for symbol, start in zip(symbols_of, first(variable), strict=True):
+                text.add_discrete(symbol.name(), symbol, start)
+    rates = _rates(mechanism.contacts, variables, kinematics)
+    speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
+    motion = _masses(mechanism, variables)
+    loads = _loads(mechanism, variables, moving)
+    coefficients = _coefficients(mechanism.contacts, moving, symbols, log)
+    geometry = [variables.geometry[contact.liaison] for contact in mechanism.contacts]
+    equations = gather(mechanism.model.equations, moving, log)
+    _add_slip_accelerations(equations, text)
+    events = gather_events(mechanism.model, text, conditions, moving, looking, log)
+    if log.failed:
+        return None
+    settled = variables.settled
+    conditions.values = [settled(value) for value in conditions.values]
+    equations.values[:] = [settled(value) for value in equations.values]
+    return Reduced(
+        mechanism=mechanism,
+        symbols=symbols,
+        text=text,
+        equations=equations,
+        events=events,
+        contact_rows=contact_rows(mechanism.contacts),
+        variables=variables,
+        fixed=fixed,
+        conditions=conditions,
+        mass=settled(motion.mass),
+        force=settled(motion.force + loads.force),
+        force_size=settled(motion.size + loads.size),
+        load_sizes=settled(column(loads.sizes)),
+        rows=settled(ca.jacobian(rates, speeds)),
+        bias=settled(ca.jtimes(rates, places, speeds)),
+        rate=settled(rates),
+        gap=settled(column(g.gap for g in geometry)),
+        witness=settled(column(g.witness for g in geometry)),
+        reach=settled(column(g.reach for g in geometry)),
+        coefficients=settled(coefficients),
+        power=settled(loads.power),
+        kinetic=settled(motion.kinetic),
+        potential=settled(motion.potential + loads.potential),
+    )
+
+
+def _text(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
+    """Chains of the coordinates, then symbols for the variables of the text."""
+    chains = Chains(symbols.t)
+    names = [n for c in mechanism.coordinates for n in coordinate_names(c)]
+    for name, *chain in zip(
+        names,
+        *(ca.vertsplit(x) if names else () for x in (symbols.q, symbols.v, symbols.a)),
+        strict=True,
+    ):
+        chains.add(name, None, symbols=chain, fixed=True)
+    chains.forbid_rate(symbols.u, "the input")
+    chains.forbid_rate(symbols.lam, "the reaction of")
+    return make_text_symbols(mechanism.model.variables, chains)
+
+
+def _first_values(
+    model: Model, text: TextSymbols, given: Symbols, looking: Lowering, log: Log
+) -> Callable[[Variable], list[ca.SX]]:
+    """Gives the first values of what jumps: those of `initial`, of `start`, or zero."""
+    stated = {
+        e.left.target: e.right
+        for e in model.initial
+        if isinstance(e.left, Reference) and isinstance(e.left.target, Variable)
+    }
+
+    def first(variable: Variable) -> list[ca.SX]:
+        count = text.values[variable].numel()
+        value = stated.get(variable, variable.start)
+        starts = [ca.SX(0)] if value is None else scalars(looking.lower(value))
+        if value is not None and not all(_is_given(start, given) for start in starts):
+            log.report(
+                "E0602",
+                f"the first value of '{variable.name}', which events set, depends on the motion",
+                value.span,
+                help=f"set it in `when initial() then {variable.name} = ...; end when;`",
+            )
+        return starts * count if len(starts) == 1 else starts
+
+    return first
+
+
+def _is_given(value: ca.SX, symbols: Symbols) -> bool:
+    """Whether a value follows from time, parameters and inputs alone."""
+    given = ca.vertcat(symbols.t, symbols.u, symbols.p)
+    known = {x.element_hash() for x in ca.vertsplit(given)}
+    return all(x.element_hash() in known for x in ca.symvar(value))
+
+
+def _friction_maker(text: TextSymbols) -> Callable[[Call, list[ca.SX], str], ca.SX]:
+    """Makes an element of every `friction(slip, bound, bound_s)` of the equations."""
+    taken: set[str] = set()
+
+    def make(call: Call, arguments: list[ca.SX], owner: str) -> ca.SX:
+        slip, bound = arguments[:2]
+        at_rest = arguments[2] if len(arguments) > 2 else bound
+        name, count = owner or "friction", 1
+        while name in taken:
+            count += 1
+            name = f"{owner}.friction_{count}" if owner else f"friction_{count}"
+        taken.add(name)
+        force = ca.SX.sym(f"{name}.friction")
+        acceleration = ca.SX.sym(f"{name}.slip_acceleration")
+        text.elements.append(
+            FrictionElement(name, call.span, force, acceleration, slip, bound, at_rest)
+        )
+        text.chains.forbid_rate(force, "the friction")
+        return force
+
+    return make
+
+
+def _add_slip_accelerations(equations: Residuals, text: TextSymbols) -> None:
+    """An unknown for the rate of each slip, so that index reduction brings it to light."""
+    for element in text.elements:
+        name = element.acceleration.name()
+        text.chains.add(name, element.span, symbols=(element.acceleration,))
+        equations.values.append(text.chains.rate(element.slip) - element.acceleration)
+        equations.origins.append(Origin(element.span, f"slip of {element.name}", ""))
+
+
+def _variables(
+    mechanism: Mechanism, kinematics: Kinematics, symbols: Symbols, text: TextSymbols
+) -> Variables:
+    world = mechanism.model.world
+    geometry: dict[Liaison, Geometry | PinGeometry] = {}
+    for index, contact in enumerate(mechanism.contacts):
+        side = symbols.sides[index]
+        geometry[contact.liaison] = joint_geometry(contact, kinematics, side, world)
+    for contact in mechanism.ideal:
+        geometry[contact.liaison] = joint_geometry(contact, kinematics, ca.SX(1), world)
+    return Variables(
+        symbols,
+        text.chains,
+        kinematics,
+        geometry,
+        {contact.liaison: contact for contact in mechanism.contacts},
+        {
+            contact.liaison: rows
+            for contact, rows in zip(
+                mechanism.contacts, contact_rows(mechanism.contacts), strict=True
+            )
+        },
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Masses:
+    """Mass matrix, weight less inertial bias with the size of its terms, energies of the bodies."""
+
+    mass: ca.SX
+    force: ca.SX
+    size: ca.SX
+    kinetic: ca.SX
+    potential: ca.SX
+
+
+def _masses(mechanism: Mechanism, variables: Variables) -> _Masses:
+    kinematics, symbols = variables.kinematics, variables.symbols
+    world = mechanism.model.world
+    speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
+    mass, force = ca.SX.zeros(speeds.numel(), speeds.numel()), ca.SX.zeros(speeds.numel())
+    size, kinetic, potential = ca.SX.zeros(speeds.numel()), ca.SX(0), ca.SX(0)
+    for body in mechanism.model.bodies:
+        pose = kinematics.poses[body]
+        weight = variables.mass(body) * gravity(world, kinematics)
+        for velocity, inertia, push in (
+            (kinematics.velocity(pose.origin), variables.mass(body), weight),
+            (kinematics.velocity(pose.angle), variables.inertia(body), ca.SX.zeros(1)),
+        ):
+            jacobian = ca.jacobian(velocity, speeds)
+            mass += inertia * (jacobian.T @ jacobian)
+            bias = jacobian.T @ (inertia * ca.jtimes(velocity, places, speeds))
+            force += jacobian.T @ push - bias
+            size += ca.fabs(jacobian.T) @ ca.fabs(push) + ca.fabs(bias)
+        kinetic += variables.of_body(body, "kinetic_energy")
+        potential -= ca.dot(weight, pose.origin)
+    return _Masses(mass, force, size, kinetic, potential)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Loads:
+    """Generalized applied forces, the sizes of their terms and of each, potential and power."""
+
+    force: ca.SX
+    size: ca.SX
+    sizes: list[ca.SX]
+    potential: ca.SX
+    power: ca.SX
+
+
+def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> _Loads:
+    kinematics, symbols = variables.kinematics, variables.symbols
+    speeds = ca.vertcat(symbols.v, symbols.sw)
+    force, size = ca.SX.zeros(speeds.numel()), ca.SX.zeros(speeds.numel())
+    potential, power = ca.SX(0), ca.SX(0)
+    sizes: list[ca.SX] = []
+    for applied in mechanism.forces:
+        result = load(applied, kinematics, moving, mechanism.model.ground)
+        for action in result.actions:
+            along = ca.jacobian(action.velocity, speeds).T
+            force += along @ action.force
+            size += ca.fabs(along) @ ca.fabs(action.force)
+            if result.potential is None:
+                power += ca.dot(action.velocity, action.force)
+        sizes.append(sum((ca.sum1(ca.fabs(a.force)) for a in result.actions), ca.SX(0)))
+        if result.potential is not None:
+            potential += result.potential
+    for flange in mechanism.model.flanges:
+        assert moving.variable is not None
+        effort = moving.variable(flange.effort)
+        rate = kinematics.velocity(variables.of_liaison(flange.liaison, flange.coordinate))
+        push = ca.jacobian(rate, speeds).T * effort
+        force, size = force + push, size + ca.fabs(push)
+        power += effort * rate
+    return _Loads(force, size, sizes, potential, power)
+
+
+def _reads_solution(value: ca.SX, symbols: Symbols) -> bool:
+    return any(
+        s.numel() and value.numel() and ca.depends_on(value, s) for s in (symbols.a, symbols.lam)
+    )
+
+
+def _rates(contacts: tuple[Joint, ...], variables: Variables, kinematics: Kinematics) -> ca.SX:
+    return column(
+        rate
+        for contact in contacts
+        for rate in row_rates(contact, variables.geometry[contact.liaison], kinematics)
+    )
+
+
+def _coefficients(
+    contacts: tuple[Joint, ...], moving: Lowering, symbols: Symbols, log: Log
+) -> ca.SX:
+    """For each element its coefficient of motion and of rest, times the radius of a pin.
+
+    A negative one is no number, so that it is seen.
+    """
+    values: list[ca.SX] = []
+    for contact in contacts:
+        radius = contact.radius if isinstance(contact, Pin) else None
+        arm = ca.SX(1) if radius is None else moving.lower(radius)
+        for pair in ((contact.mu, contact.mu_s), (contact.delta, contact.delta)):
+            for expression in pair:
+                if expression is None:
+                    continue
+                value = moving.lower(expression)
+                if _reads_solution(value, symbols) or _reads_speed(value, symbols):
+                    log.report(
+                        "E0701",
+                        f"a coefficient of liaison '{contact.liaison.name}' that depends on the "
+                        "motion otherwise than by positions is not supported yet",
+                        expression.span,
+                    )
+                values.append(ca.if_else(value >= 0, arm * value, ca.SX.nan()))
+    return column(values)
+
+
+def _reads_speed(value: ca.SX, symbols: Symbols) -> bool:
+    return bool(symbols.v.numel() and ca.depends_on(value, symbols.v))

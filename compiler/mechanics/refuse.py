@@ -1,0 +1,171 @@
+"""What the mechanics does not take yet, told by name (E0701), and what has no meaning in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
+from frot.compiler.mechanics.mechanism import Joint, Pin, turns
+from frot.dsl import Log
+from frot.dsl.checked import BodyPoint, Force, Law, Liaison, Literal, Model, Place, Quantity
+from frot.dsl.dimensions import dimension
+from frot.dsl.source import Span
+
+SHAPES = ("particle", "ring", "disc", "rod")
+LIAISONS = ("point_courbe", "contact_ponctuel", "rotoide")
+LAWS = ("coulomb", "rolling_resistance")
+FORCES = ("attraction", "couple", "damper", "drag", "on", "spring")
+REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
+
+
+def refuse_unknown(model: Model, log: Log) -> None:
+    """Tell every kind, law, force and option of the model that has no mechanics yet."""
+    if not model.planar and (model.bodies or model.liaisons):
+        refuse(log, "a model in space", model.span, "write `planar model` if the motion is plane")
+    for body in model.bodies:
+        if body.shape is not None and body.shape.name not in SHAPES:
+            refuse(log, f"the shape '{body.shape.name}'", body.span, _one_of("shapes", SHAPES))
+    for curve in model.curves:
+        if curve.kind != "line":
+            refuse(log, f"the curve '{curve.kind}'", curve.span, "a `line` is")
+        for argument in curve.arguments.values():
+            if not is_fixed(argument):
+                refuse(log, "a curve that depends on time or motion", argument.span)
+    for frame in model.frames:
+        for value in (frame.origin, frame.angle):
+            if value is not None and not is_fixed(value):
+                refuse(log, "a frame that depends on time or motion", value.span)
+    for body in model.bodies:
+        for argument in body.arguments.values():
+            if not is_fixed(argument):
+                refuse(log, "a body that depends on time or motion", argument.span)
+    for liaison in model.liaisons:
+        if liaison.kind.name not in LIAISONS:
+            refuse(
+                log,
+                f"the liaison '{liaison.kind.name}'",
+                liaison.span,
+                _one_of("liaisons", LIAISONS),
+            )
+        for law in liaison.laws:
+            _refuse_law(liaison, law, log)
+    for force in model.forces:
+        if force.kind.name not in FORCES:
+            refuse(log, f"the force '{force.kind.name}'", force.span, _one_of("forces", FORCES))
+        if force.kind.name == "couple":
+            _refuse_couple(force, log)
+        if force.kind.name == "drag":
+            _refuse_drag(force, log)
+    if model.world.gravity is not None and not is_fixed(model.world.gravity):
+        refuse(log, "gravity that depends on time or motion", model.world.span)
+    allowed = ("auto", "explicit") if model.bodies else ("auto", "explicit", "implicit")
+    if model.experiment.method not in allowed:
+        refuse(
+            log,
+            f"the method '{model.experiment.method}'",
+            model.experiment.span,
+            f"{', '.join(f'`{method}`' for method in allowed)} are",
+        )
+    for expression in read_expressions(model):
+        for node in subexpressions(expression):
+            if isinstance(node, Quantity) and node.name == "mode":
+                refuse(
+                    log,
+                    "`mode` inside an expression",
+                    node.span,
+                    "every result holds the mode of each liaison by its name",
+                )
+
+
+def _refuse_law(liaison: Liaison, law: Law, log: Log) -> None:
+    if law.kind.name not in LAWS:
+        refuse(log, f"the law '{law.kind.name}'", law.span, _one_of("laws", LAWS))
+        return
+    pin = liaison.kind.name == "rotoide"
+    if pin and law.kind.name != "coulomb":
+        refuse(log, f"the law '{law.kind.name}' of a rotoïde", law.span, "`coulomb` is")
+    for name in ("half_length",) if pin else ("radius", "half_length"):
+        if name in law.arguments:
+            refuse(log, f"'{name}' of the law '{law.kind.name}'", law.arguments[name].span)
+    if pin and "radius" in law.arguments and not is_fixed(law.arguments["radius"]):
+        refuse(log, "a radius that depends on time or motion", law.arguments["radius"].span)
+    for argument in law.arguments.values():
+        for node in subexpressions(argument):
+            if isinstance(node, Quantity) and node.name in (
+                "velocity",
+                "acceleration",
+                "slip",
+                "angular_velocity",
+                "angular_acceleration",
+                "speed",
+                *REACTION,
+            ):
+                refuse(
+                    log,
+                    f"a coefficient that depends on '{node.name}'",
+                    node.span,
+                    "coefficients may depend on positions and time",
+                )
+
+
+def _refuse_couple(force: Force, log: Log) -> None:
+    holder = force.arguments["holder"]
+    if isinstance(holder, Liaison):
+        if "angle" not in holder.kind.coordinates:
+            log.report(
+                "E0205",
+                f"liaison '{holder.name}' has no angle that a couple could drive",
+                force.span,
+                help="a couple acts in a `rotoide`, or on a body",
+            )
+    elif isinstance(holder, BodyPoint) and not turns(holder.body):
+        log.report(
+            "E0205",
+            f"a couple on '{holder.body.name}', which does not turn",
+            force.span,
+            help="name a body that turns, or a `rotoide`",
+        )
+
+
+def _refuse_drag(force: Force, log: Log) -> None:
+    """Only the exponents 1 and 2 have coefficients that can be written, each with its unit."""
+    exponent, c = force.arguments["exponent"], force.arguments["c"]
+    assert not isinstance(exponent, Place | Liaison) and not isinstance(c, Place | Liaison)
+    if not (isinstance(exponent, Literal) and exponent.value in (1, 2)):
+        refuse(log, "an exponent of drag other than 1 and 2", exponent.span)
+        return
+    linear = exponent.value == 1
+    if c.type.dimension != (dimension(kg=1, s=-1) if linear else dimension(m=-1, kg=1)):
+        log.report(
+            "E0301",
+            f"c of a drag with exponent {exponent.value:g} is in {'N.s/m' if linear else 'kg/m'}",
+            c.span,
+            help="give the other exponent, or c in that unit",
+        )
+
+
+def refuse_surface(model: Model, joints: Iterable[Joint], log: Log) -> None:
+    """What happens at the surface of a pin is known with its radius only."""
+    plain = {e.liaison for e in joints if isinstance(e, Pin) and e.radius is None}
+    for expression in read_expressions(model):
+        for node in subexpressions(expression):
+            if (
+                isinstance(node, Quantity)
+                and node.owner in plain
+                and node.name in ("slip", "tangential_force")
+            ):
+                log.report(
+                    "E0203",
+                    f"no '{node.name}' on '{node.owner.name}': its pin has no radius",
+                    node.span,
+                    help="read `speed` or `torque`, or give the law `coulomb(..., radius = ...)`",
+                )
+
+
+def refuse(log: Log, what: str, span: Span | None, help: str = "") -> None:
+    """Tell what is not supported yet, with a remedy."""
+    log.report("E0701", f"{what} is not supported yet", span, help=help)
+
+
+def _one_of(what: str, names: tuple[str, ...]) -> str:
+    return f"supported {what}: {', '.join(names)}"

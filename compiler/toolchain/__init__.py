@@ -1,0 +1,1 @@
+"""C compilers, the cache of programs, and the processes that make them."""

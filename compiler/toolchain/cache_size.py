@@ -1,0 +1,142 @@
+"""The size of the folder of compiled programs: what it takes, what goes first, what is stale."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import secrets
+import shutil
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from frot.compiler.toolchain.hold import hold
+from frot.dsl.diagnostics import fail
+
+# Folders of entries; files of the parser's tables lie beside them.
+KINDS = ("programs", "kernels")
+TABLES = "grammar-*.bin"
+UNFINISHED = ".new-"
+LIMIT = 512 * 10**6
+_LIMIT_FILE = "limit"
+# A folder that nobody holds may have been made a moment ago, by someone about to hold it.
+_YOUNG = 60.0
+_UNITS = {"": 1, "B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "TB": 10**12}
+_UNITS |= {"KIB": 2**10, "MIB": 2**20, "GIB": 2**30, "TIB": 2**40}
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A program, the kernel's objects or the parser's tables: bytes, and when it was last used."""
+
+    path: Path
+    size: int
+    used: float
+
+    def remove(self) -> bool:
+        """Remove it, unless someone uses it."""
+        if self.path.is_file():
+            with contextlib.suppress(OSError):
+                self.path.unlink()
+            return not self.path.exists()
+        held = hold(self.path, alone=True)
+        if held is None:
+            return False
+        # Under another name first, so that nobody finds half of it.
+        doomed = self.path.with_name(f"{UNFINISHED}{secrets.token_hex(8)}")
+        try:
+            os.rename(self.path, doomed)
+        except OSError:
+            return False
+        shutil.rmtree(doomed, ignore_errors=True)
+        return True
+
+
+def entries(cache: Path) -> list[Entry]:
+    """All that is kept, the least recently used first."""
+    found = [_entry(path) for kind in KINDS for path in _folders(cache / kind)]
+    found += [_entry(path) for path in cache.glob(TABLES)]
+    return sorted((e for e in found if e is not None), key=lambda e: e.used)
+
+
+def shrink(cache: Path, limit: int) -> list[Entry]:
+    """Remove what was used least recently until the rest fits; those removed.
+
+    What someone uses stays, so that the rest may still be larger. Kernels of other versions go like
+    programs do.
+    """
+    kept = entries(cache)
+    excess = sum(entry.size for entry in kept) - limit
+    removed = []
+    for entry in kept:
+        if excess <= 0:
+            break
+        if entry.remove():
+            removed.append(entry)
+            excess -= entry.size
+    return removed
+
+
+def sweep(cache: Path) -> None:
+    """Remove what was begun by processes that are no more."""
+    for kind in KINDS:
+        for path in _folders(cache / kind, unfinished=True):
+            entry = _entry(path)
+            if entry is not None and time.time() - entry.used > _YOUNG:
+                entry.remove()
+
+
+def used_now(folder: Path) -> None:
+    """Note that an entry is used; nothing happens where that cannot be written."""
+    with contextlib.suppress(OSError):
+        os.utime(folder)
+
+
+def read_limit(cache: Path) -> int:
+    """The most bytes that are kept."""
+    try:
+        return int((cache / _LIMIT_FILE).read_text(encoding="ascii"))
+    except (OSError, ValueError):
+        return LIMIT
+
+
+def write_limit(cache: Path, limit: int) -> None:
+    """Keep at most so many bytes from now on; FrotError (E0803) if that cannot be noted."""
+    from frot.dsl.writing import write_whole
+
+    write_whole(cache / _LIMIT_FILE, f"{limit}\n".encode("ascii"))
+
+
+def bytes_of(text: str) -> int:
+    """The bytes of `200 MB`, `1.5GB`, `64 MiB`; FrotError (E0806) for anything else."""
+    match = re.fullmatch(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Za-z]*)\s*", text)
+    if match is None or match[2].upper() not in _UNITS:
+        raise fail("E0806", f"'{text}' is not a size", help="write one such as 200MB or 1.5GB")
+    return int(float(match[1]) * _UNITS[match[2].upper()])
+
+
+def shown(size: int) -> str:
+    """A number of bytes as people write it."""
+    for unit, factor in (("GB", 10**9), ("MB", 10**6), ("kB", 10**3)):
+        if size >= factor:
+            return f"{size / factor:.3g} {unit}"
+    return f"{size} bytes"
+
+
+def _folders(parent: Path, unfinished: bool = False) -> list[Path]:
+    try:
+        found = [Path(entry.path) for entry in os.scandir(parent) if entry.is_dir()]
+    except OSError:
+        return []
+    return [path for path in found if path.name.startswith(UNFINISHED) is unfinished]
+
+
+def _entry(path: Path) -> Entry | None:
+    """None if it has gone meanwhile."""
+    try:
+        used = path.stat().st_mtime
+        files = [path] if path.is_file() else [p for p in path.rglob("*") if p.is_file()]
+        return Entry(path, sum(file.stat().st_size for file in files), used)
+    except OSError:
+        return None
