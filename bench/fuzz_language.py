@@ -126,7 +126,7 @@ def random_words(draw: random.Random) -> str:
 def batch(seed: int, count: int) -> Outcome:
     """Check `count` texts made from a seed."""
     from frot.dsl import Log, compile_text, default_values, format_text, render_log
-    from frot.dsl.show import show_model
+    from frot.dsl.checked.show import show_model
 
     draw = random.Random(seed)
     texts = sources()

@@ -15,7 +15,7 @@ from frot.compiler.toolchain.compilers import FLAGS, Toolchain, compile_objects,
 from frot.compiler.toolchain.objects import kept_objects
 from frot.dsl import Log, default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
-from frot.dsl.dimensions import dimension
+from frot.dsl.quantities.dimensions import dimension
 from frot.runtime.program import (
     LIBRARY,
     MODEL_SOURCE,

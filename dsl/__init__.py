@@ -7,21 +7,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frot.dsl.diagnostics import Diagnostic, Label, Log
-from frot.dsl.source import Source, Span
+from frot.dsl.messages.diagnostics import Diagnostic, Label, Log
+from frot.dsl.messages.source import Source, Span
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from frot.dsl import checked
+    from frot.dsl.checked.dumping import dump
+    from frot.dsl.checked.evaluation import NotConstant, evaluate
+    from frot.dsl.checked.values import default_values, parse_value
     from frot.dsl.checking import check
-    from frot.dsl.codes import CODES
-    from frot.dsl.dumping import dump
-    from frot.dsl.evaluation import NotConstant, evaluate
-    from frot.dsl.formatting import format_text
-    from frot.dsl.parsing import parse
-    from frot.dsl.rendering import render, render_log
-    from frot.dsl.values import default_values, parse_value
+    from frot.dsl.layout.formatting import format_text
+    from frot.dsl.messages.codes import CODES
+    from frot.dsl.messages.rendering import render, render_log
+    from frot.dsl.text.parsing import parse
 
 __all__ = [
     "CODES",
@@ -46,17 +46,17 @@ __all__ = [
 
 
 _HOMES = {
-    "CODES": "codes",
-    "NotConstant": "evaluation",
+    "CODES": "messages.codes",
+    "NotConstant": "checked.evaluation",
     "check": "checking",
-    "default_values": "values",
-    "dump": "dumping",
-    "evaluate": "evaluation",
-    "format_text": "formatting",
-    "parse": "parsing",
-    "parse_value": "values",
-    "render": "rendering",
-    "render_log": "rendering",
+    "default_values": "checked.values",
+    "dump": "checked.dumping",
+    "evaluate": "checked.evaluation",
+    "format_text": "layout.formatting",
+    "parse": "text.parsing",
+    "parse_value": "checked.values",
+    "render": "messages.rendering",
+    "render_log": "messages.rendering",
 }
 
 
@@ -73,7 +73,7 @@ def __getattr__(name: str) -> object:
 
 def load(path: str | Path, log: Log, model: str | None = None) -> checked.Model | None:
     """The checked model of a `.frot` file; None if an error was reported to `log`."""
-    from frot.dsl.reading import read_text
+    from frot.dsl.files.reading import read_text
 
     text = read_text(path, log)
     return None if text is None else compile_text(text, log, str(path), model)
@@ -87,6 +87,6 @@ def compile_text(
     `name` stands for the text in messages; `model` chooses where the text holds several.
     """
     from frot.dsl.checking import check
-    from frot.dsl.parsing import parse
+    from frot.dsl.text.parsing import parse
 
     return check(parse(Source(name, text), log), log, model)

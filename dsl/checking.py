@@ -4,11 +4,21 @@ from __future__ import annotations
 
 import sys
 
-from frot.dsl import checked, tree
+from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
-from frot.dsl.check_equations import Leaf, Sink, statement, unfold
-from frot.dsl.check_mechanism import give_laws
-from frot.dsl.check_sections import (
+from frot.dsl.declarations.instantiate import entities, instantiate, settle_all
+from frot.dsl.declarations.mechanism import give_laws
+from frot.dsl.messages.diagnostics import Log
+from frot.dsl.messages.source import Source, Span
+from frot.dsl.names.choose import choose
+from frot.dsl.names.classes import Class, Namespace
+from frot.dsl.names.imports import Libraries, tell_clashes
+from frot.dsl.names.scope import Build, Entity, Instance, TooLarge
+from frot.dsl.quantities.dimensions import REAL, Type
+from frot.dsl.statements.connections import Connections
+from frot.dsl.statements.equations import Leaf, Sink, statement, unfold
+from frot.dsl.statements.open_flows import open_flows
+from frot.dsl.statements.settings import (
     default_experiment,
     default_world,
     experiment,
@@ -16,18 +26,9 @@ from frot.dsl.check_sections import (
     same_world,
     world,
 )
-from frot.dsl.check_when import mark_discrete, when
-from frot.dsl.choose import choose
-from frot.dsl.classes import Class, Namespace
-from frot.dsl.collecting import without_collection
-from frot.dsl.connections import Connections
-from frot.dsl.diagnostics import Log
-from frot.dsl.dimensions import REAL, Type
-from frot.dsl.imports import Libraries, tell_clashes
-from frot.dsl.instantiate import entities, instantiate, settle_all
-from frot.dsl.open_flows import open_flows
-from frot.dsl.scope import Build, Entity, Instance, TooLarge
-from frot.dsl.source import Source, Span
+from frot.dsl.statements.when import mark_discrete, when
+from frot.dsl.text import tree
+from frot.dsl.text.collecting import without_collection
 from frot.dsl.warn import warn
 from frot.dsl.warn_angles import warn_angles
 
@@ -148,7 +149,7 @@ def _vector(values: tuple[float, ...], kind: Type, source: Source) -> checked.Ve
 
 def _give_laws(instance: Instance) -> None:
     """Laws are read once every name has its meaning: they may name any coordinate."""
-    from frot.dsl.scope import Array
+    from frot.dsl.names.scope import Array
 
     for node, scope in instance.statements.liaisons:
         declared = scope.find(node.name.text)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections import Counter
 
-from frot.dsl import checked, tree
-from frot.dsl.classes import Class, Imported
-from frot.dsl.scope import Array, Build, Entity, Instance, Pending, Refused
-from frot.dsl.source import Source, Span
+from frot.dsl import checked
+from frot.dsl.messages.source import Source, Span
+from frot.dsl.names.classes import Class, Imported
+from frot.dsl.names.scope import Array, Build, Entity, Instance, Pending, Refused
+from frot.dsl.text import tree
 
 
 def warn(made: list[Instance], build: Build) -> None:

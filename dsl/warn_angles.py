@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from frot.dsl import checked
-from frot.dsl.diagnostics import Log
+from frot.dsl.messages.diagnostics import Log
 
 
 def warn_angles(model: checked.Model, log: Log) -> None:

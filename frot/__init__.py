@@ -12,14 +12,14 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from frot.dsl.diagnostics import FrotError
+    from frot.dsl.messages.diagnostics import FrotError
     from frot.model import Model, compile, load
     from frot.runtime.result import Event, Result
     from frot.runtime.run import Interrupted, SimulationError
 
 _HOMES = {
     "Event": "frot.runtime.result",
-    "FrotError": "frot.dsl.diagnostics",
+    "FrotError": "frot.dsl.messages.diagnostics",
     "Interrupted": "frot.runtime.run",
     "Model": "frot.model",
     "Result": "frot.runtime.result",

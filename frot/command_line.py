@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from frot.dsl.diagnostics import Diagnostic
+    from frot.dsl.messages.diagnostics import Diagnostic
     from frot.model import Model
     from frot.runtime.result import Result
 
@@ -41,7 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _discard_output()
         return EXIT_ERROR
     except Exception as error:
-        from frot.dsl.diagnostics import FrotError
+        from frot.dsl.messages.diagnostics import FrotError
 
         if not isinstance(error, FrotError):
             raise
@@ -254,7 +254,7 @@ def _fmt(options: argparse.Namespace) -> int:
 
 
 def _explain(options: argparse.Namespace) -> int:
-    from frot.dsl.explaining import explain, list_codes
+    from frot.dsl.messages.explaining import explain, list_codes
 
     print(explain(options.code) if options.code else list_codes())
     return 0
@@ -269,7 +269,7 @@ def _cache(options: argparse.Namespace) -> int:
 
 def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
     """Run a command on each file; the error of one does not keep it from the others."""
-    from frot.dsl.diagnostics import FrotError
+    from frot.dsl.messages.diagnostics import FrotError
 
     status = 0
     for file in files:
@@ -282,7 +282,7 @@ def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
 
 
 def _simulate(options: argparse.Namespace) -> int:
-    from frot.dsl.writing import DATA, PICTURES, check_target
+    from frot.dsl.files.writing import DATA, PICTURES, check_target
     from frot.progress import Progress
     from frot.runtime import Interrupted, SimulationError
 
@@ -331,7 +331,7 @@ def _fmu(options: argparse.Namespace) -> int:
 
 
 def _complain(error: Exception) -> None:
-    from frot.dsl.diagnostics import FrotError
+    from frot.dsl.messages.diagnostics import FrotError
 
     assert isinstance(error, FrotError)
     _tell(error.diagnostics)

@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 
 from frot.dsl import Log, format_text
-from frot.dsl.diagnostics import FrotError
-from frot.dsl.reading import decode, read_text
+from frot.dsl.files.reading import decode, read_text
+from frot.dsl.messages.diagnostics import FrotError
 
 STANDARD_INPUT = "-"
 
@@ -39,7 +39,7 @@ def format_file(path: str, check: bool, diff: bool) -> bool:
     elif piped:
         _put(form)
     elif changes:
-        from frot.dsl.writing import write_whole
+        from frot.dsl.files.writing import write_whole
 
         write_whole(Path(path), form.encode("utf-8"))
         print(f"formatted {path}")

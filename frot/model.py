@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from frot.compiler import find_program, find_toolchain, program_key
-from frot.dsl.diagnostics import Diagnostic, FrotError, Log, fail
-from frot.dsl.import_scan import imported_files
-from frot.dsl.reading import read_text
+from frot.dsl.files.import_scan import imported_files
+from frot.dsl.files.reading import read_text
+from frot.dsl.messages.diagnostics import Diagnostic, FrotError, Log, fail
 
 if TYPE_CHECKING:
     from frot.compiler.product.dae import Dae
@@ -127,7 +127,7 @@ class Model:
         from functools import partial
 
         from frot.compiler import compile_library
-        from frot.dsl.writing import remedy
+        from frot.dsl.files.writing import remedy
         from frot.runtime.fmi import InvalidFmuError, export, platform_folder
 
         own = platform_folder("3.0").removeprefix("binaries/")

@@ -6,10 +6,10 @@ from dataclasses import asdict
 
 from frot.compiler import Report, make_report, print_stage
 from frot.dsl import Log, Source, dump, load, parse, render_log
-from frot.dsl.diagnostic_data import log_data
-from frot.dsl.diagnostics import FrotError
-from frot.dsl.reading import read_text
-from frot.dsl.show import show_model
+from frot.dsl.checked.show import show_model
+from frot.dsl.files.reading import read_text
+from frot.dsl.messages.diagnostic_data import log_data
+from frot.dsl.messages.diagnostics import FrotError
 
 
 def report_file(path: str, name: str | None) -> str:

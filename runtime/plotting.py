@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from frot.dsl.writing import PICTURES, check_target, write_whole
+from frot.dsl.files.writing import PICTURES, check_target, write_whole
 from frot.runtime.result import MODES, Result
 
 if TYPE_CHECKING:

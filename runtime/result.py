@@ -11,7 +11,7 @@ from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
-from frot.dsl.writing import DATA, check_target, write_whole
+from frot.dsl.files.writing import DATA, check_target, write_whole
 from frot.runtime.engine import Engine, Floats
 from frot.runtime.program import Program
 

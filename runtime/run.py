@@ -7,7 +7,7 @@ import time as clock
 from collections.abc import Callable, Mapping
 
 import numpy as np
-from frot.dsl.diagnostics import FrotError, Log, fail
+from frot.dsl.messages.diagnostics import FrotError, Log, fail
 from frot.runtime.engine import (
     FULL,
     MOST_MEMORY,

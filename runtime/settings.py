@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 
 import numpy as np
-from frot.dsl.diagnostics import fail
+from frot.dsl.messages.diagnostics import fail
 from frot.runtime.program import ParameterInfo, Program, Unit
 
 _ITEM = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
@@ -121,7 +121,7 @@ def _items_of_text(
     name: str, item: ParameterInfo, text: str, shape: tuple[int, ...]
 ) -> tuple[list[object], tuple[int, ...]]:
     """`(1, 2) mm`, `{0.1, 0.2}` or `((1, 2), (3, 4))` as SI values, and its sizes."""
-    from frot.dsl.values import split_items
+    from frot.dsl.checked.values import split_items
 
     pieces = split_items(text)
     if pieces is None:
@@ -181,7 +181,7 @@ def _from_text(info: ParameterInfo, text: str) -> float:
     from fractions import Fraction
 
     from frot.dsl import parse_value
-    from frot.dsl.dimensions import Dimension, Type
+    from frot.dsl.quantities.dimensions import Dimension, Type
 
     of = Dimension(tuple(Fraction(e) for e in info.unit.exponents[:7]))
     return float(parse_value(text, Type(info.type, of), si=info.unit.name))  # type: ignore[arg-type]

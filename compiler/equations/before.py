@@ -14,7 +14,7 @@ import casadi as ca
 from frot.compiler.equations.text_symbols import Held, TextSymbols, scalars
 from frot.compiler.lowering.symbols import shaped
 from frot.dsl.checked import Call, Element, Expression, Reference, Variable
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 
 @dataclass(slots=True)

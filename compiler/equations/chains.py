@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import casadi as ca
 from frot.compiler.lowering.symbols import column
 from frot.dsl.checked import Variable
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 
 @dataclass(slots=True, eq=False)

@@ -11,7 +11,7 @@ from frot.compiler.equations.eliminate import Eliminated, Pivot, Residuals, elim
 from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl import Log
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 
 @dataclass(frozen=True, slots=True, eq=False)

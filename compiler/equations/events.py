@@ -23,7 +23,7 @@ from frot.dsl.checked import (
     Variable,
     When,
 )
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 TERMINATE, FAIL, WARN, FAULT = range(4)
 

@@ -16,7 +16,7 @@ from frot.compiler.equations.chains import Chains
 from frot.compiler.lowering.symbols import column
 from frot.dsl import Label, Log
 from frot.dsl.checked import Element, Equation, Expression, Model, Reference, Variable
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 # Unknowns beyond which nobody looks: the decomposition takes their third power.
 _LARGEST = 300

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 
 @dataclass(frozen=True, slots=True)

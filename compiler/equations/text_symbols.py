@@ -9,7 +9,7 @@ from frot.compiler.equations.chains import Chains
 from frot.compiler.lowering.symbols import shaped
 from frot.compiler.mechanics.names import component_names
 from frot.dsl.checked import Variable
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 
 @dataclass(frozen=True, slots=True, eq=False)

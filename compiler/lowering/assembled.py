@@ -10,7 +10,7 @@ from frot.compiler.equations.eliminate import Pivot
 from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.text_symbols import FrictionElement
 from frot.compiler.mechanics.reduce import Reduced
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 
 @dataclass(frozen=True, slots=True, eq=False)

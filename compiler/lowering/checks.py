@@ -11,8 +11,8 @@ from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.dsl.catalogue import Argument
 from frot.dsl.checked import Call, Expression, Liaison, Parameter, Place, Reference
-from frot.dsl.dimensions import REAL
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
+from frot.dsl.quantities.dimensions import REAL
 
 POSITIVE, NOT_NEGATIVE, FINITE, NOT_BELOW_PREVIOUS, NOT_ZERO = range(5)
 

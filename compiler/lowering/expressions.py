@@ -28,7 +28,7 @@ from frot.dsl.checked import (
     Variable,
     Vector,
 )
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 FUNCTIONS: dict[str, Callable[..., ca.SX]] = {
     name: getattr(ca, name)

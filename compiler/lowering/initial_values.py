@@ -13,7 +13,7 @@ from frot.compiler.lowering.symbols import column
 from frot.compiler.lowering.walk import is_fixed
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation, Reference, Variable
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from frot.compiler.mechanics.names import component_names
 from frot.compiler.mechanics.pins import PinGeometry
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl.checked import Body, Liaison, Variable
-from frot.dsl.dimensions import Dimension, dimension
+from frot.dsl.quantities.dimensions import Dimension, dimension
 
 AXES = ("x", "y", "z")
 

@@ -7,7 +7,7 @@ from frot.compiler.equations.events import FAULT, Outcome
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.symbols import column
 from frot.dsl import Log
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 
 def lower_update(system: Assembled, log: Log) -> list[ca.SX] | None:

@@ -8,8 +8,8 @@ from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressio
 from frot.compiler.mechanics.mechanism import Joint, Pin, turns
 from frot.dsl import Log
 from frot.dsl.checked import BodyPoint, Force, Law, Liaison, Literal, Model, Place, Quantity
-from frot.dsl.dimensions import dimension
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
+from frot.dsl.quantities.dimensions import dimension
 
 SHAPES = ("particle", "ring", "disc", "rod")
 LIAISONS = ("point_courbe", "contact_ponctuel", "rotoide")

@@ -14,7 +14,7 @@ from frot.compiler.mechanics.mechanism import (
     point_body,
 )
 from frot.dsl.checked import Liaison
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -15,7 +15,7 @@ from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.elements import Bound, Element
 from frot.compiler.mechanics.mechanism import Pin
-from frot.dsl.source import Span
+from frot.dsl.messages.source import Span
 
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
 # The kernel gives every argument and takes every result: without the questions whether it does, a

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from frot.compiler.mechanics.mechanism import Mechanism, Mobility, is_unilateral, mobility
 from frot.compiler.mechanics.mechanize import mechanize
 from frot.dsl import Log
-from frot.dsl.check_equations import count
 from frot.dsl.checked import (
     BodyGeometry,
     BodyPoint,
@@ -18,7 +17,8 @@ from frot.dsl.checked import (
     Model,
     Place,
 )
-from frot.dsl.connections import UNCONNECTED
+from frot.dsl.statements.connections import UNCONNECTED
+from frot.dsl.statements.equations import count
 
 
 @dataclass(frozen=True, slots=True)

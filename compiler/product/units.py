@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from frot.dsl.dimensions import Dimension, dimension
-from frot.dsl.turns import factor_between, rate_of_kind, rate_of_unit
-from frot.dsl.units import parse_unit
+from frot.dsl.expressions.turns import factor_between, rate_of_kind, rate_of_unit
+from frot.dsl.quantities.dimensions import Dimension, dimension
+from frot.dsl.quantities.units import parse_unit
 from frot.runtime.program import Unit
 
 _BY_QUANTITY = {

@@ -10,26 +10,20 @@ import os
 import shutil
 import stat
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from frot.compiler.toolchain.cache_size import UNFINISHED, read_limit, shrink, sweep, used_now
 from frot.compiler.toolchain.compilers import FLAGS, Toolchain
 from frot.compiler.toolchain.hold import Hold, hold
 from frot.compiler.toolchain.keeper import Keeper
-from frot.dsl.diagnostics import fail
+from frot.dsl.messages.diagnostics import fail
 from frot.runtime.program import MANIFEST, Program, read_program
 
-# Packages, and folders of theirs: finding a package by its name would load it.
-_ROOMS = (
-    ("frot.dsl", ""),
-    ("frot.dsl", "catalogue"),
-    ("frot.compiler", ""),
-    ("frot.runtime", ""),
-    ("frot.runtime", "kernel"),
-)
+_ROOMS = ("frot.dsl", "frot.compiler", "frot.runtime")
 SEAL = "seal.json"
 _KINDS = (".py", ".c", ".h", ".lark")
 # What a folder that cannot be written answers; a full disk is another thing.
@@ -64,13 +58,20 @@ def spare_folder() -> Path:
 def own_identity() -> str:
     """Digest of Frot's own sources: another version never meets programs of this one."""
     digest = hashlib.sha256()
-    for package, inner in _ROOMS:
-        room = files(package).joinpath(inner) if inner else files(package)
-        for entry in sorted(room.iterdir(), key=lambda e: e.name):
-            if entry.name.endswith(_KINDS):
-                digest.update(entry.name.encode())
-                digest.update(entry.read_bytes())
+    for room in _ROOMS:
+        for entry in _sources(files(room)):
+            digest.update(entry.name.encode())
+            digest.update(entry.read_bytes())
     return digest.hexdigest()
+
+
+def _sources(folder: Traversable) -> Iterator[Traversable]:
+    """The source files of a folder and of the folders in it, in a fixed order."""
+    for entry in sorted(folder.iterdir(), key=lambda e: e.name):
+        if entry.name.endswith(_KINDS):
+            yield entry
+        elif "." not in entry.name and entry.name != "__pycache__" and entry.is_dir():
+            yield from _sources(entry)
 
 
 def program_key(text: str, model: str | None, toolchain: Toolchain) -> str:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from frot.compiler.toolchain.hold import hold
-from frot.dsl.diagnostics import fail
+from frot.dsl.messages.diagnostics import fail
 
 # Folders of entries; files of the parser's tables lie beside them.
 KINDS = ("programs", "kernels")
@@ -103,7 +103,7 @@ def read_limit(cache: Path) -> int:
 
 def write_limit(cache: Path, limit: int) -> None:
     """Keep at most so many bytes from now on; FrotError (E0803) if that cannot be noted."""
-    from frot.dsl.writing import write_whole
+    from frot.dsl.files.writing import write_whole
 
     write_whole(cache / _LIMIT_FILE, f"{limit}\n".encode("ascii"))
 

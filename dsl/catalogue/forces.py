@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from frot.dsl.catalogue.kinds import Argument, ForceKind, table
 from frot.dsl.catalogue.types import DAMPING, FORCE, LENGTH, STIFFNESS, TORQUE
-from frot.dsl.dimensions import REAL, Type, dimension
+from frot.dsl.quantities.dimensions import REAL, Type, dimension
 
 _QUADRATIC_DRAG = Type(dimension=dimension(m=-1, kg=1))
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol, TypeVar
 
-from frot.dsl.dimensions import REAL, Type
+from frot.dsl.quantities.dimensions import REAL, Type
 
 
 @dataclass(frozen=True, slots=True)

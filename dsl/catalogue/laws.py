@@ -10,7 +10,7 @@ from frot.dsl.catalogue.types import (
     ROTATIONAL_DAMPING,
     VELOCITY,
 )
-from frot.dsl.dimensions import REAL
+from frot.dsl.quantities.dimensions import REAL
 
 _MU = Argument("mu", REAL, sign="nonnegative", doc="coefficient of friction of motion")
 _MU_S = Argument(

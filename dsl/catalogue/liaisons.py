@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from frot.dsl.catalogue.kinds import Argument, LiaisonKind, table
 from frot.dsl.catalogue.types import ANGULAR_VELOCITY, LENGTH, VELOCITY
-from frot.dsl.dimensions import BOOLEAN, REAL, Type
+from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
 
 POINT = ("point",)
 CURVE = ("curve",)

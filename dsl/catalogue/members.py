@@ -18,7 +18,7 @@ from frot.dsl.catalogue.types import (
     TORQUE,
     VELOCITY,
 )
-from frot.dsl.dimensions import INTEGER, REAL, Type
+from frot.dsl.quantities.dimensions import INTEGER, REAL, Type
 
 
 def vector(of: Type, planar: bool) -> Type:

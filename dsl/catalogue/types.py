@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from frot.dsl.dimensions import BOOLEAN, INTEGER, REAL, STRING, Type, dimension
+from frot.dsl.quantities.dimensions import BOOLEAN, INTEGER, REAL, STRING, Type, dimension
 
 
 def _type(m: int = 0, kg: int = 0, s: int = 0, A: int = 0, K: int = 0) -> Type:

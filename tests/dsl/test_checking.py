@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from frot.dsl import Log, checked, compile_text, default_values, dump, evaluate, load, render_log
-from frot.dsl.dimensions import dimension
+from frot.dsl.quantities.dimensions import dimension
 
 EXAMPLES = Path(__file__).parent / "examples"
 

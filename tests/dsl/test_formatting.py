@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from frot.dsl import CODES, Log, Source, dump, format_text, parse
-from frot.dsl.parsing import Lexeme
+from frot.dsl.text.parsing import Lexeme
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 

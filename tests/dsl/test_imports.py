@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 from frot.dsl import Log, checked, compile_text, default_values, load, render_log
-from frot.dsl.import_scan import imported_files
-from frot.dsl.show import show
+from frot.dsl.checked.show import show
+from frot.dsl.files.import_scan import imported_files
 
 PART = """model Part
   parameter Real a = 1;

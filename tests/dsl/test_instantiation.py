@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from frot.dsl import Log, checked, compile_text, default_values, load, render_log
-from frot.dsl.show import show
+from frot.dsl.checked.show import show
 
 EXAMPLES = Path(__file__).parent / "examples"
 ELECTRIC = """

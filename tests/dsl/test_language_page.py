@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from frot.dsl import Log, compile_text, format_text, render_log
-from frot.dsl.check_equations import count
+from frot.dsl.statements.equations import count
 
 PAGE = (Path(__file__).parents[2] / "docs" / "language.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(?:equations|frot)\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)

@@ -6,8 +6,9 @@ import stat
 from pathlib import Path
 
 import pytest
-from frot.dsl import Log, Source, compile_text, dump, parse, tree
-from frot.dsl.grammar import GRAMMAR, OPTIONS
+from frot.dsl import Log, Source, compile_text, dump, parse
+from frot.dsl.text import tree
+from frot.dsl.text.grammar import GRAMMAR, OPTIONS
 
 EXAMPLES = sorted((Path(__file__).parent / "examples").glob("*.frot"))
 
@@ -204,7 +205,7 @@ def test_a_long_chain_of_parameters_takes_no_stack() -> None:
 def test_a_folder_that_cannot_be_written_is_no_fault(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from frot.dsl import grammar
+    from frot.dsl.text import grammar
 
     blocked = tmp_path / "file"
     blocked.write_text("")

@@ -6,8 +6,8 @@ import math
 import pytest
 from frot.dsl import parse_value
 from frot.dsl.catalogue import TYPES
-from frot.dsl.dimensions import ONE, Type, dimension
-from frot.dsl.units import PLAIN, PREFIXED, PREFIXES, UnknownUnit, parse_unit
+from frot.dsl.quantities.dimensions import ONE, Type, dimension
+from frot.dsl.quantities.units import PLAIN, PREFIXED, PREFIXES, UnknownUnit, parse_unit
 from hypothesis import given
 from hypothesis import strategies as st
 

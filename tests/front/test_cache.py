@@ -3,6 +3,7 @@
 import re
 import shutil
 import sys
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -89,7 +90,7 @@ def test_what_is_not_needed_is_not_imported(command: str, filled: Path, shell: S
     heavy = {"casadi", "matplotlib", "scipy", "fmpy", "rich"}
     heavy |= {
         "simulate": {
-            *("lark", "frot.dsl.catalogue", "frot.dsl.codes"),
+            *("lark", "frot.dsl.catalogue", "frot.dsl.messages.codes"),
             "frot.compiler.product.generate",
         },
         "check": {"numpy"},
@@ -248,3 +249,13 @@ def test_a_compiler_that_cannot_be_run_has_a_remedy(
     monkeypatch.setenv("FROT_CC", str(bad))
     monkeypatch.setenv("FROT_CACHE", str(cache))
     door("simulate", HOOP).refuses("E0802", "could not be run")
+
+
+def test_every_source_of_the_rooms_counts() -> None:
+    """A source in a folder of a folder makes another version too."""
+    from frot.compiler.toolchain import cache
+
+    counted = [Path(str(e)) for room in cache._ROOMS for e in cache._sources(files(room))]
+    rooms = [Path(str(files(room))) for room in cache._ROOMS]
+    wanted = {p for r in rooms for s in (".py", ".c", ".h", ".lark") for p in r.rglob(f"*{s}")}
+    assert set(counted) == wanted and len(counted) == len(wanted) > 150

@@ -143,7 +143,7 @@ def test_a_full_disk_leaves_nothing_half_written_and_keeps_the_old_file(
 
     with monkeypatch.context() as patch:
         if step == "replace":
-            patch.setattr("frot.dsl.writing.os.replace", fail)
+            patch.setattr("frot.dsl.files.writing.os.replace", fail)
         else:
             opened = os.fdopen
 
@@ -154,7 +154,7 @@ def test_a_full_disk_leaves_nothing_half_written_and_keeps_the_old_file(
                     raise full
                 return file
 
-            patch.setattr("frot.dsl.writing.os.fdopen", opening)
+            patch.setattr("frot.dsl.files.writing.os.fdopen", opening)
         answer = door("simulate", HOOP, flag, name)
     answer.refuses("E0803", f"'{name}' cannot be written", "free some space")
     assert Path(name).read_text() == "old"

@@ -117,7 +117,7 @@ class TestFmt:
             f"assert main(['fmt', '--check', {str(HOOP)!r}]) == 0; print(*sys.modules)"
         )
         loaded = set(shell.run([sys.executable, "-c", program]).succeeds().out.split())
-        assert "frot.dsl.formatting" in loaded
+        assert "frot.dsl.layout.formatting" in loaded
         heavy = {"casadi", "numpy", "frot.compiler", "frot.runtime", "frot.dsl.checking"}
         assert not loaded & heavy
 

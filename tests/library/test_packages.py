@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from frot.dsl import Log, Source, parse, tree
+from frot.dsl import Log, Source, parse
+from frot.dsl.text import tree
 from test_parts import BENCHES
 
 ROOT = Path(__file__).parents[2]

@@ -1,0 +1,1 @@
+"""Declarations: values, components, bodies, liaisons, forces."""

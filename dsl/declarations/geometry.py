@@ -1,0 +1,233 @@
+"""Bodies, frames, curves and surfaces."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from frot.dsl import checked
+from frot.dsl.catalogue import SHAPES, Argument, find, spellings, vector
+from frot.dsl.catalogue.types import LENGTH
+from frot.dsl.checked.describe import describe
+from frot.dsl.checked.evaluation import constant
+from frot.dsl.declarations.arguments import bind
+from frot.dsl.declarations.user_kinds import check_shape
+from frot.dsl.expressions.expressions import agrees, expect, expression, fitting
+from frot.dsl.expressions.known import known, out_of_bounds
+from frot.dsl.names.names import kind_of, resolve
+from frot.dsl.names.scope import Array, Scope, did_you_mean
+from frot.dsl.names.types import find_class
+from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
+from frot.dsl.text import tree
+
+_RADIUS = Argument("radius", LENGTH, sign="positive", doc="radius")
+_THROUGH = Argument("through", LENGTH, "vector", doc="a point of it")
+_CENTRE = Argument("centre", LENGTH, "vector", required=False, default=0.0, doc="its centre")
+_NORMAL = Argument("normal", REAL, "axis", required=False, default="z", space_only=True)
+_LINE = (_THROUGH, Argument("direction", REAL, "vector", doc="its direction"))
+_CURVES = {
+    "line": _LINE,
+    "droite": _LINE,
+    "circle": (_RADIUS, _NORMAL, _CENTRE),
+    "cercle": (_RADIUS, _NORMAL, _CENTRE),
+    "ellipse": (
+        Argument("a", LENGTH, sign="positive", doc="semi-axis along x"),
+        Argument("b", LENGTH, sign="positive", doc="semi-axis along y"),
+        _NORMAL,
+        _CENTRE,
+    ),
+}
+_SURFACES = {
+    "plane": (_THROUGH, Argument("normal", REAL, "axis", doc="its normal")),
+    "plan": (_THROUGH, Argument("normal", REAL, "axis", doc="its normal")),
+    "sphere": (_RADIUS, _CENTRE),
+    "cylinder": (_RADIUS, Argument("axis", REAL, "axis", required=False, default="z")),
+}
+_ROTATION = (
+    Argument("axis", REAL, "axis", required=False, default="z", space_only=True),
+    Argument("angle", REAL, doc="angle"),
+)
+
+
+def called(
+    node: tree.Expression, what: str, scope: Scope
+) -> tuple[str, tree.Expression, tuple[tree.Argument, ...]] | None:
+    """Name, place and arguments of `ring(...)`; a bare name has no arguments."""
+    callee = node.callee if isinstance(node, tree.Call) else node
+    arguments = node.arguments if isinstance(node, tree.Call) else ()
+    if isinstance(callee, tree.Name):
+        return callee.text, callee, arguments
+    if isinstance(callee, tree.Member) and find_class(callee, scope) is not None:
+        return callee.span.text, callee, arguments
+    scope.log.report("E0202", f"expected the name of a {what}", callee.span)
+    return None
+
+
+def body(node: tree.Body, name: str, scope: Scope) -> checked.Body | None:
+    """The checked body `name`; None after a message."""
+    call = called(node.shape, "shape", scope)
+    if call is None:
+        return None
+    kind, callee, arguments = call
+    shape = find(SHAPES, kind)
+    if shape is None:
+        defined = find_class(callee, scope)
+        if defined is not None and defined.kind == "shape":
+            check_shape(defined, arguments, node.shape.span, scope)
+        elif scope.knows(kind):
+            help_text = did_you_mean(kind, spellings(SHAPES))
+            scope.log.report("E0202", f"unknown shape {kind!r}", callee.span, help=help_text)
+        return None
+    if not (shape.planar if scope.planar else shape.space):
+        here, there = ("planar", "space") if scope.planar else ("space", "planar")
+        scope.log.report(
+            "E0506", f"{kind!r} is a shape of {there} models; this model is {here}", callee.span
+        )
+        return None
+    found = bind(arguments, shape.arguments, kind, node.shape.span, scope, constants=True)
+    if not found.complete:
+        return None
+    values = cast("dict[str, checked.Expression]", found.values)
+    return checked.Body(name, shape, values, node.span, node.doc)
+
+
+def _owner(node: tree.Expression, scope: Scope) -> checked.Body | checked.Frame | None:
+    if isinstance(node, tree.Name | tree.Member | tree.Index):
+        thing = resolve(node, scope, "place")
+        if thing is None or isinstance(thing, checked.Body | checked.Frame):
+            return thing
+        message = f"expected a body or a frame, found {kind_of(thing)}"
+        if isinstance(thing, Array):
+            message += f"; name one of it, as '{node.span.text}[1]'"
+    else:
+        message = "expected a body or a frame"
+    scope.log.report("E0205", message, node.span)
+    return None
+
+
+def frame(node: tree.Frame, name: str, scope: Scope) -> checked.Frame | None:
+    """The checked frame `name`; None after a message."""
+    owner = _owner(node.owner, scope)
+    origin = angle = None
+    failed = owner is None
+    if node.origin is not None:
+        origin = expect(node.origin, vector(LENGTH, scope.planar), scope)
+        failed = failed or origin is None
+    if node.rotation is not None:
+        found = bind(node.rotation, _ROTATION, "rotated", node.span, scope)
+        failed = failed or not found.complete
+        angle = cast("checked.Expression | None", found.values.get("angle"))
+    if failed or owner is None:
+        return None
+    return checked.Frame(name, owner, origin, angle, node.span, node.doc)
+
+
+def curve(node: tree.Curve, name: str, scope: Scope) -> checked.Curve | None:
+    """The checked curve `name`; None after a message. What is no line is refused once checked."""
+    owner = _owner(node.owner, scope)
+    call = called(node.kind, "curve", scope)
+    if owner is None or call is None:
+        return None
+    kind, callee, arguments = call
+    values: dict[str, checked.Expression] | None
+    if kind == "parametric":
+        values = _parametric(node.kind, arguments, ("u",), scope)
+    elif kind not in _CURVES:
+        help_text = did_you_mean(kind, (*_CURVES, "parametric"))
+        scope.log.report("E0202", f"unknown curve {kind!r}", callee.span, help=help_text)
+        return None
+    else:
+        found = bind(arguments, _CURVES[kind], kind, node.kind.span, scope)
+        values = cast("dict[str, checked.Expression]", found.values) if found.complete else None
+    if values is None:
+        return None
+    if kind not in ("line", "droite"):
+        scope.log.report("E0701", f"{kind!r} curves are not supported yet", callee.span)
+        return checked.Curve(name, owner, kind, values, node.span, node.doc)
+    direction = values["direction"]
+    value = known(direction, scope)
+    if isinstance(value, tuple) and all(v == 0 for v in value):
+        out_of_bounds("the direction of the line is zero", direction.span, scope)
+    return checked.Curve(name, owner, "line", values, node.span, node.doc)
+
+
+def surface(node: tree.Surface, name: str, scope: Scope) -> checked.Surface | None:
+    """The checked surface `name`, refused once checked; None after another message."""
+    owner = _owner(node.owner, scope)
+    call = called(node.kind, "surface", scope)
+    if owner is None or call is None:
+        return None
+    kind, callee, arguments = call
+    if scope.planar:
+        message = f"{kind!r} is a surface of space models; this model is planar"
+        scope.log.report("E0506", message, callee.span, help="in the plane take a curve")
+        return None
+    values: dict[str, checked.Expression] | None
+    if kind == "parametric":
+        values = _parametric(node.kind, arguments, ("u", "v"), scope)
+    elif kind == "implicit":
+        values = _implicit(node.kind, arguments, scope)
+    elif kind not in _SURFACES:
+        help_text = did_you_mean(kind, (*_SURFACES, "parametric", "implicit"))
+        scope.log.report("E0202", f"unknown surface {kind!r}", callee.span, help=help_text)
+        return None
+    else:
+        found = bind(arguments, _SURFACES[kind], kind, node.kind.span, scope)
+        values = cast("dict[str, checked.Expression]", found.values) if found.complete else None
+    return None if values is None else checked.Surface(name, owner, kind, values, node.span)
+
+
+def _parametric(
+    node: tree.Expression,
+    arguments: tuple[tree.Argument, ...],
+    names: tuple[str, ...],
+    scope: Scope,
+) -> dict[str, checked.Expression] | None:
+    """`parametric((x(u), y(u)), u = (from, to), periodic = true)`; None after a message."""
+    plain = [a for a in arguments if a.name is None]
+    named = {a.name.span.text: a.value for a in arguments if a.name is not None}
+    wrong = [n for n in named if n not in (*names, "periodic")]
+    if len(plain) != 1 or wrong or any(n not in named for n in names):
+        ranges = ", ".join(f"{n} = (from, to)" for n in names)
+        variables = ", ".join(names)
+        message = f"'parametric' needs a point that depends on {variables}, and {ranges}"
+        help_text = did_you_mean(wrong[0], (*names, "periodic")) if wrong else ""
+        scope.log.report("E0204", message, node.span, help=help_text)
+        return None
+    values: dict[str, checked.Expression] = {}
+    local: dict[str, checked.Variable] = {}
+    for name in names:
+        bounds = expression(named[name], scope)
+        if bounds is None:
+            return None
+        if bounds.type.base != "real" or bounds.type.shape != (2,):
+            message = f"{name!r} has two bounds, (from, to), found {describe(bounds.type)}"
+            scope.log.report("E0301", message, named[name].span)
+            return None
+        values[name] = bounds
+        local[name] = checked.Variable(name, bounds.type.item, named[name].span)
+    if "periodic" in named and expect(named["periodic"], BOOLEAN, scope) is None:
+        return None
+    point = expect(plain[0].value, vector(LENGTH, scope.planar), scope.inside(**local))
+    if point is None:
+        return None
+    first = values[names[0]]
+    start = checked.Element(first, 0, first.type.item, first.span)
+    return {"point": point, "from": start, **values}
+
+
+def _implicit(
+    node: tree.Expression, arguments: tuple[tree.Argument, ...], scope: Scope
+) -> dict[str, checked.Expression] | None:
+    """`implicit(F(x, y, z))`, zero on the surface; None after a message."""
+    if len(arguments) != 1 or arguments[0].name is not None:
+        scope.log.report("E0204", "'implicit' needs one expression of x, y, z", node.span)
+        return None
+    local = {n: checked.Variable(n, LENGTH, node.span) for n in "xyz"}
+    written = arguments[0].value
+    found = expression(written, scope.inside(**local))
+    if found is None:
+        return None
+    kind = Type("real", found.type.dimension)
+    if constant(found) is None or not agrees(found.type, kind):
+        return None if fitting(found, written, kind, scope) is None else {"value": found}
+    return {"value": found}

@@ -1,0 +1,185 @@
+"""Liaisons with their laws, and applied forces."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from frot.dsl import checked
+from frot.dsl.catalogue import FORCES, LAWS, LIAISONS, find, spellings
+from frot.dsl.checked.describe import quantity
+from frot.dsl.declarations.arguments import bind
+from frot.dsl.declarations.geometry import called
+from frot.dsl.declarations.liaison_members import coordinates
+from frot.dsl.declarations.user_kinds import check_law, check_liaison
+from frot.dsl.expressions.expressions import expect
+from frot.dsl.expressions.known import known
+from frot.dsl.messages.diagnostics import Label
+from frot.dsl.names.scope import Scope, did_you_mean
+from frot.dsl.names.types import find_class
+from frot.dsl.text import tree
+
+
+def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison | None:
+    """The checked liaison, its laws still to be given by `give_laws`; None after a message."""
+    call = called(node.kind, "liaison", scope)
+    if call is None:
+        return None
+    name, callee, arguments = call
+    kind = find(LIAISONS, name)
+    if kind is None:
+        defined = find_class(callee, scope)
+        if defined is not None and defined.kind == "liaison":
+            check_liaison(defined, arguments, node.kind.span, scope)
+        elif scope.knows(name):
+            help_text = did_you_mean(name, spellings(LIAISONS))
+            word = "joint" if node.keyword == "joint" else "liaison"
+            scope.log.report("E0202", f"unknown {word} {name!r}", callee.span, help=help_text)
+        return None
+    if scope.planar and kind.relations_planar is None:
+        scope.log.report(
+            "E0506", f"{name!r} is a liaison of space models; this model is planar", callee.span
+        )
+        return None
+    found = bind(arguments, kind.arguments, name, node.kind.span, scope)
+    if not found.complete:
+        return None
+    a = cast(checked.Place, found.values.pop("a"))
+    b = cast(checked.Place, found.values.pop("b"))
+    if not _parts_agree(node, kind.name, a, b, scope):
+        return None
+    options = cast("dict[str, checked.Expression]", found.values)
+    made = checked.Liaison(full_name, kind, a, b, options, (), node.span, node.doc)
+    if node.driven is not None:
+        _driven(node, made, scope)
+    return made
+
+
+def _driven(node: tree.Liaison, made: checked.Liaison, scope: Scope) -> None:
+    """Check `driven(angle = ...)`, then refuse it."""
+    known_coordinates = coordinates(made, scope.planar)
+    own = [c for c in made.kind.coordinates if c in known_coordinates]
+    for argument in node.driven or ():
+        name = argument.name.span.text if argument.name is not None else ""
+        if name not in own:
+            what = f"{name!r} is not a coordinate" if name else "name the coordinate that is driven"
+            scope.log.report(
+                "E0204",
+                f"{what} of liaison {made.name!r}",
+                argument.span,
+                notes=(f"its coordinates are: {', '.join(own) or 'none'}",),
+                help=did_you_mean(name, own),
+            )
+            return
+        if expect(argument.value, known_coordinates[name], scope) is None:
+            return
+    scope.log.report("E0701", "'driven' is not supported yet", node.driven_span)
+
+
+def _parts_agree(
+    node: tree.Liaison, kind: str, a: checked.Place, b: checked.Place, scope: Scope
+) -> bool:
+    if _root(a) is _root(b):
+        scope.log.report(
+            "E0507",
+            f"both places of {node.keyword} {node.name.text!r} are on body {_root(a).name!r}",
+            node.kind.span,
+        )
+        return False
+    points = (checked.BodyPoint, checked.Frame)
+    if kind == "contact_ponctuel" and isinstance(a, points) and isinstance(b, points):
+        scope.log.report(
+            "E0205", "a contact needs a curve or a surface on one side", node.kind.span
+        )
+        return False
+    return True
+
+
+def _root(place: checked.Place) -> checked.Body:
+    owner: checked.Body | checked.Frame
+    match place:
+        case checked.CurvePlace(curve=curve):
+            owner = curve.owner
+        case checked.SurfacePlace(surface=surface):
+            owner = surface.owner
+        case checked.Frame():
+            owner = place
+        case checked.BodyPoint(body=body) | checked.BodyGeometry(body=body):
+            owner = body
+    while isinstance(owner, checked.Frame):
+        owner = owner.owner
+    return owner
+
+
+def give_laws(node: tree.Liaison, to: checked.Liaison | None, scope: Scope) -> None:
+    """Check the laws of a liaison once every name has its meaning.
+
+    They may read any coordinate, that of their own liaison among them. `to` is None where the
+    liaison itself was refused.
+    """
+    found: list[checked.Law] = []
+    for written in node.laws:
+        law = _law(written, scope)
+        if law is None:
+            continue
+        same = next((other for other in found if other.kind is law.kind), None)
+        if same is not None:
+            message = f"the law {law.kind.name!r} is given twice"
+            first = Label(same.span, "first here")
+            scope.log.report("E0502", message, law.span, labels=(first,))
+        found.append(law)
+    if to is not None:
+        object.__setattr__(to, "laws", tuple(found))
+
+
+def _law(written: tree.Expression, scope: Scope) -> checked.Law | None:
+    call = called(written, "law", scope)
+    if call is None:
+        return None
+    name, callee, arguments = call
+    kind = find(LAWS, name)
+    if kind is None:
+        defined = find_class(callee, scope)
+        if defined is not None and defined.kind == "law":
+            check_law(defined, arguments, written.span, scope)
+        elif scope.knows(name):
+            help_text = did_you_mean(name, spellings(LAWS))
+            scope.log.report("E0202", f"unknown law {name!r}", callee.span, help=help_text)
+        return None
+    found = bind(arguments, kind.arguments, name, written.span, scope)
+    if not found.complete:
+        return None
+    values = cast("dict[str, checked.Expression]", found.values)
+    _check_pair(values, scope)
+    return checked.Law(kind, values, written.span)
+
+
+def _check_pair(values: dict[str, checked.Expression], scope: Scope) -> None:
+    for low, high in (("mu", "mu_s"), ("min", "max")):
+        if low in values and high in values:
+            a, b = known(values[low], scope), known(values[high], scope)
+            if isinstance(a, float) and isinstance(b, float) and b < a:
+                kind = values[low].type
+                scope.log.report(
+                    "E0402",
+                    f"{high} must not be below {low}: {quantity(b, kind)} < {quantity(a, kind)}",
+                    values[high].span,
+                )
+
+
+def force(node: tree.Force, full_name: str, scope: Scope) -> checked.Force | None:
+    """The checked force; None after a message."""
+    call = called(node.kind, "force", scope)
+    if call is None:
+        return None
+    name, callee, arguments = call
+    kind = find(FORCES, name)
+    if kind is None:
+        if scope.knows(name):
+            help_text = did_you_mean(name, spellings(FORCES))
+            scope.log.report("E0202", f"unknown force {name!r}", callee.span, help=help_text)
+        return None
+    found = bind(arguments, kind.arguments, name, node.kind.span, scope)
+    if not found.complete:
+        return None
+    values = cast("dict[str, checked.Expression | checked.Place | checked.Liaison]", found.values)
+    return checked.Force(full_name, kind, values, node.span, node.doc)

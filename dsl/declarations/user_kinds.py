@@ -1,0 +1,185 @@
+"""Liaisons, laws and shapes of the user: their names and dimensions, where a model uses them.
+
+What they say is checked in the world of that model, planar or space, and then refused by name: the
+mechanics that would derive reactions from relations does not exist yet.
+"""
+
+from __future__ import annotations
+
+from frot.dsl import checked
+from frot.dsl.catalogue.types import FORCE, INERTIA, LENGTH, MASS, VELOCITY
+from frot.dsl.checked.describe import written_unit
+from frot.dsl.expressions.expressions import expect, expression, fitting
+from frot.dsl.messages.source import Span
+from frot.dsl.names.classes import Class, enter
+from frot.dsl.names.names import place
+from frot.dsl.names.scope import Entity, Instance, Scope, did_you_mean
+from frot.dsl.names.types import Kind, find_type
+from frot.dsl.quantities.dimensions import Type
+from frot.dsl.text import tree
+
+_PLACES = ("frame", "body", "point", "curve", "surface", "repère", "repere", "corps")
+
+
+def check_liaison(
+    of: Class, arguments: tuple[tree.Argument, ...], span: Span, scope: Scope
+) -> None:
+    """Check a liaison of the user where it is used, then refuse it."""
+    bound = _bind(of, arguments, span, scope)
+    if bound is None:
+        return
+    inner, local = bound
+    at = inner.inside(**local)
+    for element in of.elements:
+        if isinstance(element, tree.Relation):
+            left = expression(element.left, at)
+            if left is None:
+                continue
+            right = expression(element.right, at)
+            if right is None:
+                continue
+            # A bare zero stands for no value of any kind.
+            zero = isinstance(right, checked.Literal) and right.value == 0.0
+            if not (zero and not right.unit):  # type: ignore[union-attr]
+                fitting(right, element.right, left.type, at, unit=written_unit(left))
+        elif not isinstance(element, tree.Import | tree.Definition | tree.Alias | tree.Component):
+            scope.log.report(
+                "E0501",
+                "a liaison holds relations: 'kinematic a = b;' or 'geometric a = b;'",
+                element.span,
+            )
+    _refuse("liaisons", of, span, scope)
+
+
+def check_law(of: Class, arguments: tuple[tree.Argument, ...], span: Span, scope: Scope) -> None:
+    """Check a law of the user where it is used, then refuse it."""
+    bound = _bind(of, arguments, span, scope)
+    if bound is None:
+        return
+    inner, local = bound
+    here = of.definition.span
+    local["slip"] = checked.Variable("slip", VELOCITY, here)
+    local["normal"] = checked.Variable("normal", FORCE, here)
+    _values(of, {"tangential": FORCE}, inner.inside(**local), "law")
+    _refuse("laws", of, span, scope)
+
+
+def check_shape(of: Class, arguments: tuple[tree.Argument, ...], span: Span, scope: Scope) -> None:
+    """Check a shape of the user where it is used, then refuse it."""
+    bound = _bind(of, arguments, span, scope)
+    if bound is None:
+        return
+    inner, local = bound
+    point = Type("real", LENGTH.dimension, (scope.size,))
+    wanted = {"mass": MASS, "inertia": INERTIA, "com": point}
+    _values(of, wanted, inner.inside(**local), "shape")
+    _refuse("shapes", of, span, scope)
+
+
+def _refuse(what: str, of: Class, span: Span, scope: Scope) -> None:
+    message = f"user-defined {what} are not supported yet ({of.name!r})"
+    scope.log.report("E0701", message, span)
+
+
+def _values(of: Class, wanted: dict[str, Type], at: Scope, what: str) -> None:
+    """Check the statements `name = value;` of a law or shape."""
+    for element in of.elements:
+        if isinstance(element, tree.Equation) and element.right is not None:
+            name = element.left.span.text
+            kind = wanted.get(name)
+            if kind is None:
+                names = ", ".join(wanted)
+                at.log.report(
+                    "E0501",
+                    f"a {what} gives values to: {names}",
+                    element.left.span,
+                    help=did_you_mean(name, wanted),
+                )
+                continue
+            expect(element.right, kind, at)
+        elif isinstance(element, tree.Equation | tree.Relation | tree.When | tree.For):
+            at.log.report("E0501", f"this cannot stand in a {what}", element.span)
+
+
+def _bind(
+    of: Class, arguments: tuple[tree.Argument, ...], span: Span, scope: Scope
+) -> tuple[Scope, dict[str, Entity]] | None:
+    """The scope of the definition, and what its formal arguments stand for."""
+    definition = of.definition
+    assert isinstance(definition, tree.Definition)
+    inner = Scope(scope.build, Instance("", of, definition.span), enter(of, scope.build.libraries))
+    formals = {f.name.text: f for f in definition.formals}
+    given: dict[str, tree.Expression] = {}
+    order = list(formals)
+    for position, argument in enumerate(arguments):
+        if argument.name is None:
+            name = order[position] if position < len(order) else ""
+        else:
+            name = argument.name.span.text
+        if name not in formals or name in given:
+            message = (
+                f"{of.name!r} has no argument {name!r}"
+                if name
+                else (f"too many arguments for {of.name!r}")
+            )
+            message = f"{name!r} of {of.name!r} is given twice" if name in given else message
+            notes = (f"its arguments are: {', '.join(order)}",)
+            scope.log.report("E0204", message, argument.span, notes=notes)
+            return None
+        given[name] = argument.value
+    local: dict[str, Entity] = {}
+    for name, formal in formals.items():
+        found = _formal(formal, given.get(name), of, span, inner, scope, local)
+        if found is None:
+            return None
+        local[name] = found
+    return inner, local
+
+
+def _formal(
+    formal: tree.Formal,
+    node: tree.Expression | None,
+    of: Class,
+    span: Span,
+    inner: Scope,
+    scope: Scope,
+    local: dict[str, Entity],
+) -> Entity | None:
+    if formal.type is None:
+        message = f"the argument {formal.name.text!r} has no type"
+        help_text = f"write 'Real {formal.name.text}' or '{formal.name.text}: frame'"
+        scope.log.report("E0206", message, formal.span, help=help_text)
+        return None
+    there = scope
+    if node is None:
+        node, there = formal.value, inner.inside(**local)
+    if node is None:
+        message = f"{of.name!r} needs {formal.name.text!r}"
+        scope.log.report("E0204", message, span)
+        return None
+    if formal.type.span.text in _PLACES:
+        found = place(node, there)
+        if isinstance(found, checked.BodyPoint) and formal.type.span.text in ("body", "corps"):
+            return found.body
+        if isinstance(found, checked.CurvePlace):
+            return found.curve
+        if isinstance(found, checked.SurfacePlace):
+            return found.surface
+        return found  # type: ignore[return-value]
+    kind = find_type(formal.type, inner, True)
+    if kind is None:
+        return None
+    if not isinstance(kind, Kind):
+        scope.log.report(
+            "E0206", f"{kind.kind} {kind.name!r} is not a type of values", formal.type.span
+        )
+        return None
+    value = expression(node, there)
+    if value is None:
+        return None
+    value = fitting(value, node, kind.type, there, unit=kind.unit, rate=kind.rate)
+    # A variable of this type stands for the value: the text of the definition is what is checked.
+    return checked.Parameter(formal.name.text, kind.type, value, formal.span) if value else None
+
+
+__all__ = ["check_law", "check_liaison", "check_shape"]

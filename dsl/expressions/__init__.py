@@ -1,0 +1,1 @@
+"""Expressions of the tree to checked ones: names bound, literals in SI, types agreed."""

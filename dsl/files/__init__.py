@@ -1,0 +1,1 @@
+"""Files: texts read, results written whole, and which files a text imports."""

@@ -1,0 +1,1 @@
+"""The formatter: the usual form of a text."""

@@ -1,0 +1,18 @@
+"""The registry of diagnostics: each code once, with its explanation and a text that triggers it.
+
+E01 syntax, E02 names, E03 units and types, E04 values, E05 structure, E06 equations and initial
+values, E07 not supported yet, E08 tools, E09 run time; W warnings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from frot.dsl.messages.codes_equations import EQUATIONS
+from frot.dsl.messages.codes_language import LANGUAGE
+from frot.dsl.messages.codes_tools import TOOLS
+from frot.dsl.messages.codes_types import Code
+
+__all__ = ["CODES", "Code"]
+
+CODES: Mapping[str, Code] = {**LANGUAGE, **EQUATIONS, **TOOLS}

@@ -1,0 +1,210 @@
+"""Definitions and where they are looked up: files, packages, and what a class can see."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import cache
+from typing import TYPE_CHECKING
+
+from frot.dsl.messages.source import Source, Span
+from frot.dsl.text import tree
+
+if TYPE_CHECKING:
+    from frot.dsl.names.imports import Libraries
+
+# What has no library in the text: the connectors of one-coordinate liaisons.
+_BUILT_IN = """
+connector RotationalFlange "of a part that turns"
+  Angle angle "absolute angle";
+  flow Torque torque "couple that flows into the part";
+end RotationalFlange;
+connector TranslationalFlange "of a part that moves along a line"
+  Length displacement "absolute place";
+  flow Force force "force that flows into the part";
+end TranslationalFlange;
+"""
+
+
+@dataclass(slots=True, eq=False, repr=False)
+class Namespace:
+    """The definitions seen from a place of a text; `outer` surrounds it.
+
+    `imports` are the names made by `import`, and `stars` the packages whose members are all seen.
+    `constants` are imported ones, each with its package and name there. `lost` are words of
+    statements that could not be read.
+    """
+
+    source: Source
+    outer: Namespace | None = None
+    definitions: dict[str, tree.Definition | tree.Alias] = field(default_factory=dict)
+    imports: dict[str, Imported] = field(default_factory=dict)
+    stars: list[Imported] = field(default_factory=list)
+    constants: dict[str, tuple[Class, str]] = field(default_factory=dict)
+    bases: list[Namespace] = field(default_factory=list)
+    classes: dict[str, Class] = field(default_factory=dict)
+    lost: frozenset[str] = frozenset()
+    open: bool = False
+    owner: Class | None = None
+
+    def knows(self, name: str) -> bool:
+        """Whether a name that is not found must be told."""
+        space: Namespace | None = self
+        while space is not None:
+            if space.open or name in space.lost:
+                return False
+            space = space.outer
+        return True
+
+    def own(self, name: str) -> Class | None:
+        """The class defined here by that name, or in a base."""
+        found = self.classes.get(name)
+        if found is None and name in self.definitions:
+            found = Class(self.definitions[name], self)
+            self.classes[name] = found
+        if found is None:
+            for base in self.bases:
+                found = base.own(name)
+                if found is not None:
+                    return found
+        return found
+
+    def find(self, name: str) -> Class | None:
+        """The class seen by that name from here: the innermost one."""
+        space: Namespace | None = self
+        while space is not None:
+            found = space.own(name) or space._imported(name)
+            if found is not None:
+                return found
+            space = space.outer
+        return built_in(name)
+
+    def _imported(self, name: str) -> Class | None:
+        imported = self.imports.get(name)
+        if imported is not None:
+            imported.used = True
+            return imported.target
+        first: Imported | None = None
+        for star in self.stars:
+            found = star.target.space.own(name) if star.target is not None else None
+            if found is None:
+                continue
+            star.used = True
+            if first is None:
+                first, result = star, found
+            elif found is not result:
+                star.clashes.setdefault(name, first)
+        return None if first is None else result
+
+    def visible(self) -> Iterator[str]:
+        """Every name of a class that is seen from here."""
+        space: Namespace | None = self
+        while space is not None:
+            yield from space.definitions
+            yield from space.imports
+            for star in space.stars:
+                if star.target is not None:
+                    yield from star.target.space.definitions
+            for base in space.bases:
+                yield from base.definitions
+            space = space.outer
+        yield from ("RotationalFlange", "TranslationalFlange")
+
+
+@dataclass(slots=True, eq=False, repr=False)
+class Imported:
+    """An import: what it names, None where it was not found (that was told).
+
+    `clashes` are names asked for that an earlier `import P.*;` gives too.
+    """
+
+    target: Class | None
+    statement: tree.Import
+    used: bool = False
+    clashes: dict[str, Imported] = field(default_factory=dict)
+
+
+@dataclass(slots=True, eq=False, repr=False)
+class Class:
+    """A definition where it stands; a type made by `type` is one too, and so is a library."""
+
+    definition: tree.Definition | tree.Alias
+    outer: Namespace
+    _space: Namespace | None = None
+
+    @property
+    def name(self) -> str:
+        """Its name, as it is defined."""
+        return self.definition.name.text
+
+    @property
+    def kind(self) -> str:
+        """`model connector record function package liaison law shape`, or `type`."""
+        return self.definition.kind if isinstance(self.definition, tree.Definition) else "type"
+
+    @property
+    def elements(self) -> tuple[tree.Element, ...]:
+        """What stands in it."""
+        return self.definition.elements if isinstance(self.definition, tree.Definition) else ()
+
+    @property
+    def space(self) -> Namespace:
+        """What is seen from inside of it."""
+        if self._space is None:
+            self._space = namespace(self.elements, self.outer.source, self.outer)
+            self._space.owner = self
+        return self._space
+
+    @property
+    def full_name(self) -> str:
+        """Its name with those of the packages around it."""
+        around = self.outer.owner
+        return f"{around.full_name}.{self.name}" if around is not None else self.name
+
+
+def namespace(
+    elements: Iterable[tree.Element],
+    source: Source,
+    outer: Namespace | None = None,
+    lost: frozenset[str] = frozenset(),
+) -> Namespace:
+    """The namespace of these elements; imports are filled in by `imports.py`."""
+    found = Namespace(source, outer, lost=lost)
+    for element in elements:
+        if isinstance(element, tree.Definition | tree.Alias):
+            found.definitions.setdefault(element.name.text, element)
+    return found
+
+
+def library(name: str, space: Namespace) -> Class:
+    """A file or folder as a package: its members are those of a namespace."""
+    here = Span(space.source, 0, 0)
+    word = tree.Word(name, here)
+    definition = tree.Definition("package", "package", (), word, (), "", (), here, here)
+    found = Class(definition, Namespace(space.source))
+    found._space = space
+    space.owner = found
+    return found
+
+
+@cache
+def _built_in_space() -> Namespace:
+    from frot.dsl.messages.diagnostics import Log
+    from frot.dsl.text.parsing import parse
+
+    source = Source("<frot>", _BUILT_IN)
+    return namespace(parse(source, Log()).elements, source)
+
+
+def built_in(name: str) -> Class | None:
+    """A connector of the language."""
+    if name not in ("RotationalFlange", "TranslationalFlange"):
+        return None
+    return _built_in_space().own(name)
+
+
+def enter(klass: Class, libraries: Libraries) -> Namespace:
+    """What is seen from inside of a class, its imports and bases read."""
+    space = klass.space
+    libraries.read_imports(klass.elements, space)
+    return space

@@ -1,0 +1,325 @@
+"""What names stand for: the scopes of a model, of its components and of what surrounds them."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from frot.dsl import checked
+from frot.dsl.catalogue import plain
+from frot.dsl.messages.diagnostics import LIMIT, Label, Log
+from frot.dsl.messages.source import Span
+from frot.dsl.text import tree
+
+if TYPE_CHECKING:
+    from frot.dsl.names.classes import Class, Namespace
+    from frot.dsl.names.imports import Libraries
+    from frot.dsl.names.modifiers import Modifier
+    from frot.dsl.statements.connections import Connections
+
+# Scalars, components, equations, rounds of loops and expanded calls of one model, together: what a
+# check makes of a text stays below some seconds and hundreds of megabytes.
+LARGEST = 100_000
+# What a component and a call take, where an equation takes 1.
+COMPONENT, CALL = 3, 6
+# Declarations of different components that wait for one another.
+LONGEST = 400
+BUILT_IN = ("time", "pi", "ground")
+# Words that cannot begin an equation or stand in an expression, so that no variable has them.
+RESERVED = frozenset(
+    """and or not if then else elseif elsewhen end equation initial true false for loop when
+    extends import final""".split()  # noqa: SIM905
+)
+_CANDIDATES = 2000
+
+
+class Refused:
+    """What a name stands for when its declaration was refused: silence about its uses."""
+
+
+REFUSED = Refused()
+
+
+class TooLarge(Exception):
+    """The model is too large; it was told, and the check ends."""
+
+
+@dataclass(slots=True, eq=False, repr=False)
+class Statements:
+    """What is checked once every name has its meaning, each with the scope it is written in."""
+
+    worlds: list[tuple[tree.Call, Scope]] = field(default_factory=list)
+    experiments: list[tuple[tree.Call, Scope]] = field(default_factory=list)
+    initial: list[tuple[tree.Element, Scope]] = field(default_factory=list)
+    equations: list[tuple[tree.Element, Scope]] = field(default_factory=list)
+    liaisons: list[tuple[tree.Liaison, Scope]] = field(default_factory=list)
+
+
+@dataclass(slots=True, eq=False, repr=False)
+class Instance:
+    """A component, or the model itself (`name` empty), or a package with its constants.
+
+    `name` is dotted. `of` is its class, `around` the classes of what it is in and its own, `parts`
+    the identities of the definitions it is made of, with what modifies them. `flows` names the flow
+    variables of a connector. `open`: names may come from a base that was not found, so that missing
+    ones are not told. `written` tells where each name is declared.
+    """
+
+    name: str
+    of: Class
+    span: Span
+    names: dict[str, Entity | Pending | Refused] = field(default_factory=dict)
+    flows: set[str] = field(default_factory=set)
+    open: bool = False
+    written: dict[str, Span] = field(default_factory=dict)
+    around: tuple[Class, ...] = ()
+    parts: dict[int, Mapping[str, Modifier]] = field(default_factory=dict)
+    statements: Statements = field(default_factory=Statements)
+
+    @property
+    def is_connector(self) -> bool:
+        """Whether it can be connected."""
+        return self.of.kind == "connector"
+
+
+@dataclass(slots=True, eq=False)
+class Array:
+    """Components, bodies, liaisons or forces of one declaration, in their order."""
+
+    name: str
+    items: tuple[Entity, ...]
+
+
+@dataclass(slots=True, eq=False)
+class Record:
+    """The value of a whole record: the values of its members by name."""
+
+    of: Class
+    members: dict[str, checked.Expression | Record]
+    span: Span
+
+
+Entity = (
+    checked.Parameter
+    | checked.Input
+    | checked.Output
+    | checked.Variable
+    | checked.Body
+    | checked.Frame
+    | checked.Curve
+    | checked.Surface
+    | checked.Liaison
+    | checked.Force
+    | Instance
+    | Array
+    | Record
+    | checked.Expression
+)
+
+
+@dataclass(slots=True, eq=False)
+class Pending:
+    """A declaration that waits to be checked, and the names its expressions begin with."""
+
+    name: tree.Word
+    needs: tuple[str, ...]
+    check: Callable[[], Entity | None]
+    is_value: bool = False
+    busy: bool = False
+
+
+@dataclass(slots=True, repr=False)
+class Build:
+    """What all scopes of one check share: the log, the values known so far, what was gathered.
+
+    `named` are the connectors whose variables a component's text names. `used` are the identities
+    of what was named. `before` are the calls of `pre` and `change`, to be judged at the end.
+    """
+
+    log: Log
+    planar: bool
+    ground: checked.Body
+    ground_places: dict[str, checked.Curve | checked.Surface]
+    libraries: Libraries
+    connections: Connections
+    root: Instance | None = None
+    values: dict[checked.Parameter, object] = field(default_factory=dict)
+    equations: list[checked.Equation | checked.IfEquations] = field(default_factory=list)
+    initial: list[checked.InitialEquation] = field(default_factory=list)
+    whens: list[checked.When] = field(default_factory=list)
+    assertions: list[checked.Assertion] = field(default_factory=list)
+    flanges: list[checked.Flange] = field(default_factory=list)
+    flange_instances: dict[checked.Liaison, Instance] = field(default_factory=dict)
+    packages: dict[int, Instance] = field(default_factory=dict)
+    used: set[int] = field(default_factory=set)
+    named: dict[str, set[int]] = field(default_factory=dict)
+    waiting: list[Pending] = field(default_factory=list)
+    bindings: list[Callable[[], None]] = field(default_factory=list)
+    fresh: list[Instance] = field(default_factory=list)
+    calls: list[Class] = field(default_factory=list)
+    functions: dict[int, object] = field(default_factory=dict)
+    clauses: dict[int, object] = field(default_factory=dict)
+    before: list[tuple[checked.Call, checked.Variable, bool]] = field(default_factory=list)
+    heights: dict[int, tuple[checked.Expression, int]] = field(default_factory=dict)
+    size: int = 0
+
+    def grow(self, count: int, span: Span) -> None:
+        """Count what is made. Raises TooLarge, after telling it, past LARGEST."""
+        self.size += count
+        self.room(0, span)
+
+    def room(self, count: int, span: Span) -> None:
+        """Raises TooLarge, after telling it, where `count` more would be past LARGEST."""
+        if self.size + count > LARGEST:
+            self.log.report(
+                "E0109",
+                f"the model is too large: more than {LARGEST} scalars, equations and calls",
+                span,
+            )
+            raise TooLarge
+
+
+@dataclass(slots=True, repr=False)
+class Scope:
+    """Where a part of a text is checked: the names of its component and what surrounds its class.
+
+    `local` holds names of a loop or a function, looked up first. `element` is the index (from 0)
+    and the size of the array declaration that is being expanded: arrays of that size then stand for
+    one item each.
+    """
+
+    build: Build
+    instance: Instance
+    space: Namespace
+    local: dict[str, Entity] = field(default_factory=dict)
+    element: tuple[int, int] | None = None
+    in_when: bool = False
+
+    @property
+    def log(self) -> Log:
+        """Where faults go."""
+        return self.build.log
+
+    @property
+    def planar(self) -> bool:
+        """Whether the model is planar."""
+        return self.build.planar
+
+    @property
+    def size(self) -> int:
+        """The number of components of a vector."""
+        return 2 if self.build.planar else 3
+
+    @property
+    def values(self) -> dict[checked.Parameter, object]:
+        """The values of parameters, with their defaults."""
+        return self.build.values
+
+    def knows(self, name: str) -> bool:
+        """Whether a missing name must be told: not if its declaration could not be read."""
+        return not self.instance.open and self.space.knows(name)
+
+    def dotted(self, name: str) -> str:
+        """The name with that of its component before it."""
+        return f"{self.instance.name}.{name}" if self.instance.name else name
+
+    def find(self, name: str) -> Entity | Refused | None:
+        """What a name stands for in the component; its declaration is checked if need be."""
+        found: Entity | Pending | Refused | None = self.local.get(name)
+        if found is None:
+            found = self.instance.names.get(name)
+        return settled(found, name, self.instance, self.build)
+
+    def visible(self) -> tuple[str, ...]:
+        """The names of the component and of the language."""
+        return (*self.local, *self.instance.names, *BUILT_IN)
+
+    def inside(self, **local: Entity) -> Scope:
+        """The same scope with names of a loop or a law added."""
+        return Scope(
+            self.build,
+            self.instance,
+            self.space,
+            {**self.local, **local},
+            self.element,
+            self.in_when,
+        )
+
+    def at(self, index: int, size: int) -> Scope:
+        """The same scope for one item of an array declaration."""
+        return Scope(self.build, self.instance, self.space, self.local, (index, size))
+
+
+def settled(
+    found: Entity | Pending | Refused | None, name: str, instance: Instance, build: Build
+) -> Entity | Refused | None:
+    """The entity of a declaration, checked now if it was not; circles are told."""
+    if type(found) is not Pending:
+        return found  # type: ignore[return-value]
+    if found.busy:
+        _tell_circle(found, build)
+        return REFUSED
+    if len(build.waiting) > LONGEST:
+        build.log.report(
+            "E0108",
+            f"more than {LONGEST} declarations wait for one another",
+            found.name.span,
+            help="write the components in the order in which they need each other",
+        )
+        return REFUSED
+    found.busy = True
+    build.waiting.append(found)
+    entity = found.check()
+    build.waiting.pop()
+    result: Entity | Refused = REFUSED if entity is None else entity
+    instance.names[name] = result
+    return result
+
+
+def _tell_circle(first: Pending, build: Build) -> None:
+    circle = build.waiting[build.waiting.index(first) :]
+    start = min(range(len(circle)), key=lambda k: circle[k].name.span.start)
+    circle = [*circle[start:], *circle[:start]]
+    first = circle[0]
+    path = " -> ".join(p.name.text for p in (*circle, first))
+    if len(circle) == 1:
+        message = f"{first.name.text!r} depends on itself"
+    else:
+        what = "parameters" if all(p.is_value for p in circle) else "declarations"
+        message = f"{what} depend on each other in a circle: {path}"
+    labels = tuple(Label(p.name.span, "part of it") for p in circle[1:])
+    build.log.report("E0208", message, first.name.span, labels=labels)
+
+
+def near(word: str, names: Iterable[str]) -> str:
+    """The name most like `word`, accents and capitals apart, or an empty text.
+
+    A name of which the word is the beginning, `freq` of `frequency`, is like it if it is the only
+    one.
+    """
+    names = list(names)
+    wanted = plain(word).lower()
+    begun = [n for n in names if plain(n).lower().startswith(wanted)] if wanted else []
+    if len(begun) == 1:
+        return begun[0]
+    folded: dict[str, str] = {}
+    for name in names:
+        if abs(len(name) - len(word)) <= 2 + len(word) // 3:
+            folded.setdefault(plain(name).lower(), name)
+            if len(folded) >= _CANDIDATES:
+                break
+    close = difflib.get_close_matches(wanted, folded, n=1, cutoff=0.6)
+    return folded[close[0]] if close else ""
+
+
+def did_you_mean(word: str, names: Iterable[str], log: Log | None = None) -> str:
+    """The help text that proposes a name, or an empty text.
+
+    Past the messages that are shown nothing is looked for: in a large model it would take long.
+    """
+    if log is not None and len(log.diagnostics) > LIMIT:
+        return ""
+    found = near(word, names)
+    return f"did you mean {found!r}?" if found else ""

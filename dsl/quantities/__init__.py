@@ -1,0 +1,1 @@
+"""Dimensions, the types of expressions, and units."""

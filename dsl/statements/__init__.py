@@ -1,0 +1,1 @@
+"""Statements: equations, `when`, connections, `world`, `experiment`, `initial`."""

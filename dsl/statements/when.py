@@ -1,0 +1,187 @@
+"""`when ... then ... end when`: discrete variables, reinit, assert, terminate."""
+
+from __future__ import annotations
+
+from frot.dsl import checked
+from frot.dsl.checked.describe import describe, written_unit
+from frot.dsl.expressions.expressions import expect, expression, fitting
+from frot.dsl.expressions.turns import rate_of, rate_of_kind
+from frot.dsl.messages.diagnostics import Label
+from frot.dsl.messages.source import Span
+from frot.dsl.names.names import resolve
+from frot.dsl.names.scope import Scope
+from frot.dsl.names.sections import called_name
+from frot.dsl.quantities.dimensions import BOOLEAN
+from frot.dsl.statements.equations import assertion, unfold
+from frot.dsl.text import tree
+
+Action = checked.Assign | checked.Reinit | checked.Terminate | checked.Assertion
+
+
+def mark_discrete(element: tree.When, scope: Scope) -> None:
+    """Say of the variables that a `when` sets that they change at events only."""
+    for branch in element.branches:
+        for part in branch.elements:
+            for leaf, inner in unfold(part, scope):
+                if isinstance(leaf, tree.Equation) and leaf.right is not None:
+                    variable = _assigned(leaf.left, inner)
+                    if variable is not None:
+                        object.__setattr__(variable, "discrete", True)
+
+
+def _assigned(node: tree.Expression, scope: Scope) -> checked.Variable | None:
+    """The variable on the left of an assignment; None after a message."""
+    if isinstance(node, tree.Name | tree.Member | tree.Index):
+        found = resolve(node, scope, "value")
+        if found is None:
+            return None
+        if isinstance(found, checked.Reference) and isinstance(found.target, checked.Variable):
+            return found.target
+        if isinstance(found, checked.Element):
+            message = "an item of an array cannot be set alone in 'when'"
+            help_text = "give the whole array its value, or take an array of components"
+            scope.log.report("E0518", message, node.span, help=help_text)
+            return None
+    scope.log.report(
+        "E0518",
+        "in 'when' a variable is set: 'name = value;'",
+        node.span,
+        help="the left side is the name of a variable",
+    )
+    return None
+
+
+def when(element: tree.When, scope: Scope, setters: dict[checked.Variable, Span]) -> None:
+    """Check a `when`; `setters` tells where each discrete variable is set already."""
+    inner = Scope(scope.build, scope.instance, scope.space, scope.local, None, True)
+    branches = []
+    mine: dict[checked.Variable, Span] = {}
+    for branch in element.branches:
+        conditions = _conditions(branch.condition, inner)
+        here: dict[checked.Variable, Span] = {}
+        actions: list[Action] = []
+        for part in branch.elements:
+            for leaf, at in unfold(part, inner):
+                action = _action(leaf, at)
+                if action is None:
+                    continue
+                if isinstance(action, checked.Assign):
+                    other = here.get(action.variable) or setters.get(action.variable)
+                    if other is not None:
+                        _tell_twice(action, other, scope)
+                        continue
+                    here[action.variable] = action.span
+                actions.append(action)
+        mine.update(here)
+        branches.append((conditions, tuple(actions)))
+    setters.update(mine)
+    scope.build.grow(1, element.span)
+    scope.build.whens.append(checked.When(tuple(branches), element.span, scope.instance.name))
+
+
+def _tell_twice(action: checked.Assign, other: Span, scope: Scope) -> None:
+    scope.log.report(
+        "E0517",
+        f"{action.variable.name!r} is set by two 'when's",
+        action.span,
+        labels=(Label(other, "set here too"),),
+        help="join them with 'elsewhen', which says which of the two comes first",
+    )
+
+
+def _conditions(node: tree.Expression | None, scope: Scope) -> tuple[checked.Expression, ...]:
+    """One condition, or those of a tuple `(a, b)`."""
+    assert node is not None
+    items = node.items if isinstance(node, tree.Tuple) and not node.unit else (node,)
+    found = [expect(item, BOOLEAN, scope) for item in items]
+    return tuple(f for f in found if f is not None)
+
+
+def _action(leaf: tree.Equation | tree.When | tree.IfEquation, scope: Scope) -> Action | None:
+    if isinstance(leaf, tree.When | tree.IfEquation):
+        word = "when" if isinstance(leaf, tree.When) else "if"
+        scope.log.report(
+            "E0518",
+            f"{word!r} inside of 'when'",
+            leaf.span,
+            help="choose the value: 'x = if condition then a else pre(x);'",
+        )
+        return None
+    if leaf.right is not None:
+        return _assign(leaf, scope)
+    name = called_name(leaf)
+    call = leaf.left
+    if isinstance(call, tree.Call):
+        match name:
+            case "reinit":
+                return _reinit(call, scope)
+            case "terminate":
+                return _terminate(call, scope)
+            case "assert":
+                return assertion(call, scope)
+    what = f"{name!r}" if name else "this"
+    scope.log.report(
+        "E0518",
+        f"{what} is not a statement of 'when'",
+        leaf.span,
+        help="there are: 'x = value;', 'reinit(x, value);', 'assert(...);', 'terminate(...);'",
+    )
+    return None
+
+
+def _assign(leaf: tree.Equation, scope: Scope) -> checked.Assign | None:
+    assert leaf.right is not None
+    variable = _assigned(leaf.left, scope)
+    value = expression(leaf.right, scope)
+    if variable is None or value is None:
+        return None
+    rate = rate_of_kind(variable.quantity, variable.unit, variable.type.dimension)
+    fitted = fitting(value, leaf.right, variable.type, scope, unit=variable.unit, rate=rate)
+    return None if fitted is None else checked.Assign(variable, fitted, leaf.span)
+
+
+def _reinit(call: tree.Call, scope: Scope) -> checked.Reinit | None:
+    if len(call.arguments) != 2 or any(a.name is not None for a in call.arguments):
+        scope.log.report("E0204", "write 'reinit(x, value)'", call.span)
+        return None
+    node = call.arguments[0].value
+    target = expression(node, scope)
+    if target is None:
+        return None
+    inner = target
+    while isinstance(inner, checked.Element | checked.Derivative):
+        inner = inner.operand
+    good = isinstance(inner, checked.Quantity) or (
+        isinstance(inner, checked.Reference)
+        and isinstance(inner.target, checked.Variable)
+        and not inner.target.discrete
+        and inner.target.type.base == "real"
+    )
+    if not good:
+        message = f"'reinit' is of a variable that moves, not of {_said(inner)}"
+        help_text = "a variable that 'when' sets is written 'x = value;'"
+        scope.log.report("E0518", message, node.span, help=help_text)
+        return None
+    value = expression(call.arguments[1].value, scope)
+    if value is None:
+        return None
+    unit, rate = written_unit(target), rate_of(target)
+    fitted = fitting(value, call.arguments[1].value, target.type, scope, unit=unit, rate=rate)
+    return None if fitted is None else checked.Reinit(target, fitted, call.span)
+
+
+def _said(node: checked.Expression) -> str:
+    if isinstance(node, checked.Reference):
+        kind = type(node.target).__name__.lower()
+        if isinstance(node.target, checked.Variable) and node.target.discrete:
+            kind = "discrete variable"
+        return f"the {kind} {node.target.name!r}"
+    return describe(node.type)
+
+
+def _terminate(call: tree.Call, scope: Scope) -> checked.Terminate | None:
+    only = call.arguments[0] if len(call.arguments) == 1 else None
+    if only is None or only.name is not None or not isinstance(only.value, tree.Text):
+        scope.log.report("E0204", "write 'terminate(\"why\")'", call.span)
+        return None
+    return checked.Terminate(only.value.value, call.span)

@@ -1,0 +1,281 @@
+"""The words of the messages about syntax."""
+
+from __future__ import annotations
+
+import difflib
+import re
+import unicodedata
+from collections.abc import Sequence
+from typing import Protocol
+
+from frot.dsl.messages.diagnostics import Label, Log
+from frot.dsl.messages.source import Source, Span
+from frot.dsl.text.lex import JUNK
+
+
+class Lexeme(Protocol):
+    """A token: its terminal and its place."""
+
+    type: str
+    start: int
+    end: int
+
+
+_OPENING = (
+    "initial",
+    "equation",
+    "parameter",
+    "constant",
+    "liaison",
+    "body",
+    "frame",
+    "curve",
+    "surface",
+    "force",
+    "output",
+    "input",
+    "planar",
+    "partial",
+    "model",
+    "connector",
+)
+_SAY = {
+    "SEMICOLON": "';'",
+    "RPAR": "')'",
+    "LPAR": "'('",
+    "COLON": "':'",
+    "EQUAL": "'='",
+    "COMMA": "','",
+    "IDENT": "a name",
+    "END": "'end'",
+    "ON": "'on'",
+    "THEN": "'then'",
+    "ELSE": "'else'",
+    "LOOP": "'loop'",
+    "IN": "'in'",
+    "RSQB": "']'",
+}
+
+
+# Signs of other keyboards and of word processors, and what is meant by them.
+_MEANT = {
+    **dict.fromkeys("\u2212\u2010\u2011\u2012\u2013\u2014\uff0d", "-"),
+    **dict.fromkeys("×·⋅∙∗＊", "*"),
+    **dict.fromkeys("÷∕⁄", "/"),
+    **dict.fromkeys("“”„«»″＂", '"'),
+    **dict.fromkeys("，、", ","),
+    "；": ";",
+    "：": ":",
+    "（": "(",
+    "）": ")",
+    "＝": "=",
+    "＋": "+",
+    "≤": "<=",
+    "≥": ">=",
+    "≠": "<>",
+    "⩵": "==",
+}
+_COMMA = re.compile(r"(\d+),(\d+)")
+_LIAISON = ("LIAISON", "JOINT")
+_ROLES = ("PARAMETER", "CONSTANT", "INPUT", "OUTPUT")
+_IN_UNIT = dict.fromkeys("·⋅", ", or '.' in a unit: 'N.m'")
+
+
+def _shown(text: str) -> str:
+    return "".join(c if c.isprintable() else f"U+{ord(c):04X}" for c in text)
+
+
+def _span(source: Source, token: Lexeme) -> Span:
+    return Span(source, token.start, token.end)
+
+
+def missing_semicolon(log: Log, source: Source, previous: Lexeme) -> None:
+    """`;` is missing after `previous`."""
+    span = Span(source, previous.end - 1, previous.end)
+    log.report("E0102", "missing ';' at the end of the statement", span, caret="';' after this")
+
+
+def missing_word(log: Log, source: Source, previous: Lexeme, word: str) -> None:
+    """The word of a block is missing after `previous`."""
+    span = Span(source, previous.end - 1, previous.end)
+    log.report("E0101", f"missing '{word}'", span, caret=f"'{word}' after this")
+
+
+def unclosed(log: Log, source: Source, opened: Sequence[Lexeme], token: Lexeme) -> None:
+    """The parentheses `opened` are not closed before `token`."""
+    word = _shown(source.text[token.start : token.end])
+    found = f"')' was expected before {word!r}" if word else "')' was expected here"
+    log.report(
+        "E0103",
+        "unclosed parenthesis",
+        _span(source, opened[0]),
+        caret="opened here",
+        labels=(Label(Span(source, token.start, max(token.end, token.start)), found),),
+    )
+
+
+def too_deep(log: Log, span: Span, limit: int) -> None:
+    """An expression is nested too deeply."""
+    log.report(
+        "E0108",
+        f"the expression is nested more than {limit} levels deep",
+        span,
+        help="name parts of it as outputs or parameters",
+    )
+
+
+def missing_end(log: Log, source: Source, name: str, token: Lexeme) -> None:
+    """The text ends inside a block."""
+    end = len(source.text.rstrip())
+    closing = f"end {name};" if name else "end;"
+    log.report(
+        "E0104",
+        f"missing '{closing}' at the end of the text",
+        Span(source, max(end - 1, 0), end),
+        help=f"write '{closing}' after the last statement",
+    )
+
+
+def unexpected(
+    log: Log,
+    source: Source,
+    previous: Lexeme | None,
+    token: Lexeme,
+    expected: set[str],
+    statement: Sequence[Lexeme],
+    in_block: bool,
+) -> None:
+    """`token` does not fit; the likely cause is looked for, else what was expected is named."""
+    text = source.text
+    word = text[token.start : token.end]
+    span = _span(source, token)
+    if token.type == JUNK:
+        _junk(log, source, token)
+    elif (
+        previous is not None
+        and previous.type == "NUMBER"
+        and token.type == "IDENT"
+        and previous.end == token.start
+    ):
+        number = text[previous.start : previous.end]
+        log.report(
+            "E0106",
+            f"a number and the word {word!r} are glued together",
+            Span(source, previous.start, token.end),
+            help=f"for a unit leave a space: '{number} {word}'; for a product: '{number}*{word}'",
+        )
+    elif token.type == "COLON" and text.startswith(":=", token.start):
+        log.report(
+            "E0101",
+            "':=' is no sign of this language",
+            Span(source, token.start, token.start + 2),
+            help="values and equations are written with '='",
+        )
+    elif (comma := _decimal_comma(text, previous, token)) is not None:
+        log.report(
+            "E0101",
+            "a comma in a number",
+            Span(source, comma.start(), comma.end()),
+            help=f"the decimal sign is a point: '{comma[1]}.{comma[2]}'",
+        )
+    elif word == "*" and previous is not None and text[previous.start : token.end] == "**":
+        both = Span(source, previous.start, token.end)
+        log.report("E0101", "'**' is no sign of this language", both, help="a power is 'x^2'")
+    elif token.type == "COMMA" and statement and statement[0].type in _LIAISON:
+        help_text = "the laws of a liaison follow the word 'with': '... with coulomb(0.3);'"
+        log.report("E0101", "unexpected ','", span, help=help_text)
+    elif token.type == "EQUAL" and len(statement) == 2 and statement[0].type in _ROLES:
+        name = text[statement[1].start : statement[1].end]
+        log.report(
+            "E0101",
+            f"{name!r} is declared without a type",
+            _span(source, statement[1]),
+            help=f"write the type before the name: 'Real {name} = ...'",
+        )
+    elif "IDENT" in expected and word.isidentifier() and token.type not in ("IDENT", JUNK):
+        log.report(
+            "E0101",
+            f"{word!r} is a word of the language: it cannot be a name",
+            span,
+            help=f"choose another name, as '{word}_' or '{word}1'",
+        )
+    elif token.type == "END" and not in_block and not statement:
+        log.report("E0105", "'end' without a model to end", span)
+    else:
+        _misplaced(log, source, previous, token, expected, statement)
+
+
+def _decimal_comma(text: str, previous: Lexeme | None, token: Lexeme) -> re.Match[str] | None:
+    """The number `0,3` whose comma, or what follows it, is the token."""
+    for comma in (token, previous):
+        if comma is None or comma.type != "COMMA":
+            continue
+        first = comma.start
+        while first > 0 and text[first - 1].isdigit():
+            first -= 1
+        found = _COMMA.match(text, first)
+        if found is not None and found.end(1) == comma.start:
+            return found
+    return None
+
+
+def _junk(log: Log, source: Source, token: Lexeme) -> None:
+    character = source.text[token.start]
+    span = _span(source, token)
+    if character == '"':
+        log.report(
+            "E0107", "this string is not closed", span, help="close it with '\"' on the same line"
+        )
+    elif source.text.startswith("/*", token.start):
+        log.report("E0107", "this comment is not closed", span, help="close it with '*/'")
+    elif character == "'":
+        help_text = "the derivative of x is written 'der(x)', a text in double quotes"
+        log.report("E0101", 'unexpected "\'"', span, help=help_text)
+    elif character in _MEANT:
+        log.report(
+            "E0101",
+            f"the character {character!r} ({unicodedata.name(character).lower()}) is not "
+            f"{_MEANT[character]!r}, though it looks so",
+            span,
+            help=f"write {_MEANT[character]!r}" + _IN_UNIT.get(character, ""),
+        )
+    elif character in "{}":
+        log.report(
+            "E0101", f"unexpected {character!r}", span, help="vectors are written '(x, y, z)'"
+        )
+    else:
+        log.report("E0101", f"unexpected character {_shown(character)!r}", span)
+
+
+def _misplaced(
+    log: Log,
+    source: Source,
+    previous: Lexeme | None,
+    token: Lexeme,
+    expected: set[str],
+    statement: Sequence[Lexeme],
+) -> None:
+    text = source.text
+    word = text[token.start : token.end]
+    span = _span(source, token)
+    hint = ""
+    if statement and statement[0].type == "IDENT":
+        first = text[statement[0].start : statement[0].end]
+        near = difflib.get_close_matches(first.lower(), _OPENING, n=1, cutoff=0.75)
+        if near and len(statement) <= 2:
+            word, span = first, _span(source, statement[0])
+            hint = f"did you mean {near[0]!r}?"
+    elif token.type == "IDENT" and statement and statement[0].type in ("PLANAR", "PARTIAL"):
+        near = difflib.get_close_matches(word.lower(), _OPENING, n=1, cutoff=0.75)
+        hint = f"did you mean {near[0]!r}?" if near else ""
+    said = [_SAY[k] for k in _SAY if k in expected]
+    if "IDENT" in expected and ("NUMBER" in expected or "LPAR" in expected):
+        said = ["an expression", *(s for s in said if s not in ("a name", "'('"))]
+    what = f"unexpected {_shown(word)!r}" if word else "unexpected end of the text"
+    if not word:
+        end = len(text.rstrip())
+        span = Span(source, max(end - 1, 0), end)
+    caret = ""
+    if said and not hint and len(said) <= 4:
+        caret = "expected " + " or ".join(said)
+    log.report("E0101", what, span, caret=caret, help=hint)
