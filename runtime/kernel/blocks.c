@@ -1,16 +1,13 @@
 #include "blocks.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "linear.h"
 #include "mechanics.h"
+#include "tolerances.h"
 
 #define PASSES 100
-#define EXACT (4 * DBL_EPSILON) /* residual, in sizes of the terms, that is rounding */
-#define SETTLED 1e-9            /* the same, that is a solution if nothing improves it */
-#define LEAST_DAMPING 1e-12
 
 /* A block at given arguments. */
 typedef struct {
@@ -92,10 +89,10 @@ static int line_search(const problem *p, double before) {
   double *size = w->block_size + n, *from = w->block_step + n;
   memcpy(size, w->block_size, sizeof(double) * (size_t)n);
   memcpy(from, p->y, sizeof(double) * (size_t)n);
-  for (double part = 1; part > LEAST_DAMPING; part *= 0.5) {
+  for (double part = 1; part > FROT_LEAST_DAMPING; part *= 0.5) {
     for (int i = 0; i < n; i++) p->y[i] = from[i] + part * w->block_step[i];
     if (!evaluate(p) && worst(w->block_r, size, n) < before * (1 - 0.25 * part)) return 0;
-    if (before <= SETTLED) break;
+    if (before <= FROT_SETTLED) break;
   }
   memcpy(p->y, from, sizeof(double) * (size_t)n);
   return 1;
@@ -107,10 +104,10 @@ static int solve_nonlinear(const problem *p) {
   if (evaluate(p)) return FROT_NAN;
   for (int pass = 0; pass < PASSES; pass++) {
     double off = worst(w->block_r, w->block_size, n);
-    if (off <= EXACT) return FROT_OK;
+    if (off <= FROT_ROUNDING) return FROT_OK;
     int singular = newton_step(p);
     if (line_search(p, off)) {
-      if (off <= SETTLED) return FROT_OK;
+      if (off <= FROT_SETTLED) return FROT_OK;
       w->block_singular = singular;
       return FROT_ALGEBRAIC;
     }

@@ -6,8 +6,8 @@
 
 #include "blocks.h"
 #include "core.h"
+#include "tolerances.h"
 
-#define UNCHANGED 1e-13 /* part of its largest size by which a condition may move by rounding */
 /* Conditions that depend on each other are changed all at once as many times as their chain can be
  * long, then the first that is wrong alone (least index: K. Murty, Linear Complementarity, 1988,
  * ch. 4, which ends where they are those of ideal switches). */
@@ -72,7 +72,7 @@ static int is_known(const frot_model *m, const frot_state *s, const frot_work *w
   double value = w->condition[j], known = w->condition_known[j];
   if (j >= m->n_located) return value == known;
   double size = s->data[w->layout.scale_g + frot_condition_guard(m) + j];
-  double rounding = UNCHANGED * size + 4 * DBL_EPSILON * fmax(fabs(value), fabs(known));
+  double rounding = FROT_UNCHANGED * size + 4 * DBL_EPSILON * fmax(fabs(value), fabs(known));
   return fabs(value - known) <= rounding;
 }
 

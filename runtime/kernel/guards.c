@@ -7,8 +7,6 @@
 #include "reactions.h"
 #include "tolerances.h"
 
-#define VANISHED 1e-9 /* part of its largest size below which a reaction has no direction */
-
 /* Whether the sign of a bilateral reaction matters: friction follows it. */
 static int sign_matters(const frot_model *m, const frot_contact_mode *modes, int i) {
   for (int e = 0; e < m->n_elements; e++)
@@ -137,7 +135,7 @@ void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w
     double first = w->lam[element->bounded_by[0]], second = w->lam[element->bounded_by[1]];
     double size = hypot(first, second);
     double largest = s->data[w->layout.scale_g + frot_element_guard(m, e) + 1];
-    if (size > VANISHED * largest)
+    if (size > FROT_VANISHED * largest)
       along[0] = first / size, along[1] = second / size;
     else
       along[0] = -along[0], along[1] = -along[1]; /* it passes through zero */

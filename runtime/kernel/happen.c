@@ -11,10 +11,9 @@
 #include "resolve.h"
 #include "tolerances.h"
 
-#define SHRINKING 3 /* gaps in a row, each shorter than the last in the same ratio, ... */
-#define SAME_RATIO 0.01
-#define LIMIT 1e-5 /* ... down to this part of the first one: they have a limit */
-#define CROWD 100  /* rounds at one instant after which the events will not settle */
+#define SHRINKING \
+  3 /* gaps in a row, each shorter than the last in the same ratio: they may have a limit */
+#define CROWD 100 /* rounds at one instant after which the events will not settle */
 
 typedef struct {
   const frot_model *m;
@@ -183,11 +182,11 @@ static int crowds(frot_state *s, double t) {
   double gap = t - s->text_event;
   if (!(gap > 0)) return 0;
   double ratio = s->text_gap > 0 ? gap / s->text_gap : 1;
-  int same = fabs(ratio - s->text_ratio) <= SAME_RATIO * ratio;
+  int same = fabs(ratio - s->text_ratio) <= FROT_ONE_RATIO * ratio;
   if (!(ratio < 1) || (s->shrinking > 1 && !same)) s->shrinking = 0;
   if (s->shrinking++ == 0) s->text_first = gap;
   s->text_event = t, s->text_gap = gap, s->text_ratio = ratio;
-  return s->shrinking > SHRINKING && gap < LIMIT * s->text_first;
+  return s->shrinking > SHRINKING && gap < FROT_CROWDED * s->text_first;
 }
 
 /* Fire `when`s until none fires and no held value changes. *happened: whether any did. */

@@ -11,16 +11,6 @@
 #include "sizes.h"
 #include "tolerances.h"
 
-/* Part of the tolerance given to one step: the estimate is that of the order below. */
-#define LOCAL_SHARE 0.5
-#define LEAST_TOLERANCE 1e-14
-/* Error of a solution of the linear system, in units of its terms, that pivoting is missed by. */
-#define MOST_GROWTH 1e-10
-/* The polynomial of a guard need only show where it goes. */
-#define GUARD_LOOSEST 1e-3
-#define GUARD_TIGHTEST 1e-6
-/* Estimates below this, over their bound, do not keep the next step from being longer. */
-#define LIMITING 1e-4
 #define GUARD_NODES 7 /* values at k/6 */
 
 /* Rows of w->k: the slopes at both ends, U_1 .. U_8 between, then scratch. */
@@ -42,13 +32,6 @@ static const double through[GUARD_NODES][GUARD_NODES] = {
 };
 
 static double *row(const frot_layout *l, const frot_work *w, int i) { return w->k + i * l->nz; }
-
-static int slope_at(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
-                    double t, const double *z, double *slope) {
-  return frot_derivatives(m, s, w, t, z, s->data + l->d,
-                          (const frot_contact_mode *)(const void *)(s->data + l->modes),
-                          s->data + l->frozen, slope);
-}
 
 size_t frot_implicit_doubles(const frot_model *m) {
   size_t doubles = 0;
@@ -119,17 +102,17 @@ int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, doubl
     if (i > 0) {
       prepare(&l, w, n, i, h, z, right);
       double at = i >= RO_ROWS - 1 ? t + h : t + ro_c[i] * h;
-      if ((status = slope_at(m, s, w, &l, at, z, slope)) != FROT_OK) return status;
+      if ((status = frot_slope(m, s, w, at, z, slope)) != FROT_OK) return status;
     }
     double by_time = h * ro_d[i];
     for (int k = 0; k < n; k++) right[k] = i > 0 ? slope[k] + right[k] : slope[k];
     for (int k = 0; m->time_dependent && k < n; k++) right[k] += by_time * jacobian.rate[k];
     frot_jacobian_solve(m, w, right, u);
-    if (i == 0 && !(frot_jacobian_error(m, w, shift, right, u) < MOST_GROWTH)) return FROT_DIVERGE;
+    if (i == 0 && !(frot_jacobian_error(m, w, shift, right, u) < FROT_GROWN)) return FROT_DIVERGE;
   }
   const double *last = row(&l, w, FIRST_ROW + RO_STAGES - 1);
   for (int k = 0; k < n; k++) z[k] += last[k];
-  status = slope_at(m, s, w, &l, t + h, z, row(&l, w, DP_STAGES));
+  status = frot_slope(m, s, w, t + h, z, row(&l, w, DP_STAGES));
   memcpy(w->y_end, w->y, sizeof(double) * (size_t)m->ny);
   return status;
 }
@@ -137,7 +120,7 @@ int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, doubl
 /* The worst estimate of the local error over its bound; w->worst is the state it is of. */
 static double worst_error(const frot_model *m, const frot_state *s, frot_work *w,
                           const frot_layout *l, double h) {
-  double tolerance = fmax(LOCAL_SHARE * s->tolerance, LEAST_TOLERANCE), worst = 0;
+  double tolerance = fmax(FROT_IMPLICIT_SHARE * s->tolerance, FROT_LEAST_IMPLICIT), worst = 0;
   const double *error = row(l, w, FIRST_ROW + RO_STAGES - 1), *noise = s->data + l->noise;
   w->worst = -1;
   for (int k = 0; k < m->nq; k++) {
@@ -167,7 +150,7 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
     frot_state_sizes(m, s, w);
   }
   double worst = worst_error(m, s, w, &l, h);
-  if (!(worst > LIMITING) || w->worst < 0 || !frot_is_small(m, s, w, w->worst)) return worst;
+  if (!(worst > FROT_LIMITING) || w->worst < 0 || !frot_is_small(m, s, w, w->worst)) return worst;
   frot_raise_small(m, s, w, h, 0);
   return worst_error(m, s, w, &l, h);
 }
@@ -198,7 +181,7 @@ static int follow_guards(const frot_model *m, frot_state *s, frot_work *w, const
     if (from == slope + l->nx) {
       double theta = i / (GUARD_NODES - 1.0);
       inside(m, l, w, theta, w->ztry);
-      int status = slope_at(m, s, w, l, t + theta * h, w->ztry, slope);
+      int status = frot_slope(m, s, w, t + theta * h, w->ztry, slope);
       if (status != FROT_OK) return status;
     }
     for (int g = 0; g < l->ng; g++) value[i * l->nz + g] = from[g];
@@ -216,7 +199,7 @@ static int follow_guards(const frot_model *m, frot_state *s, frot_work *w, const
   for (int i = 0; i < 2; i++) {
     double theta = i == 0 ? 1.0 / 12 : 11.0 / 12;
     inside(m, l, w, theta, w->ztry);
-    int status = slope_at(m, s, w, l, t + theta * h, w->ztry, slope);
+    int status = frot_slope(m, s, w, t + theta * h, w->ztry, slope);
     if (status != FROT_OK) return status;
     for (int g = 0; g < l->ng; g++) {
       double b[GUARD_NODES];
@@ -252,10 +235,10 @@ int frot_implicit_dense(const frot_model *m, frot_state *s, frot_work *w, double
 int frot_implicit_follows_guards(const frot_model *m, const frot_state *s, const frot_work *w) {
   frot_layout l = frot_layout_of(m);
   frot_jacobian jacobian = frot_jacobian_of(m, w, NULL, NULL);
-  double tolerance = fmin(GUARD_LOOSEST, fmax(GUARD_TIGHTEST, 10 * s->tolerance));
+  double tolerance = frot_guard_tolerance(s->tolerance);
   for (int g = 0; g < l.ng; g++) {
     double size = fmax(fabs(row(&l, w, 0)[l.nx + g]), fabs(row(&l, w, DP_STAGES)[l.nx + g]));
-    size = fmax(size, GUARD_LOOSEST * s->data[l.scale_g + g]);
+    size = fmax(size, FROT_GUARD_LOOSEST * s->data[l.scale_g + g]);
     if (!(jacobian.misfit[g] <= tolerance * size)) return 0;
   }
   return 1;

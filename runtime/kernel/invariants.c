@@ -10,7 +10,6 @@
 #include "tolerances.h"
 
 #define PASSES 5
-#define LEAST_SIZE 1e-3 /* of the largest size of its kind, for a state still small */
 
 /* Units in which the changes of the states are measured, into w->unit (nq + nv): their sizes. What
  * is frozen does not change. */
@@ -25,7 +24,7 @@ static void find_units(const frot_model *m, frot_work *w, const double *q, const
       largest = fmax(largest, w->unit[k]);
     }
     for (int k = first; k < ends[kind]; k++) {
-      w->unit[k] = largest > 0 ? fmax(w->unit[k], LEAST_SIZE * largest) : 1;
+      w->unit[k] = largest > 0 ? fmax(w->unit[k], FROT_LEAST_SIZE * largest) : 1;
       if (kind == 1 && frozen[k - m->nq] != 0) w->unit[k] = 0;
     }
   }

@@ -183,7 +183,7 @@ int frot_least_norm(double *a, double *b, int m, int n, double *x, double *work,
       if (norm > best_norm) best_norm = norm, best = j;
     }
     if (k == 0) first = sqrt(best_norm);
-    if (!(sqrt(best_norm) > 1e-11 * first) || first == 0) break;
+    if (!(sqrt(best_norm) > FROT_RANK * first) || first == 0) break;
     if (best != k) {
       for (int i = 0; i < m; i++) {
         double t = AT(a, m, i, k);

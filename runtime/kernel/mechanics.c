@@ -50,3 +50,10 @@ int frot_derivatives(const frot_model *m, frot_state *s, frot_work *w, double t,
   frot_guards(m, s, w, z, v, d, modes, slope + nx, NULL);
   return FROT_OK;
 }
+
+int frot_slope(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z,
+               double *slope) {
+  const frot_layout *l = &w->layout;
+  const frot_contact_mode *modes = (const void *)(s->data + l->modes);
+  return frot_derivatives(m, s, w, t, z, s->data + l->d, modes, s->data + l->frozen, slope);
+}

@@ -17,4 +17,8 @@ int frot_derivatives(const frot_model *m, frot_state *s, frot_work *w, double t,
                      const double *d, const frot_contact_mode *modes, const double *frozen,
                      double *slope);
 
+/* The same at z in the current modes of the state. */
+int frot_slope(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z,
+               double *slope);
+
 #endif

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core.h"
+#include "tolerances.h"
 
 #define SAMPLES 20000 /* in a run */
 #define PART 0.01     /* longest step, in runs */
@@ -12,7 +13,6 @@
 #define FINEST 1e-15  /* s: a first step below every scale of time */
 #define BEYOND 2      /* rates are seen when those at the stages come up to this part of them */
 #define FAINT 1e-3    /* part of the largest rate in the step that nobody looks at */
-#define ROUNDING 1e-12
 #define LONG_REST 1e9 /* longest step where nothing depends on time, in longest steps */
 
 static const double *experiment_of(const frot_model *m, const frot_state *s) {
@@ -72,7 +72,7 @@ double frot_pace_step(const frot_model *m, frot_state *s, frot_work *w, double t
   for (int k = 1; k < count; k++) note_rates(m, s, w, t + k * spacing, most);
   int passed = 0;
   for (int i = 0; i < m->n_paced; i++) {
-    int matters = most[i] * h > ROUNDING * fabs(w->pace[i]) && most[i] > BEYOND * seen[i];
+    int matters = most[i] * h > FROT_STEADY * fabs(w->pace[i]) && most[i] > BEYOND * seen[i];
     most[i] = matters ? fmax(BEYOND * seen[i], FAINT * most[i]) : INFINITY;
     passed |= matters;
   }

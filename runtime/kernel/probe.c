@@ -34,9 +34,7 @@ double frot_probe_step(const frot_model *m, frot_state *s, frot_work *w, double 
   for (int probe = 0; probe < PROBES; probe++) {
     for (int j = 0; j < m->nq; j++) w->ztry[j] = w->z0[j] + h * start[j];
     memcpy(w->y, s->data + l.y, sizeof(double) * (size_t)m->ny);
-    int status = frot_derivatives(m, s, w, t + h, w->ztry, s->data + l.d,
-                                  (const frot_contact_mode *)(const void *)(s->data + l.modes),
-                                  s->data + l.frozen, there);
+    int status = frot_slope(m, s, w, t + h, w->ztry, there);
     double change = status == FROT_OK ? change_of_slopes(m, w, start, there) : INFINITY;
     if (change <= CHANGE) break;
     h *= fmax(CHANGE / change, BACK);

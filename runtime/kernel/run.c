@@ -10,6 +10,7 @@
 #include "mechanics.h"
 #include "record.h"
 #include "state.h"
+#include "segment.h"
 #include "step.h"
 #include "stiffness.h"
 #include "supports.h"

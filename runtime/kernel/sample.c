@@ -7,7 +7,7 @@
 #include "mechanics.h"
 #include "projection.h"
 #include "state.h"
-#include "step.h"
+#include "segment.h"
 
 /* Whether a mode holds anything that coordinates do not. */
 static int holds_anything(const frot_model *m, frot_work *w, const frot_contact_mode *modes) {

@@ -3,10 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Part of the size of its terms that a pivot must keep. */
-#define LEAST_PIVOT 1e-9
-/* Terms below this have lost digits by underflow. */
-#define LEAST_TERM 1e-280
+#include "tolerances.h"
 
 int frot_sparse_factor(const frot_pattern *p, const double *jacobian, double shift, double *lu,
                        double *x, int *growth) {
@@ -31,7 +28,7 @@ int frot_sparse_factor(const frot_pattern *p, const double *jacobian, double shi
       for (int u = p->diagonal[j] + 1; u < p->start[j + 1]; u++) x[p->column[u]] -= factor * lu[u];
       size += fabs(x[k] - before);
     }
-    if (!(fabs(x[k]) > LEAST_PIVOT * size)) return 1;
+    if (!(fabs(x[k]) > FROT_LEAST_PIVOT * size)) return 1;
     lu[diagonal] = 1 / x[k];
     for (int e = diagonal + 1; e < end; e++) lu[e] = x[p->column[e]];
   }
@@ -67,7 +64,7 @@ double frot_sparse_error(const frot_pattern *p, const double *jacobian, double s
   double worst = 0;
   for (int i = 0; i < p->n; i++) {
     double error = fabs(y[i]);
-    if (error < LEAST_TERM) continue;
+    if (error < FROT_LEAST_TERM) continue;
     if (!(error <= worst * size[i])) worst = error / size[i];
     if (isnan(worst)) break;
   }

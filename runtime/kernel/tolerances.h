@@ -8,6 +8,7 @@
 #define FROT_TOLERANCES_H
 
 #include <float.h>
+#include <math.h>
 
 /* -- rounding ---------------------------------------------------------------------------------- */
 /* A sum of terms that cancel to less than this part of their sizes is zero. */
@@ -20,8 +21,30 @@
 #define FROT_APART (1024 * DBL_EPSILON)
 /* The same for states whose rates no inertia smooths. */
 #define FROT_NOISE_OF_RATES 32.0
-/* Least tolerance of a step: below, rounding decides. */
+/* Part by which a gap or a statement may change with the unknowns and still be constant. */
+#define FROT_CONSTANT 1e-12
+/* Residual of a statement, in what its unknowns could change in it, that no digit of them mends. */
+#define FROT_NO_DIGIT 1e-14
+/* Part of what it is made of by which a value that time alone changes is constant in a step. */
+#define FROT_STEADY 1e-12
+
+/* -- steps ------------------------------------------------------------------------------------- */
+/* Part of the tolerance given to one step, so that the whole run keeps it: of the explicit method,
+ * and of the implicit one, whose estimate is that of the order below. */
+#define FROT_EXPLICIT_SHARE 0.1
+#define FROT_IMPLICIT_SHARE 0.5
+/* Least tolerance of a step of either: below, rounding decides. */
 #define FROT_LEAST_TOLERANCE 2e-15
+#define FROT_LEAST_IMPLICIT 1e-14
+/* Estimates below this, over their bound, do not keep the next step from being longer. */
+#define FROT_LIMITING 1e-4
+/* A guard need only be followed well enough to see where it goes: to ten tolerances, between these
+ * parts of its size. */
+#define FROT_GUARD_LOOSEST 1e-3
+#define FROT_GUARD_TIGHTEST 1e-6
+static inline double frot_guard_tolerance(double tolerance) {
+  return fmin(FROT_GUARD_LOOSEST, fmax(FROT_GUARD_TIGHTEST, 10 * tolerance));
+}
 
 /* -- zero at an event -------------------------------------------------------------------------- */
 /* Part of its size below which a velocity, a gap or a reaction is zero. */
@@ -32,6 +55,21 @@
 #define FROT_TOUCH 1e-9
 /* Guards are looked at from this part of their size on. */
 #define FROT_GUARD_FLOOR 1e-12
+/* A located guard below this part of its size has fallen; above, it was a dip. */
+#define FROT_LOCATED 1e-9
+/* Part of its largest size by which a condition is off zero by rounding: far below
+ * FROT_GUARD_FLOOR, so that what counts as fallen does not fall again. */
+#define FROT_CONDITION_ZERO 4e-15
+/* The same at another evaluation at one instant: it is still the value that was decided on. */
+#define FROT_UNCHANGED 1e-13
+/* Part of its size in the next step by which a condition moves that has no rate. */
+#define FROT_FLAT 1e-10
+/* Part of its largest size below which a pin's reaction has no direction. */
+#define FROT_VANISHED 1e-9
+/* Events of the text that follow each other in one ratio, to this part of it, have a limit, and
+ * crowd when their distance is this part of the first. */
+#define FROT_ONE_RATIO 0.01
+#define FROT_CROWDED 1e-5
 /* Prescribed rates and their rates below this are rest (SI): there is nothing to compare with. */
 #define FROT_PRESCRIBED_REST 1e-12
 /* Events closer than this part of the time are at one instant. */
@@ -44,12 +82,35 @@
 #define FROT_AGREES 1e-9
 /* Pivot of a scaled square system below which it is singular. */
 #define FROT_SINGULAR_PIVOT 1e-14
+/* Part of the sizes of its terms that a pivot of a sparse factor must keep, and the term below
+ * which digits are lost by underflow. */
+#define FROT_LEAST_PIVOT 1e-9
+#define FROT_LEAST_TERM 1e-280
+/* Part of the longest column's length below which the columns left of a matrix are rounding. */
+#define FROT_RANK 1e-11
 /* What friction weighs against normal reactions where reactions are not unique. */
 #define FROT_FRICTION_WEIGHT 1e-5
 /* Passes of Newton's method on the directions of pins' reactions. */
 #define FROT_PIN_PASSES 60
 /* Part of a pin's reaction missed below which the next pass, twice as exact, is the last. */
 #define FROT_PIN_CLOSE 1e-9
+
+/* -- equations --------------------------------------------------------------------------------- */
+/* Residual of a block, in the sizes of its terms, that is a solution if nothing improves it; one
+ * within FROT_ROUNDING always is. */
+#define FROT_SETTLED 1e-9
+/* Part of Newton's step below which nothing improves: in a block, at the start. */
+#define FROT_LEAST_DAMPING 1e-12
+#define FROT_LEAST_DAMPING_AT_START 1e-9
+/* Size of a state for the projection, in the largest of its kind, while it is still small. */
+#define FROT_LEAST_SIZE 1e-3
+/* Error of the solution of a linear system, in its terms, that pivoting is missed by. */
+#define FROT_GROWN 1e-10
+/* Change, in sizes of the scene, that no statement asks for: what an equation does not depend on
+ * but for rounding would be moved so far that the rounding there fits. */
+#define FROT_FAR 1e10
+/* Part by which a place must be nearer to be taken instead. */
+#define FROT_NEARER 1e-6
 
 /* -- admissible motions ------------------------------------------------------------------------ */
 /* A bound may be passed, a reaction be negative by this part of its terms. */

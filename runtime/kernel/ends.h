@@ -1,0 +1,22 @@
+/* The ends of a step: the slope at its start, and how large values and guards are there. */
+#ifndef FROT_ENDS_H
+#define FROT_ENDS_H
+
+#include "state.h"
+
+/* Derivative at the start of the step from t into stage 0, the values there into w->z0; lists the
+ * guards. FROT_OK or a status that is not recorded as a fault. */
+int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t);
+
+/* Sizes of the guards' terms at (t, z) into w->guard and the pins' reactions into w->end_reaction;
+ * the last evaluation was there. */
+void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z);
+
+/* Note how large values and guards have been, after frot_measure_end at z. */
+void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z);
+
+/* Turn the pins' references to their reactions at the end of the step, and with them the guards in
+ * its slope. */
+void frot_turn_at_end(const frot_model *m, frot_state *s, frot_work *w, double *slope);
+
+#endif

@@ -1,0 +1,84 @@
+#include "error.h"
+
+#include <math.h>
+
+#include "implicit.h"
+#include "sizes.h"
+#include "stages.h"
+#include "tolerances.h"
+
+/* Size against which the error of value j is measured: the largest it has had, or what the step
+ * brings it by what is known at its start. The step's own result is no witness, but where a value
+ * begins at zero without any rate there is no other. */
+static double size_at_start(const frot_model *m, const frot_state *s, const frot_work *w, int j,
+                            double h) {
+  double size = fmax(s->data[w->layout.scale_x + j], fabs(w->z0[j])), change = h * fabs(w->k[j]);
+  if (j < m->nq && m->q_speed[j] < 0) return w->own_size[j];
+  if (j < m->nq) change += h * h * fabs(w->k[m->nq + m->q_speed[j]]);
+  size = fmax(size, change);
+  return size > 0 ? size : fabs(w->z1[j] - w->z0[j]);
+}
+
+/* What the step brings the states that are no coordinates, by their slopes at its start. Where that
+ * leaves a size of zero, by the first slope that is not: of what begins with the step nothing else
+ * is known, and later ones may be wild where the step is far too long. */
+static void size_own_states(const frot_model *m, const frot_state *s, frot_work *w, double h) {
+  for (int j = 0; j < m->nq; j++) w->change[j] = h * fabs(w->k[j]);
+  if (!frot_state_sizes(m, s, w)) return;
+  for (int j = 0; j < m->nq; j++)
+    for (int k = 1; m->q_speed[j] < 0 && w->own_size[j] == 0 && w->change[j] == 0; k++) {
+      if (k > DP_STAGES) break;
+      w->change[j] = h * fabs(frot_stage(w, k)[j]);
+    }
+  frot_state_sizes(m, s, w);
+}
+
+/* The worst estimate of the local error over its bound, and in w->worst the value it is of. */
+static double worst_error(const frot_model *m, const frot_state *s, frot_work *w, double h) {
+  const frot_layout *l = &w->layout;
+  double tolerance = fmax(FROT_EXPLICIT_SHARE * s->tolerance, FROT_LEAST_TOLERANCE), worst = 0;
+  double guard_tolerance = frot_guard_tolerance(s->tolerance);
+  double e5[FROT_CHUNK], e3[FROT_CHUNK];
+  int end = frot_width(w);
+  w->worst = -1;
+  for (int j = 0; j < end; j++) {
+    int at = j % FROT_CHUNK, size = end - j < FROT_CHUNK ? end - j : FROT_CHUNK;
+    if (at == 0) {
+      frot_weigh_stages(w, dp_e5, DP_STAGES + 1, j, size, e5);
+      frot_weigh_stages(w, dp_e3, DP_STAGES + 1, j, size, e3);
+    }
+    if (j >= m->nq + m->nv && j < l->nx) continue; /* energies follow */
+    if (e5[at] == 0 && e3[at] == 0) continue;
+    double bound, noise = 0, fifth = h * e5[at], third = h * e3[at];
+    if (j < l->nx) {
+      int plain = j < m->nq && m->q_speed[j] < 0;
+      noise = (plain ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN) * h * s->data[l->noise + j];
+      bound = tolerance * size_at_start(m, s, w, j, h);
+      if (plain) bound = fmax(bound, noise), noise = 0; /* no inertia smooths it */
+    } else {
+      double largest = FROT_GUARD_LOOSEST * s->data[l->scale_g + w->guards[j - l->nx]];
+      for (int k = 0; k <= DP_STAGES; k++) largest = fmax(largest, fabs(frot_stage(w, k)[j]));
+      bound = guard_tolerance * h * largest;
+    }
+    double joint = sqrt(fifth * fifth + 0.01 * third * third);
+    double error = joint > 0 ? fifth * fifth / joint : joint;
+    /* what rounding makes grows with the step as its bound does: it is no reason for a shorter one
+     */
+    double ratio = error <= noise ? 0 : (error - noise) / bound;
+    if (!(ratio <= worst)) worst = ratio, w->worst = j < m->nq + m->nv ? j : -1;
+    if (isnan(worst)) break;
+  }
+  return worst;
+}
+
+double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  if (s->implicit) return frot_implicit_error(m, s, w, h);
+  size_own_states(m, s, w, h);
+  double worst = worst_error(m, s, w, h);
+  if (!(worst > FROT_LIMITING) || w->worst < 0 || w->worst >= m->nq ||
+      !frot_is_small(m, s, w, w->worst))
+    return worst;
+  int no_jacobian = !m->has_jacobian || frot_implicit_begin(m, s, w, t) != FROT_OK;
+  frot_raise_small(m, s, w, h, no_jacobian);
+  return worst_error(m, s, w, h);
+}

@@ -1,0 +1,18 @@
+/* The estimate of a step's local error, and the sizes it is measured against. */
+#ifndef FROT_ERROR_H
+#define FROT_ERROR_H
+
+#include "state.h"
+
+/* Estimate of the local error of the step h just run, over its bound: at most 1 for a good step,
+ * NaN for no number. In w->worst the state it is of, or -1. The Jacobian is asked for only where a
+ * small state is what limits the step. */
+double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
+
+/* What rounding does to the derivatives at time t, into the state: that of the values and of the
+ * time, by their influence, and that of the evaluation, by what a second difference leaves where
+ * nothing bends so fast. A value whose derivative is nothing but rounding would shrink the step
+ * without end. The stages of the step are lost. */
+void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t);
+
+#endif

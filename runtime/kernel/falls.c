@@ -1,0 +1,129 @@
+#include "falls.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "groups.h"
+#include "roots.h"
+#include "stages.h"
+#include "tolerances.h"
+
+void frot_guard_polynomial(const frot_state *s, const frot_work *w, int guard, double h,
+                           double g[7]) {
+  const double *f = w->f + w->layout.nx + guard;
+  int nz = w->layout.nz;
+  for (int k = 0; s->implicit && k < 7; k++) g[k] = f[k * nz];
+  if (s->implicit) return;
+  for (int k = 0; k < 7; k++) {
+    double sum = 0;
+    for (int j = 0; j < DP_DENSE; j++) sum += dp_rate[k][j] * f[j * nz];
+    g[k] = sum / h;
+  }
+}
+
+/* The value below which guard j, at zero to rounding at time t, counts as fallen. */
+static double fallen(const frot_model *m, const frot_state *s, const frot_work *w, int j, double t,
+                     double slope) {
+  double size = s->data[w->layout.scale_g + j];
+  if (j < frot_condition_guard(m)) return FROT_ZERO * size;
+  return FROT_CONDITION_ZERO * size + 8 * DBL_EPSILON * fabs(t) * fabs(slope);
+}
+
+double frot_close_to_fall(const frot_model *m, const frot_state *s, const frot_work *w, int k,
+                          double t, double slope) {
+  double size = s->data[w->layout.scale_g + w->guards[k]];
+  if (w->guards[k] < frot_condition_guard(m)) return FROT_LOCATED * size;
+  return FROT_GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * fabs(slope);
+}
+
+/* Whether condition j is lost at the start of the step, where it is zero. One at whose coming to
+ * hold a `when` fired may be lost however little it moves: a ball leaves the floor, and rounding
+ * would hide the jump and the next fall with it. What a `reinit` has left at zero without a rate
+ * does not hold there: it may come to hold again. */
+static int lost_at_once(const frot_state *s, const frot_work *w, int j, const double g[7],
+                        double inside, int falls) {
+  double rise = g[1] - g[0];
+  if (s->data[w->layout.fresh + j] == 0) return falls && g[0] <= 0 && rise < 0;
+  return rise < (s->jumped ? FROT_FLAT : -2 * FROT_ROUNDING) * inside;
+}
+
+int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work *w, double t,
+                       double h, double *theta) {
+  int found = -1, conditions = frot_condition_guard(m);
+  *theta = FROT_NO_ROOT;
+  for (int k = 0; k < w->n_guards; k++) {
+    double g[7];
+    int j = w->guards[k];
+    frot_guard_polynomial(s, w, k, h, g);
+    double size = s->data[w->layout.scale_g + j], inside = 0;
+    for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
+    size = fmax(size, inside);
+    double slope = 6 * fabs(g[1] - g[0]) / h, first = g[0];
+    /* what is zero at the start but for rounding, and rises, has not fallen */
+    for (int i = 0;
+         j < conditions && i < 6 && g[i] < 0 && g[i] >= -FROT_ZERO * size && g[i + 1] > g[i]; i++)
+      g[i] = 0;
+    double at = frot_first_fall(g, FROT_GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * slope);
+    if (j >= conditions && fabs(first) <= FROT_ZERO * size &&
+        lost_at_once(s, w, j - conditions, g, inside, at < FROT_NO_ROOT))
+      at = 0;
+    if (at < *theta) *theta = at, found = k;
+  }
+  return found;
+}
+
+void frot_fire_at_start(frot_state *s, const frot_work *w, int guard) {
+  const frot_layout *l = &w->layout;
+  s->data[l->fired + w->guards[guard]] = 1;
+  memcpy(s->data + l->slope, w->k, sizeof(double) * (size_t)l->nz);
+  s->pending = 1;
+}
+
+void frot_fire_guards(const frot_model *m, frot_state *s, const frot_work *w, int first, double t,
+                      double h) {
+  int nx = w->layout.nx;
+  const double *end = frot_stage(w, DP_STAGES) + nx, *start = frot_stage(w, 0) + nx;
+  for (int k = 0; k < w->n_guards; k++) {
+    double g[7];
+    frot_guard_polynomial(s, w, k, h, g);
+    double limit = fallen(m, s, w, w->guards[k], t + h, 6 * (g[6] - g[5]) / h);
+    if (k == first || (end[k] <= limit && start[k] > limit))
+      s->data[w->layout.fired + w->guards[k]] = 1;
+  }
+  s->pending = 1;
+}
+
+/* The listed guard of the first condition: they are all listed, last. */
+static int first_condition(const frot_model *m, const frot_work *w) {
+  return w->n_guards - m->n_located;
+}
+
+int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
+                          double *part) {
+  const double *d = s->data + w->layout.d;
+  const double *start = w->k + w->layout.nx + first_condition(m, w);
+  int passed = -1;
+  if (m->n_located == 0 || !frot_all_finite(w->z1, m->nq + m->nv)) return -1;
+  memcpy(w->y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  if (frot_kinematics(m, s, w, w->t, w->z1, w->z1 + m->nq, d) != FROT_OK) return -1;
+  *part = 1;
+  for (int j = 0; j < m->n_located; j++) {
+    double value = d[j] != 0 ? w->condition[j] : -w->condition[j];
+    if (!(value < 0 && start[j] >= 0)) continue;
+    double at = (w->t - t) / h * start[j] / (start[j] - value);
+    if (at <= *part) *part = at, passed = j;
+  }
+  return passed;
+}
+
+int frot_condition_at_zero(const frot_model *m, const frot_state *s, const frot_work *w) {
+  int first = first_condition(m, w);
+  const double *guard = w->k + w->layout.nx + first;
+  for (int j = 0; j < m->n_located; j++)
+    if (fabs(guard[j]) <=
+        FROT_GUARD_FLOOR * s->data[w->layout.scale_g + frot_condition_guard(m) + j])
+      return first + j;
+  return -1;
+}

@@ -1,0 +1,38 @@
+/* Guards that fall inside a step, by their dense output: its derivative follows each of them at no
+ * cost in evaluations. */
+#ifndef FROT_FALLS_H
+#define FROT_FALLS_H
+
+#include "state.h"
+
+/* Bernstein coefficients of the listed guard k over the step h, after frot_make_dense. */
+void frot_guard_polynomial(const frot_state *s, const frot_work *w, int k, double h, double g[7]);
+
+/* The first listed guard to fall inside the step h from t, the part of the step after which it does
+ * in *theta; -1 when none does. A guard that was zero at an event is known no better than its slope
+ * times the resolution of time. */
+int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work *w, double t,
+                       double h, double *theta);
+
+/* The value below which the listed guard k, known with that slope in time, has fallen at t. */
+double frot_close_to_fall(const frot_model *m, const frot_state *s, const frot_work *w, int k,
+                          double t, double slope);
+
+/* Fire the listed guards that have come to zero together with the first one at the end of the step.
+ */
+void frot_fire_guards(const frot_model *m, frot_state *s, const frot_work *w, int first, double t,
+                      double h);
+/* Fire a listed guard at the start, where no step is possible. */
+void frot_fire_at_start(frot_state *s, const frot_work *w, int guard);
+
+/* After a stage that gave no number (its argument in w->z1): a located condition may have passed
+ * through zero before it, beyond which its branch has no value, as a root. The first such one, -1
+ * if none; *part is the part of the step h from t after which it seems to be zero. */
+int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
+                          double *part);
+
+/* Where no step is possible: the listed guard of a condition that is zero there, so that the branch
+ * may end before it, as that of a tank that runs empty. -1 if there is none. */
+int frot_condition_at_zero(const frot_model *m, const frot_state *s, const frot_work *w);
+
+#endif

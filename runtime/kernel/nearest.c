@@ -1,0 +1,176 @@
+#include "nearest.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "linear.h"
+#include "tolerances.h"
+
+#define PASSES 60
+
+int frot_opening_metric(frot_opening *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int count = 0;
+  const frot_contact_mode *modes = (const void *)(p->s->data + frot_layout_of(m).modes);
+  int status = frot_dynamics(m, p->s, w, p->t, p->q, p->v, p->d, modes, FROT_MOTION);
+  if (status == FROT_OK) status = frot_metric(m, w);
+  if (status != FROT_OK) return status;
+  for (int k = 0; k < frot_opening_count(p); k++) count += frot_is_attached(p, k);
+  for (int a = 0, i = 0; a < frot_opening_count(p); a++) {
+    if (!frot_is_attached(p, a)) continue;
+    for (int b = 0, j = 0; b < frot_opening_count(p); b++)
+      if (frot_is_attached(p, b))
+        w->position_factor[count * j++ + i] =
+            frot_metric_entry(m, w, frot_speed_behind(p, a), frot_speed_behind(p, b));
+    i++;
+  }
+  p->factor = w->position_factor, p->order = p->attached = count;
+  return frot_cholesky(w->position_factor, count) ? FROT_SINGULAR : FROT_OK;
+}
+
+/* y <- L^-1 x: a row in the units of the metric; the attached unknowns come first. */
+static void into_metric(const frot_opening *p, const double *x, double *y) {
+  int first = 0, other = p->attached;
+  for (int k = 0; k < frot_opening_count(p); k++) {
+    if (frot_is_attached(p, k))
+      y[first++] = x[k];
+    else
+      y[other++] = x[k] * p->w->unit[k];
+  }
+  frot_forward(p->factor, p->order, p->attached, y);
+}
+
+double frot_move_opening(const frot_opening *p, const double *y, const double *x0, double part,
+                         double *x, double *size) {
+  int first = 0, other = p->attached;
+  double largest = 0;
+  *size = 0;
+  for (int k = 0; k < frot_opening_count(p); k++) {
+    double change = part * (frot_is_attached(p, k) ? y[first++] : y[other++] * p->w->unit[k]);
+    x[k] = x0[k] + change;
+    largest = fmax(largest, fabs(change)), *size = fmax(*size, fabs(x[k]));
+  }
+  return largest;
+}
+
+/* Sum of the squares of the residuals, each as the change that would remove it alone, so that units
+ * do not matter, and whether they are all near rounding. */
+static double square(const frot_opening *p, int *close) {
+  double sum = 0;
+  *close = 1;
+  for (int i = 0; i < p->n; i++) {
+    double change = p->w->residual[i] * p->w->row_weight[i];
+    sum += change * change;
+    if (!frot_statement_agrees(p, i, 0)) *close = 0;
+  }
+  return sum;
+}
+
+void frot_least_change(const frot_opening *p, const double *from) {
+  frot_work *w = p->w;
+  int nx = frot_opening_count(p);
+  double *a = w->active, *b = w->right, *y = w->step;
+  for (int i = 0; i < p->n; i++) {
+    into_metric(p, w->jacobian + nx * i, y);
+    double length = sqrt(frot_dot(y, y, nx)), *weight = w->row_weight + i;
+    *weight = length > 0 && isfinite(1 / length) ? 1 / length : 0;
+    for (int k = 0; k < nx; k++) a[k * p->n + i] = y[k] * *weight;
+    b[i] = -w->residual[i];
+    for (int k = 0; from != NULL && k < nx; k++)
+      b[i] += w->jacobian[nx * i + k] * (frot_opening_unknown(p)[k] - from[k]);
+    b[i] *= *weight;
+  }
+  frot_least_norm(a, b, p->n, nx, y, w->lstsq, w->pivot);
+  frot_backward(p->factor, p->order, p->attached, y);
+}
+
+/* Take the change of w->step, or the part of it that improves the residuals. Returns whether the
+ * values have come to rest: nothing improves, or nothing moves any more. */
+static int take(frot_opening *p) {
+  frot_work *w = p->w;
+  double *x = frot_opening_unknown(p), *x0 = w->ztry, size, moved;
+  int close;
+  double before = square(p, &close);
+  memcpy(x0, x, sizeof(double) * (size_t)frot_opening_count(p));
+  memcpy(w->y_end, w->y, sizeof(double) * (size_t)p->m->ny);
+  for (double part = 1; part > FROT_LEAST_DAMPING_AT_START; part *= 0.5) {
+    moved = frot_move_opening(p, w->step, x0, part, x, &size);
+    if (part == 1 && moved > FROT_FAR * p->scene) break;
+    if (moved <= 4 * DBL_EPSILON * size) return 1;
+    if (frot_evaluate_statements(p) == FROT_OK && (square(p, &close) <= before || close)) return 0;
+    memcpy(w->y, w->y_end, sizeof(double) * (size_t)p->m->ny);
+  }
+  memcpy(x, x0, sizeof(double) * (size_t)frot_opening_count(p));
+  return 1;
+}
+
+/* The size of what is stated and of the values where the search begins. */
+static double scene_of(const frot_opening *p) {
+  const double *x = frot_opening_unknown(p);
+  double scene = 0;
+  for (int k = 0; k < frot_opening_count(p); k++) scene = fmax(scene, fabs(x[k]));
+  for (int i = 0; i < p->n; i++) scene = fmax(scene, fmax(fabs(p->w->residual[i]), p->w->size[i]));
+  return scene;
+}
+
+/* Damped Gauss-Newton to the nearest values in the metric. */
+static int solve(frot_opening *p) {
+  frot_work *w = p->w;
+  double last = INFINITY;
+  if (frot_opening_count(p) == 0) return FROT_OK;
+  for (int k = 0; !p->velocity && k < p->m->nq; k++) w->unit[k] = p->q[k] != 0 ? fabs(p->q[k]) : 1;
+  for (int pass = 0;; pass++) {
+    int status = frot_opening_metric(p);
+    if (status == FROT_OK) status = frot_evaluate_statements(p);
+    if (status != FROT_OK) return frot_no_number(p, status);
+    int good = 1;
+    double largest = 0; /* relative to the terms */
+    for (int i = 0; i < p->n; i++) {
+      double off = fabs(w->residual[i]), size = frot_statement_size(p, i);
+      if (pass == 0) w->off_at_first[i] = off;
+      if (off > 2 * DBL_EPSILON * size) good = 0;
+      size = fmax(size, w->off_at_first[i]);
+      if (off > 0) largest = fmax(largest, off / size);
+    }
+    if (pass == 0) p->scene = scene_of(p);
+    if (good || p->n == 0) return FROT_OK;
+    if (pass > 3 && largest >= last && largest <= FROT_AGREES) return FROT_OK;
+    last = largest;
+    frot_least_change(p, NULL);
+    if (!take(p) && pass < PASSES - 1) continue;
+    status = frot_evaluate_statements(p);
+    if (status != FROT_OK) return frot_no_number(p, status);
+    for (int i = 0; i < p->n; i++)
+      if (!frot_statement_agrees(p, i, w->off_at_first[i])) return frot_contradiction(p);
+    return FROT_OK;
+  }
+}
+
+/* What a statement says of one unknown alone holds to the last digit: the least change, which moves
+ * all of them, leaves it with rounding. */
+static int keep_stated(frot_opening *p) {
+  double *x = frot_opening_unknown(p);
+  int nx = frot_opening_count(p), moved = 0;
+  for (int i = 0; i < p->n; i++) {
+    const double *row = p->w->jacobian + nx * i;
+    int only = -1, count = 0;
+    for (int k = 0; k < nx; k++)
+      if (row[k] != 0) only = k, count++;
+    if (count != 1 || p->w->residual[i] == 0) continue;
+    x[only] -= p->w->residual[i] / row[only], moved = 1;
+  }
+  if (!moved) return FROT_OK;
+  int status = frot_evaluate_statements(p);
+  return status == FROT_OK ? FROT_OK : frot_no_number(p, status);
+}
+
+int frot_solve_nearest(frot_opening *p) {
+  int status = solve(p);
+  if (status == FROT_OK && frot_opening_count(p) > 0) status = keep_stated(p);
+  if (status != FROT_OK) return status;
+  status = frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
+  return status == FROT_OK ? FROT_OK : frot_no_number(p, status);
+}

@@ -1,0 +1,25 @@
+/* The values nearest to given ones, in the metric of the mass, at which the statements hold. */
+#ifndef FROT_NEAREST_H
+#define FROT_NEAREST_H
+
+#include "statements.h"
+
+/* Damped Gauss-Newton from the present values. What a statement says of one unknown alone holds to
+ * the last digit. Leaves kinematics evaluated there. FROT_OK or the status of the fault recorded.
+ */
+int frot_solve_nearest(frot_opening *p);
+
+/* The metric at the present values: that of the speeds for the unknowns that have one (their number
+ * in p->attached, its factor in p->factor), for the others the size of their guess. */
+int frot_opening_metric(frot_opening *p);
+
+/* Least change of the unknowns that removes the residuals to first order, over L, into w->step.
+ * With `from`, the change from there is the least one, that is from the present values what is left
+ * of it. Each row is divided by its length in the metric. */
+void frot_least_change(const frot_opening *p, const double *from);
+
+/* x <- x0 + part * L'^-1 y. Returns the largest change, and in *size the largest value. */
+double frot_move_opening(const frot_opening *p, const double *y, const double *x0, double part,
+                         double *x, double *size);
+
+#endif

@@ -1,0 +1,61 @@
+/* What rounding does to derivatives: see error.h. */
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "error.h"
+#include "mechanics.h"
+#include "stages.h"
+#include "tolerances.h"
+
+/* Accelerations that are nothing but rounding of their terms in all stages of the step: what they
+ * bring is noise, however small the values moved (a value that is zero shows none by being moved).
+ */
+static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, double t,
+                         const double *largest) {
+  double *noise = s->data + w->layout.noise, *size = w->residual;
+  frot_acceleration_sizes(m, s, w, t, w->z0, w->z0 + m->nq, s->data + w->layout.d, size);
+  for (int k = 0; k < m->nv; k++) {
+    double rounding = FROT_ROUNDING * size[k];
+    if (largest[m->nq + k] <= FROT_NOISE_MARGIN * rounding)
+      noise[m->nq + k] = fmax(noise[m->nq + k], rounding);
+  }
+}
+
+static int slope_from_start(const frot_model *m, frot_state *s, frot_work *w, double t,
+                            const double *z, double *slope) {
+  memcpy(w->y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  return frot_slope(m, s, w, t, z, slope);
+}
+
+void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
+  double *base = frot_stage(w, 1), *forth = frot_stage(w, 2), *back = frot_stage(w, 3);
+  double *noise = s->data + w->layout.noise, *largest = w->f;
+  int n = m->nq + m->nv;
+  for (int j = 0; j < n; j++) {
+    largest[j] = 0;
+    for (int i = 0; i <= DP_STAGES; i++) largest[j] = fmax(largest[j], fabs(frot_stage(w, i)[j]));
+  }
+  if (slope_from_start(m, s, w, t, w->z0, base) != FROT_OK) return;
+  memset(noise, 0, sizeof(double) * (size_t)n);
+  for (int pattern = 0; pattern < 2; pattern++) {
+    for (int side = 0; side < 2; side++) {
+      double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
+      memcpy(w->ztry, w->z0, sizeof(double) * (size_t)w->layout.nz);
+      for (int j = 0; j < n; j++) w->ztry[j] *= 1 + (((j >> pattern) & 1) != 0 ? moved : -moved);
+      if (slope_from_start(m, s, w, t * (1 + moved), w->ztry, there) != FROT_OK) return;
+    }
+    for (int j = 0; j < n; j++) {
+      double sensitivity = 0.5 * fabs(forth[j] - back[j]) * (FROT_NUDGE / FROT_APART);
+      double rounding = 0.5 * fabs(forth[j] - 2 * base[j] + back[j]);
+      noise[j] = fmax(noise[j], sensitivity + rounding);
+    }
+  }
+  if (frot_slope(m, s, w, t, w->z0, base) == FROT_OK) add_rounding(m, s, w, t, largest);
+  /* a position can be no better than its speed */
+  for (int j = 0; j < m->nq; j++) {
+    if (m->q_speed[j] < 0) continue;
+    int speed = m->nq + m->q_speed[j];
+    noise[j] = fmax(noise[j], fmax(FROT_NUDGE * fabs(w->z0[speed]), fabs(s->h) * noise[speed]));
+  }
+}

@@ -1,0 +1,58 @@
+#include "segment.h"
+
+#include <string.h>
+
+void frot_interpolate(const frot_model *m, const frot_segment *g, double t, double *x) {
+  int nx = frot_layout_of(m).nx;
+  double theta = *g->h > 0 ? (t - *g->t0) / *g->h : 0, one = 1 - theta;
+  for (int j = 0; j < nx; j++) {
+    double sum = 0;
+    for (int i = DP_DENSE - 1; i >= 0; i--) {
+      sum += g->f[i * nx + j];
+      sum *= i % 2 == 0 ? theta : one;
+    }
+    x[j] = g->x0[j] + sum;
+  }
+}
+
+void frot_guess_unknowns(const frot_model *m, frot_work *w, const frot_segment *g, double t) {
+  double theta = *g->h > 0 ? (t - *g->t0) / *g->h : 0;
+  for (int k = 0; k < m->ny; k++) w->y[k] = g->y0[k] + theta * (g->y1[k] - g->y0[k]);
+}
+
+static void copy_modes(const frot_model *m, frot_state *s, const frot_layout *l,
+                       const frot_segment *g) {
+  memcpy(g->modes, s->data + l->modes, sizeof *g->modes * (size_t)(m->n_contacts + m->n_elements));
+  memcpy(g->along, s->data + l->along, sizeof(double) * 2 * (size_t)m->n_elements);
+  memcpy(g->d, s->data + l->d, sizeof(double) * (size_t)l->nd);
+  memcpy(g->frozen, s->data + l->frozen, sizeof(double) * (size_t)m->nv);
+}
+
+void frot_make_instant(const frot_model *m, frot_state *s, const frot_work *w, double t,
+                       const double *x) {
+  frot_layout l = frot_layout_of(m);
+  frot_segment g = frot_segment_at(m, s->data + l.segment);
+  *g.t0 = *g.t1 = t;
+  *g.h = 0;
+  copy_modes(m, s, &l, &g);
+  memcpy(s->data + l.y, w->y, sizeof(double) * (size_t)m->ny);
+  memcpy(g.y0, w->y, sizeof(double) * (size_t)m->ny);
+  memcpy(g.y1, w->y, sizeof(double) * (size_t)m->ny);
+  memcpy(g.x0, x, sizeof(double) * (size_t)l.nx);
+  memset(g.f, 0, sizeof(double) * DP_DENSE * (size_t)l.nx);
+  memmove(s->data + l.x, x, sizeof(double) * (size_t)l.nx);
+  s->has_slope = 0;
+}
+
+void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, double t, double h,
+                    double end) {
+  frot_layout l = frot_layout_of(m);
+  frot_segment g = frot_segment_at(m, s->data + l.segment);
+  *g.t0 = t, *g.t1 = end, *g.h = h;
+  copy_modes(m, s, &l, &g);
+  memcpy(g.y0, s->data + l.y, sizeof(double) * (size_t)m->ny);
+  memcpy(g.y1, w->y_end, sizeof(double) * (size_t)m->ny);
+  memcpy(g.x0, w->z0, sizeof(double) * (size_t)l.nx);
+  for (int i = 0; i < DP_DENSE; i++)
+    memcpy(g.f + i * l.nx, w->f + i * l.nz, sizeof(double) * (size_t)l.nx);
+}

@@ -1,0 +1,32 @@
+#include "sides.h"
+
+#include "core.h"
+#include "tolerances.h"
+
+void frot_look_at_sides(const frot_opening *p) {
+  frot_inputs(p->m, p->s, p->w, &p->t, p->q, p->v, p->d);
+  p->w->res[0] = p->w->witness, p->w->res[1] = p->w->reach;
+  p->m->sides.call(p->w->arg, p->w->res, p->w->iw, p->w->w, 0);
+}
+
+static int sign_beyond(double x, double rounding) {
+  return x > rounding ? 1 : x < -rounding ? -1 : 0;
+}
+
+int frot_choose_sides(const frot_opening *p, double *side, int natural) {
+  const frot_model *m = p->m;
+  int changes = 0;
+  frot_look_at_sides(p);
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!frot_has_normal(&m->contacts[i])) continue;
+    const double *witness = p->w->witness + 3 * i;
+    double rounding = FROT_TOUCH * frot_length_size(m, p->w, i, p->q);
+    int sign = natural ? 0 : sign_beyond(witness[0], rounding);
+    if (sign == 0) sign = sign_beyond(witness[1], FROT_TOUCH);
+    if (sign == 0) sign = sign_beyond(witness[2], rounding);
+    if (sign == 0) sign = 1;
+    changes += sign != (int)side[i];
+    side[i] = sign;
+  }
+  return changes;
+}

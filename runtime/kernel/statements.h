@@ -1,0 +1,56 @@
+/* The equations that hold at the start: the statements of the section `initial`, then the contacts
+ * that are to touch. */
+#ifndef FROT_STATEMENTS_H
+#define FROT_STATEMENTS_H
+
+#include "state.h"
+
+/* One system to solve: for coordinates, or for speeds. */
+typedef struct {
+  const frot_model *m;
+  frot_state *s;
+  frot_work *w;
+  double t, *q, *v;
+  const double *d;
+  unsigned char *use;   /* per contact: its gap or its normal speed is to be zero */
+  int velocity, n;      /* for speeds; equations of the last evaluation */
+  const double *factor; /* of the metric of the unknowns that have a speed, of the given order */
+  int order, attached;
+  double scene; /* largest value, term and residual where the search begins */
+  int wide;     /* the search may begin elsewhere too */
+} frot_opening;
+
+static inline double *frot_opening_unknown(const frot_opening *p) {
+  return p->velocity ? p->v : p->q;
+}
+static inline int frot_opening_count(const frot_opening *p) {
+  return p->velocity ? p->m->nv : p->m->nq;
+}
+/* The speed behind unknown k, -1 for a coordinate that has none. */
+static inline int frot_speed_behind(const frot_opening *p, int k) {
+  return p->velocity ? k : p->m->q_speed[k];
+}
+static inline int frot_is_attached(const frot_opening *p, int k) {
+  return frot_speed_behind(p, k) >= 0;
+}
+
+/* Residuals (w->residual), the rows of the Jacobian (w->jacobian) and the sizes of the terms
+ * (w->size); sets p->n. FROT_OK or the status of a failed evaluation. */
+int frot_evaluate_statements(frot_opening *p);
+
+/* Size of the terms of equation i at the present values. */
+double frot_statement_size(const frot_opening *p, int i);
+/* Whether equation i holds, against the sizes of its terms and its residual before. */
+int frot_statement_agrees(const frot_opening *p, int i, double before);
+
+/* Size of the terms of a contact's gap, of those too that cancel out. */
+double frot_length_size(const frot_model *m, const frot_work *w, int contact, const double *q);
+
+/* Record as a fault the statement with the largest residual and the one most at odds with it. */
+int frot_contradiction(const frot_opening *p);
+/* Record that an initial statement, or a load at the start, is no number. */
+int frot_no_number(const frot_opening *p, int status);
+/* Forget the fault: the search goes on elsewhere. */
+void frot_clear_opening(const frot_opening *p);
+
+#endif
