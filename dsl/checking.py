@@ -6,14 +6,15 @@ import sys
 
 from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
-from frot.dsl.declarations.instantiate import entities, instantiate, settle_all
+from frot.dsl.declarations.instantiate import declare_values, entities, instantiate, settle_all
 from frot.dsl.declarations.mechanism import give_laws
+from frot.dsl.expressions.rules import RULES
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.names.choose import choose
 from frot.dsl.names.classes import Class, Namespace
 from frot.dsl.names.imports import Libraries, tell_clashes
-from frot.dsl.names.scope import Build, Entity, Instance, TooLarge
+from frot.dsl.names.scope import Array, Build, Checks, Entity, Instance, TooLarge
 from frot.dsl.quantities.dimensions import REAL, Type
 from frot.dsl.statements.connections import Connections
 from frot.dsl.statements.equations import Leaf, Sink, statement, unfold
@@ -28,9 +29,8 @@ from frot.dsl.statements.settings import (
 )
 from frot.dsl.statements.when import mark_discrete, when
 from frot.dsl.text import tree
-from frot.dsl.text.collecting import without_collection
-from frot.dsl.warn import warn
-from frot.dsl.warn_angles import warn_angles
+from frot.dsl.text.build import without_collection
+from frot.dsl.warn import warn, warn_angles
 
 # Frames of Python: nested expressions in declarations that wait for one another.
 _DEEPEST = 10_000
@@ -138,7 +138,9 @@ def _build(of: Class, planar: bool, libraries: Libraries, log: Log) -> Build:
             "normal": _vector((0.0, 0.0, 1.0), REAL, source),
         }
         places["plane"] = checked.Surface("plane", ground, "plane", arguments, None)
-    return Build(log, planar, ground, places, libraries, Connections())
+    return Build(
+        log, planar, ground, places, libraries, Connections(), Checks(RULES, declare_values)
+    )
 
 
 def _vector(values: tuple[float, ...], kind: Type, source: Source) -> checked.Vector:
@@ -149,8 +151,6 @@ def _vector(values: tuple[float, ...], kind: Type, source: Source) -> checked.Ve
 
 def _give_laws(instance: Instance) -> None:
     """Laws are read once every name has its meaning: they may name any coordinate."""
-    from frot.dsl.names.scope import Array
-
     for node, scope in instance.statements.liaisons:
         declared = scope.find(node.name.text)
         if isinstance(declared, Array):

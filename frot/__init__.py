@@ -12,7 +12,7 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from frot.dsl.messages.diagnostics import FrotError
+    from frot.dsl.messages.errors import FrotError
     from frot.model import Model, compile, load
     from frot.runtime.result import Event, Result
     from frot.runtime.run import Interrupted, SimulationError

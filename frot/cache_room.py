@@ -44,7 +44,7 @@ def tell_cache(limit: str | None, clear: bool) -> str:
 
 def _note(limit: int) -> None:
     """Note the limit, in a folder that is made if need be."""
-    from frot.dsl.messages.diagnostics import fail
+    from frot.dsl.messages.errors import fail
 
     cache = cache_folder()
     try:

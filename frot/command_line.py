@@ -41,7 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _discard_output()
         return EXIT_ERROR
     except Exception as error:
-        from frot.dsl.messages.diagnostics import FrotError
+        from frot.dsl.messages.errors import FrotError
 
         if not isinstance(error, FrotError):
             raise
@@ -269,7 +269,7 @@ def _cache(options: argparse.Namespace) -> int:
 
 def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
     """Run a command on each file; the error of one does not keep it from the others."""
-    from frot.dsl.messages.diagnostics import FrotError
+    from frot.dsl.messages.errors import FrotError
 
     status = 0
     for file in files:
@@ -331,7 +331,7 @@ def _fmu(options: argparse.Namespace) -> int:
 
 
 def _complain(error: Exception) -> None:
-    from frot.dsl.messages.diagnostics import FrotError
+    from frot.dsl.messages.errors import FrotError
 
     assert isinstance(error, FrotError)
     _tell(error.diagnostics)

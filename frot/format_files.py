@@ -9,7 +9,7 @@ from pathlib import Path
 
 from frot.dsl import Log, format_text
 from frot.dsl.files.reading import decode, read_text
-from frot.dsl.messages.diagnostics import FrotError
+from frot.dsl.messages.errors import FrotError
 
 STANDARD_INPUT = "-"
 

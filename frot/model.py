@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from frot.compiler import find_program, find_toolchain, program_key
 from frot.dsl.files.import_scan import imported_files
 from frot.dsl.files.reading import read_text
-from frot.dsl.messages.diagnostics import Diagnostic, FrotError, Log, fail
+from frot.dsl.messages.diagnostics import Diagnostic, Log
+from frot.dsl.messages.errors import FrotError, fail
 
 if TYPE_CHECKING:
     from frot.compiler.product.dae import Dae

@@ -9,7 +9,7 @@ from frot.dsl import Log, Source, dump, load, parse, render_log
 from frot.dsl.checked.show import show_model
 from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostic_data import log_data
-from frot.dsl.messages.diagnostics import FrotError
+from frot.dsl.messages.errors import FrotError
 
 
 def report_file(path: str, name: str | None) -> str:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from frot.dsl.messages.diagnostics import fail
+from frot.dsl.messages.errors import fail
 from frot.runtime.program import Program
 from numpy.typing import NDArray
 

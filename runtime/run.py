@@ -7,7 +7,8 @@ import time as clock
 from collections.abc import Callable, Mapping
 
 import numpy as np
-from frot.dsl.messages.diagnostics import FrotError, Log, fail
+from frot.dsl.messages.diagnostics import Log
+from frot.dsl.messages.errors import FrotError, fail
 from frot.runtime.engine import (
     FULL,
     MOST_MEMORY,

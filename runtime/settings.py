@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 
 import numpy as np
-from frot.dsl.messages.diagnostics import fail
+from frot.dsl.messages.errors import fail
 from frot.runtime.program import ParameterInfo, Program, Unit
 
 _ITEM = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from frot.compiler.mechanics.names import component_names
 from frot.dsl.checked import Input, Parameter
-from frot.dsl.expressions.arrays import scalars
+from frot.dsl.checked.arrays import scalars
 
 T = TypeVar("T", Parameter, Input)
 

@@ -11,7 +11,7 @@ from frot.compiler.lowering.symbols import Symbols, column
 from frot.compiler.lowering.walk import subexpressions
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl.checked import Parameter, Reference, Variable
-from frot.dsl.names.order import in_order
+from frot.dsl.checked.order import in_order
 
 
 def parameters_needed(parameter: Parameter, symbols: Symbols) -> list[Parameter]:

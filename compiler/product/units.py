@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from frot.dsl.expressions.turns import factor_between, rate_of_kind, rate_of_unit
 from frot.dsl.quantities.dimensions import Dimension, dimension
+from frot.dsl.quantities.turns import factor_between, rate_of_kind, rate_of_unit
 from frot.dsl.quantities.units import parse_unit
 from frot.runtime.program import Unit
 

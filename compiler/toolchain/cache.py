@@ -20,7 +20,7 @@ from frot.compiler.toolchain.cache_size import UNFINISHED, read_limit, shrink, s
 from frot.compiler.toolchain.compilers import FLAGS, Toolchain
 from frot.compiler.toolchain.hold import Hold, hold
 from frot.compiler.toolchain.keeper import Keeper
-from frot.dsl.messages.diagnostics import fail
+from frot.dsl.messages.errors import fail
 from frot.runtime.program import MANIFEST, Program, read_program
 
 _ROOMS = ("frot.dsl", "frot.compiler", "frot.runtime")

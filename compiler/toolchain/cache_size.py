@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from frot.compiler.toolchain.hold import hold
-from frot.dsl.messages.diagnostics import fail
+from frot.dsl.messages.errors import fail
 
 # Folders of entries; files of the parser's tables lie beside them.
 KINDS = ("programs", "kernels")

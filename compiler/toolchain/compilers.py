@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from frot.compiler.toolchain.keeper import Keeper
-from frot.dsl.messages.diagnostics import fail
+from frot.dsl.messages.errors import fail
 
 FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off")
 LINK_FLAGS = ("-shared", "-lm")

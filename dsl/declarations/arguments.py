@@ -10,11 +10,13 @@ from frot.dsl import checked
 from frot.dsl.catalogue import Argument, vector
 from frot.dsl.checked.describe import describe, listed
 from frot.dsl.checked.evaluation import constant
-from frot.dsl.expressions.expressions import agrees, expect, expression
+from frot.dsl.expressions.expression import agrees, expect, expression
 from frot.dsl.expressions.known import check_bounds
+from frot.dsl.expressions.names import place, resolve
 from frot.dsl.messages.source import Span
-from frot.dsl.names.names import kind_of, place, resolve
-from frot.dsl.names.scope import Array, Scope, did_you_mean, near
+from frot.dsl.names.near import did_you_mean, near
+from frot.dsl.names.scope import Array, Scope
+from frot.dsl.names.things import kind_of
 from frot.dsl.quantities.dimensions import BOOLEAN, STRING, Type
 from frot.dsl.text import tree
 

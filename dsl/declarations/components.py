@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from frot.dsl import checked
+from frot.dsl.checked.arrays import element, zero
 from frot.dsl.checked.describe import describe, pair, written_unit
 from frot.dsl.checked.evaluation import constant
-from frot.dsl.expressions.expressions import (
+from frot.dsl.expressions.expression import (
     agrees,
     as_integer,
     expression,
@@ -15,10 +16,9 @@ from frot.dsl.expressions.expressions import (
     is_whole,
     value_of,
 )
-from frot.dsl.expressions.indexing import element, whole_number
 from frot.dsl.expressions.known import computed
-from frot.dsl.expressions.turns import as_rate
-from frot.dsl.messages.source import Span
+from frot.dsl.expressions.rates import as_rate
+from frot.dsl.expressions.structure import sizes
 from frot.dsl.names.modifiers import Modifier
 from frot.dsl.names.scope import Record, Scope
 from frot.dsl.names.types import Kind, modified
@@ -26,7 +26,6 @@ from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree
 
 Value = checked.Parameter | checked.Input | checked.Output | checked.Variable
-ROLES = ("parameter", "constant", "input", "output")
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,31 +37,6 @@ class Declared:
     role: str
     modifier: Modifier | None
     type_sizes: tuple[tree.Expression, ...] = ()
-
-
-def role_of(clause: tree.Component) -> str:
-    """`parameter`, `constant`, `input` or `output`; empty for a plain variable."""
-    return next((w.text for w in clause.prefixes if w.text in ROLES), "")
-
-
-def sizes(
-    subscripts: tuple[tree.Expression, ...], name: tree.Word, scope: Scope
-) -> tuple[int, ...] | None:
-    """The sizes of an array, known before the run; None after a message."""
-    found: list[int] = []
-    for node in subscripts:
-        if isinstance(node, tree.Range):
-            scope.log.report("E0304", "a size is one number", node.span)
-            return None
-        size = whole_number(node, scope, f"the size of {name.text!r}")
-        if size is None:
-            return None
-        if size < 1:
-            message = f"the size of {name.text!r} must be at least 1; it is {size}"
-            scope.log.report("E0402", message, node.span)
-            return None
-        found.append(size)
-    return tuple(found)
 
 
 def declare(what: Declared, scope: Scope) -> Value | None:
@@ -268,18 +242,6 @@ def _input(what: Declared, kind: Kind, scope: Scope) -> checked.Input | None:
     return checked.Input(
         item.name.text, kind.type, value, item.span, item.doc, unit or kind.unit, kind.name
     )
-
-
-def zero(kind: Type, span: Span) -> checked.Expression:
-    """The value of a type where nothing is said: 0, false, an empty text."""
-    zeros: dict[str, bool | str | float] = {"boolean": False, "string": ""}
-    found: checked.Expression = checked.Literal(
-        zeros.get(kind.base, 1.0 if kind.enumeration is not None else 0.0), kind.of_shape(()), span
-    )
-    for size in reversed(kind.shape):
-        inner = found.type
-        found = checked.Vector((found,) * size, inner.of_shape((size, *inner.shape)), span)
-    return found
 
 
 def _output(what: Declared, kind: Kind, scope: Scope) -> checked.Output | None:

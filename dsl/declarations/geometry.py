@@ -11,10 +11,12 @@ from frot.dsl.checked.describe import describe
 from frot.dsl.checked.evaluation import constant
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.declarations.user_kinds import check_shape
-from frot.dsl.expressions.expressions import agrees, expect, expression, fitting
+from frot.dsl.expressions.expression import agrees, expect, expression, fitting
 from frot.dsl.expressions.known import known, out_of_bounds
-from frot.dsl.names.names import kind_of, resolve
-from frot.dsl.names.scope import Array, Scope, did_you_mean
+from frot.dsl.expressions.names import resolve
+from frot.dsl.names.near import did_you_mean
+from frot.dsl.names.scope import Array, Scope
+from frot.dsl.names.things import kind_of
 from frot.dsl.names.types import find_class
 from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
 from frot.dsl.text import tree

@@ -6,9 +6,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
 
-from frot.dsl.declarations.components import Declared, declare, role_of, sizes
+from frot.dsl.checked.order import in_order
+from frot.dsl.declarations.components import Declared, declare
 from frot.dsl.declarations.geometry import body, curve, frame, surface
 from frot.dsl.declarations.mechanism import force, liaison
+from frot.dsl.expressions.records import binding
+from frot.dsl.expressions.structure import sizes
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class, enter
@@ -21,7 +24,7 @@ from frot.dsl.names.modifiers import (
     tell_conflict,
     tell_unknown,
 )
-from frot.dsl.names.order import in_order, names_in
+from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import (
     BUILT_IN,
     COMPONENT,
@@ -36,8 +39,9 @@ from frot.dsl.names.scope import (
     settled,
 )
 from frot.dsl.names.sections import sort
-from frot.dsl.names.types import Kind, find_class, find_type, split_call, split_type
+from frot.dsl.names.types import Kind, find_class, find_type, role_of, split_call, split_type
 from frot.dsl.text import tree
+from frot.dsl.text.walk import names_in
 
 _NESTED = 50
 
@@ -103,8 +107,6 @@ def _base(element: tree.Extends, derived: tuple[Class, ...], scope: Scope) -> Cl
     found = find_class(node, scope) or find_class(node, around)
     if found is None:
         if scope.knows(node.span.text.split(".")[0]):
-            from frot.dsl.names.scope import did_you_mean
-
             scope.log.report(
                 "E0206",
                 f"unknown base {node.span.text!r}",
@@ -292,8 +294,6 @@ def _components(
         scope.build.room(COMPONENT * prod(counts), item.span)
         parts = {} if modifier is None else modifier.parts
         if of.kind == "record":
-            from frot.dsl.expressions.records import binding
-
             given = binding(of, item, modifier, scope)
             if given is None:
                 return None

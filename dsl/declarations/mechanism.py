@@ -9,12 +9,13 @@ from frot.dsl.catalogue import FORCES, LAWS, LIAISONS, find, spellings
 from frot.dsl.checked.describe import quantity
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.declarations.geometry import called
-from frot.dsl.declarations.liaison_members import coordinates
 from frot.dsl.declarations.user_kinds import check_law, check_liaison
-from frot.dsl.expressions.expressions import expect
+from frot.dsl.expressions.expression import expect
 from frot.dsl.expressions.known import known
 from frot.dsl.messages.diagnostics import Label
-from frot.dsl.names.scope import Scope, did_you_mean
+from frot.dsl.names.members import coordinates
+from frot.dsl.names.near import did_you_mean
+from frot.dsl.names.scope import Scope
 from frot.dsl.names.types import find_class
 from frot.dsl.text import tree
 

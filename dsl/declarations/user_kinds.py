@@ -9,11 +9,12 @@ from __future__ import annotations
 from frot.dsl import checked
 from frot.dsl.catalogue.types import FORCE, INERTIA, LENGTH, MASS, VELOCITY
 from frot.dsl.checked.describe import written_unit
-from frot.dsl.expressions.expressions import expect, expression, fitting
+from frot.dsl.expressions.expression import expect, expression, fitting
+from frot.dsl.expressions.names import place
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class, enter
-from frot.dsl.names.names import place
-from frot.dsl.names.scope import Entity, Instance, Scope, did_you_mean
+from frot.dsl.names.near import did_you_mean
+from frot.dsl.names.scope import Entity, Instance, Scope
 from frot.dsl.names.types import Kind, find_type
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree

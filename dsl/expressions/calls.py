@@ -8,13 +8,14 @@ from fractions import Fraction
 from frot.dsl import checked
 from frot.dsl.catalogue import FUNCTIONS, LATER, TYPES, Function
 from frot.dsl.checked.describe import describe, pair, written_unit
-from frot.dsl.expressions.arrays import ARRAYS, array_call
+from frot.dsl.expressions.array_calls import ARRAYS, array_call
 from frot.dsl.expressions.events import EVENTS, event_call
-from frot.dsl.expressions.expressions import NUMERIC, expression, is_whole
+from frot.dsl.expressions.expression import NUMERIC, expression, is_whole, positional, wrong_count
 from frot.dsl.expressions.functions import expand
 from frot.dsl.expressions.records import construct
-from frot.dsl.names.names import kind_of
-from frot.dsl.names.scope import Record, Scope, did_you_mean
+from frot.dsl.names.near import did_you_mean
+from frot.dsl.names.scope import Record, Scope
+from frot.dsl.names.things import kind_of
 from frot.dsl.names.types import find_class
 from frot.dsl.quantities.dimensions import REAL, Type
 from frot.dsl.text import tree
@@ -86,23 +87,6 @@ def _tell_unknown(name: str, node: tree.Call, known: tuple[str, ...], scope: Sco
     if scope.find(name) is not None:
         help_text = f"{name!r} is not a function; for a product write '{name}*(...)'"
     scope.log.report("E0202", f"unknown function {name!r}", node.callee.span, help=help_text)
-
-
-def positional(node: tree.Call, name: str, scope: Scope) -> bool:
-    """Whether all operands are without names; the first one that is not is told."""
-    for argument in node.arguments:
-        if argument.name is not None:
-            message = f"{name!r} takes its operands without names"
-            scope.log.report("E0204", message, argument.name.span)
-            return False
-    return True
-
-
-def wrong_count(node: tree.Call, name: str, count: str, scope: Scope) -> None:
-    """Report a number of operands that a function does not take."""
-    ends = "" if count.endswith(" 1") or count == "1" else "s"
-    message = f"{name!r} takes {count} operand{ends}, found {len(node.arguments)}"
-    scope.log.report("E0204", message, node.span)
 
 
 def _derivative(

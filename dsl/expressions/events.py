@@ -6,7 +6,8 @@ from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked.describe import describe
 from frot.dsl.checked.evaluation import constant
-from frot.dsl.expressions.expressions import NUMERIC, expect, expression
+from frot.dsl.expressions.expression import NUMERIC, expect, expression, wrong_count
+from frot.dsl.expressions.known import known, out_of_bounds
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import BOOLEAN, Type
 from frot.dsl.text import tree
@@ -25,8 +26,6 @@ def event_call(node: tree.Call, scope: Scope) -> checked.Expression | None:
     name = node.callee.text
     wanted = EVENTS[name]
     if len(node.arguments) != wanted and not (name == "friction" and len(node.arguments) == 2):
-        from frot.dsl.expressions.calls import wrong_count
-
         wrong_count(node, name, str(wanted), scope)
         return None
     match name:
@@ -79,8 +78,6 @@ def _sample(node: tree.Call, scope: Scope) -> checked.Expression | None:
             message = "the times of 'sample' depend on parameters only"
             scope.log.report("E0305", message, moving.span, caret="this varies")
             return None
-    from frot.dsl.expressions.known import known, out_of_bounds
-
     interval = known(times[1], scope)
     if isinstance(interval, float) and interval <= 0:
         message = f"the interval of 'sample' must be positive; it is {interval:g} s"

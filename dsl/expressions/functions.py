@@ -10,11 +10,12 @@ from dataclasses import dataclass, field
 
 from frot.dsl import checked
 from frot.dsl.checked.evaluation import parts
-from frot.dsl.declarations.components import role_of, sizes
-from frot.dsl.expressions.expressions import expression, fitting, value_of
+from frot.dsl.checked.order import in_order
+from frot.dsl.expressions.expression import expression, fitting, value_of
 from frot.dsl.expressions.records import as_record
+from frot.dsl.expressions.structure import sizes
 from frot.dsl.names.classes import Class, enter
-from frot.dsl.names.order import in_order, names_in
+from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import (
     BUILT_IN,
     CALL,
@@ -25,12 +26,12 @@ from frot.dsl.names.scope import (
     Record,
     Refused,
     Scope,
-    did_you_mean,
     settled,
 )
-from frot.dsl.names.types import Kind, find_type, split_type
+from frot.dsl.names.types import Kind, find_type, role_of, split_type
 from frot.dsl.text import tree
 from frot.dsl.text.build_expressions import HIGHEST
+from frot.dsl.text.walk import names_in
 
 NESTED = 100
 

@@ -8,7 +8,7 @@ import stat
 import tempfile
 from pathlib import Path
 
-from frot.dsl.messages.diagnostics import fail
+from frot.dsl.messages.errors import fail
 
 DATA, PICTURES = (".csv", ".json", ".npz"), (".png", ".svg", ".pdf")
 

@@ -7,12 +7,24 @@ values, E07 not supported yet, E08 tools, E09 run time; W warnings.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 from frot.dsl.messages.codes_equations import EQUATIONS
 from frot.dsl.messages.codes_language import LANGUAGE
 from frot.dsl.messages.codes_tools import TOOLS
-from frot.dsl.messages.codes_types import Code
 
 __all__ = ["CODES", "Code"]
 
-CODES: Mapping[str, Code] = {**LANGUAGE, **EQUATIONS, **TOOLS}
+
+class Code(NamedTuple):
+    """A code's title, what it means, what to do, and a small text that triggers it."""
+
+    title: str
+    explanation: str
+    remedy: str
+    example: str
+
+
+CODES: Mapping[str, Code] = {
+    code: Code(*row) for table in (LANGUAGE, EQUATIONS, TOOLS) for code, row in table.items()
+}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from frot.dsl.messages.codes_types import Code
+from frot.dsl.messages.codes_language import Row
 
 
 def _equations(declarations: str, equations: str) -> str:
@@ -13,22 +13,22 @@ def _equations(declarations: str, equations: str) -> str:
     return f"model Example\n{declared}equation\n{written}end Example;\n"
 
 
-EQUATIONS: Mapping[str, Code] = {
-    "E0603": Code(
+EQUATIONS: Mapping[str, Row] = {
+    "E0603": (
         "too few equations",
         "Every variable needs an equation that determines it; an equation determines one variable. "
         "The variables named share fewer equations than they are.",
         "Write the missing equation, connect the component, or make the variable a parameter.",
         _equations("Length x;\nVelocity v;", "der(x) = v;"),
     ),
-    "E0604": Code(
+    "E0604": (
         "too many equations",
         "The equations named share fewer variables than they are: one of them says again what the "
         "others say, or contradicts them.",
         "Leave one out, or declare what it should determine as a variable.",
         _equations("Real x;", "x = 1;\nx = 2;"),
     ),
-    "E0606": Code(
+    "E0606": (
         "derivative that nobody knows",
         "The equations prescribe how something moves by a value whose derivative is not known: an "
         "input is held between communication points, a friction force jumps.",
@@ -36,7 +36,7 @@ EQUATIONS: Mapping[str, Code] = {
         "filter.",
         _equations("input Length u;\nLength x;\nVelocity v;", "x = u;\nder(x) = v;"),
     ),
-    "E0607": Code(
+    "E0607": (
         "not linear in accelerations",
         "Accelerations, reactions and friction forces that determine each other are solved "
         "together as one linear system; this equation is not linear in them.",
@@ -46,7 +46,7 @@ EQUATIONS: Mapping[str, Code] = {
             "f = friction(v, 1 N);\n1 kg*der(v)*(1 + (der(v)/(1 m/s^2))^2) = f;",
         ),
     ),
-    "E0608": Code(
+    "E0608": (
         "'reinit' of what is not a state",
         "'reinit' gives a new value to a state: a coordinate, a speed, or a variable whose "
         "derivative the equations give.",
@@ -56,7 +56,7 @@ EQUATIONS: Mapping[str, Code] = {
             "der(x) = 1 m/s;\ny = x^2;\nwhen x > 2 m then\n  reinit(y, 0 m^2);\nend when;",
         ),
     ),
-    "E0609": Code(
+    "E0609": (
         "values of a 'when' in a circle",
         "The values that a 'when' assigns need each other in a circle, so that none comes first.",
         "Use 'pre(...)' for the value before the event.",
@@ -65,7 +65,7 @@ EQUATIONS: Mapping[str, Code] = {
             "when time > 1 s then\n  m = n + 1;\n  n = m + 1;\nend when;",
         ),
     ),
-    "E0611": Code(
+    "E0611": (
         "potentials that nothing fixes",
         "In a circuit only differences of potentials matter: one of them must be given. The same "
         "holds for shafts that only springs and dampers join.",
@@ -74,7 +74,7 @@ EQUATIONS: Mapping[str, Code] = {
         "  Resistor r(R = 1 Ohm);\n"
         "equation\n  connect(s.p, r.p);\n  connect(s.n, r.n);\nend Example;\n",
     ),
-    "E0610": Code(
+    "E0610": (
         "condition without an equation of its own",
         "A Boolean or whole number that no 'when' sets must follow from an equation 'name = ...'.",
         "Write such an equation, or set it in a 'when'.",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from frot.dsl.messages.codes_types import Code, snippet
+from frot.dsl.messages.codes_language import Row, snippet
 
 _BALL = "body ball: particle(mass = 1 kg);"
 _ROD = (
@@ -12,73 +12,73 @@ _ROD = (
     "liaison tip: contact_ponctuel(ground.line, bar.start) with coulomb(1.6), restitution(0);"
 )
 
-TOOLS: Mapping[str, Code] = {
-    "E0601": Code(
+TOOLS: Mapping[str, Row] = {
+    "E0601": (
         "contradictory initial values",
         "The initial statements cannot hold together, or not with the liaisons. "
         "The statements in conflict are named.",
         "Take one of them away, or make it a guess.",
         snippet(_BALL, "ball.position = (0, 0) m;\nball.position.x = 1 m;"),
     ),
-    "E0602": Code(
+    "E0602": (
         "initial statement that depends on nothing that can change",
         "The liaisons already fix every quantity in this statement, so that it can be neither "
         "imposed nor chosen.",
         "Take it away, or correct the liaison.",
         snippet(_BALL, "ground.position = (1, 0) m;"),
     ),
-    "E0801": Code(
+    "E0801": (
         "no C compiler",
         "The equations are compiled before they run. No compiler was found in FROT_CC, as 'cc' or "
         "in the package 'ziglang'.",
         "Install a C compiler, or 'pip install ziglang', or set FROT_CC.",
         "",
     ),
-    "E0802": Code(
+    "E0802": (
         "the C compiler failed",
         "The generated program was refused by the compiler; its first messages are in the notes. "
         "If the compiler works on other files, this is a fault of Frot.",
         "Check FROT_CC and the free space of the disc; report the message otherwise.",
         "",
     ),
-    "E0803": Code(
+    "E0803": (
         "cannot write a file",
         "The file or its folder cannot be written.",
         "Check the path, the permissions and the free space.",
         "",
     ),
-    "E0804": Code(
+    "E0804": (
         "cannot read a file",
         "The file does not exist, is a folder, may not be read, or is not a text in UTF-8.",
         "Check the path; save the file with the encoding UTF-8.",
         "",
     ),
-    "E0805": Code(
+    "E0805": (
         "unknown parameter",
         "A value was given to a parameter that the model does not have.",
         "Write the name of a parameter of the model.",
         "",
     ),
-    "E0806": Code(
+    "E0806": (
         "bad value of an option",
         "The value of an option or of a parameter cannot be read, or has another dimension.",
         "Write a number in SI, or a number and a unit in quotes: --set 'r=12 mm'.",
         "",
     ),
-    "E0807": Code(
+    "E0807": (
         "no FMU can be made",
         "The model or this platform has something that FMI cannot express, or FMPy found a fault "
         "in the archive. Nothing was written.",
         "Name a file that ends in .fmu; report the message if the fault is in the archive.",
         "",
     ),
-    "E0901": Code(
+    "E0901": (
         "fault in the run",
         "The motion could not be computed past the time named.",
         "Look at what the message names at that time, and at the last events before it.",
         "",
     ),
-    "E0902": Code(
+    "E0902": (
         "impasse",
         "No motion is compatible with the laws of friction at this instant (Painlevé 1895), or "
         "several are and the experiment asks to stop there. The tangential impact that would "
@@ -91,47 +91,47 @@ TOOLS: Mapping[str, Code] = {
             "  experiment(stop = 1 s, on_impasse = stop);\n",
         ),
     ),
-    "E0903": Code(
+    "E0903": (
         "chattering",
         "More events follow one another than time can resolve, and no rest was found at their "
         "limit.",
         "Look at the liaisons of the last events.",
         "",
     ),
-    "E0904": Code(
+    "E0904": (
         "not a number",
         "An expression has no value in the course of the motion: a division by zero, a root of a "
         "negative number.",
         "Correct the expression named, or keep the motion away from there.",
         "",
     ),
-    "E0905": Code(
+    "E0905": (
         "impact not resolved",
         "The equations of an impact have no admissible solution.",
         "Check the coefficients of restitution and of friction of the liaisons named.",
         "",
     ),
-    "E0906": Code(
+    "E0906": (
         "an assertion does not hold",
         "An 'assert' among the equations came to be false; its message is given.",
         "Look at what leads there; 'level = warning' tells it and goes on.",
         "",
     ),
-    "E0909": Code(
+    "E0909": (
         "event that cannot be",
         "An event of the text cannot do what it says: two 'reinit's give one state two values at "
         "one instant, or the ticks of a 'sample' lie closer than time can tell apart.",
         "Join the 'when's with 'elsewhen', which says which comes first; sample less often.",
         "",
     ),
-    "E0907": Code(
+    "E0907": (
         "equations without a solution",
         "The equations named do not determine their unknowns at this instant: no solution was "
         "found near the last values, or there is more than one.",
         "Give start values near the solution, or keep the motion away from there.",
         "",
     ),
-    "E0908": Code(
+    "E0908": (
         "a change in a run is refused",
         "A parameter or an input that is changed in a run takes effect at once, but no body is "
         "moved at once: the change would put a body into a line, take apart a liaison that cannot "

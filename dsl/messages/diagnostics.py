@@ -73,24 +73,3 @@ class Log:
 
     def __iter__(self) -> Iterator[Diagnostic]:
         return iter(self.diagnostics)
-
-
-class FrotError(Exception):
-    """What a user did cannot be carried out; its text is the rendered errors.
-
-    `diagnostics` holds them as data. Warnings wait until the errors are mended.
-    """
-
-    def __init__(self, log: Log) -> None:
-        from frot.dsl.messages.rendering import render_log
-
-        errors = Log([d for d in log if d.is_error] or list(log))
-        super().__init__(render_log(errors))
-        self.diagnostics = tuple(errors)
-
-
-def fail(code: str, message: str, *, help: str = "", notes: tuple[str, ...] = ()) -> FrotError:
-    """A FrotError of one diagnostic without a place in a text."""
-    log = Log()
-    log.report(code, message, None, help=help, notes=notes)
-    return FrotError(log)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 
 from frot.dsl.messages.codes import CODES
-from frot.dsl.messages.diagnostics import fail
+from frot.dsl.messages.errors import fail
 
 _WIDTH = 80
 

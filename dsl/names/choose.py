@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from frot.dsl.messages.diagnostics import Label, Log
-from frot.dsl.names.scope import did_you_mean
+from frot.dsl.names.near import did_you_mean
 from frot.dsl.text import tree
-from frot.dsl.text.build_expressions import children
+from frot.dsl.text.walk import children
 
 FLANGES = {"RotationalFlange", "TranslationalFlange"}
 _NESTED = 50

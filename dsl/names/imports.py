@@ -14,7 +14,7 @@ from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostics import Label, Log
 from frot.dsl.messages.source import Source
 from frot.dsl.names.classes import Class, Imported, Namespace, library, namespace
-from frot.dsl.names.scope import did_you_mean
+from frot.dsl.names.near import did_you_mean
 from frot.dsl.text import tree
 
 # Files that import one another in a chain.

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from frot.dsl import checked
-from frot.dsl.catalogue import plain
-from frot.dsl.messages.diagnostics import LIMIT, Label, Log
+from frot.dsl.messages.diagnostics import Label, Log
 from frot.dsl.messages.source import Span
 from frot.dsl.text import tree
 
@@ -32,7 +30,6 @@ RESERVED = frozenset(
     """and or not if then else elseif elsewhen end equation initial true false for loop when
     extends import final""".split()  # noqa: SIM905
 )
-_CANDIDATES = 2000
 
 
 class Refused:
@@ -130,6 +127,20 @@ class Pending:
     busy: bool = False
 
 
+Rule = Callable[[Any, "Scope"], checked.Expression | Record | None]
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Checks:
+    """How what a name leads to is checked: an index is an expression, a constant is declared.
+
+    `expressions` holds a rule for each kind of expression; `declare` makes the names of a clause.
+    """
+
+    expressions: Mapping[type, Rule]
+    declare: Callable[[tree.Component, Scope], None]
+
+
 @dataclass(slots=True, repr=False)
 class Build:
     """What all scopes of one check share: the log, the values known so far, what was gathered.
@@ -144,6 +155,7 @@ class Build:
     ground_places: dict[str, checked.Curve | checked.Surface]
     libraries: Libraries
     connections: Connections
+    checks: Checks
     root: Instance | None = None
     values: dict[checked.Parameter, object] = field(default_factory=dict)
     equations: list[checked.Equation | checked.IfEquations] = field(default_factory=list)
@@ -291,35 +303,3 @@ def _tell_circle(first: Pending, build: Build) -> None:
         message = f"{what} depend on each other in a circle: {path}"
     labels = tuple(Label(p.name.span, "part of it") for p in circle[1:])
     build.log.report("E0208", message, first.name.span, labels=labels)
-
-
-def near(word: str, names: Iterable[str]) -> str:
-    """The name most like `word`, accents and capitals apart, or an empty text.
-
-    A name of which the word is the beginning, `freq` of `frequency`, is like it if it is the only
-    one.
-    """
-    names = list(names)
-    wanted = plain(word).lower()
-    begun = [n for n in names if plain(n).lower().startswith(wanted)] if wanted else []
-    if len(begun) == 1:
-        return begun[0]
-    folded: dict[str, str] = {}
-    for name in names:
-        if abs(len(name) - len(word)) <= 2 + len(word) // 3:
-            folded.setdefault(plain(name).lower(), name)
-            if len(folded) >= _CANDIDATES:
-                break
-    close = difflib.get_close_matches(wanted, folded, n=1, cutoff=0.6)
-    return folded[close[0]] if close else ""
-
-
-def did_you_mean(word: str, names: Iterable[str], log: Log | None = None) -> str:
-    """The help text that proposes a name, or an empty text.
-
-    Past the messages that are shown nothing is looked for: in a large model it would take long.
-    """
-    if log is not None and len(log.diagnostics) > LIMIT:
-        return ""
-    found = near(word, names)
-    return f"did you mean {found!r}?" if found else ""

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked.describe import describe
-from frot.dsl.expressions.expressions import unit_of
-from frot.dsl.expressions.turns import factor_between, rate_of_kind, rate_of_unit
+from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class, enter
 from frot.dsl.names.modifiers import Modifier, merge, read_modifiers
-from frot.dsl.names.scope import Instance, Scope, did_you_mean
+from frot.dsl.names.near import did_you_mean
+from frot.dsl.names.scope import Instance, Scope
 from frot.dsl.quantities.dimensions import Enumeration, Type
+from frot.dsl.quantities.turns import factor_between, rate_of_kind, rate_of_unit
+from frot.dsl.quantities.units import Unit, UnknownUnit, parse_unit
 from frot.dsl.text import tree
 
 _LONGEST = 50
@@ -212,3 +214,23 @@ def modified(kind: Kind, modifiers: dict[str, Modifier], scope: Scope) -> Kind |
     start = merge(modifiers.get("start"), kind.start, scope)
     nominal = merge(modifiers.get("nominal"), kind.nominal, scope)
     return Kind(type_, kind.name, unit, factor, start, nominal)
+
+
+def unit_of(text: str, span: Span, scope: Scope) -> Unit | None:
+    """The unit written at a place; an unknown one is told."""
+    try:
+        return parse_unit(text)
+    except UnknownUnit as error:
+        help_text = f"did you mean {error.near!r}?" if error.near else ""
+        if "/" in text and not help_text and str(error).startswith("unknown"):
+            help_text = "to divide by a variable leave spaces: 'a / b'"
+        scope.log.report("E0302", str(error), span, help=help_text)
+        return None
+
+
+ROLES = ("parameter", "constant", "input", "output")
+
+
+def role_of(clause: tree.Component) -> str:
+    """`parameter`, `constant`, `input` or `output`; empty for a plain variable."""
+    return next((w.text for w in clause.prefixes if w.text in ROLES), "")

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe
+from frot.dsl.expressions.expression import agrees
+from frot.dsl.expressions.names import resolve
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class
-from frot.dsl.names.names import Thing, kind_of, resolve
 from frot.dsl.names.scope import Array, Build, Instance, Pending, Refused, Scope
+from frot.dsl.names.things import Thing, kind_of
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.statements.connections import Entity
 from frot.dsl.text import tree
@@ -151,8 +153,6 @@ class _Link:
         self.build.connections.join_potentials(a, b, self.span, owner, self.text)
 
     def _signals(self, a: checked.Expression, b: checked.Expression) -> None:
-        from frot.dsl.expressions.expressions import agrees
-
         if not (agrees(a.type, b.type) or agrees(b.type, a.type)):
             self._refuse(f"these differ: {describe(a.type)}, {describe(b.type)}")
             return

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from frot.dsl import checked
+from frot.dsl.checked.arrays import total, zero
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import Type
 
@@ -131,8 +132,6 @@ def _owner(connector: str) -> str:
 
 def _balance(joined: _Set) -> checked.Equation:
     """The sum of the flows of a set is zero."""
-    from frot.dsl.expressions.arrays import total
-
     span = joined.span
     terms: list[checked.Expression] = []
     for entity, inside, _ in joined.members:
@@ -149,8 +148,6 @@ def _short(names: Iterable[str]) -> list[str]:
 
 
 def _zero(kind: Type, span: Span) -> checked.Expression:
-    from frot.dsl.declarations.components import zero
-
     return zero(kind, span)
 
 

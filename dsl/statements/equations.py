@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe, written_unit
 from frot.dsl.checked.evaluation import constant, nodes
-from frot.dsl.expressions.expressions import NUMERIC, expect, fitting, value_of
-from frot.dsl.expressions.indexing import settle, span_of
+from frot.dsl.expressions.expression import NUMERIC, expect, fitting, value_of
+from frot.dsl.expressions.rates import rate_of
 from frot.dsl.expressions.records import pairs
-from frot.dsl.expressions.turns import rate_of
+from frot.dsl.expressions.structure import settle, span_of
 from frot.dsl.messages.diagnostics import LIMIT, Label
 from frot.dsl.messages.source import Span
 from frot.dsl.names.scope import Record, Scope

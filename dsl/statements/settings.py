@@ -13,7 +13,8 @@ from frot.dsl.declarations.arguments import bind, word
 from frot.dsl.expressions.known import known
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
-from frot.dsl.names.scope import Scope, did_you_mean
+from frot.dsl.names.near import did_you_mean
+from frot.dsl.names.scope import Scope
 from frot.dsl.names.sections import called_name
 from frot.dsl.quantities.dimensions import REAL
 from frot.dsl.statements.equations import both_sides

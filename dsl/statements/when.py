@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe, written_unit
-from frot.dsl.expressions.expressions import expect, expression, fitting
-from frot.dsl.expressions.turns import rate_of, rate_of_kind
+from frot.dsl.expressions.expression import expect, expression, fitting
+from frot.dsl.expressions.names import resolve
+from frot.dsl.expressions.rates import rate_of
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
-from frot.dsl.names.names import resolve
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.sections import called_name
 from frot.dsl.quantities.dimensions import BOOLEAN
+from frot.dsl.quantities.turns import rate_of_kind
 from frot.dsl.statements.equations import assertion, unfold
 from frot.dsl.text import tree
 

@@ -12,6 +12,7 @@ from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text import tree
 from frot.dsl.text.syntax_messages import too_deep
+from frot.dsl.text.walk import children
 
 # Parentheses, calls and `if`s in one another, which the passes follow by recursion, and levels of
 # the tree, where each term of a sum is one. Both keep well inside Python's own limit.
@@ -216,24 +217,6 @@ def height(root: tree.Expression) -> int:
         count += 1
         level = [child for node in level for child in children(node)]
     return count
-
-
-def children(node: tree.Expression) -> tuple[tree.Expression, ...]:
-    """The expressions directly inside an expression."""
-    match node:
-        case tree.Member(operand=operand) | tree.Prefix(operand=operand):
-            return (operand,)
-        case tree.Index(operand=operand, subscripts=subscripts):
-            return (operand, *subscripts)
-        case tree.Call(callee=callee, arguments=found):
-            return (callee, *(a.value for a in found))
-        case tree.Tuple(items=items) | tree.Range(items=items):
-            return items
-        case tree.Infix(left=left, right=right):
-            return (left, right)
-        case tree.Conditional(condition=condition, yes=yes, no=no):
-            return (condition, yes, no)
-    return ()
 
 
 _BUILDERS: dict[str, Callable[[Any, Place, int], tree.Expression]] = {

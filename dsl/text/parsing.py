@@ -15,7 +15,6 @@ from frot.dsl.messages.diagnostics import LIMIT, Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text import syntax_messages as messages
 from frot.dsl.text.build_expressions import NESTED
-from frot.dsl.text.collecting import without_collection
 from frot.dsl.text.lex import END, JUNK
 from frot.dsl.text.tree import Tree
 
@@ -37,7 +36,7 @@ def parse(source: Source, log: Log, tokens: list[Lexeme] | None = None) -> Tree:
 
     `tokens`, if given, is filled with the tokens read: all of them if nothing was reported.
     """
-    from frot.dsl.text.build import build
+    from frot.dsl.text.build import build, without_collection
 
     reader = _Reader(source, log, tokens)
     with without_collection():

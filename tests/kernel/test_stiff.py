@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from frot.dsl.messages.diagnostics import FrotError
+from frot.dsl.messages.errors import FrotError
 from frot.runtime.engine import OK, Engine, Run
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq

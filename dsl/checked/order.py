@@ -1,25 +1,8 @@
-"""The order in which declarations can be checked: each after those it names."""
+"""The order of things of which each stands after what it needs."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-
-from frot.dsl.text import tree
-from frot.dsl.text.build_expressions import children
-
-
-def names_in(root: tree.Expression | None) -> Iterator[str]:
-    """Every identifier an expression begins with, words of options included."""
-    pending = [] if root is None else [root]
-    while pending:
-        node = pending.pop()
-        if isinstance(node, tree.Name):
-            yield node.text
-        elif isinstance(node, tree.Call):
-            # The callee is a function or a kind; it can share the name of a body.
-            pending.extend(a.value for a in node.arguments)
-        else:
-            pending.extend(children(node))
+from collections.abc import Mapping, Sequence
 
 
 def in_order(

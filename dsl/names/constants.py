@@ -1,16 +1,33 @@
-"""What can be named inside of a class from outside: constants, definitions, literals."""
+"""What packages give: constants that are seen from a class, and members named from outside."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from frot.dsl import checked
-from frot.dsl.names.classes import Class, enter
-from frot.dsl.names.scope import Entity, Instance, Refused, Scope, did_you_mean, settled
+from frot.dsl.names.classes import Class, Namespace, enter
+from frot.dsl.names.near import did_you_mean
+from frot.dsl.names.scope import Entity, Instance, Refused, Scope, settled
+from frot.dsl.names.things import Thing, as_thing, kind_of
+from frot.dsl.names.types import enumeration_of
 from frot.dsl.text import tree
 
-if TYPE_CHECKING:
-    from frot.dsl.names.names import Thing
+
+def constant_around(node: tree.Name, scope: Scope) -> Thing | None:
+    """A constant that is imported, or of a package that surrounds the class."""
+    space: Namespace | None = scope.space
+    while space is not None:
+        places = [space.constants[node.text]] if node.text in space.constants else []
+        if space.owner is not None and space.owner.kind == "package":
+            places.append((space.owner, node.text))
+        stars = [s.target for s in space.stars if s.target is not None]
+        places += [(s, node.text) for s in stars if s.kind == "package"]
+        for package, name in places:
+            found = constant(package, name, scope)
+            if found is not None:
+                for star in space.stars:
+                    star.used = star.used or star.target is package
+                return None if isinstance(found, Refused) else as_thing(found, node, scope)
+        space = space.outer
+    return None
 
 
 def constant(package: Class, name: str, scope: Scope) -> Entity | Refused | None:
@@ -20,8 +37,6 @@ def constant(package: Class, name: str, scope: Scope) -> Entity | Refused | None
 
 
 def _constants(package: Class, scope: Scope) -> Instance:
-    from frot.dsl.declarations.instantiate import declare_values
-
     build = scope.build
     made = build.packages.get(id(package.definition))
     if made is None:
@@ -30,15 +45,12 @@ def _constants(package: Class, scope: Scope) -> Instance:
         inner = Scope(build, made, enter(package, build.libraries))
         for element in package.elements:
             if isinstance(element, tree.Component):
-                declare_values(element, inner)
+                build.checks.declare(element, inner)
     return made
 
 
 def of_class(owner: Class, node: tree.Member, scope: Scope) -> Thing | None:
     """`Library.Resistor`, `Library.constant` or `Colour.red`; None after a message."""
-    from frot.dsl.names.names import as_thing, kind_of
-    from frot.dsl.names.types import enumeration_of
-
     name = node.name.text
     if owner.kind == "package":
         inner = owner.space.own(name)

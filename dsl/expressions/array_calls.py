@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from frot.dsl import checked
+from frot.dsl.checked.arrays import element, items_of, scalars, total, vector
 from frot.dsl.checked.describe import describe
-from frot.dsl.expressions.expressions import NUMERIC, expression
-from frot.dsl.expressions.indexing import element, items_of, whole_number
-from frot.dsl.messages.source import Span
+from frot.dsl.expressions.expression import NUMERIC, expression, wrong_count
+from frot.dsl.expressions.structure import whole_number
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import INTEGER, REAL, Type
 from frot.dsl.text import tree
@@ -23,8 +23,6 @@ def array_call(node: tree.Call, scope: Scope) -> checked.Expression | None:
         name, (1, 8) if name in ("zeros", "ones") else (1, 1)
     )
     if not least <= count <= most:
-        from frot.dsl.expressions.calls import wrong_count
-
         wrong_count(node, name, str(least) if least == most else f"at least {least}", scope)
         return None
     if name in ("zeros", "ones", "fill"):
@@ -46,31 +44,6 @@ def array_call(node: tree.Call, scope: Scope) -> checked.Expression | None:
         return total(flat, node.span)
     kind = operand.type.of_shape(())
     return checked.Call(name, tuple(flat), kind, node.span)
-
-
-def scalars(operand: checked.Expression) -> list[checked.Expression]:
-    """All scalars of an array, row by row."""
-    if not operand.type.shape:
-        return [operand]
-    return [scalar for item in items_of(operand) for scalar in scalars(item)]
-
-
-def total(terms: list[checked.Expression], span: Span) -> checked.Expression:
-    """The sum, as a tree as low as can be."""
-    kind = terms[0].type
-    while len(terms) > 1:
-        pairs = [
-            checked.Binary("+", terms[k], terms[k + 1], kind, span)
-            for k in range(0, len(terms) - 1, 2)
-        ]
-        terms = [*pairs, *terms[len(pairs) * 2 :]]
-    return terms[0]
-
-
-def vector(items: list[checked.Expression], span: Span) -> checked.Vector:
-    """An array of expressions of one type."""
-    first = items[0].type
-    return checked.Vector(tuple(items), first.of_shape((len(items), *first.shape)), span)
 
 
 def _filled(name: str, node: tree.Call, scope: Scope) -> checked.Expression | None:

@@ -1,95 +1,13 @@
-"""Items and slices of arrays, and values that must be known before the run."""
+"""Values that must be known before the run: sizes, bounds, indices."""
 
 from __future__ import annotations
 
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe
 from frot.dsl.checked.evaluation import NotConstant, constant, evaluate, nodes
-from frot.dsl.messages.source import Span
-from frot.dsl.names.names import Thing, as_thing, gathered, kind_of, resolve
-from frot.dsl.names.scope import Array, Scope
+from frot.dsl.expressions.expression import expression
+from frot.dsl.names.scope import Scope
 from frot.dsl.text import tree
-
-
-def element(operand: checked.Expression, index: int, span: Span) -> checked.Expression:
-    """One item of an array, `index` from 0; that of a tuple is the item itself."""
-    if isinstance(operand, checked.Vector):
-        return operand.items[index]
-    return checked.Element(operand, index, operand.type.item, span)
-
-
-def items_of(operand: checked.Expression) -> list[checked.Expression]:
-    """All items of an array."""
-    return [element(operand, k, operand.span) for k in range(operand.type.shape[0])]
-
-
-def index(node: tree.Index, scope: Scope) -> Thing | None:
-    """`operand[subscripts]`: an item, or an array of those of a range."""
-    from frot.dsl.expressions.expressions import value_of
-
-    found: Thing | None
-    if isinstance(node.operand, tree.Name | tree.Member | tree.Index):
-        whole = Scope(scope.build, scope.instance, scope.space, scope.local, None, scope.in_when)
-        found = resolve(node.operand, whole, "value")
-    else:
-        found = value_of(node.operand, scope)
-    return None if found is None else _items(found, list(node.subscripts), node, scope)
-
-
-def _items(
-    thing: Thing, subscripts: list[tree.Expression], node: tree.Index, scope: Scope
-) -> Thing | None:
-    if not subscripts:
-        return thing
-    first, *rest = subscripts
-    if isinstance(thing, Array):
-        size = len(thing.items)
-    elif isinstance(thing, checked.Expression) and thing.type.shape:
-        size = thing.type.shape[0]
-    else:
-        shown = describe(thing.type) if isinstance(thing, checked.Expression) else kind_of(thing)
-        scope.log.report("E0304", f"{shown} has no index", node.span)
-        return None
-    chosen = _chosen(first, size, scope)
-    if chosen is None:
-        return None
-    found = []
-    for k in chosen:
-        if isinstance(thing, Array):
-            part: Thing = as_thing(thing.items[k], node, scope)
-        else:
-            assert isinstance(thing, checked.Expression)
-            part = element(thing, k, node.span)
-        one = _items(part, rest, node, scope)
-        if one is None:
-            return None
-        found.append(one)
-    if not isinstance(first, tree.Range):
-        return found[0]
-    if not found:
-        scope.log.report("E0306", "the range is empty", first.span)
-        return None
-    return gathered(found, node.span.text, node)
-
-
-def _chosen(node: tree.Expression, size: int, scope: Scope) -> list[int] | None:
-    """The indices of a subscript, from 0."""
-    if isinstance(node, tree.Range):
-        found = span_of(node, scope, "an index")
-        values = None if found is None else list(found)
-    else:
-        one = whole_number(node, scope, "an index")
-        values = None if one is None else [one]
-    for value in values or ():
-        if not 1 <= value <= size:
-            message = f"the index must be from 1 to {size}"
-            shown = f"it is {value}" if not isinstance(node, tree.Number) else ""
-            scope.log.report("E0304", message, node.span, caret=shown)
-            return None
-    return None if values is None else [v - 1 for v in values]
-
-
-# ------------------------------------------------------------------ known before the run
 
 
 def settle(found: checked.Expression, scope: Scope, what: str) -> object | None:
@@ -133,8 +51,6 @@ def make_structural(root: checked.Expression, what: str) -> None:
 
 def whole_number(node: tree.Expression, scope: Scope, what: str) -> int | None:
     """The value of a size, a bound or an index; None after a message."""
-    from frot.dsl.expressions.expressions import expression
-
     found = expression(node, scope)
     if found is None:
         return None
@@ -174,3 +90,23 @@ def span_of(node: tree.Expression, scope: Scope, what: str) -> range | None:
     if len(result) > 1000:
         scope.build.grow(len(result), node.span)
     return result
+
+
+def sizes(
+    subscripts: tuple[tree.Expression, ...], name: tree.Word, scope: Scope
+) -> tuple[int, ...] | None:
+    """The sizes of an array, known before the run; None after a message."""
+    found: list[int] = []
+    for node in subscripts:
+        if isinstance(node, tree.Range):
+            scope.log.report("E0304", "a size is one number", node.span)
+            return None
+        size = whole_number(node, scope, f"the size of {name.text!r}")
+        if size is None:
+            return None
+        if size < 1:
+            message = f"the size of {name.text!r} must be at least 1; it is {size}"
+            scope.log.report("E0402", message, node.span)
+            return None
+        found.append(size)
+    return tuple(found)

@@ -7,57 +7,34 @@ in other words: it is converted. What is no number with its unit, but surely the
 
 from __future__ import annotations
 
-import math
-import re
 from dataclasses import replace
 
 from frot.dsl import checked
 from frot.dsl.names.scope import Scope
-from frot.dsl.quantities.dimensions import Dimension, dimension
+from frot.dsl.quantities.turns import (
+    CYCLES,
+    RATE,
+    TURNING,
+    factor_between,
+    rate_of_kind,
+    rate_of_unit,
+)
 
-CYCLES, TURNING = "a frequency (Hz)", "an angular velocity (rad/s)"
-TURN = 2 * math.pi
-
-_RATE = dimension(s=-1)
-_KINDS = {"Frequency": CYCLES, "AngularVelocity": TURNING}
 _QUANTITIES = {"angular_velocity": TURNING, "speed": TURNING}
 _ANGLE_NAMES = ("Angle", "angle")
-_HERTZ = re.compile(r"(?:T|G|M|k|h|da|d|c|m|u|µ|μ|n|p)?Hz")
-_ANGLES = re.compile(r"\b(?:rpm|m?rad|deg|tour|tr|rev)\b|°")
 _HELP = {CYCLES: "a frequency is 'w/(2*pi)'", TURNING: "an angular velocity is '2*pi*f'"}
-
-
-def rate_of_unit(unit: str, of: Dimension) -> str:
-    """What a unit of the dimension 1/s counts: CYCLES, TURNING, or an empty text for `1/s`."""
-    if of != _RATE:
-        return ""
-    if _HERTZ.fullmatch(unit):
-        return CYCLES
-    return TURNING if _ANGLES.search(unit) else ""
-
-
-def rate_of_kind(name: str, unit: str, of: Dimension) -> str:
-    """What a declaration of a type by its name, and perhaps its unit, means."""
-    return _KINDS.get(name, "") or rate_of_unit(unit, of)
-
-
-def factor_between(found: str, wanted: str) -> float:
-    """What a number of one kind of rate in SI is multiplied by to be one of the other."""
-    if not (found and wanted) or found == wanted:
-        return 1.0
-    return TURN if wanted == TURNING else 1 / TURN
 
 
 def rate_of(node: checked.Expression) -> str:
     """The kind of rate that an expression surely is; products may hold the factor 2 pi."""
     for _ in range(20):
-        if node.type.dimension != _RATE:
+        if node.type.dimension != RATE:
             return ""
         match node:
             case checked.Literal(unit=unit):
-                return rate_of_unit(unit, _RATE)
+                return rate_of_unit(unit, RATE)
             case checked.Reference(target=target):
-                return rate_of_kind(target.quantity, target.unit, _RATE)
+                return rate_of_kind(target.quantity, target.unit, RATE)
             case checked.Quantity(name=name):
                 return _QUANTITIES.get(name, "")
             case checked.Derivative(operand=checked.Reference(target=target)):

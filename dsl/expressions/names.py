@@ -1,0 +1,184 @@
+"""Names, members and items to the objects they stand for."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from frot.dsl import checked
+from frot.dsl.catalogue import TYPES
+from frot.dsl.checked.arrays import element
+from frot.dsl.checked.describe import describe
+from frot.dsl.expressions.expression import value_of
+from frot.dsl.expressions.structure import span_of, whole_number
+from frot.dsl.names.constants import constant_around
+from frot.dsl.names.members import member
+from frot.dsl.names.near import did_you_mean
+from frot.dsl.names.scope import Array, Refused, Scope
+from frot.dsl.names.things import Thing, as_thing, gathered, kind_of
+from frot.dsl.quantities.dimensions import REAL
+from frot.dsl.quantities.units import is_unit
+from frot.dsl.text import tree
+
+
+def resolve(node: tree.Expression, scope: Scope, want: str) -> Thing | None:
+    """What a name, a member or an item stands for; None after a message, or where silence is due.
+
+    `want` is `place` or `value` and only chooses the words of messages.
+    """
+    if isinstance(node, tree.Name):
+        return _name(node, scope)
+    if isinstance(node, tree.Index):
+        return index(node, scope)
+    assert isinstance(node, tree.Member)
+    owner = _owner(node.operand, scope)
+    if owner is None:
+        return None
+    return member(owner, node, scope, want)
+
+
+def _owner(node: tree.Expression, scope: Scope) -> Thing | None:
+    if isinstance(node, tree.Name | tree.Member | tree.Index):
+        return resolve(node, scope, "place")
+    return value_of(node, scope)
+
+
+def _name(node: tree.Name, scope: Scope) -> Thing | None:
+    found = scope.find(node.text)
+    if isinstance(found, Refused):
+        return None
+    if found is None:
+        return _built_in(node, scope)
+    return as_thing(found, node, scope)
+
+
+def _built_in(node: tree.Name, scope: Scope) -> Thing | None:
+    if node.text == "time":
+        return checked.Time(TYPES["Time"], node.span)
+    if node.text == "pi":
+        return checked.Literal(math.pi, REAL, node.span)
+    if node.text == "ground":
+        return scope.build.ground
+    defined = scope.space.find(node.text)
+    if defined is not None:
+        return defined
+    constant = constant_around(node, scope)
+    if constant is not None:
+        return constant
+    if scope.knows(node.text):
+        scope.log.report(
+            "E0201",
+            f"unknown name {node.text!r}",
+            node.span,
+            help=_product_in_unit(node) or did_you_mean(node.text, scope.visible(), scope.log),
+        )
+    return None
+
+
+def _product_in_unit(node: tree.Name) -> str:
+    """The remedy where a unit is written as a product: `2 N*m`."""
+    text, start = node.span.source.text, node.span.start
+    before = re.search(r"([\d.]+)[ \t]+(\w+)\*$", text[max(start - 60, 0) : start])
+    if before is None or not is_unit(before[2]) or not is_unit(node.text):
+        return ""
+    return f"in a unit a product is a point: '{before[1]} {before[2]}.{node.text}'"
+
+
+def place(node: tree.Expression, scope: Scope) -> checked.Place | checked.SurfacePlace | None:
+    """The point, curve, surface or frame an argument names; None after a message."""
+    if not isinstance(node, tree.Name | tree.Member | tree.Index):
+        scope.log.report("E0205", "expected a body, frame, point or curve", node.span)
+        return None
+    thing = resolve(node, scope, "place")
+    if isinstance(thing, Array) and scope.element is not None:
+        index, size = scope.element
+        if len(thing.items) != size:
+            message = f"{kind_of(thing)} stands in a declaration of {size}"
+            scope.log.report("E0306", message, node.span)
+            return None
+        thing = thing.items[index]  # type: ignore[assignment]
+    match thing:
+        case None:
+            return None
+        case checked.Body(shape=shape):
+            return checked.BodyPoint(thing, "origin" if shape is None else shape.home, node.span)
+        case checked.Curve():
+            return checked.CurvePlace(thing, node.span)
+        case checked.Surface():
+            return checked.SurfacePlace(thing, node.span)
+        case (
+            checked.CurvePlace()
+            | checked.SurfacePlace()
+            | checked.BodyPoint()
+            | checked.BodyGeometry()
+            | checked.Frame()
+        ):
+            return thing
+    scope.log.report(
+        "E0205", f"expected a body, frame, point or curve, found {kind_of(thing)}", node.span
+    )
+    return None
+
+
+def index(node: tree.Index, scope: Scope) -> Thing | None:
+    """`operand[subscripts]`: an item, or an array of those of a range."""
+    found: Thing | None
+    if isinstance(node.operand, tree.Name | tree.Member | tree.Index):
+        whole = Scope(scope.build, scope.instance, scope.space, scope.local, None, scope.in_when)
+        found = resolve(node.operand, whole, "value")
+    else:
+        found = value_of(node.operand, scope)
+    return None if found is None else _items(found, list(node.subscripts), node, scope)
+
+
+def _items(
+    thing: Thing, subscripts: list[tree.Expression], node: tree.Index, scope: Scope
+) -> Thing | None:
+    if not subscripts:
+        return thing
+    first, *rest = subscripts
+    if isinstance(thing, Array):
+        size = len(thing.items)
+    elif isinstance(thing, checked.Expression) and thing.type.shape:
+        size = thing.type.shape[0]
+    else:
+        shown = describe(thing.type) if isinstance(thing, checked.Expression) else kind_of(thing)
+        scope.log.report("E0304", f"{shown} has no index", node.span)
+        return None
+    chosen = _chosen(first, size, scope)
+    if chosen is None:
+        return None
+    found = []
+    for k in chosen:
+        if isinstance(thing, Array):
+            part: Thing = as_thing(thing.items[k], node, scope)
+        else:
+            assert isinstance(thing, checked.Expression)
+            part = element(thing, k, node.span)
+        one = _items(part, rest, node, scope)
+        if one is None:
+            return None
+        found.append(one)
+    if not isinstance(first, tree.Range):
+        return found[0]
+    if not found:
+        scope.log.report("E0306", "the range is empty", first.span)
+        return None
+    return gathered(found, node.span.text, node)
+
+
+def _chosen(node: tree.Expression, size: int, scope: Scope) -> list[int] | None:
+    """The indices of a subscript, from 0."""
+    if isinstance(node, tree.Range):
+        found = span_of(node, scope, "an index")
+        values = None if found is None else list(found)
+    else:
+        one = whole_number(node, scope, "an index")
+        values = None if one is None else [one]
+    for value in values or ():
+        if not 1 <= value <= size:
+            message = f"the index must be from 1 to {size}"
+            shown = f"it is {value}" if not isinstance(node, tree.Number) else ""
+            scope.log.report("E0304", message, node.span, caret=shown)
+            return None
+    return None if values is None else [v - 1 for v in values]

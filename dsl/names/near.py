@@ -1,0 +1,43 @@
+"""The name that was meant: the one most like a word."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+from frot.dsl.catalogue import plain
+from frot.dsl.messages.diagnostics import LIMIT, Log
+
+_CANDIDATES = 2000
+
+
+def near(word: str, names: Iterable[str]) -> str:
+    """The name most like `word`, accents and capitals apart, or an empty text.
+
+    A name of which the word is the beginning, `freq` of `frequency`, is like it if it is the only
+    one.
+    """
+    names = list(names)
+    wanted = plain(word).lower()
+    begun = [n for n in names if plain(n).lower().startswith(wanted)] if wanted else []
+    if len(begun) == 1:
+        return begun[0]
+    folded: dict[str, str] = {}
+    for name in names:
+        if abs(len(name) - len(word)) <= 2 + len(word) // 3:
+            folded.setdefault(plain(name).lower(), name)
+            if len(folded) >= _CANDIDATES:
+                break
+    close = difflib.get_close_matches(wanted, folded, n=1, cutoff=0.6)
+    return folded[close[0]] if close else ""
+
+
+def did_you_mean(word: str, names: Iterable[str], log: Log | None = None) -> str:
+    """The help text that proposes a name, or an empty text.
+
+    Past the messages that are shown nothing is looked for: in a large model it would take long.
+    """
+    if log is not None and len(log.diagnostics) > LIMIT:
+        return ""
+    found = near(word, names)
+    return f"did you mean {found!r}?" if found else ""

@@ -1,0 +1,107 @@
+"""The language's house: modules and folders that hang together one way, and are of a size."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+DSL = ROOT / "dsl"
+MODULES_IN_A_FOLDER = 24
+SHORTEST = 25
+
+
+def _modules() -> dict[str, Path]:
+    found = {}
+    for path in DSL.rglob("*.py"):
+        parts = path.relative_to(DSL).with_suffix("").parts
+        found[".".join(("frot.dsl", *(p for p in parts if p != "__init__")))] = path
+    return found
+
+
+MODULES = _modules()
+
+
+def _imports(tree: ast.AST) -> Iterator[str]:
+    """What is imported anywhere, in functions too; only what annotations alone need is left out."""
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            for other in node.orelse:
+                yield from _imports(other)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0
+            for name in node.names:
+                whole = f"{node.module}.{name.name}"
+                yield whole if whole in MODULES else str(node.module)
+        elif isinstance(node, ast.Import):
+            yield from (name.name for name in node.names)
+        else:
+            yield from _imports(node)
+
+
+def _graph() -> dict[str, set[str]]:
+    return {
+        name: {i for i in _imports(ast.parse(path.read_text("utf-8"))) if i in MODULES}
+        for name, path in MODULES.items()
+    }
+
+
+def _circle(graph: Mapping[str, set[str]]) -> list[str]:
+    """A way along the graph that comes back to where it began; empty if there is none."""
+    done: set[str] = set()
+
+    def visit(node: str, path: list[str]) -> list[str]:
+        if node in path:
+            return [*path[path.index(node) :], node]
+        if node in done:
+            return []
+        for other in sorted(graph[node]):
+            found = visit(other, [*path, node])
+            if found:
+                return found
+        done.add(node)
+        return []
+
+    return next((c for c in (visit(node, []) for node in sorted(graph)) if c), [])
+
+
+def test_a_circle_is_found() -> None:
+    late = "def f():\n    from frot.dsl.text import tree\n    import frot.dsl.checked\n"
+    assert set(_imports(ast.parse(late))) == {"frot.dsl.text.tree", "frot.dsl.checked"}
+    assert _circle({"a": {"b"}, "b": {"c"}, "c": {"b"}}) == ["b", "c", "b"]
+    assert _circle({"a": {"b", "c"}, "b": {"c"}, "c": set()}) == []
+
+
+def test_no_module_needs_itself_by_way_of_others() -> None:
+    graph = _graph()
+    assert len(graph) > 60
+    assert not _circle(graph)
+
+
+def test_folders_hang_together_one_way() -> None:
+    """The door of the language and `checking`, `warn` stand above the folders."""
+
+    def folder(module: str) -> str:
+        parts = module.split(".")
+        inner = DSL / parts[2] if len(parts) > 2 else DSL
+        return parts[2] if len(parts) > 2 and inner.is_dir() else ""
+
+    graph: dict[str, set[str]] = {}
+    for name, needs in _graph().items():
+        above = graph.setdefault(folder(name), set())
+        above |= {folder(n) for n in needs} - {folder(name)}
+    assert len(graph) > 10
+    assert not _circle(graph)
+
+
+def test_folders_and_modules_are_of_a_size() -> None:
+    for folder in {path.parent for path in MODULES.values()}:
+        assert len(list(folder.glob("*.py"))) <= MODULES_IN_A_FOLDER + 1, folder
+    short = {
+        str(path.relative_to(ROOT)): lines
+        for path in MODULES.values()
+        if path.name != "__init__.py"
+        and (lines := len(path.read_text("utf-8").splitlines())) < SHORTEST
+    }
+    assert not short
