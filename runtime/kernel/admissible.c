@@ -14,7 +14,7 @@
 /* Acceleration of a row and the size of its terms, for the comparison with zero. */
 static double acceleration(const frot_instant *in, int row, double *size) {
   double value = frot_acceleration(in->m, in->w, row, size);
-  *size += in->w->row_load[row] + frot_row_rounding(in->m, in->w, row) / FROT_DEPARTURE_SLACK;
+  *size += in->w->core.row_load[row] + frot_row_rounding(in->m, in->w, row) / FROT_DEPARTURE_SLACK;
   return value;
 }
 
@@ -35,11 +35,12 @@ static double reaction_rounding(const frot_instant *in, int row) {
 static double reserve(const frot_instant *in, int e) {
   const frot_element *element = &in->m->elements[e];
   frot_work *w = in->w;
-  double bound = fabs(frot_bound_of_rest(in->m, w, e, w->trial)), lam = fabs(w->lam[element->row]);
+  double bound = fabs(frot_bound_of_rest(in->m, w, e, w->search.trial)),
+         lam = fabs(w->core.lam[element->row]);
   double rounding = reaction_rounding(in, element->row);
   for (int k = 0; k < 2; k++)
     if (element->bounded_by[k] >= 0)
-      rounding += w->coefficient[2 * e + 1] * reaction_rounding(in, element->bounded_by[k]);
+      rounding += w->core.coefficient[2 * e + 1] * reaction_rounding(in, element->bounded_by[k]);
   double size = bound + lam + rounding / FROT_BOUND_SLACK;
   return size > 0 ? (bound - lam) / size : 0;
 }
@@ -47,7 +48,7 @@ static double reserve(const frot_instant *in, int e) {
 /* The same of a contact that must press. */
 static double pressure(const frot_instant *in, int i) {
   int row = in->m->contacts[i].row_n;
-  double lam = in->w->trial[i].side * in->w->lam[row];
+  double lam = in->w->search.trial[i].side * in->w->core.lam[row];
   double rounding = reaction_rounding(in, row);
   /* a guard that fired is zero as well as time resolves it */
   if (in->fired[i] != 0) rounding += FROT_ZERO * in->s->data[in->l.scale_g + i];
@@ -55,34 +56,36 @@ static double pressure(const frot_instant *in, int i) {
   return size > 0 ? lam / size : 0;
 }
 
-/* Whether a row is held without a reaction of its own, by what holds in w->trial: then it cannot
- * start to move. Of a mass matrix it lies in the span of the rows that hold. */
+/* Whether a row is held without a reaction of its own, by what holds in w->search.trial: then it
+ * cannot start to move. Of a mass matrix it lies in the span of the rows that hold. */
 static int is_carried(const frot_instant *in, int row) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   const frot_group *g = frot_group_of(m, row);
   int ns = g->n_speeds, held = 0;
   if (!g->general) {
-    double *x = w->column;
-    memcpy(x, frot_entries(m, w->half, row), sizeof(double) * (size_t)ns);
+    double *x = w->core.column;
+    memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
     double length = sqrt(frot_dot(x, x, ns));
-    double rest = frot_reject(x, w->basis, w->rank, ns, w->parts);
+    double rest = frot_reject(x, w->span.basis, w->span.rank, ns, w->span.parts);
     return !(rest > frot_least_length(m, w, row, length));
   }
   /* W_ee - W_eh W_hh^-1 W_he: what its own reaction does to it while the others hold */
-  int *rows = w->row_of;
+  int *rows = w->relations.rows;
   for (int i = 0; i < g->n_contacts; i++)
-    if (frot_is_loaded(m, w->trial, g->contacts[i]))
+    if (frot_is_loaded(m, w->search.trial, g->contacts[i]))
       rows[held++] = m->contacts[g->contacts[i]].row_n;
   for (int i = 0; i < g->n_elements; i++)
-    if (frot_is_held(m, w->trial, g->elements[i])) rows[held++] = m->elements[g->elements[i]].row;
+    if (frot_is_held(m, w->search.trial, g->elements[i]))
+      rows[held++] = m->elements[g->elements[i]].row;
   double own = frot_effect(m, w, row, row), left = own, size = fabs(own);
-  double *b = w->right, *x = w->solution;
+  double *b = w->linear.right, *x = w->reactions.solution;
   for (int i = 0; i < held; i++) {
     b[i] = frot_effect(m, w, rows[i], row);
-    for (int j = 0; j < held; j++) w->active[j * held + i] = frot_effect(m, w, rows[i], rows[j]);
+    for (int j = 0; j < held; j++)
+      w->linear.matrix[j * held + i] = frot_effect(m, w, rows[i], rows[j]);
   }
-  frot_least_norm(w->active, b, held, held, x, w->lstsq, w->pivot);
+  frot_least_norm(w->linear.matrix, b, held, held, x, w->linear.scratch, w->linear.pivot);
   for (int i = 0; i < held; i++) {
     left -= frot_effect(m, w, row, rows[i]) * x[i];
     size += fabs(frot_effect(m, w, row, rows[i]) * x[i]);
@@ -92,11 +95,11 @@ static int is_carried(const frot_instant *in, int row) {
 
 static int element_is_admissible(const frot_instant *in, int e) {
   const frot_element *element = &in->m->elements[e];
-  const frot_contact_mode *mode = frot_element_mode(in->m, in->w->trial, e);
+  const frot_contact_mode *mode = frot_element_mode(in->m, in->w->search.trial, e);
   if (mode->friction == FROT_STICK && element->prescribed)
-    return fabs(in->w->c[element->row]) <= FROT_PRESCRIBED_REST;
+    return fabs(in->w->core.c[element->row]) <= FROT_PRESCRIBED_REST;
   if (mode->friction == FROT_STICK) {
-    if (in->w->trial[element->contact].unloaded || mode->at_bound != 0)
+    if (in->w->search.trial[element->contact].unloaded || mode->at_bound != 0)
       return is_still(in, element->row) && is_carried(in, element->row);
     return reserve(in, e) >= -FROT_BOUND_SLACK;
   }
@@ -110,7 +113,7 @@ static int element_is_admissible(const frot_instant *in, int e) {
  * speed moves it in this posture. */
 static int is_in_doubt(const frot_instant *in, int e) {
   const frot_element *element = &in->m->elements[e];
-  const frot_contact_mode *mode = frot_element_mode(in->m, in->w->trial, e);
+  const frot_contact_mode *mode = frot_element_mode(in->m, in->w->search.trial, e);
   if (mode->friction <= FROT_STICK || !in->zero[e] || element->prescribed) return 0;
   double size, a = acceleration(in, element->row, &size);
   return fabs(a) <= FROT_DEPARTURE_SLACK * size && is_carried(in, element->row);
@@ -120,23 +123,23 @@ static int is_in_doubt(const frot_instant *in, int e) {
  * posture alone must stay at rest when the mechanism moves on, what slips must slip. */
 static int goes_on(const frot_instant *in, const frot_group *g) {
   const frot_model *m = in->m;
-  int doubt = !g->general && in->w->dependent;
+  int doubt = !g->general && in->w->reactions.dependent;
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
-    if (!in->w->trial[m->elements[e].contact].closed || !is_in_doubt(in, e)) continue;
+    if (!in->w->search.trial[m->elements[e].contact].closed || !is_in_doubt(in, e)) continue;
     if (g->general) return 0;
     doubt = 1;
   }
   if (!doubt) return 1;
-  unsigned char *departs = in->w->departs;
+  unsigned char *departs = in->w->search.departs;
   for (int e = 0; e < m->n_elements; e++)
     departs[e] = m->row_group[m->elements[e].row] == m->contact_group[g->contacts[0]] &&
-                 in->w->trial[m->elements[e].contact].closed && is_in_doubt(in, e);
+                 in->w->search.trial[m->elements[e].contact].closed && is_in_doubt(in, e);
   if (frot_look_ahead(in, g) != FROT_OK) return 0;
   for (int i = 0; i < g->n_elements; i++) {
-    int e = g->elements[i], ahead = in->w->ahead[e];
-    const frot_contact_mode *mode = frot_element_mode(m, in->w->trial, e);
-    if (!in->w->trial[m->elements[e].contact].closed) continue;
+    int e = g->elements[i], ahead = in->w->search.ahead[e];
+    const frot_contact_mode *mode = frot_element_mode(m, in->w->search.trial, e);
+    if (!in->w->search.trial[m->elements[e].contact].closed) continue;
     if (mode->friction == FROT_STICK && ahead != 0) return 0;
     if (departs[e] && ahead != (mode->friction == FROT_SLIP_FORWARD ? 1 : -1)) return 0;
   }
@@ -146,7 +149,7 @@ static int goes_on(const frot_instant *in, const frot_group *g) {
 static int has_law(const frot_instant *in, int i) {
   for (int e = 0; e < in->m->n_elements; e++)
     if (in->m->elements[e].contact == i &&
-        frot_element_mode(in->m, in->w->trial, e)->friction != FROT_NONE)
+        frot_element_mode(in->m, in->w->search.trial, e)->friction != FROT_NONE)
       return 1;
   return 0;
 }
@@ -154,14 +157,14 @@ static int has_law(const frot_instant *in, int i) {
 static int all_held(const frot_instant *in, int i) {
   for (int e = 0; e < in->m->n_elements; e++)
     if (in->m->elements[e].contact == i &&
-        frot_element_mode(in->m, in->w->trial, e)->friction > FROT_STICK)
+        frot_element_mode(in->m, in->w->search.trial, e)->friction > FROT_STICK)
       return 0;
   return 1;
 }
 
 static int contact_is_admissible(const frot_instant *in, int i) {
   int row = in->m->contacts[i].row_n;
-  frot_contact_mode *mode = &in->w->trial[i];
+  frot_contact_mode *mode = &in->w->search.trial[i];
   if (!frot_has_normal(&in->m->contacts[i])) return 1;
   if (!mode->closed) {
     double size, a = acceleration(in, row, &size);
@@ -170,7 +173,7 @@ static int contact_is_admissible(const frot_instant *in, int i) {
   }
   if (mode->unloaded) return is_still(in, row) && is_carried(in, row);
   /* held all round, the side follows from the reaction */
-  if (in->unilateral[i] == 0 && all_held(in, i)) mode->side = in->w->lam[row] < 0 ? -1 : 1;
+  if (in->unilateral[i] == 0 && all_held(in, i)) mode->side = in->w->core.lam[row] < 0 ? -1 : 1;
   if (in->unilateral[i] == 0 && !has_law(in, i)) return 1;
   return pressure(in, i) >= -FROT_BOUND_SLACK;
 }
@@ -179,7 +182,7 @@ static int contact_is_admissible(const frot_instant *in, int i) {
  * the worst at its bound or without load. Returns 1 when one was put there. */
 static int let_others_carry(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
-  frot_contact_mode *trial = in->w->trial;
+  frot_contact_mode *trial = in->w->search.trial;
   double most = -FROT_BOUND_SLACK;
   int worst_contact = -1, worst_element = -1;
   for (int c = 0; c < count; c++) {
@@ -201,7 +204,7 @@ static int let_others_carry(const frot_instant *in, const int *chosen, int count
   }
   if (worst_element < 0) return 0;
   trial[m->n_contacts + worst_element].at_bound =
-      in->w->lam[m->elements[worst_element].row] > 0 ? 1 : -1;
+      in->w->core.lam[m->elements[worst_element].row] > 0 ? 1 : -1;
   return 1;
 }
 
@@ -209,15 +212,15 @@ int frot_is_admissible(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
-  memcpy(w->along, in->s->data + in->l.along, sizeof(double) * 2 * (size_t)m->n_elements);
-  if (frot_group_reactions(m, w, g, w->trial, in->at_rest)) return 0;
-  for (int dependent = w->dependent; dependent && let_others_carry(in, chosen, count);)
-    if (frot_group_reactions(m, w, g, w->trial, in->at_rest)) return 0;
+  memcpy(w->reactions.along, in->s->data + in->l.along, sizeof(double) * 2 * (size_t)m->n_elements);
+  if (frot_group_reactions(m, w, g, w->search.trial, in->at_rest)) return 0;
+  for (int dependent = w->reactions.dependent; dependent && let_others_carry(in, chosen, count);)
+    if (frot_group_reactions(m, w, g, w->search.trial, in->at_rest)) return 0;
   for (int c = 0; c < count; c++)
     if (!contact_is_admissible(in, chosen[c])) return 0;
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
-    if (w->trial[m->elements[e].contact].closed && !element_is_admissible(in, e)) return 0;
+    if (w->search.trial[m->elements[e].contact].closed && !element_is_admissible(in, e)) return 0;
   }
   return goes_on(in, g);
 }

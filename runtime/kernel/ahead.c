@@ -22,7 +22,7 @@ static int rests(const frot_instant *in, const frot_group *g) {
   double limit = FROT_AGREES * frot_size_of_motion(in->m, in->w, g);
   double energy = FROT_ZERO * FROT_ZERO * in->s->energy_scale;
   return 0.5 * frot_square_of(in->w, g, in->v) <= energy &&
-         frot_square_of(in->w, g, in->w->a) <= limit * limit;
+         frot_square_of(in->w, g, in->w->core.a) <= limit * limit;
 }
 
 /* Time in which the fastest coordinate of the group has gone its way; 0 when nothing moves. */
@@ -31,7 +31,7 @@ static double time_of_way(const frot_instant *in, const frot_group *g) {
   double shortest = INFINITY;
   for (int k = 0; k < g->n_speeds; k++) {
     int speed = g->unknowns[k], coordinate = m->speed_coordinate[speed];
-    double v = fabs(in->v[speed]), a = fabs(in->w->a[speed]);
+    double v = fabs(in->v[speed]), a = fabs(in->w->core.a[speed]);
     double way = WAY * fmax(1, coordinate >= 0 ? fabs(in->q[coordinate]) : 1);
     if (v == 0 && a == 0) continue;
     shortest = fmin(shortest, 2 * way / (v + sqrt(v * v + 2 * a * way)));
@@ -42,10 +42,11 @@ static double time_of_way(const frot_instant *in, const frot_group *g) {
 /* The modes of what holds for certain: by a reaction, in this posture and the next. */
 static void keep_certain(const frot_instant *in, frot_contact_mode *modes) {
   const frot_model *m = in->m;
-  memcpy(modes, in->w->trial, sizeof *modes * (size_t)(m->n_contacts + m->n_elements));
+  memcpy(modes, in->w->search.trial, sizeof *modes * (size_t)(m->n_contacts + m->n_elements));
   for (int e = 0; e < m->n_elements; e++) {
     frot_contact_mode *mode = modes + m->n_contacts + e;
-    if (mode->friction != FROT_STICK || mode->at_bound != 0 || in->w->carried[m->elements[e].row])
+    if (mode->friction != FROT_STICK || mode->at_bound != 0 ||
+        in->w->reactions.carried[m->elements[e].row])
       mode->friction = FROT_NONE;
   }
 }
@@ -54,27 +55,27 @@ int frot_look_ahead(const frot_instant *in, const frot_group *g) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   const double *d = in->s->data + in->l.d;
-  double *q = w->z1, *v = q + m->nq;
-  memset(w->ahead, 0, (size_t)m->n_elements);
-  frot_accelerations(m, w, w->nothing_frozen);
+  double *q = w->step.z1, *v = q + m->nq;
+  memset(w->search.ahead, 0, (size_t)m->n_elements);
+  frot_accelerations(m, w, w->search.nothing_frozen);
   double dt = rests(in, g) ? 0 : time_of_way(in, g);
   if (!(dt > 0)) return FROT_OK;
   memcpy(q, in->q, sizeof(double) * (size_t)m->nq);
   memcpy(v, in->v, sizeof(double) * (size_t)m->nv);
   for (int k = 0; k < g->n_speeds; k++) {
     int speed = g->unknowns[k], coordinate = m->speed_coordinate[speed];
-    if (coordinate >= 0) q[coordinate] += dt * (v[speed] + 0.5 * dt * w->a[speed]);
-    v[speed] += dt * w->a[speed];
+    if (coordinate >= 0) q[coordinate] += dt * (v[speed] + 0.5 * dt * w->core.a[speed]);
+    v[speed] += dt * w->core.a[speed];
   }
   int moved;
-  keep_certain(in, w->guess_ahead);
-  int status = frot_project(m, in->s, w, in->t + dt, q, v, d, w->guess_ahead, NULL, &moved);
+  keep_certain(in, w->search.guess_ahead);
+  int status = frot_project(m, in->s, w, in->t + dt, q, v, d, w->search.guess_ahead, NULL, &moved);
   if (status == FROT_OK) status = frot_kinematics(m, in->s, w, in->t + dt, q, v, d);
   for (int i = 0; i < g->n_elements && status == FROT_OK; i++) {
     int e = g->elements[i], row = m->elements[e].row;
-    double own = frot_row_speed(m, w, row, v), rate = w->rate[row];
+    double own = frot_row_speed(m, w, row, v), rate = w->core.rate[row];
     double beside = m->row_beside[row] < 0 ? 0 : frot_row_speed(m, w, m->row_beside[row], v);
-    if (fabs(rate) > SEEN * fmax(own, beside)) w->ahead[e] = rate > 0 ? 1 : -1;
+    if (fabs(rate) > SEEN * fmax(own, beside)) w->search.ahead[e] = rate > 0 ? 1 : -1;
   }
   int back = frot_kinematics(m, in->s, w, in->t, in->q, in->v, d);
   return status == FROT_OK ? back : status;

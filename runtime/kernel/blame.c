@@ -5,27 +5,28 @@
 #include "blocks.h"
 #include "core.h"
 
-/* The applied force that is no number at the last evaluation (values w->z1), or -1. */
+/* The applied force that is no number at the last evaluation (values w->step.z1), or -1. */
 static int wrong_load(const frot_model *m, frot_state *s, frot_work *w) {
-  double *sizes = w->ztry, *loads = w->values;
+  double *sizes = w->step.z, *loads = w->call.values;
   if (m->n_loads == 0) return -1;
-  frot_inputs(m, s, w, &w->t, w->z1, w->z1 + m->nq, s->data + w->layout.d);
-  w->res[0] = sizes, w->res[1] = loads;
-  m->sizes.call(w->arg, w->res, w->iw, w->w, 0);
+  frot_inputs(m, s, w, &w->core.t, w->step.z1, w->step.z1 + m->nq, s->data + w->layout.d);
+  w->call.res[0] = sizes, w->call.res[1] = loads;
+  frot_call(w, &m->sizes);
   for (int i = 0; i < m->n_loads; i++)
     if (!isfinite(loads[i])) return i;
   return -1;
 }
 
-/* The equation of the text that gives no number at the last evaluation (values w->z1), or -1. */
+/* The equation of the text that gives no number at the last evaluation (values w->step.z1), or -1.
+ */
 static int wrong_equation(const frot_model *m, frot_state *s, frot_work *w) {
   if (m->n_watched == 0) return -1;
-  frot_inputs(m, s, w, &w->t, w->z1, w->z1 + m->nq, s->data + w->layout.d);
-  w->arg[7] = w->a, w->arg[8] = w->lam;
-  w->res[0] = w->values;
-  m->watched.call(w->arg, w->res, w->iw, w->w, 0);
+  frot_inputs(m, s, w, &w->core.t, w->step.z1, w->step.z1 + m->nq, s->data + w->layout.d);
+  w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
+  w->call.res[0] = w->call.values;
+  frot_call(w, &m->watched);
   for (int i = 0; i < m->n_watched; i++)
-    if (!isfinite(w->values[i])) return i;
+    if (!isfinite(w->call.values[i])) return i;
   return -1;
 }
 
@@ -34,16 +35,16 @@ static int wrong_contact(const frot_model *m, const frot_work *w, int status) {
   int blamed = -1;
   double largest = 0;
   for (int e = 0; e < m->n_elements; e++) {
-    const double *k = w->coefficient + 2 * e;
+    const double *k = w->core.coefficient + 2 * e;
     const frot_element *element = &m->elements[e];
     int row = element->bounded_by[0] >= 0 ? element->bounded_by[0] : element->row;
-    double size = fabs(w->lam[row]);
+    double size = fabs(w->core.lam[row]);
     int wrong = status == FROT_NAN ? isnan(k[0] + k[1]) : size > largest;
     if (wrong) largest = size, blamed = element->contact;
   }
   for (int i = 0; i < m->n_contacts && status != FROT_NAN; i++) {
     int row = m->contacts[i].row_n;
-    if (row >= 0 && fabs(w->lam[row]) > largest) largest = fabs(w->lam[row]), blamed = i;
+    if (row >= 0 && fabs(w->core.lam[row]) > largest) largest = fabs(w->core.lam[row]), blamed = i;
   }
   return blamed;
 }
@@ -52,14 +53,14 @@ int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status,
                    double h) {
   int equation = status == FROT_NAN ? wrong_equation(m, s, w) : -1;
   if (equation >= 0) return frot_fail(s, FROT_NAN, t, -1, m->n_loads + equation, -1, h);
-  if (status == FROT_ALGEBRAIC || (status == FROT_NAN && w->block >= 0))
+  if (status == FROT_ALGEBRAIC || (status == FROT_NAN && w->blocks.failed >= 0))
     return frot_fail_evaluation(m, s, w, status, t);
   int blamed = wrong_contact(m, w, status), state = -1;
   int load = status == FROT_NAN && blamed < 0 ? wrong_load(m, s, w) : -1;
-  if (status == FROT_DIVERGE && w->worst >= 0) {
-    int own = w->worst < m->nq && m->q_speed[w->worst] < 0;
+  if (status == FROT_DIVERGE && w->step.worst >= 0) {
+    int own = w->step.worst < m->nq && m->q_speed[w->step.worst] < 0;
     if (own) blamed = -1;
-    if (own || blamed < 0) state = w->worst;
+    if (own || blamed < 0) state = w->step.worst;
   }
   return frot_fail(s, status, t, blamed, load, state, h);
 }

@@ -2,10 +2,10 @@
 #ifndef FROT_BLAME_H
 #define FROT_BLAME_H
 
-#include "state.h"
+#include "work.h"
 
 /* Record the fault `status` of a step h at t, with what is to blame: a block of equations, the
- * contact of a coefficient or the force that is no number (by the values w->z1 of the last
+ * contact of a coefficient or the force that is no number (by the values w->step.z1 of the last
  * evaluation) or, when the step goes to zero, the state whose error forced it, or the contact with
  * the largest reaction where that is a coordinate or a speed. Returns the status. */
 int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t,

@@ -20,11 +20,11 @@ typedef struct {
 static int evaluate(const problem *p) {
   frot_work *w = p->w;
   int n = p->block->count;
-  w->res[0] = w->block_r, w->res[1] = w->block_j, w->res[2] = w->block_size;
-  p->block->residual.call(w->arg, w->res, w->iw, w->w, 0);
+  w->call.res[0] = w->blocks.r, w->call.res[1] = w->blocks.j, w->call.res[2] = w->blocks.size;
+  frot_call(w, &p->block->residual);
   double sum = 0;
-  for (int i = 0; i < n; i++) sum += w->block_r[i] - w->block_r[i];
-  for (int i = 0; i < n * n; i++) sum += w->block_j[i] - w->block_j[i];
+  for (int i = 0; i < n; i++) sum += w->blocks.r[i] - w->blocks.r[i];
+  for (int i = 0; i < n * n; i++) sum += w->blocks.j[i] - w->blocks.j[i];
   return !(sum == 0);
 }
 
@@ -39,24 +39,24 @@ static double worst(const double *r, const double *size, int n) {
 static int factor(const problem *p) {
   frot_work *w = p->w;
   int n = p->block->count;
-  memcpy(w->block_lu, w->block_j, sizeof(double) * (size_t)(n * n));
-  return frot_lu(w->block_lu, n, w->block_pivot, w->block_scale);
+  memcpy(w->blocks.lu, w->blocks.j, sizeof(double) * (size_t)(n * n));
+  return frot_lu(w->blocks.lu, n, w->blocks.pivot, w->blocks.scale);
 }
 
-/* The Newton step into w->block_step; of least norm where the Jacobian is singular. */
+/* The Newton step into w->blocks.step; of least norm where the Jacobian is singular. */
 static int newton_step(const problem *p) {
   frot_work *w = p->w;
   int n = p->block->count, singular = factor(p);
-  double *step = w->block_step;
-  for (int i = 0; i < n; i++) step[i] = -w->block_r[i];
+  double *step = w->blocks.step;
+  for (int i = 0; i < n; i++) step[i] = -w->blocks.r[i];
   if (!singular) {
-    frot_lu_apply(w->block_lu, n, w->block_pivot, w->block_scale, step);
+    frot_lu_apply(w->blocks.lu, n, w->blocks.pivot, w->blocks.scale, step);
     return 0;
   }
-  memcpy(w->block_lu, w->block_j, sizeof(double) * (size_t)(n * n));
+  memcpy(w->blocks.lu, w->blocks.j, sizeof(double) * (size_t)(n * n));
   double *right = step + n;
   memcpy(right, step, sizeof(double) * (size_t)n);
-  frot_least_norm(w->block_lu, right, n, n, step, w->block_scale, w->block_pivot);
+  frot_least_norm(w->blocks.lu, right, n, n, step, w->blocks.scale, w->blocks.pivot);
   return 1;
 }
 
@@ -67,13 +67,13 @@ static int solve_linear(const problem *p) {
   for (int pass = 0; pass < 2; pass++) { /* the second one refines */
     if (evaluate(p)) return FROT_NAN;
     if (pass == 0 && factor(p)) {
-      w->block_singular = 1;
+      w->blocks.singular = 1;
       return FROT_ALGEBRAIC;
     }
-    frot_lu_apply(w->block_lu, n, w->block_pivot, w->block_scale, w->block_r);
+    frot_lu_apply(w->blocks.lu, n, w->blocks.pivot, w->blocks.scale, w->blocks.r);
     double sum = 0;
     for (int i = 0; i < n; i++) {
-      p->y[i] -= w->block_r[i];
+      p->y[i] -= w->blocks.r[i];
       sum += p->y[i] - p->y[i];
     }
     if (!(sum == 0)) return FROT_NAN;
@@ -86,12 +86,12 @@ static int solve_linear(const problem *p) {
 static int line_search(const problem *p, double before) {
   frot_work *w = p->w;
   int n = p->block->count;
-  double *size = w->block_size + n, *from = w->block_step + n;
-  memcpy(size, w->block_size, sizeof(double) * (size_t)n);
+  double *size = w->blocks.size + n, *from = w->blocks.step + n;
+  memcpy(size, w->blocks.size, sizeof(double) * (size_t)n);
   memcpy(from, p->y, sizeof(double) * (size_t)n);
   for (double part = 1; part > FROT_LEAST_DAMPING; part *= 0.5) {
-    for (int i = 0; i < n; i++) p->y[i] = from[i] + part * w->block_step[i];
-    if (!evaluate(p) && worst(w->block_r, size, n) < before * (1 - 0.25 * part)) return 0;
+    for (int i = 0; i < n; i++) p->y[i] = from[i] + part * w->blocks.step[i];
+    if (!evaluate(p) && worst(w->blocks.r, size, n) < before * (1 - 0.25 * part)) return 0;
     if (before <= FROT_SETTLED) break;
   }
   memcpy(p->y, from, sizeof(double) * (size_t)n);
@@ -103,12 +103,12 @@ static int solve_nonlinear(const problem *p) {
   int n = p->block->count;
   if (evaluate(p)) return FROT_NAN;
   for (int pass = 0; pass < PASSES; pass++) {
-    double off = worst(w->block_r, w->block_size, n);
+    double off = worst(w->blocks.r, w->blocks.size, n);
     if (off <= FROT_ROUNDING) return FROT_OK;
     int singular = newton_step(p);
     if (line_search(p, off)) {
       if (off <= FROT_SETTLED) return FROT_OK;
-      w->block_singular = singular;
+      w->blocks.singular = singular;
       return FROT_ALGEBRAIC;
     }
   }
@@ -117,17 +117,17 @@ static int solve_nonlinear(const problem *p) {
 
 static int solve(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                  const double *v, const double *d, int late) {
-  w->block = -1;
+  w->blocks.failed = -1;
   for (int i = 0; i < m->n_blocks; i++) {
     const frot_block *block = &m->blocks[i];
     if (block->late != late) continue;
-    problem p = {w, block, w->y + block->first};
+    problem p = {w, block, w->blocks.y + block->first};
     frot_inputs(m, s, w, &t, q, v, d);
-    w->arg[7] = w->a, w->arg[8] = w->lam;
-    w->block_singular = 0;
+    w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
+    w->blocks.singular = 0;
     int status = block->linear ? solve_linear(&p) : solve_nonlinear(&p);
     if (status != FROT_OK) {
-      w->block = i;
+      w->blocks.failed = i;
       return status;
     }
   }
@@ -146,11 +146,11 @@ int frot_solve_late(const frot_model *m, frot_state *s, frot_work *w, double t, 
 
 int frot_fail_evaluation(const frot_model *m, frot_state *s, const frot_work *w, int status,
                          double t) {
-  int item = status == FROT_ALGEBRAIC ? w->block : -1;
-  int other = status == FROT_NAN ? w->block : -1, contact = -1;
+  int item = status == FROT_ALGEBRAIC ? w->blocks.failed : -1;
+  int other = status == FROT_NAN ? w->blocks.failed : -1, contact = -1;
   for (int e = 0; e < m->n_elements && status == FROT_NAN && other < 0; e++) {
-    const double *k = w->coefficient + 2 * e;
+    const double *k = w->core.coefficient + 2 * e;
     if (isnan(k[0] + k[1])) contact = m->elements[e].contact;
   }
-  return frot_fail(s, status, t, contact, item, other, w->block_singular);
+  return frot_fail(s, status, t, contact, item, other, w->blocks.singular);
 }

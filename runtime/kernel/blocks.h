@@ -2,16 +2,17 @@
 #ifndef FROT_BLOCKS_H
 #define FROT_BLOCKS_H
 
-#include "state.h"
+#include "work.h"
 
-/* Solve the blocks that are not late for w->y at (t, q, v, d): linear ones by elimination, the
- * others by damped Newton from the values w->y has, rows scaled by the sizes of their terms.
- * FROT_OK, FROT_ALGEBRAIC or FROT_NAN, with w->block and w->block_singular; w->y is then of no use.
+/* Solve the blocks that are not late for w->blocks.y at (t, q, v, d): linear ones by elimination,
+ * the others by damped Newton from the values w->blocks.y has, rows scaled by the sizes of their
+ * terms. FROT_OK, FROT_ALGEBRAIC or FROT_NAN, with w->blocks.failed and w->blocks.singular;
+ * w->blocks.y is then of no use.
  */
 int frot_solve_blocks(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                       const double *v, const double *d);
 
-/* The same for the late blocks, which read w->a and w->lam. */
+/* The same for the late blocks, which read w->core.a and w->lam. */
 int frot_solve_late(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d);
 

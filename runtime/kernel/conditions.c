@@ -16,7 +16,7 @@
 #define CROSSINGS 8 /* doublings of a rounding of time */
 
 static int holds(const frot_model *m, const frot_work *w, int j) {
-  return m->condition_strict[j] ? w->condition[j] > 0 : w->condition[j] >= 0;
+  return m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;
 }
 
 int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
@@ -24,7 +24,7 @@ int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, doubl
   if (m->n_conditions == 0) return FROT_OK;
   int status = frot_kinematics(m, s, w, t, q, v, s->data + w->layout.d);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
-  memcpy(w->condition_known, w->condition, sizeof(double) * (size_t)m->n_conditions);
+  memcpy(w->events.known, w->core.condition, sizeof(double) * (size_t)m->n_conditions);
   return FROT_OK;
 }
 
@@ -50,7 +50,7 @@ int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, doub
   int status = frot_kinematics(m, s, w, *t, q, v, d);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, *t);
   double moved = 0, step = DBL_EPSILON * fmax(fabs(*t), 1e-3 * s->h_max);
-  double *there = w->ztry;
+  double *there = w->step.z;
   for (int k = 0; is_short(m, s, w); k++, step *= 2) {
     if (k == CROSSINGS) return FROT_OK; /* one that has no rate does not cross */
     moved += step;
@@ -69,7 +69,7 @@ int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, doub
 
 /* Whether the value of condition j is the one its flag was decided with. */
 static int is_known(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
-  double value = w->condition[j], known = w->condition_known[j];
+  double value = w->core.condition[j], known = w->events.known[j];
   if (j >= m->n_located) return value == known;
   double size = s->data[w->layout.scale_g + frot_condition_guard(m) + j];
   double rounding = FROT_UNCHANGED * size + 4 * DBL_EPSILON * fmax(fabs(value), fabs(known));
@@ -88,7 +88,7 @@ static int decide(const frot_model *m, const frot_state *s, frot_work *w, double
       d[j] = now;
       changed = j;
     }
-    w->condition_known[j] = w->condition[j];
+    w->events.known[j] = w->core.condition[j];
   }
   return changed;
 }
@@ -112,10 +112,12 @@ void frot_find_due(const frot_model *m, frot_state *s, frot_work *w) {
   s->due = INFINITY;
   if (m->n_timed == 0) return;
   const double *d = s->data + w->layout.d;
-  double *due = s->data + w->layout.due, *slope = w->timer, *at_zero = w->timer + m->n_timed;
-  w->arg[0] = s->data + w->layout.u, w->arg[1] = s->data + w->layout.p, w->arg[2] = d;
-  w->res[0] = slope, w->res[1] = at_zero;
-  m->timers.call(w->arg, w->res, w->iw, w->w, 0);
+  double *due = s->data + w->layout.due, *slope = w->events.timer,
+         *at_zero = w->events.timer + m->n_timed;
+  w->call.arg[0] = s->data + w->layout.u, w->call.arg[1] = s->data + w->layout.p,
+  w->call.arg[2] = d;
+  w->call.res[0] = slope, w->call.res[1] = at_zero;
+  frot_call(w, &m->timers);
   for (int j = 0; j < m->n_timed; j++) {
     int falls = d[m->n_located + j] != 0 ? slope[j] < 0 : slope[j] > 0;
     due[j] = falls ? -at_zero[j] / slope[j] : INFINITY;

@@ -6,7 +6,7 @@
 #ifndef FROT_CONDITIONS_H
 #define FROT_CONDITIONS_H
 
-#include "state.h"
+#include "work.h"
 
 /* What does not settle, in the value of a fault FROT_CHATTER of the text: conditions that have no
  * truth together, events that follow each other ever sooner; else how many rounds it took. */

@@ -18,67 +18,67 @@
 void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
                  const double *v, const double *d) {
   (void)m;
-  w->arg[0] = t, w->arg[1] = q, w->arg[2] = v;
-  w->arg[3] = s->data + w->layout.u, w->arg[4] = s->data + w->layout.p;
-  w->arg[5] = d, w->arg[6] = w->y;
+  w->call.arg[0] = t, w->call.arg[1] = q, w->call.arg[2] = v;
+  w->call.arg[3] = s->data + w->layout.u, w->call.arg[4] = s->data + w->layout.p;
+  w->call.arg[5] = d, w->call.arg[6] = w->blocks.y;
 }
 
 /* Note the rows to look at in w->wanted. */
 static void want_rows(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                       int wanted) {
   unsigned char all = wanted != FROT_MOTION || m->general;
-  for (int r = 0; r < m->n_rows; r++) w->wanted[r] = all && frot_is_reading(m, r);
+  for (int r = 0; r < m->n_rows; r++) w->core.wanted[r] = all && frot_is_reading(m, r);
   for (int i = 0; i < m->n_contacts; i++) {
     int row = m->contacts[i].row_n;
-    if (row >= 0 && !m->contacts[i].reduced) w->wanted[row] = modes[i].closed != 0;
+    if (row >= 0 && !m->contacts[i].reduced) w->core.wanted[row] = modes[i].closed != 0;
   }
   for (int e = 0; e < m->n_elements; e++) {
     const frot_element *element = &m->elements[e];
     int acts = modes[element->contact].closed &&
                (wanted == FROT_LAWS || frot_element_mode(m, modes, e)->friction != FROT_NONE);
-    w->wanted[element->row] = (unsigned char)acts;
+    w->core.wanted[element->row] = (unsigned char)acts;
     for (int k = 0; acts && k < 2; k++)
-      if (element->bounded_by[k] >= 0) w->wanted[element->bounded_by[k]] = 1;
+      if (element->bounded_by[k] >= 0) w->core.wanted[element->bounded_by[k]] = 1;
   }
 }
 
 /* A is a mass matrix. */
 static int symmetric_group(const frot_model *m, frot_work *w, const frot_group *g) {
   int n = g->n, ns = g->n_speeds;
-  const double *mass = w->mass + g->matrix;
-  double *factor = w->factor + g->metric, *force = w->force + g->vector;
+  const double *mass = w->core.mass + g->matrix;
+  double *factor = w->core.factor + g->metric, *force = w->core.force + g->vector;
   for (int k = 0; k < ns; k++) memcpy(factor + k * ns, mass + k * n, sizeof(double) * (size_t)ns);
   if (frot_cholesky(factor, ns)) return FROT_SINGULAR;
-  for (int k = 0; k < ns; k++) force[k] = w->h[g->unknowns[k]];
+  for (int k = 0; k < ns; k++) force[k] = w->core.h[g->unknowns[k]];
   frot_forward(factor, ns, ns, force);
   for (int i = 0; i < g->n_rows; i++) {
     int r = g->rows[i];
-    if (!w->wanted[r]) continue;
-    double *half = w->half + g->entries + i * n;
+    if (!w->core.wanted[r]) continue;
+    double *half = w->core.half + g->entries + i * n;
     if (frot_is_reading(m, r)) {
       for (int k = 0; k < ns; k++) half[k] = mass[k * n + m->row_reads[r]];
       frot_forward(factor, ns, ns, half);
-      w->free[r] = frot_dot(half, force, ns) - w->h[g->unknowns[m->row_reads[r]]];
+      w->core.free[r] = frot_dot(half, force, ns) - w->core.h[g->unknowns[m->row_reads[r]]];
     } else {
-      memcpy(half, w->rows + g->entries + i * n, sizeof(double) * (size_t)ns);
+      memcpy(half, w->core.rows + g->entries + i * n, sizeof(double) * (size_t)ns);
       frot_forward(factor, ns, ns, half);
-      w->free[r] = frot_dot(half, force, ns) + w->c[r];
+      w->core.free[r] = frot_dot(half, force, ns) + w->core.c[r];
     }
   }
-  double *effects = w->delassus + g->square;
+  double *effects = w->core.delassus + g->square;
   for (int i = 0; i < g->n_rows; i++) {
     int r = g->rows[i], reads = m->row_reads[r];
-    if (!w->wanted[r]) continue;
-    const double *half = w->half + g->entries + i * n;
+    if (!w->core.wanted[r]) continue;
+    const double *half = w->core.half + g->entries + i * n;
     for (int j = 0; j < g->n_rows; j++) {
       int by = g->rows[j];
-      if (!w->wanted[by] || frot_is_reading(m, by)) continue;
+      if (!w->core.wanted[by] || frot_is_reading(m, by)) continue;
       if (reads < 0 && j < i) {
         effects[i * g->n_rows + j] = effects[j * g->n_rows + i];
         continue;
       }
-      double value = frot_dot(half, w->half + g->entries + j * n, ns);
-      if (reads >= 0) value -= w->rows[g->entries + j * n + reads];
+      double value = frot_dot(half, w->core.half + g->entries + j * n, ns);
+      if (reads >= 0) value -= w->core.rows[g->entries + j * n + reads];
       effects[i * g->n_rows + j] = value;
     }
   }
@@ -95,19 +95,19 @@ static double motion_of(const frot_group *g, const double *row, const double *z)
 /* A is any matrix. Its columns of auxiliary accelerations become those of the reactions there. */
 static int general_group(const frot_model *m, frot_work *w, const frot_group *g) {
   int n = g->n;
-  double *matrix = w->mass + g->matrix, *lu = w->lu + g->matrix,
-         *scale = w->lu_scale + 2 * g->vector;
-  int *pivot = w->lu_pivot + g->vector;
+  double *matrix = w->core.mass + g->matrix, *lu = w->core.lu + g->matrix,
+         *scale = w->core.lu_scale + 2 * g->vector;
+  int *pivot = w->core.lu_pivot + g->vector;
   for (int i = 0; i < g->n_rows; i++) {
     int reads = m->row_reads[g->rows[i]];
     if (reads < 0) continue;
-    const double *effect = w->effect + g->entries + i * n;
+    const double *effect = w->core.effect + g->entries + i * n;
     for (int k = 0; k < n; k++) matrix[reads * n + k] = -effect[k];
   }
   memcpy(lu, matrix, sizeof(double) * (size_t)(n * n));
   if (frot_lu(lu, n, pivot, scale)) return FROT_SINGULAR;
-  double *z = w->force + g->vector, *rest = w->rest;
-  for (int k = 0; k < n; k++) z[k] = rest[k] = w->h[g->unknowns[k]];
+  double *z = w->core.force + g->vector, *rest = w->core.rest;
+  for (int k = 0; k < n; k++) z[k] = rest[k] = w->core.h[g->unknowns[k]];
   frot_lu_apply(lu, n, pivot, scale, z);
   for (int k = 0; k < n; k++) /* one step of refinement */
     for (int i = 0; i < n; i++) rest[i] -= matrix[k * n + i] * z[k];
@@ -115,22 +115,23 @@ static int general_group(const frot_model *m, frot_work *w, const frot_group *g)
   for (int k = 0; k < n; k++) z[k] += rest[k];
   for (int i = 0; i < g->n_rows; i++) {
     int r = g->rows[i], reads = m->row_reads[r];
-    if (!w->wanted[r]) continue;
-    w->free[r] = reads >= 0 ? z[reads] : motion_of(g, w->rows + g->entries + i * n, z) + w->c[r];
+    if (!w->core.wanted[r]) continue;
+    w->core.free[r] =
+        reads >= 0 ? z[reads] : motion_of(g, w->core.rows + g->entries + i * n, z) + w->core.c[r];
     if (reads >= 0) continue;
-    double *response = w->half + g->entries + i * n;
-    memcpy(response, w->effect + g->entries + i * n, sizeof(double) * (size_t)n);
+    double *response = w->core.half + g->entries + i * n;
+    memcpy(response, w->core.effect + g->entries + i * n, sizeof(double) * (size_t)n);
     frot_lu_apply(lu, n, pivot, scale, response);
   }
-  double *effects = w->delassus + g->square;
+  double *effects = w->core.delassus + g->square;
   for (int i = 0; i < g->n_rows; i++) {
     int r = g->rows[i], reads = m->row_reads[r];
-    if (!w->wanted[r]) continue;
+    if (!w->core.wanted[r]) continue;
     for (int j = 0; j < g->n_rows; j++) {
-      if (!w->wanted[g->rows[j]] || frot_is_reading(m, g->rows[j])) continue;
-      const double *response = w->half + g->entries + j * n;
+      if (!w->core.wanted[g->rows[j]] || frot_is_reading(m, g->rows[j])) continue;
+      const double *response = w->core.half + g->entries + j * n;
       effects[i * g->n_rows + j] =
-          reads >= 0 ? response[reads] : motion_of(g, w->rows + g->entries + i * n, response);
+          reads >= 0 ? response[reads] : motion_of(g, w->core.rows + g->entries + i * n, response);
     }
   }
   return FROT_OK;
@@ -139,24 +140,27 @@ static int general_group(const frot_model *m, frot_work *w, const frot_group *g)
 int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes, int wanted) {
   s->statistics.evaluations++;
-  w->t = t;
+  w->core.t = t;
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
   frot_inputs(m, s, w, &t, q, v, d);
-  double *res[] = {w->qd,   w->mass, w->h,         w->rows,        w->c,
-                   w->rate, w->gap,  w->condition, w->coefficient, w->power};
-  memcpy(w->res, res, sizeof res);
-  m->dynamics.call(w->arg, w->res, w->iw, w->w, 0);
-  if (!frot_all_finite(w->mass, m->n_matrix) || !frot_all_finite(w->h, w->layout.nw) ||
-      !frot_all_finite(w->rows, m->n_entries) || !frot_all_finite(w->c, m->n_rows) ||
-      !frot_all_finite(w->qd, m->nq) || !frot_all_finite(w->coefficient, 2 * m->n_elements) ||
-      !frot_all_finite(w->condition, m->n_located) || !frot_all_finite(w->gap, m->n_contacts) ||
-      !frot_all_finite(w->power, 1))
+  double *res[] = {w->core.qd,          w->core.mass, w->core.h,   w->core.rows,
+                   w->core.c,           w->core.rate, w->core.gap, w->core.condition,
+                   w->core.coefficient, w->core.power};
+  memcpy(w->call.res, res, sizeof res);
+  frot_call(w, &m->dynamics);
+  if (!frot_all_finite(w->core.mass, m->n_matrix) || !frot_all_finite(w->core.h, w->layout.nw) ||
+      !frot_all_finite(w->core.rows, m->n_entries) || !frot_all_finite(w->core.c, m->n_rows) ||
+      !frot_all_finite(w->core.qd, m->nq) ||
+      !frot_all_finite(w->core.coefficient, 2 * m->n_elements) ||
+      !frot_all_finite(w->core.condition, m->n_located) ||
+      !frot_all_finite(w->core.gap, m->n_contacts) || !frot_all_finite(w->core.power, 1))
     return FROT_NAN;
   if (m->general) {
-    w->res[0] = w->effect, w->res[1] = w->metric;
-    m->spread.call(w->arg, w->res, w->iw, w->w, 0);
-    if (!frot_all_finite(w->effect, m->n_entries) || !frot_all_finite(w->metric, m->n_metric))
+    w->call.res[0] = w->core.effect, w->call.res[1] = w->core.metric;
+    frot_call(w, &m->spread);
+    if (!frot_all_finite(w->core.effect, m->n_entries) ||
+        !frot_all_finite(w->core.metric, m->n_metric))
       return FROT_NAN;
   }
   want_rows(m, w, modes, wanted);
@@ -172,9 +176,9 @@ int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, 
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
   frot_inputs(m, s, w, &t, q, v, d);
-  double *res[] = {w->gap, w->rows, w->rate, w->condition};
-  memcpy(w->res, res, sizeof res);
-  m->kinematics.call(w->arg, w->res, w->iw, w->w, 0);
+  double *res[] = {w->core.gap, w->core.rows, w->core.rate, w->core.condition};
+  memcpy(w->call.res, res, sizeof res);
+  frot_call(w, &m->kinematics);
   return FROT_OK;
 }
 
@@ -183,8 +187,9 @@ int frot_metric(const frot_model *m, frot_work *w) {
     const frot_group *g = &m->groups[k];
     int ns = g->n_speeds;
     if (!g->general) continue;
-    memcpy(w->factor + g->metric, w->metric + g->metric, sizeof(double) * (size_t)(ns * ns));
-    if (frot_cholesky(w->factor + g->metric, ns)) return FROT_SINGULAR;
+    memcpy(w->core.factor + g->metric, w->core.metric + g->metric,
+           sizeof(double) * (size_t)(ns * ns));
+    if (frot_cholesky(w->core.factor + g->metric, ns)) return FROT_SINGULAR;
   }
   return FROT_OK;
 }
@@ -193,25 +198,25 @@ void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen)
   for (int k = 0; k < m->n_groups; k++) {
     const frot_group *g = &m->groups[k];
     int n = g->n, ns = g->n_speeds, active = g->general ? n : ns;
-    double *z = w->rest;
-    memcpy(z, w->force + g->vector, sizeof(double) * (size_t)active);
+    double *z = w->core.rest;
+    memcpy(z, w->core.force + g->vector, sizeof(double) * (size_t)active);
     for (int i = 0; i < g->n_rows; i++) {
-      double lam = w->lam[g->rows[i]];
+      double lam = w->core.lam[g->rows[i]];
       if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
-      const double *response = w->half + g->entries + i * n;
+      const double *response = w->core.half + g->entries + i * n;
       for (int j = 0; j < active; j++) z[j] += lam * response[j];
     }
-    if (!g->general) frot_backward(w->factor + g->metric, ns, ns, z);
+    if (!g->general) frot_backward(w->core.factor + g->metric, ns, ns, z);
     for (int j = 0; j < n; j++) {
       int at = g->unknowns[j], auxiliary = j >= ns && j < ns + g->n_auxiliary;
-      w->a[at] = auxiliary || (j < ns && frozen[at] != 0) ? 0 : z[j];
+      w->core.a[at] = auxiliary || (j < ns && frozen[at] != 0) ? 0 : z[j];
     }
   }
 }
 
 double frot_row_size(const frot_model *m, const frot_work *w, int row, const double *v) {
   const frot_group *g = frot_group_of(m, row);
-  const double *entries = frot_entries(m, w->rows, row);
+  const double *entries = frot_entries(m, w->core.rows, row);
   double sum = 0;
   for (int k = 0; k < g->n_speeds; k++) sum += fabs(entries[k] * v[g->unknowns[k]]);
   return sum;
@@ -219,7 +224,7 @@ double frot_row_size(const frot_model *m, const frot_work *w, int row, const dou
 
 double frot_gap_size(const frot_model *m, const frot_work *w, int row, const double *q) {
   const frot_group *g = frot_group_of(m, row);
-  const double *entries = frot_entries(m, w->rows, row);
+  const double *entries = frot_entries(m, w->core.rows, row);
   double sum = 0;
   for (int k = 0; k < g->n_speeds; k++) {
     int coordinate = m->speed_coordinate[g->unknowns[k]];
@@ -232,13 +237,13 @@ double frot_metric_entry(const frot_model *m, const frot_work *w, int a, int b) 
   const frot_group *g = &m->groups[m->speed_group[a]];
   if (m->speed_group[b] != m->speed_group[a]) return 0;
   int i = m->speed_local[a], k = m->speed_local[b];
-  return g->general ? w->metric[g->metric + k * g->n_speeds + i]
-                    : w->mass[g->matrix + k * g->n + i];
+  return g->general ? w->core.metric[g->metric + k * g->n_speeds + i]
+                    : w->core.mass[g->matrix + k * g->n + i];
 }
 
 double frot_square_of(const frot_work *w, const frot_group *g, const double *v) {
   int ns = g->n_speeds, order = g->general ? ns : g->n;
-  const double *metric = g->general ? w->metric + g->metric : w->mass + g->matrix;
+  const double *metric = g->general ? w->core.metric + g->metric : w->core.mass + g->matrix;
   double sum = 0;
   for (int i = 0; i < ns; i++)
     for (int k = 0; k < ns; k++)
@@ -255,9 +260,9 @@ double frot_kinetic(const frot_model *m, const frot_work *w, const double *v) {
 double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v) {
   const frot_group *g = frot_group_of(m, row);
   int ns = g->n_speeds;
-  double *half = w->rest;
-  memcpy(half, frot_entries(m, w->rows, row), sizeof(double) * (size_t)ns);
-  frot_forward(w->factor + g->metric, ns, ns, half);
+  double *half = w->core.rest;
+  memcpy(half, frot_entries(m, w->core.rows, row), sizeof(double) * (size_t)ns);
+  frot_forward(w->core.factor + g->metric, ns, ns, half);
   return sqrt(frot_square_of(w, g, v) * frot_dot(half, half, ns));
 }
 
@@ -266,15 +271,15 @@ double frot_least_length(const frot_model *m, frot_work *w, int row, double own)
   if (normal < 0) return FROT_DEPENDENT * own;
   const frot_group *g = frot_group_of(m, normal);
   int ns = g->n_speeds, at = m->row_reads[normal];
-  double *half = w->rest, beside;
+  double *half = w->core.rest, beside;
   if (at < 0) {
-    memcpy(half, frot_entries(m, w->rows, normal), sizeof(double) * (size_t)ns);
-    frot_forward(w->factor + g->metric, ns, ns, half);
+    memcpy(half, frot_entries(m, w->core.rows, normal), sizeof(double) * (size_t)ns);
+    frot_forward(w->core.factor + g->metric, ns, ns, half);
     beside = sqrt(frot_dot(half, half, ns));
   } else if (!g->general) {
-    const double *mass = w->mass + g->matrix;
+    const double *mass = w->core.mass + g->matrix;
     for (int k = 0; k < ns; k++) half[k] = mass[k * g->n + at];
-    frot_forward(w->factor + g->metric, ns, ns, half);
+    frot_forward(w->core.factor + g->metric, ns, ns, half);
     double inertia = mass[at * g->n + at] - frot_dot(half, half, ns);
     beside = inertia > 0 ? 1 / sqrt(inertia) : 0;
   } else {
@@ -286,7 +291,7 @@ double frot_least_length(const frot_model *m, frot_work *w, int row, double own)
 /* size <- |L^-1| load (n_speeds). */
 static void spread_in_factor(const frot_work *w, const frot_group *g, const double *load,
                              double *size) {
-  const double *factor = w->factor + g->metric;
+  const double *factor = w->core.factor + g->metric;
   int ns = g->n_speeds;
   for (int i = 0; i < ns; i++) {
     double sum = load[g->unknowns[i]];
@@ -298,18 +303,18 @@ static void spread_in_factor(const frot_work *w, const frot_group *g, const doub
 /* size <- |A^-1| load (n; of a mass matrix n_speeds), column after column of the inverse. */
 static void spread_in_inverse(frot_work *w, const frot_group *g, const double *load, double *size) {
   int n = g->general ? g->n : g->n_speeds;
-  double *column = w->rest;
+  double *column = w->core.rest;
   memset(size, 0, sizeof(double) * (size_t)n);
   for (int k = 0; k < n; k++) {
     memset(column, 0, sizeof(double) * (size_t)n);
     column[k] = load[g->unknowns[k]];
     if (column[k] == 0) continue;
     if (g->general) {
-      frot_lu_apply(w->lu + g->matrix, n, w->lu_pivot + g->vector, w->lu_scale + 2 * g->vector,
-                    column);
+      frot_lu_apply(w->core.lu + g->matrix, n, w->core.lu_pivot + g->vector,
+                    w->core.lu_scale + 2 * g->vector, column);
     } else {
-      frot_forward(w->factor + g->metric, n, n, column);
-      frot_backward(w->factor + g->metric, n, n, column);
+      frot_forward(w->core.factor + g->metric, n, n, column);
+      frot_backward(w->core.factor + g->metric, n, n, column);
     }
     for (int i = 0; i < n; i++) size[i] += fabs(column[i]);
   }
@@ -318,8 +323,8 @@ static void spread_in_inverse(frot_work *w, const frot_group *g, const double *l
 static void find_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                        const double *v, const double *d) {
   frot_inputs(m, s, w, &t, q, v, d);
-  w->res[0] = w->load, w->res[1] = w->values;
-  m->sizes.call(w->arg, w->res, w->iw, w->w, 0);
+  w->call.res[0] = w->core.load, w->call.res[1] = w->call.values;
+  frot_call(w, &m->sizes);
 }
 
 void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
@@ -330,13 +335,13 @@ void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, d
   for (int k = 0; k < m->n_groups; k++) {
     const frot_group *g = &m->groups[k];
     int ns = g->n_speeds, n = g->general ? g->n : ns;
-    double *sum = w->load_size, *response = w->rest;
-    spread_in_inverse(w, g, w->load, sum);
+    double *sum = w->core.load_size, *response = w->core.rest;
+    spread_in_inverse(w, g, w->core.load, sum);
     for (int i = 0; i < g->n_rows; i++) {
-      double lam = w->lam[g->rows[i]];
+      double lam = w->core.lam[g->rows[i]];
       if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
-      memcpy(response, w->half + g->entries + i * g->n, sizeof(double) * (size_t)n);
-      if (!g->general) frot_backward(w->factor + g->metric, ns, ns, response);
+      memcpy(response, w->core.half + g->entries + i * g->n, sizeof(double) * (size_t)n);
+      if (!g->general) frot_backward(w->core.factor + g->metric, ns, ns, response);
       for (int j = 0; j < ns; j++) sum[j] += fabs(lam * response[j]);
     }
     for (int j = 0; j < ns; j++) size[g->unknowns[j]] = sum[j];
@@ -345,7 +350,7 @@ void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, d
 
 void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d) {
-  double *load = w->load, *size = w->load_size;
+  double *load = w->core.load, *size = w->core.load_size;
   if (!m->sizes.call) return;
   find_loads(m, s, w, t, q, v, d);
   for (int k = 0; k < m->n_groups; k++) {
@@ -358,11 +363,13 @@ void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, 
       spread_in_factor(w, g, load, size);
     for (int i = 0; i < g->n_rows; i++) {
       int r = g->rows[i], reads = m->row_reads[r];
-      if (!w->wanted[r]) continue;
-      const double *row = (g->general ? w->rows : w->half) + g->entries + i * n;
-      double sum = reads < 0 ? fabs(w->c[r]) : g->general ? size[reads] : load[g->unknowns[reads]];
+      if (!w->core.wanted[r]) continue;
+      const double *row = (g->general ? w->core.rows : w->core.half) + g->entries + i * n;
+      double sum = reads < 0    ? fabs(w->core.c[r])
+                   : g->general ? size[reads]
+                                : load[g->unknowns[reads]];
       for (int j = 0; j < count && !(g->general && reads >= 0); j++) sum += fabs(row[j]) * size[j];
-      w->row_load[r] = sum;
+      w->core.row_load[r] = sum;
     }
   }
 }
@@ -374,7 +381,7 @@ int frot_energies(const frot_model *m, frot_state *s, frot_work *w, double t, co
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
   frot_inputs(m, s, w, &t, q, v, d);
-  w->res[0] = energy, w->res[1] = energy + 1;
-  m->energy.call(w->arg, w->res, w->iw, w->w, 0);
+  w->call.res[0] = energy, w->call.res[1] = energy + 1;
+  frot_call(w, &m->energy);
   return FROT_OK;
 }

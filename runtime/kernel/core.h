@@ -3,13 +3,13 @@
 #define FROT_CORE_H
 
 #include "groups.h"
-#include "state.h"
+#include "work.h"
 
 /* Kinetic and potential energy at (t, q, v, d); zero where the model has none. */
 int frot_energies(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, double energy[2]);
 
-/* Point w->arg at the arguments that all functions of the state begin with. */
+/* Point w->call.arg at the arguments that all functions of the state begin with. */
 void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
                  const double *v, const double *d);
 
@@ -21,9 +21,9 @@ enum frot_wanted {
 };
 
 /* Solve the blocks, evaluate the generated `dynamics` at (t, q, v, d), factor A and form for the
- * rows wanted of the contacts that are closed in `modes`: w->free, the acceleration (of a reading:
- * the reaction) without reactions of other rows, and w->delassus, what these do to it. FROT_OK or a
- * status that is not recorded as a fault. */
+ * rows wanted of the contacts that are closed in `modes`: w->core.free, the acceleration (of a
+ * reading: the reaction) without reactions of other rows, and w->core.delassus, what these do to
+ * it. FROT_OK or a status that is not recorded as a fault. */
 int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes, int wanted);
 
@@ -31,14 +31,15 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
 int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d);
 
-/* Cholesky factors of the metrics of speeds into w->factor, after frot_dynamics; they are there
- * already where a group is a mass matrix. FROT_OK or FROT_SINGULAR. */
+/* Cholesky factors of the metrics of speeds into w->core.factor, after frot_dynamics; they are
+ * there already where a group is a mass matrix. FROT_OK or FROT_SINGULAR. */
 int frot_metric(const frot_model *m, frot_work *w);
 
 /* Entry of the metric for two speeds, after frot_dynamics. */
 double frot_metric_entry(const frot_model *m, const frot_work *w, int a, int b);
 
-/* The solution w->a of the core from w->lam; accelerations of frozen speeds are exactly zero. */
+/* The solution w->core.a of the core from w->core.lam; accelerations of frozen speeds are exactly
+ * zero. */
 void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen);
 
 /* Sizes of the terms of J v in a row and of the motion of a gap by all coordinates, for the
@@ -47,7 +48,7 @@ double frot_row_size(const frot_model *m, const frot_work *w, int row, const dou
 double frot_gap_size(const frot_model *m, const frot_work *w, int row, const double *q);
 
 /* Speed of a row if all motion of its group went into it: for the comparison of a speed with zero.
- * Uses w->rows and the metric of the last frot_dynamics, factored. */
+ * Uses w->core.rows and the metric of the last frot_dynamics, factored. */
 double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v);
 
 /* Length of the row L^-1 J' (whose own length is `own`) outside the rows before it below which it
@@ -55,8 +56,9 @@ double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *
  * moves it, and its row is rounding. Uses the mass and the metric of the last frot_dynamics. */
 double frot_least_length(const frot_model *m, frot_work *w, int row, double own);
 
-/* What all loads could do to the rows that frot_dynamics has looked at, into w->row_load: sizes
- * that their sum is compared with, for it may cancel. After frot_dynamics at the same place. */
+/* What all loads could do to the rows that frot_dynamics has looked at, into w->core.row_load:
+ * sizes that their sum is compared with, for it may cancel. After frot_dynamics at the same place.
+ */
 void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d);
 

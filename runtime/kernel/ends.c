@@ -17,40 +17,40 @@ void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t
   const frot_contact_mode *modes = modes_of(s, w);
   for (int e = 0; e < m->n_elements; e++)
     for (int k = 0; k < 2 && m->elements[e].bound == FROT_BY_PIN; k++)
-      w->end_reaction[2 * e + k] = w->lam[m->elements[e].bounded_by[k]];
+      w->guards.end_reaction[2 * e + k] = w->core.lam[m->elements[e].bounded_by[k]];
   if (frot_guards_read_loads(m, w, modes)) frot_row_loads(m, s, w, t, z, z + m->nq, d);
-  frot_guards(m, s, w, z, z + m->nq, d, modes, w->ztry, w->guard);
+  frot_guards(m, s, w, z, z + m->nq, d, modes, w->step.z, w->guards.size);
 }
 
 void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z) {
   const frot_layout *l = &w->layout;
   for (int j = 0; j < m->nq + m->nv; j++)
     s->data[l->scale_x + j] = fmax(s->data[l->scale_x + j], fabs(z[j]));
-  for (int k = 0; k < w->n_guards; k++) {
-    double *scale = s->data + l->scale_g + w->guards[k];
-    *scale = fmax(*scale, w->guard[k]);
+  for (int k = 0; k < w->guards.count; k++) {
+    double *scale = s->data + l->scale_g + w->guards.list[k];
+    *scale = fmax(*scale, w->guards.size[k]);
   }
   s->energy_scale = fmax(s->energy_scale, frot_kinetic(m, w, z + m->nq));
 }
 
 int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t) {
   const frot_layout *l = &w->layout;
-  memcpy(w->z0, s->data + l->x, sizeof(double) * (size_t)l->nx);
-  memset(w->z0 + l->nx, 0, sizeof(double) * (size_t)l->ng);
+  memcpy(w->step.z0, s->data + l->x, sizeof(double) * (size_t)l->nx);
+  memset(w->step.z0 + l->nx, 0, sizeof(double) * (size_t)l->ng);
   frot_list_guards(m, s, w, modes_of(s, w));
   if (s->has_slope) {
     memcpy(frot_stage(w, 0), s->data + l->slope, sizeof(double) * (size_t)l->nz);
     return FROT_OK;
   }
-  memcpy(w->z1, w->z0, sizeof(double) * (size_t)l->nx);
-  memcpy(w->y, s->data + l->y, sizeof(double) * (size_t)m->ny);
-  int status = frot_slope(m, s, w, t, w->z0, frot_stage(w, 0));
+  memcpy(w->step.z1, w->step.z0, sizeof(double) * (size_t)l->nx);
+  memcpy(w->blocks.y, s->data + l->y, sizeof(double) * (size_t)m->ny);
+  int status = frot_slope(m, s, w, t, w->step.z0, frot_stage(w, 0));
   if (status == FROT_OK) {
-    memcpy(s->data + l->y, w->y, sizeof(double) * (size_t)m->ny);
+    memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
     frot_turn_references(m, s, w);
-    frot_measure_end(m, s, w, t, w->z0);
-    frot_note_sizes(m, s, w, w->z0);
-    memcpy(frot_stage(w, 0) + l->nx, w->ztry, sizeof(double) * (size_t)w->n_guards);
+    frot_measure_end(m, s, w, t, w->step.z0);
+    frot_note_sizes(m, s, w, w->step.z0);
+    memcpy(frot_stage(w, 0) + l->nx, w->step.z, sizeof(double) * (size_t)w->guards.count);
   }
   return status;
 }
@@ -60,13 +60,14 @@ void frot_turn_at_end(const frot_model *m, frot_state *s, frot_work *w, double *
   const frot_contact_mode *modes = modes_of(s, w);
   for (int e = 0; e < m->n_elements; e++)
     for (int k = 0; k < 2 && m->elements[e].bound == FROT_BY_PIN; k++)
-      w->lam[m->elements[e].bounded_by[k]] = w->end_reaction[2 * e + k];
+      w->core.lam[m->elements[e].bounded_by[k]] = w->guards.end_reaction[2 * e + k];
   frot_turn_references(m, s, w);
-  for (int k = 0; k < w->n_guards && w->guards[k] < frot_condition_guard(m); k++) {
-    int e = (w->guards[k] - m->n_contacts) / 2;
-    if (w->guards[k] < m->n_contacts || w->guards[k] == frot_element_guard(m, e)) continue;
+  for (int k = 0; k < w->guards.count && w->guards.list[k] < frot_condition_guard(m); k++) {
+    int e = (w->guards.list[k] - m->n_contacts) / 2;
+    if (w->guards.list[k] < m->n_contacts || w->guards.list[k] == frot_element_guard(m, e))
+      continue;
     if (frot_element_mode(m, modes, e)->friction == FROT_STICK) continue;
-    const double *along = s->data + l->along + 2 * e, *reaction = w->end_reaction + 2 * e;
+    const double *along = s->data + l->along + 2 * e, *reaction = w->guards.end_reaction + 2 * e;
     slope[l->nx + k] = along[0] * reaction[0] + along[1] * reaction[1];
   }
 }

@@ -2,14 +2,14 @@
 #ifndef FROT_ENDS_H
 #define FROT_ENDS_H
 
-#include "state.h"
+#include "work.h"
 
-/* Derivative at the start of the step from t into stage 0, the values there into w->z0; lists the
- * guards. FROT_OK or a status that is not recorded as a fault. */
+/* Derivative at the start of the step from t into stage 0, the values there into w->step.z0; lists
+ * the guards. FROT_OK or a status that is not recorded as a fault. */
 int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t);
 
-/* Sizes of the guards' terms at (t, z) into w->guard and the pins' reactions into w->end_reaction;
- * the last evaluation was there. */
+/* Sizes of the guards' terms at (t, z) into w->guards.size and the pins' reactions into
+ * w->guards.end_reaction; the last evaluation was there. */
 void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z);
 
 /* Note how large values and guards have been, after frot_measure_end at z. */

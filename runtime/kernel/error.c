@@ -12,35 +12,36 @@
  * begins at zero without any rate there is no other. */
 static double size_at_start(const frot_model *m, const frot_state *s, const frot_work *w, int j,
                             double h) {
-  double size = fmax(s->data[w->layout.scale_x + j], fabs(w->z0[j])), change = h * fabs(w->k[j]);
-  if (j < m->nq && m->q_speed[j] < 0) return w->own_size[j];
-  if (j < m->nq) change += h * h * fabs(w->k[m->nq + m->q_speed[j]]);
+  double size = fmax(s->data[w->layout.scale_x + j], fabs(w->step.z0[j])),
+         change = h * fabs(w->step.k[j]);
+  if (j < m->nq && m->q_speed[j] < 0) return w->sizes.own[j];
+  if (j < m->nq) change += h * h * fabs(w->step.k[m->nq + m->q_speed[j]]);
   size = fmax(size, change);
-  return size > 0 ? size : fabs(w->z1[j] - w->z0[j]);
+  return size > 0 ? size : fabs(w->step.z1[j] - w->step.z0[j]);
 }
 
 /* What the step brings the states that are no coordinates, by their slopes at its start. Where that
  * leaves a size of zero, by the first slope that is not: of what begins with the step nothing else
  * is known, and later ones may be wild where the step is far too long. */
 static void size_own_states(const frot_model *m, const frot_state *s, frot_work *w, double h) {
-  for (int j = 0; j < m->nq; j++) w->change[j] = h * fabs(w->k[j]);
+  for (int j = 0; j < m->nq; j++) w->sizes.change[j] = h * fabs(w->step.k[j]);
   if (!frot_state_sizes(m, s, w)) return;
   for (int j = 0; j < m->nq; j++)
-    for (int k = 1; m->q_speed[j] < 0 && w->own_size[j] == 0 && w->change[j] == 0; k++) {
+    for (int k = 1; m->q_speed[j] < 0 && w->sizes.own[j] == 0 && w->sizes.change[j] == 0; k++) {
       if (k > DP_STAGES) break;
-      w->change[j] = h * fabs(frot_stage(w, k)[j]);
+      w->sizes.change[j] = h * fabs(frot_stage(w, k)[j]);
     }
   frot_state_sizes(m, s, w);
 }
 
-/* The worst estimate of the local error over its bound, and in w->worst the value it is of. */
+/* The worst estimate of the local error over its bound, and in w->step.worst the value it is of. */
 static double worst_error(const frot_model *m, const frot_state *s, frot_work *w, double h) {
   const frot_layout *l = &w->layout;
   double tolerance = fmax(FROT_EXPLICIT_SHARE * s->tolerance, FROT_LEAST_TOLERANCE), worst = 0;
   double guard_tolerance = frot_guard_tolerance(s->tolerance);
   double e5[FROT_CHUNK], e3[FROT_CHUNK];
   int end = frot_width(w);
-  w->worst = -1;
+  w->step.worst = -1;
   for (int j = 0; j < end; j++) {
     int at = j % FROT_CHUNK, size = end - j < FROT_CHUNK ? end - j : FROT_CHUNK;
     if (at == 0) {
@@ -56,7 +57,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       bound = tolerance * size_at_start(m, s, w, j, h);
       if (plain) bound = fmax(bound, noise), noise = 0; /* no inertia smooths it */
     } else {
-      double largest = FROT_GUARD_LOOSEST * s->data[l->scale_g + w->guards[j - l->nx]];
+      double largest = FROT_GUARD_LOOSEST * s->data[l->scale_g + w->guards.list[j - l->nx]];
       for (int k = 0; k <= DP_STAGES; k++) largest = fmax(largest, fabs(frot_stage(w, k)[j]));
       bound = guard_tolerance * h * largest;
     }
@@ -65,7 +66,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     /* what rounding makes grows with the step as its bound does: it is no reason for a shorter one
      */
     double ratio = error <= noise ? 0 : (error - noise) / bound;
-    if (!(ratio <= worst)) worst = ratio, w->worst = j < m->nq + m->nv ? j : -1;
+    if (!(ratio <= worst)) worst = ratio, w->step.worst = j < m->nq + m->nv ? j : -1;
     if (isnan(worst)) break;
   }
   return worst;
@@ -75,8 +76,8 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
   if (s->implicit) return frot_implicit_error(m, s, w, h);
   size_own_states(m, s, w, h);
   double worst = worst_error(m, s, w, h);
-  if (!(worst > FROT_LIMITING) || w->worst < 0 || w->worst >= m->nq ||
-      !frot_is_small(m, s, w, w->worst))
+  if (!(worst > FROT_LIMITING) || w->step.worst < 0 || w->step.worst >= m->nq ||
+      !frot_is_small(m, s, w, w->step.worst))
     return worst;
   int no_jacobian = !m->has_jacobian || frot_implicit_begin(m, s, w, t) != FROT_OK;
   frot_raise_small(m, s, w, h, no_jacobian);

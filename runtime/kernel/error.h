@@ -2,11 +2,11 @@
 #ifndef FROT_ERROR_H
 #define FROT_ERROR_H
 
-#include "state.h"
+#include "work.h"
 
 /* Estimate of the local error of the step h just run, over its bound: at most 1 for a good step,
- * NaN for no number. In w->worst the state it is of, or -1. The Jacobian is asked for only where a
- * small state is what limits the step. */
+ * NaN for no number. In w->step.worst the state it is of, or -1. The Jacobian is asked for only
+ * where a small state is what limits the step. */
 double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 
 /* What rounding does to the derivatives at time t, into the state: that of the values and of the

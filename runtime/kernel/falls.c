@@ -12,7 +12,7 @@
 
 void frot_guard_polynomial(const frot_state *s, const frot_work *w, int guard, double h,
                            double g[7]) {
-  const double *f = w->f + w->layout.nx + guard;
+  const double *f = w->step.f + w->layout.nx + guard;
   int nz = w->layout.nz;
   for (int k = 0; s->implicit && k < 7; k++) g[k] = f[k * nz];
   if (s->implicit) return;
@@ -33,8 +33,8 @@ static double fallen(const frot_model *m, const frot_state *s, const frot_work *
 
 double frot_close_to_fall(const frot_model *m, const frot_state *s, const frot_work *w, int k,
                           double t, double slope) {
-  double size = s->data[w->layout.scale_g + w->guards[k]];
-  if (w->guards[k] < frot_condition_guard(m)) return FROT_LOCATED * size;
+  double size = s->data[w->layout.scale_g + w->guards.list[k]];
+  if (w->guards.list[k] < frot_condition_guard(m)) return FROT_LOCATED * size;
   return FROT_GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * fabs(slope);
 }
 
@@ -53,9 +53,9 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
                        double h, double *theta) {
   int found = -1, conditions = frot_condition_guard(m);
   *theta = FROT_NO_ROOT;
-  for (int k = 0; k < w->n_guards; k++) {
+  for (int k = 0; k < w->guards.count; k++) {
     double g[7];
-    int j = w->guards[k];
+    int j = w->guards.list[k];
     frot_guard_polynomial(s, w, k, h, g);
     double size = s->data[w->layout.scale_g + j], inside = 0;
     for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
@@ -76,8 +76,8 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
 
 void frot_fire_at_start(frot_state *s, const frot_work *w, int guard) {
   const frot_layout *l = &w->layout;
-  s->data[l->fired + w->guards[guard]] = 1;
-  memcpy(s->data + l->slope, w->k, sizeof(double) * (size_t)l->nz);
+  s->data[l->fired + w->guards.list[guard]] = 1;
+  memcpy(s->data + l->slope, w->step.k, sizeof(double) * (size_t)l->nz);
   s->pending = 1;
 }
 
@@ -85,34 +85,34 @@ void frot_fire_guards(const frot_model *m, frot_state *s, const frot_work *w, in
                       double h) {
   int nx = w->layout.nx;
   const double *end = frot_stage(w, DP_STAGES) + nx, *start = frot_stage(w, 0) + nx;
-  for (int k = 0; k < w->n_guards; k++) {
+  for (int k = 0; k < w->guards.count; k++) {
     double g[7];
     frot_guard_polynomial(s, w, k, h, g);
-    double limit = fallen(m, s, w, w->guards[k], t + h, 6 * (g[6] - g[5]) / h);
+    double limit = fallen(m, s, w, w->guards.list[k], t + h, 6 * (g[6] - g[5]) / h);
     if (k == first || (end[k] <= limit && start[k] > limit))
-      s->data[w->layout.fired + w->guards[k]] = 1;
+      s->data[w->layout.fired + w->guards.list[k]] = 1;
   }
   s->pending = 1;
 }
 
 /* The listed guard of the first condition: they are all listed, last. */
 static int first_condition(const frot_model *m, const frot_work *w) {
-  return w->n_guards - m->n_located;
+  return w->guards.count - m->n_located;
 }
 
 int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
                           double *part) {
   const double *d = s->data + w->layout.d;
-  const double *start = w->k + w->layout.nx + first_condition(m, w);
+  const double *start = w->step.k + w->layout.nx + first_condition(m, w);
   int passed = -1;
-  if (m->n_located == 0 || !frot_all_finite(w->z1, m->nq + m->nv)) return -1;
-  memcpy(w->y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
-  if (frot_kinematics(m, s, w, w->t, w->z1, w->z1 + m->nq, d) != FROT_OK) return -1;
+  if (m->n_located == 0 || !frot_all_finite(w->step.z1, m->nq + m->nv)) return -1;
+  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  if (frot_kinematics(m, s, w, w->core.t, w->step.z1, w->step.z1 + m->nq, d) != FROT_OK) return -1;
   *part = 1;
   for (int j = 0; j < m->n_located; j++) {
-    double value = d[j] != 0 ? w->condition[j] : -w->condition[j];
+    double value = d[j] != 0 ? w->core.condition[j] : -w->core.condition[j];
     if (!(value < 0 && start[j] >= 0)) continue;
-    double at = (w->t - t) / h * start[j] / (start[j] - value);
+    double at = (w->core.t - t) / h * start[j] / (start[j] - value);
     if (at <= *part) *part = at, passed = j;
   }
   return passed;
@@ -120,7 +120,7 @@ int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, doub
 
 int frot_condition_at_zero(const frot_model *m, const frot_state *s, const frot_work *w) {
   int first = first_condition(m, w);
-  const double *guard = w->k + w->layout.nx + first;
+  const double *guard = w->step.k + w->layout.nx + first;
   for (int j = 0; j < m->n_located; j++)
     if (fabs(guard[j]) <=
         FROT_GUARD_FLOOR * s->data[w->layout.scale_g + frot_condition_guard(m) + j])

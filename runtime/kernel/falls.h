@@ -3,7 +3,7 @@
 #ifndef FROT_FALLS_H
 #define FROT_FALLS_H
 
-#include "state.h"
+#include "work.h"
 
 /* Bernstein coefficients of the listed guard k over the step h, after frot_make_dense. */
 void frot_guard_polynomial(const frot_state *s, const frot_work *w, int k, double h, double g[7]);
@@ -25,9 +25,9 @@ void frot_fire_guards(const frot_model *m, frot_state *s, const frot_work *w, in
 /* Fire a listed guard at the start, where no step is possible. */
 void frot_fire_at_start(frot_state *s, const frot_work *w, int guard);
 
-/* After a stage that gave no number (its argument in w->z1): a located condition may have passed
- * through zero before it, beyond which its branch has no value, as a root. The first such one, -1
- * if none; *part is the part of the step h from t after which it seems to be zero. */
+/* After a stage that gave no number (its argument in w->step.z1): a located condition may have
+ * passed through zero before it, beyond which its branch has no value, as a root. The first such
+ * one, -1 if none; *part is the part of the step h from t after which it seems to be zero. */
 int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
                           double *part);
 

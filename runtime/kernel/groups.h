@@ -3,7 +3,7 @@
 #ifndef FROT_GROUPS_H
 #define FROT_GROUPS_H
 
-#include "state.h"
+#include "work.h"
 
 /* The group of a row, and the row's entries over the unknowns of that group. */
 static inline const frot_group *frot_group_of(const frot_model *m, int row) {
@@ -18,7 +18,7 @@ static inline double *frot_entries(const frot_model *m, double *packed, int row)
  * reading a reaction. */
 static inline double *frot_effect_on(const frot_model *m, const frot_work *w, int row) {
   const frot_group *g = frot_group_of(m, row);
-  return w->delassus + g->square + m->row_local[row] * g->n_rows;
+  return w->core.delassus + g->square + m->row_local[row] * g->n_rows;
 }
 static inline double frot_effect(const frot_model *m, const frot_work *w, int row, int by) {
   return frot_effect_on(m, w, row)[m->row_local[by]];

@@ -36,19 +36,19 @@ void frot_list_guards(const frot_model *m, const frot_state *s, frot_work *w,
                       const frot_contact_mode *modes) {
   int n = 0;
   for (int i = 0; i < m->n_contacts; i++)
-    if (contact_has_guard(m, s, w, modes, i)) w->guards[n++] = i;
+    if (contact_has_guard(m, s, w, modes, i)) w->guards.list[n++] = i;
   for (int e = 0; e < m->n_elements; e++) {
     int count = count_element_guards(m, modes, e);
-    for (int k = 0; k < count; k++) w->guards[n++] = frot_element_guard(m, e) + k;
+    for (int k = 0; k < count; k++) w->guards.list[n++] = frot_element_guard(m, e) + k;
   }
-  for (int j = 0; j < m->n_located; j++) w->guards[n++] = frot_condition_guard(m) + j;
-  w->n_guards = n;
+  for (int j = 0; j < m->n_located; j++) w->guards.list[n++] = frot_condition_guard(m) + j;
+  w->guards.count = n;
 }
 
 double frot_reaction_size(const frot_model *m, const frot_work *w, int row) {
-  if (frot_is_reading(m, row)) return w->row_load[row];
+  if (frot_is_reading(m, row)) return w->core.row_load[row];
   double own = fabs(frot_effect(m, w, row, row));
-  return own > 0 ? w->row_load[row] / own : 0;
+  return own > 0 ? w->core.row_load[row] / own : 0;
 }
 
 /* What the loads could make of the reaction that bounds an element. */
@@ -63,11 +63,11 @@ static double contact_guard(const frot_model *m, const frot_work *w, const doubl
                             const frot_contact_mode *mode, int i, double *scale) {
   int row = m->contacts[i].row_n;
   if (!mode->closed) {
-    if (scale) *scale = fabs(w->gap[i]) + frot_gap_size(m, w, row, q);
-    return w->gap[i];
+    if (scale) *scale = fabs(w->core.gap[i]) + frot_gap_size(m, w, row, q);
+    return w->core.gap[i];
   }
-  if (scale) *scale = fabs(w->lam[row]) + frot_reaction_size(m, w, row);
-  return mode->side * w->lam[row];
+  if (scale) *scale = fabs(w->core.lam[row]) + frot_reaction_size(m, w, row);
+  return mode->side * w->core.lam[row];
 }
 
 /* The first (k = 0) or second guard of an element. */
@@ -79,21 +79,21 @@ static double element_guard(const frot_model *m, const frot_state *s, const frot
   if (friction == FROT_STICK && element->prescribed) {
     /* rest lasts as long as the prescribed motion rests */
     if (scale) *scale = FROT_PRESCRIBED_REST;
-    return FROT_PRESCRIBED_REST - fabs(w->c[row]);
+    return FROT_PRESCRIBED_REST - fabs(w->core.c[row]);
   }
   if (friction == FROT_STICK) {
-    double bound = frot_bound_of_rest(m, w, e, modes), lam = w->lam[row];
+    double bound = frot_bound_of_rest(m, w, e, modes), lam = w->core.lam[row];
     if (scale)
       *scale = fabs(bound) + fabs(lam) + frot_reaction_size(m, w, row) +
-               w->coefficient[2 * e + 1] * bounding_size(m, w, element);
+               w->core.coefficient[2 * e + 1] * bounding_size(m, w, element);
     return k == 0 ? bound - lam : bound + lam;
   }
   if (k == 0) {
     if (scale) *scale = frot_row_size(m, w, row, v);
-    return friction == FROT_SLIP_FORWARD ? w->rate[row] : -w->rate[row];
+    return friction == FROT_SLIP_FORWARD ? w->core.rate[row] : -w->core.rate[row];
   }
   const double *along = s->data + w->layout.along + 2 * e;
-  double first = w->lam[element->bounded_by[0]], second = w->lam[element->bounded_by[1]];
+  double first = w->core.lam[element->bounded_by[0]], second = w->core.lam[element->bounded_by[1]];
   if (scale) *scale = fabs(first) + fabs(second) + bounding_size(m, w, element);
   return along[0] * first + along[1] * second;
 }
@@ -102,8 +102,8 @@ void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, c
                  const double *v, const double *d, const frot_contact_mode *modes, double *guard,
                  double *scale) {
   int conditions = frot_condition_guard(m);
-  for (int k = 0; k < w->n_guards; k++) {
-    int j = w->guards[k];
+  for (int k = 0; k < w->guards.count; k++) {
+    int j = w->guards.list[k];
     double *size = scale ? scale + k : NULL;
     if (j < m->n_contacts) {
       guard[k] = contact_guard(m, w, q, &modes[j], j, size);
@@ -111,7 +111,7 @@ void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, c
       int e = (j - m->n_contacts) / 2;
       guard[k] = element_guard(m, s, w, v, modes, e, (j - m->n_contacts) % 2, size);
     } else {
-      double value = w->condition[j - conditions];
+      double value = w->core.condition[j - conditions];
       guard[k] = d[j - conditions] != 0 ? value : -value;
       if (size) *size = fabs(value);
     }
@@ -120,8 +120,8 @@ void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, c
 
 int frot_guards_read_loads(const frot_model *m, const frot_work *w,
                            const frot_contact_mode *modes) {
-  for (int k = 0; k < w->n_guards && w->guards[k] < frot_condition_guard(m); k++) {
-    int j = w->guards[k];
+  for (int k = 0; k < w->guards.count && w->guards.list[k] < frot_condition_guard(m); k++) {
+    int j = w->guards.list[k];
     if (j >= m->n_contacts || modes[j].closed) return 1;
   }
   return 0;
@@ -132,7 +132,8 @@ void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w
     const frot_element *element = &m->elements[e];
     if (element->bound != FROT_BY_PIN) continue;
     double *along = s->data + w->layout.along + 2 * e;
-    double first = w->lam[element->bounded_by[0]], second = w->lam[element->bounded_by[1]];
+    double first = w->core.lam[element->bounded_by[0]],
+           second = w->core.lam[element->bounded_by[1]];
     double size = hypot(first, second);
     double largest = s->data[w->layout.scale_g + frot_element_guard(m, e) + 1];
     if (size > FROT_VANISHED * largest)

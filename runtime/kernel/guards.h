@@ -2,12 +2,13 @@
 #ifndef FROT_GUARDS_H
 #define FROT_GUARDS_H
 
-#include "state.h"
+#include "work.h"
 
 /* Guards are numbered: of contact i its gap while it is open, its reaction while that must keep its
  * sign; of each element two, what it can resist less what it does, both ways, at rest, and its
  * motion while it slips, with the reaction of its pin along the reference direction; then the
- * conditions. Those that can fall in `modes` are listed in w->guards, their number in w->n_guards.
+ * conditions. Those that can fall in `modes` are listed in w->guards.list, their number in
+ * w->n_guards.
  */
 void frot_list_guards(const frot_model *m, const frot_state *s, frot_work *w,
                       const frot_contact_mode *modes);

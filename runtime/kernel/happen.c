@@ -28,7 +28,8 @@ static frot_contact_mode *modes_of(const instant *in) {
   return (frot_contact_mode *)(void *)(in->s->data + in->l.modes);
 }
 
-/* Which `when`s fire now, into w->firing: those whose condition rose, at the start those that hold.
+/* Which `when`s fire now, into w->events.firing: those whose condition rose, at the start those
+ * that hold.
  */
 static int find_firing(const instant *in, int first) {
   const frot_model *m = in->m;
@@ -36,8 +37,8 @@ static int find_firing(const instant *in, int first) {
   int any = 0;
   for (int i = 0; i < m->n_whens; i++) {
     int j = m->when_condition[i];
-    int fires = first ? m->when_at_start[i] && d[j] != 0 : in->w->rose[j] != 0;
-    in->w->firing[i] = fires;
+    int fires = first ? m->when_at_start[i] && d[j] != 0 : in->w->events.rose[j] != 0;
+    in->w->events.firing[i] = fires;
     if (fires) in->s->data[in->l.fresh + j] = 1;
     any |= fires;
   }
@@ -56,7 +57,7 @@ static int release_contacts(const instant *in) {
     const frot_contact *contact = &m->contacts[i];
     int row = contact->row_n;
     if (!frot_has_normal(contact) || contact->reduced) continue;
-    double gap = w->gap[i], rate = w->rate[row],
+    double gap = w->core.gap[i], rate = w->core.rate[row],
            near = FROT_TOUCH * (fabs(gap) + frot_gap_size(m, w, row, in->q));
     if (gap < -near) return frot_fail(in->s, FROT_JUMP, in->t, i, -1, FROT_ENTERS, -gap);
     if (!modes[i].closed) continue;
@@ -80,7 +81,7 @@ static int take_outcomes(const instant *in) {
   frot_state *s = in->s;
   int ends = 0;
   for (int i = 0; i < m->n_outcomes; i++) {
-    if (in->w->outcome[i] == 0) continue;
+    if (in->w->events.outcome[i] == 0) continue;
     if (m->outcomes[i].kind == FROT_OUTCOME_FAULT)
       return frot_fail(s, FROT_EVENT_FAULT, in->t, -1, i, -1, 0);
     if (m->outcomes[i].kind == FROT_OUTCOME_FAIL)
@@ -92,14 +93,14 @@ static int take_outcomes(const instant *in) {
   return ends ? FROT_TERMINATED : FROT_OK;
 }
 
-/* Tell what has changed since w->condition_before; what has come to hold is in w->rose. */
+/* Tell what has changed since w->events.before; what has come to hold is in w->rose. */
 static void tell_conditions(const instant *in) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   const double *d = in->s->data + in->l.d;
   for (int j = 0; j < m->n_conditions; j++) {
-    int holds = d[j] != 0, held = w->condition_before[j] != 0;
-    w->rose[j] = holds && !held;
+    int holds = d[j] != 0, held = w->events.before[j] != 0;
+    w->events.rose[j] = holds && !held;
     if (holds != held) frot_note_condition(m, in->recorder, in->s, in->t, j, holds);
   }
 }
@@ -108,10 +109,10 @@ static void tell_conditions(const instant *in) {
 static int first_cause(const instant *in) {
   const frot_model *m = in->m;
   for (int i = 0; i < m->n_whens; i++)
-    if (in->w->firing[i] != 0) return m->when_condition[i];
+    if (in->w->events.firing[i] != 0) return m->when_condition[i];
   const double *held = in->s->data + in->l.d + in->l.nd - m->n_held;
   for (int k = 0; k < m->n_held; k++)
-    if (held[k] != in->w->held[k]) return m->n_conditions + k;
+    if (held[k] != in->w->events.held[k]) return m->n_conditions + k;
   return 0;
 }
 
@@ -124,41 +125,43 @@ static int find_values(const instant *in, double *q, double *v) {
   frot_work *w = in->w;
   double *d = s->data + in->l.d, *discrete = d + m->n_conditions + m->n_contacts;
   size_t size = sizeof(double) * (size_t)(m->n_discrete - m->n_held);
-  memcpy(w->discrete_before, discrete, sizeof(double) * (size_t)m->n_discrete);
+  memcpy(w->events.discrete_before, discrete, sizeof(double) * (size_t)m->n_discrete);
   for (int pass = 0; pass < CROWD; pass++) {
     int status = frot_solution(m, s, w, in->t, in->q, in->v, d, modes_of(in),
                                s->data + in->l.frozen, s->data + in->l.along, 1);
     if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, in->t);
     frot_inputs(m, s, w, &in->t, in->q, in->v, d);
-    w->arg[7] = w->a, w->arg[8] = w->lam, w->arg[9] = w->firing, w->arg[10] = w->discrete_before;
-    w->res[0] = q, w->res[1] = v, w->res[2] = w->discrete, w->res[3] = w->outcome;
-    m->update.call(w->arg, w->res, w->iw, w->w, 0);
-    if (!frot_all_finite(q, m->nq + m->nv) || !frot_all_finite(w->discrete, m->n_discrete))
+    w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam, w->call.arg[9] = w->events.firing,
+    w->call.arg[10] = w->events.discrete_before;
+    w->call.res[0] = q, w->call.res[1] = v, w->call.res[2] = w->events.discrete,
+    w->call.res[3] = w->events.outcome;
+    frot_call(w, &m->update);
+    if (!frot_all_finite(q, m->nq + m->nv) || !frot_all_finite(w->events.discrete, m->n_discrete))
       return frot_fail(s, FROT_NAN, in->t, -1, -1, -1, 0);
     if (pass == 0)
-      memcpy(w->held, w->discrete + (m->n_discrete - m->n_held),
+      memcpy(w->events.held, w->events.discrete + (m->n_discrete - m->n_held),
              sizeof(double) * (size_t)m->n_held);
-    if (memcmp(discrete, w->discrete, size) == 0) return FROT_OK;
-    memcpy(discrete, w->discrete, size);
+    if (memcmp(discrete, w->events.discrete, size) == 0) return FROT_OK;
+    memcpy(discrete, w->events.discrete, size);
     status = frot_settle_conditions(m, s, w, in->t, in->q, in->v);
     if (status != FROT_OK) return status;
   }
   return frot_fail(s, FROT_CHATTER, in->t, -1, first_cause(in), -1, CROWD);
 }
 
-/* Apply what the `when`s of w->firing do; *changed: whether anything was to be done. */
+/* Apply what the `when`s of w->events.firing do; *changed: whether anything was to be done. */
 static int update(const instant *in, int fires, int *changed) {
   const frot_model *m = in->m;
   frot_state *s = in->s;
   frot_work *w = in->w;
-  double *q = w->ztry, *v = w->ztry + m->nq;
+  double *q = w->step.z, *v = w->step.z + m->nq;
   double *held = s->data + in->l.d + in->l.nd - m->n_held;
   size_t held_size = sizeof(double) * (size_t)m->n_held;
   *changed = 0;
-  memcpy(w->condition_before, s->data + in->l.d, sizeof(double) * (size_t)m->n_conditions);
+  memcpy(w->events.before, s->data + in->l.d, sizeof(double) * (size_t)m->n_conditions);
   int status = find_values(in, q, v);
   if (status != FROT_OK) return status;
-  *changed = fires || memcmp(held, w->held, held_size) != 0;
+  *changed = fires || memcmp(held, w->events.held, held_size) != 0;
   if (!*changed) return FROT_OK;
   status = take_outcomes(in);
   if (status != FROT_OK && status != FROT_TERMINATED) return status;
@@ -168,7 +171,7 @@ static int update(const instant *in, int fires, int *changed) {
   s->jumped |= moved;
   memcpy(in->q, q, sizeof(double) * (size_t)m->nq);
   memcpy(in->v, v, sizeof(double) * (size_t)m->nv);
-  memcpy(held, w->held, held_size);
+  memcpy(held, w->events.held, held_size);
   status = frot_settle_conditions(m, s, w, in->t, in->q, in->v);
   if (status != FROT_OK) return status;
   tell_conditions(in);
@@ -232,7 +235,7 @@ static int change_conditions(const instant *in, int first) {
   if (m->n_conditions == 0) return FROT_OK;
   int status = frot_note_conditions(m, s, in->w, in->t, in->q, in->v);
   if (status != FROT_OK) return status;
-  memcpy(in->w->condition_before, d, sizeof(double) * (size_t)m->n_conditions);
+  memcpy(in->w->events.before, d, sizeof(double) * (size_t)m->n_conditions);
   s->jumped = 0;
   for (int j = 0; j < m->n_conditions; j++) {
     if (fired[j] != 0) d[j] = 1 - d[j];

@@ -2,7 +2,7 @@
 #ifndef FROT_HAPPEN_H
 #define FROT_HAPPEN_H
 
-#include "state.h"
+#include "work.h"
 
 /* Let everything happen that the guards fired bring about at time t, at coordinates q and speeds v
  * (both may change): conditions change, every `when` whose condition comes to hold fires, its new

@@ -13,7 +13,7 @@
 
 #define GUARD_NODES 7 /* values at k/6 */
 
-/* Rows of w->k: the slopes at both ends, U_1 .. U_8 between, then scratch. */
+/* Rows of w->step.k: the slopes at both ends, U_1 .. U_8 between, then scratch. */
 #define FIRST_ROW 1
 #define SLOPE_ROW (DP_STAGES + 1)
 #define RIGHT_ROW (DP_STAGES + 2)
@@ -31,7 +31,9 @@ static const double through[GUARD_NODES][GUARD_NODES] = {
     {0, 0, 0, 0, 0, 0, 600},
 };
 
-static double *row(const frot_layout *l, const frot_work *w, int i) { return w->k + i * l->nz; }
+static double *row(const frot_layout *l, const frot_work *w, int i) {
+  return w->step.k + i * l->nz;
+}
 
 size_t frot_implicit_doubles(const frot_model *m) {
   size_t doubles = 0;
@@ -47,8 +49,8 @@ size_t frot_implicit_integers(const frot_model *m) {
 
 int frot_implicit_begin(const frot_model *m, frot_state *s, frot_work *w, double t) {
   frot_layout l = frot_layout_of(m);
-  memcpy(w->y, s->data + l.y, sizeof(double) * (size_t)m->ny);
-  return frot_jacobian_at(m, s, w, t, w->z0, s->data + l.d);
+  memcpy(w->blocks.y, s->data + l.y, sizeof(double) * (size_t)m->ny);
+  return frot_jacobian_at(m, s, w, t, w->step.z0, s->data + l.d);
 }
 
 /* Sums over j < count of a[j] U_j and b[j] U_j (and c[j] U_j) for a pair of states, or for one: in
@@ -74,7 +76,7 @@ static inline sums weigh(const double *u, int nz, int pair, const double *a, con
 static void prepare(const frot_layout *l, const frot_work *w, int n, int i, double h, double *z,
                     double *right) {
   static const double none[RO_STAGES] = {0};
-  const double *u = row(l, w, FIRST_ROW), *last = row(l, w, FIRST_ROW + i - 1), *z0 = w->z0;
+  const double *u = row(l, w, FIRST_ROW), *last = row(l, w, FIRST_ROW + i - 1), *z0 = w->step.z0;
   const double *a = i < RO_ROWS ? ro_a[i] : none;
   double c[RO_STAGES];
   for (int j = 0; j < i; j++) c[j] = ro_C[i][j] / h;
@@ -92,9 +94,9 @@ int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, doubl
   frot_layout l = frot_layout_of(m);
   frot_jacobian jacobian = frot_jacobian_of(m, w, NULL, NULL);
   int n = m->nq, status;
-  double shift = 1 / (h * ro_gamma), *z = w->z1;
-  memcpy(z, w->z0, sizeof(double) * (size_t)l.nx);
-  memcpy(w->y, s->data + l.y, sizeof(double) * (size_t)m->ny);
+  double shift = 1 / (h * ro_gamma), *z = w->step.z1;
+  memcpy(z, w->step.z0, sizeof(double) * (size_t)l.nx);
+  memcpy(w->blocks.y, s->data + l.y, sizeof(double) * (size_t)m->ny);
   if (frot_jacobian_factor(m, w, shift)) return FROT_DIVERGE;
   for (int i = 0; i < RO_STAGES; i++) {
     double *slope = i == 0 ? row(&l, w, 0) : row(&l, w, SLOPE_ROW);
@@ -113,24 +115,24 @@ int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, doubl
   const double *last = row(&l, w, FIRST_ROW + RO_STAGES - 1);
   for (int k = 0; k < n; k++) z[k] += last[k];
   status = frot_slope(m, s, w, t + h, z, row(&l, w, DP_STAGES));
-  memcpy(w->y_end, w->y, sizeof(double) * (size_t)m->ny);
+  memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)m->ny);
   return status;
 }
 
-/* The worst estimate of the local error over its bound; w->worst is the state it is of. */
+/* The worst estimate of the local error over its bound; w->step.worst is the state it is of. */
 static double worst_error(const frot_model *m, const frot_state *s, frot_work *w,
                           const frot_layout *l, double h) {
   double tolerance = fmax(FROT_IMPLICIT_SHARE * s->tolerance, FROT_LEAST_IMPLICIT), worst = 0;
   const double *error = row(l, w, FIRST_ROW + RO_STAGES - 1), *noise = s->data + l->noise;
-  w->worst = -1;
+  w->step.worst = -1;
   for (int k = 0; k < m->nq; k++) {
     if (error[k] == 0) continue;
-    double bound = fmax(tolerance * w->own_size[k], DBL_MIN);
+    double bound = fmax(tolerance * w->sizes.own[k], DBL_MIN);
     if (noise[k] > 0)
       bound = fmax(bound,
                    FROT_NOISE_OF_RATES * h * noise[k] / (1 + h * frot_jacobian_damping(m, w, k)));
     double ratio = fabs(error[k]) / bound;
-    if (!(ratio <= worst)) worst = ratio, w->worst = k;
+    if (!(ratio <= worst)) worst = ratio, w->step.worst = k;
     if (isnan(worst)) break;
   }
   return worst;
@@ -141,16 +143,17 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
   const double *slope = row(&l, w, 0);
   /* a stiff state does not go where its slope at the start points to */
   for (int k = 0; k < m->nq; k++) {
-    double pointed = h * fabs(slope[k]), gone = fabs(w->z1[k] - w->z0[k]);
-    w->change[k] = pointed < gone ? pointed : gone;
+    double pointed = h * fabs(slope[k]), gone = fabs(w->step.z1[k] - w->step.z0[k]);
+    w->sizes.change[k] = pointed < gone ? pointed : gone;
   }
   if (frot_state_sizes(m, s, w)) {
     for (int k = 0; k < m->nq; k++)
-      if (w->own_size[k] == 0) w->change[k] = fabs(w->z1[k] - w->z0[k]);
+      if (w->sizes.own[k] == 0) w->sizes.change[k] = fabs(w->step.z1[k] - w->step.z0[k]);
     frot_state_sizes(m, s, w);
   }
   double worst = worst_error(m, s, w, &l, h);
-  if (!(worst > FROT_LIMITING) || w->worst < 0 || !frot_is_small(m, s, w, w->worst)) return worst;
+  if (!(worst > FROT_LIMITING) || w->step.worst < 0 || !frot_is_small(m, s, w, w->step.worst))
+    return worst;
   frot_raise_small(m, s, w, h, 0);
   return worst_error(m, s, w, &l, h);
 }
@@ -159,12 +162,12 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
 static void inside(const frot_model *m, const frot_layout *l, const frot_work *w, double theta,
                    double *z) {
   double one = 1 - theta;
-  const double *f = w->f;
+  const double *f = w->step.f;
   for (int k = 0; k < m->nq; k++) {
     double sum = one * f[3 * l->nz + k];
     sum = theta * (f[2 * l->nz + k] + sum);
     sum = one * (f[l->nz + k] + sum);
-    z[k] = w->z0[k] + theta * (f[k] + sum);
+    z[k] = w->step.z0[k] + theta * (f[k] + sum);
   }
 }
 
@@ -173,15 +176,15 @@ static void inside(const frot_model *m, const frot_layout *l, const frot_work *w
 static int follow_guards(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                          double t, double h) {
   frot_jacobian jacobian = frot_jacobian_of(m, w, NULL, NULL);
-  double *slope = row(l, w, SLOPE_ROW), *value = w->f + l->nx;
+  double *slope = row(l, w, SLOPE_ROW), *value = w->step.f + l->nx;
   const double *start = row(l, w, 0) + l->nx, *end = row(l, w, DP_STAGES) + l->nx;
-  memcpy(w->ztry, w->z0, sizeof(double) * (size_t)l->nx);
+  memcpy(w->step.z, w->step.z0, sizeof(double) * (size_t)l->nx);
   for (int i = 0; i < GUARD_NODES; i++) {
     const double *from = i == 0 ? start : i == GUARD_NODES - 1 ? end : slope + l->nx;
     if (from == slope + l->nx) {
       double theta = i / (GUARD_NODES - 1.0);
-      inside(m, l, w, theta, w->ztry);
-      int status = frot_slope(m, s, w, t + theta * h, w->ztry, slope);
+      inside(m, l, w, theta, w->step.z);
+      int status = frot_slope(m, s, w, t + theta * h, w->step.z, slope);
       if (status != FROT_OK) return status;
     }
     for (int g = 0; g < l->ng; g++) value[i * l->nz + g] = from[g];
@@ -198,8 +201,8 @@ static int follow_guards(const frot_model *m, frot_state *s, frot_work *w, const
   }
   for (int i = 0; i < 2; i++) {
     double theta = i == 0 ? 1.0 / 12 : 11.0 / 12;
-    inside(m, l, w, theta, w->ztry);
-    int status = frot_slope(m, s, w, t + theta * h, w->ztry, slope);
+    inside(m, l, w, theta, w->step.z);
+    int status = frot_slope(m, s, w, t + theta * h, w->step.z, slope);
     if (status != FROT_OK) return status;
     for (int g = 0; g < l->ng; g++) {
       double b[GUARD_NODES];
@@ -215,15 +218,15 @@ int frot_implicit_dense(const frot_model *m, frot_state *s, frot_work *w, double
   frot_layout l = frot_layout_of(m);
   for (int i = 0; i < DP_DENSE; i++) { /* what no state fills below */
     int from = i < 4 ? m->nq : 0;
-    memset(w->f + i * l.nz + from, 0, sizeof(double) * (size_t)(l.nz - from));
+    memset(w->step.f + i * l.nz + from, 0, sizeof(double) * (size_t)(l.nz - from));
   }
   const double *u = row(&l, w, FIRST_ROW);
-  double *f = w->f;
+  double *f = w->step.f;
   for (int k = 0; k < m->nq; k += 2) {
     int pair = k + 1 < m->nq;
     sums c = weigh(u + k, l.nz, pair, ro_h[0], ro_h[1], ro_h[2], RO_STAGES);
     for (int e = 0; e <= pair; e++) {
-      f[k + e] = w->z1[k + e] - w->z0[k + e];
+      f[k + e] = w->step.z1[k + e] - w->step.z0[k + e];
       f[l.nz + k + e] = c.a[e];
       f[2 * l.nz + k + e] = c.b[e] + c.c[e];
       f[3 * l.nz + k + e] = -c.c[e];
@@ -245,5 +248,5 @@ int frot_implicit_follows_guards(const frot_model *m, const frot_state *s, const
 }
 
 double frot_implicit_rate(const frot_model *m, const frot_work *w) {
-  return frot_jacobian_bound(m, w, w->own_size);
+  return frot_jacobian_bound(m, w, w->sizes.own);
 }

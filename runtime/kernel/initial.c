@@ -14,7 +14,7 @@
 
 static void set_conditions(const frot_model *m, const frot_work *w, double *d) {
   for (int j = 0; j < m->n_conditions; j++)
-    d[j] = m->condition_strict[j] ? w->condition[j] > 0 : w->condition[j] >= 0;
+    d[j] = m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;
 }
 
 /* Where the text says that the search begins. */
@@ -23,9 +23,9 @@ static void guess(const frot_opening *p, double *q, double *v) {
   frot_layout l = frot_layout_of(m);
   frot_work *w = p->w;
   double *discrete = p->s->data + l.d + m->n_conditions + m->n_contacts;
-  w->arg[0] = &p->t, w->arg[1] = p->s->data + l.u, w->arg[2] = p->s->data + l.p;
-  w->res[0] = q, w->res[1] = v, w->res[2] = w->y, w->res[3] = discrete;
-  m->start.call(w->arg, w->res, w->iw, w->w, 0);
+  w->call.arg[0] = &p->t, w->call.arg[1] = p->s->data + l.u, w->call.arg[2] = p->s->data + l.p;
+  w->call.res[0] = q, w->call.res[1] = v, w->call.res[2] = w->blocks.y, w->call.res[3] = discrete;
+  frot_call(w, &m->start);
 }
 
 /* The statements alone show on which side of its line each point is meant to be. A stated gap needs
@@ -48,7 +48,7 @@ static int solve_statements(frot_opening *p, double *side) {
   return again ? FROT_OK : status;
 }
 
-/* Coordinates; chooses the sides of the contacts. Leaves w->gap there. */
+/* Coordinates; chooses the sides of the contacts. Leaves w->core.gap there. */
 static int solve_positions(frot_opening *p, double *side) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
@@ -73,7 +73,7 @@ static int solve_positions(frot_opening *p, double *side) {
     int added = 0;
     for (int i = 0; i < nc; i++) {
       if (p->use[i] || m->contacts[i].reduced || !frot_has_normal(&m->contacts[i])) continue;
-      if (w->gap[i] < -FROT_TOUCH * frot_length_size(m, w, i, p->q)) p->use[i] = 1, added = 1;
+      if (w->core.gap[i] < -FROT_TOUCH * frot_length_size(m, w, i, p->q)) p->use[i] = 1, added = 1;
     }
     if (!added) return FROT_OK;
   }
@@ -94,9 +94,9 @@ static int solve_speeds(frot_opening *p, frot_contact_mode *modes) {
       if (p->use[i] || contact->reduced || !frot_has_normal(contact) || !modes[i].closed) continue;
       double size = DBL_EPSILON * frot_row_size(m, w, row, p->v) +
                     FROT_NO_DIGIT * frot_row_speed(m, w, row, p->v);
-      if (w->rate[row] > size)
+      if (w->core.rate[row] > size)
         modes[i].closed = 0; /* it leaves */
-      else if (w->rate[row] < -size)
+      else if (w->core.rate[row] < -size)
         p->use[i] = 1, added = 1;
     }
     if (!added) return FROT_OK;
@@ -138,7 +138,7 @@ static int solve_once(frot_opening *p, double *q, double *v) {
     const frot_contact *contact = &m->contacts[i];
     if (!frot_has_normal(contact)) continue;
     int touches = unilateral[i] == 0 || p->use[i] ||
-                  fabs(w->gap[i]) <= FROT_TOUCH * frot_length_size(m, w, i, q);
+                  fabs(w->core.gap[i]) <= FROT_TOUCH * frot_length_size(m, w, i, q);
     modes[i].closed = (signed char)touches;
     p->use[i] = touches && unilateral[i] == 0 && !contact->reduced;
   }
@@ -151,18 +151,17 @@ static int solve_once(frot_opening *p, double *q, double *v) {
 int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v) {
   frot_layout l = frot_layout_of(m);
-  frot_opening p = {m, s,    w, t, q, v, s->data + l.d, (unsigned char *)w->choice, 0,
-                    0, NULL, 0, 0, 0, 0};
+  frot_opening p = {m, s, w, t, q, v, s->data + l.d, w->opening.use, 0, 0, NULL, 0, 0, 0, 0};
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
   size_t size = sizeof(double) * (size_t)m->n_conditions;
   guess(&p, q, v);
   look_at_conditions(&p);
   for (int round = 0; round < ROUNDS; round++) {
-    memcpy(w->condition_before, p.d, size);
+    memcpy(w->events.before, p.d, size);
     int status = solve_once(&p, q, v);
     /* what has no solution under these conditions may have one under those found there */
     if (status != FROT_OK) look_at_conditions(&p);
-    if (memcmp(w->condition_before, p.d, size) == 0) return status;
+    if (memcmp(w->events.before, p.d, size) == 0) return status;
     frot_clear_opening(&p);
   }
   return frot_fail(s, FROT_CHATTER, t, -1, -1, -1, ROUNDS);

@@ -2,7 +2,7 @@
 #ifndef FROT_INITIAL_H
 #define FROT_INITIAL_H
 
-#include "state.h"
+#include "work.h"
 
 /* Coordinates q and speeds v at time t: those nearest to the guesses, in the metric of the mass,
  * that satisfy the statements and the liaisons. Chooses the sides of the contacts, sets the

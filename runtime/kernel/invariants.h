@@ -2,7 +2,7 @@
 #ifndef FROT_INVARIANTS_H
 #define FROT_INVARIANTS_H
 
-#include "state.h"
+#include "work.h"
 
 /* frot_project where the model has invariants: onto these and the relations of the contacts
  * together, by Gauss-Newton steps that change each state least in units of its size: the larger of

@@ -31,7 +31,7 @@ frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *
   int n = m->nq, ny = early_unknowns(m);
   int entries = is_sparse(m) ? m->pattern.entries : n * n;
   int factors = is_sparse(m) ? m->pattern.start[n] : n * n;
-  double *base = doubles ? NULL : w->implicit;
+  double *base = doubles ? NULL : w->implicit.items;
   size_t used = 0;
   frot_jacobian j;
   j.entries = take(base, &used, entries);
@@ -46,7 +46,7 @@ frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *
   j.block_t = take(base, &used, ny);
   j.block_y = take(base, &used, ny * ny);
   j.block_scale = take(base, &used, 2 * ny);
-  j.growth = doubles ? NULL : w->implicit_pivot;
+  j.growth = doubles ? NULL : w->implicit.pivot;
   j.pivot = doubles ? NULL : j.growth + 1;
   j.block_pivot = doubles ? NULL : j.pivot + n;
   if (doubles) *doubles = used;
@@ -76,8 +76,8 @@ int frot_jacobian_at(const frot_model *m, frot_state *s, frot_work *w, double t,
   int ny = early_unknowns(m), n = m->nq;
   frot_inputs(m, s, w, &t, q, q + n, d);
   double *res[] = {j.entries, j.rate, j.slope_y, j.block_q, j.block_t, j.block_y};
-  memcpy(w->res, res, sizeof res);
-  m->jacobian.call(w->arg, w->res, w->iw, w->w, 0);
+  memcpy(w->call.res, res, sizeof res);
+  frot_call(w, &m->jacobian);
   s->statistics.jacobians++;
   if (ny > 0) {
     if (!frot_all_finite(j.slope_y, n * ny) || !frot_all_finite(j.block_q, ny * n) ||

@@ -2,9 +2,9 @@
 #ifndef FROT_JACOBIAN_H
 #define FROT_JACOBIAN_H
 
-#include "state.h"
+#include "work.h"
 
-/* Scratch of the implicit step, in w->implicit and w->implicit_pivot. */
+/* Scratch of the implicit step, in w->implicit.items and w->implicit_pivot. */
 typedef struct {
   double *entries; /* of J: those of the pattern, or nq x nq */
   double *rate;    /* nq: dq'/dt */
@@ -22,7 +22,7 @@ typedef struct {
 frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *doubles,
                                size_t *integers);
 
-/* Evaluate at (t, q, d) with the unknowns w->y of the blocks there. FROT_OK, FROT_NAN or
+/* Evaluate at (t, q, d) with the unknowns w->blocks.y of the blocks there. FROT_OK, FROT_NAN or
  * FROT_SINGULAR. */
 int frot_jacobian_at(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                      const double *d);

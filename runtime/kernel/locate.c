@@ -20,11 +20,12 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, double t) {
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
   int moved;
-  memcpy(w->y, w->y_end, sizeof(double) * (size_t)m->ny);
-  int status = frot_project(m, s, w, t, w->z1, w->z1 + m->nq, s->data + l->d, modes, NULL, &moved);
+  memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
+  int status =
+      frot_project(m, s, w, t, w->step.z1, w->step.z1 + m->nq, s->data + l->d, modes, NULL, &moved);
   if (status != FROT_OK || !moved) return status;
-  status = frot_slope(m, s, w, t, w->z1, frot_stage(w, DP_STAGES));
-  memcpy(w->y_end, w->y, sizeof(double) * (size_t)m->ny);
+  status = frot_slope(m, s, w, t, w->step.z1, frot_stage(w, DP_STAGES));
+  memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)m->ny);
   return status;
 }
 

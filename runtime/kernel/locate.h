@@ -2,7 +2,7 @@
 #ifndef FROT_LOCATE_H
 #define FROT_LOCATE_H
 
-#include "state.h"
+#include "work.h"
 
 /* Shorten the step *h from t so that it ends where the listed guard is zero, first looked for after
  * the part theta of it: by the secant on steps made anew, so that the event is as exact as the

@@ -23,12 +23,12 @@ int frot_opening_metric(frot_opening *p) {
     if (!frot_is_attached(p, a)) continue;
     for (int b = 0, j = 0; b < frot_opening_count(p); b++)
       if (frot_is_attached(p, b))
-        w->position_factor[count * j++ + i] =
+        w->opening.factor[count * j++ + i] =
             frot_metric_entry(m, w, frot_speed_behind(p, a), frot_speed_behind(p, b));
     i++;
   }
-  p->factor = w->position_factor, p->order = p->attached = count;
-  return frot_cholesky(w->position_factor, count) ? FROT_SINGULAR : FROT_OK;
+  p->factor = w->opening.factor, p->order = p->attached = count;
+  return frot_cholesky(w->opening.factor, count) ? FROT_SINGULAR : FROT_OK;
 }
 
 /* y <- L^-1 x: a row in the units of the metric; the attached unknowns come first. */
@@ -38,7 +38,7 @@ static void into_metric(const frot_opening *p, const double *x, double *y) {
     if (frot_is_attached(p, k))
       y[first++] = x[k];
     else
-      y[other++] = x[k] * p->w->unit[k];
+      y[other++] = x[k] * p->w->relations.unit[k];
   }
   frot_forward(p->factor, p->order, p->attached, y);
 }
@@ -49,7 +49,8 @@ double frot_move_opening(const frot_opening *p, const double *y, const double *x
   double largest = 0;
   *size = 0;
   for (int k = 0; k < frot_opening_count(p); k++) {
-    double change = part * (frot_is_attached(p, k) ? y[first++] : y[other++] * p->w->unit[k]);
+    double change =
+        part * (frot_is_attached(p, k) ? y[first++] : y[other++] * p->w->relations.unit[k]);
     x[k] = x0[k] + change;
     largest = fmax(largest, fabs(change)), *size = fmax(*size, fabs(x[k]));
   }
@@ -62,7 +63,7 @@ static double square(const frot_opening *p, int *close) {
   double sum = 0;
   *close = 1;
   for (int i = 0; i < p->n; i++) {
-    double change = p->w->residual[i] * p->w->row_weight[i];
+    double change = p->w->relations.residual[i] * p->w->opening.row_weight[i];
     sum += change * change;
     if (!frot_statement_agrees(p, i, 0)) *close = 0;
   }
@@ -72,36 +73,36 @@ static double square(const frot_opening *p, int *close) {
 void frot_least_change(const frot_opening *p, const double *from) {
   frot_work *w = p->w;
   int nx = frot_opening_count(p);
-  double *a = w->active, *b = w->right, *y = w->step;
+  double *a = w->linear.matrix, *b = w->linear.right, *y = w->relations.step;
   for (int i = 0; i < p->n; i++) {
-    into_metric(p, w->jacobian + nx * i, y);
-    double length = sqrt(frot_dot(y, y, nx)), *weight = w->row_weight + i;
+    into_metric(p, w->relations.jacobian + nx * i, y);
+    double length = sqrt(frot_dot(y, y, nx)), *weight = w->opening.row_weight + i;
     *weight = length > 0 && isfinite(1 / length) ? 1 / length : 0;
     for (int k = 0; k < nx; k++) a[k * p->n + i] = y[k] * *weight;
-    b[i] = -w->residual[i];
+    b[i] = -w->relations.residual[i];
     for (int k = 0; from != NULL && k < nx; k++)
-      b[i] += w->jacobian[nx * i + k] * (frot_opening_unknown(p)[k] - from[k]);
+      b[i] += w->relations.jacobian[nx * i + k] * (frot_opening_unknown(p)[k] - from[k]);
     b[i] *= *weight;
   }
-  frot_least_norm(a, b, p->n, nx, y, w->lstsq, w->pivot);
+  frot_least_norm(a, b, p->n, nx, y, w->linear.scratch, w->linear.pivot);
   frot_backward(p->factor, p->order, p->attached, y);
 }
 
-/* Take the change of w->step, or the part of it that improves the residuals. Returns whether the
- * values have come to rest: nothing improves, or nothing moves any more. */
+/* Take the change of w->relations.step, or the part of it that improves the residuals. Returns
+ * whether the values have come to rest: nothing improves, or nothing moves any more. */
 static int take(frot_opening *p) {
   frot_work *w = p->w;
-  double *x = frot_opening_unknown(p), *x0 = w->ztry, size, moved;
+  double *x = frot_opening_unknown(p), *x0 = w->step.z, size, moved;
   int close;
   double before = square(p, &close);
   memcpy(x0, x, sizeof(double) * (size_t)frot_opening_count(p));
-  memcpy(w->y_end, w->y, sizeof(double) * (size_t)p->m->ny);
+  memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)p->m->ny);
   for (double part = 1; part > FROT_LEAST_DAMPING_AT_START; part *= 0.5) {
-    moved = frot_move_opening(p, w->step, x0, part, x, &size);
+    moved = frot_move_opening(p, w->relations.step, x0, part, x, &size);
     if (part == 1 && moved > FROT_FAR * p->scene) break;
     if (moved <= 4 * DBL_EPSILON * size) return 1;
     if (frot_evaluate_statements(p) == FROT_OK && (square(p, &close) <= before || close)) return 0;
-    memcpy(w->y, w->y_end, sizeof(double) * (size_t)p->m->ny);
+    memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)p->m->ny);
   }
   memcpy(x, x0, sizeof(double) * (size_t)frot_opening_count(p));
   return 1;
@@ -112,7 +113,8 @@ static double scene_of(const frot_opening *p) {
   const double *x = frot_opening_unknown(p);
   double scene = 0;
   for (int k = 0; k < frot_opening_count(p); k++) scene = fmax(scene, fabs(x[k]));
-  for (int i = 0; i < p->n; i++) scene = fmax(scene, fmax(fabs(p->w->residual[i]), p->w->size[i]));
+  for (int i = 0; i < p->n; i++)
+    scene = fmax(scene, fmax(fabs(p->w->relations.residual[i]), p->w->relations.size[i]));
   return scene;
 }
 
@@ -121,7 +123,8 @@ static int solve(frot_opening *p) {
   frot_work *w = p->w;
   double last = INFINITY;
   if (frot_opening_count(p) == 0) return FROT_OK;
-  for (int k = 0; !p->velocity && k < p->m->nq; k++) w->unit[k] = p->q[k] != 0 ? fabs(p->q[k]) : 1;
+  for (int k = 0; !p->velocity && k < p->m->nq; k++)
+    w->relations.unit[k] = p->q[k] != 0 ? fabs(p->q[k]) : 1;
   for (int pass = 0;; pass++) {
     int status = frot_opening_metric(p);
     if (status == FROT_OK) status = frot_evaluate_statements(p);
@@ -129,10 +132,10 @@ static int solve(frot_opening *p) {
     int good = 1;
     double largest = 0; /* relative to the terms */
     for (int i = 0; i < p->n; i++) {
-      double off = fabs(w->residual[i]), size = frot_statement_size(p, i);
-      if (pass == 0) w->off_at_first[i] = off;
+      double off = fabs(w->relations.residual[i]), size = frot_statement_size(p, i);
+      if (pass == 0) w->opening.off_at_first[i] = off;
       if (off > 2 * DBL_EPSILON * size) good = 0;
-      size = fmax(size, w->off_at_first[i]);
+      size = fmax(size, w->opening.off_at_first[i]);
       if (off > 0) largest = fmax(largest, off / size);
     }
     if (pass == 0) p->scene = scene_of(p);
@@ -144,7 +147,7 @@ static int solve(frot_opening *p) {
     status = frot_evaluate_statements(p);
     if (status != FROT_OK) return frot_no_number(p, status);
     for (int i = 0; i < p->n; i++)
-      if (!frot_statement_agrees(p, i, w->off_at_first[i])) return frot_contradiction(p);
+      if (!frot_statement_agrees(p, i, w->opening.off_at_first[i])) return frot_contradiction(p);
     return FROT_OK;
   }
 }
@@ -155,12 +158,12 @@ static int keep_stated(frot_opening *p) {
   double *x = frot_opening_unknown(p);
   int nx = frot_opening_count(p), moved = 0;
   for (int i = 0; i < p->n; i++) {
-    const double *row = p->w->jacobian + nx * i;
+    const double *row = p->w->relations.jacobian + nx * i;
     int only = -1, count = 0;
     for (int k = 0; k < nx; k++)
       if (row[k] != 0) only = k, count++;
-    if (count != 1 || p->w->residual[i] == 0) continue;
-    x[only] -= p->w->residual[i] / row[only], moved = 1;
+    if (count != 1 || p->w->relations.residual[i] == 0) continue;
+    x[only] -= p->w->relations.residual[i] / row[only], moved = 1;
   }
   if (!moved) return FROT_OK;
   int status = frot_evaluate_statements(p);

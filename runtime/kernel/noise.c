@@ -13,8 +13,8 @@
  */
 static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, double t,
                          const double *largest) {
-  double *noise = s->data + w->layout.noise, *size = w->residual;
-  frot_acceleration_sizes(m, s, w, t, w->z0, w->z0 + m->nq, s->data + w->layout.d, size);
+  double *noise = s->data + w->layout.noise, *size = w->relations.residual;
+  frot_acceleration_sizes(m, s, w, t, w->step.z0, w->step.z0 + m->nq, s->data + w->layout.d, size);
   for (int k = 0; k < m->nv; k++) {
     double rounding = FROT_ROUNDING * size[k];
     if (largest[m->nq + k] <= FROT_NOISE_MARGIN * rounding)
@@ -24,26 +24,26 @@ static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, doubl
 
 static int slope_from_start(const frot_model *m, frot_state *s, frot_work *w, double t,
                             const double *z, double *slope) {
-  memcpy(w->y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
   return frot_slope(m, s, w, t, z, slope);
 }
 
 void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
   double *base = frot_stage(w, 1), *forth = frot_stage(w, 2), *back = frot_stage(w, 3);
-  double *noise = s->data + w->layout.noise, *largest = w->f;
+  double *noise = s->data + w->layout.noise, *largest = w->step.f;
   int n = m->nq + m->nv;
   for (int j = 0; j < n; j++) {
     largest[j] = 0;
     for (int i = 0; i <= DP_STAGES; i++) largest[j] = fmax(largest[j], fabs(frot_stage(w, i)[j]));
   }
-  if (slope_from_start(m, s, w, t, w->z0, base) != FROT_OK) return;
+  if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return;
   memset(noise, 0, sizeof(double) * (size_t)n);
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {
       double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
-      memcpy(w->ztry, w->z0, sizeof(double) * (size_t)w->layout.nz);
-      for (int j = 0; j < n; j++) w->ztry[j] *= 1 + (((j >> pattern) & 1) != 0 ? moved : -moved);
-      if (slope_from_start(m, s, w, t * (1 + moved), w->ztry, there) != FROT_OK) return;
+      memcpy(w->step.z, w->step.z0, sizeof(double) * (size_t)w->layout.nz);
+      for (int j = 0; j < n; j++) w->step.z[j] *= 1 + (((j >> pattern) & 1) != 0 ? moved : -moved);
+      if (slope_from_start(m, s, w, t * (1 + moved), w->step.z, there) != FROT_OK) return;
     }
     for (int j = 0; j < n; j++) {
       double sensitivity = 0.5 * fabs(forth[j] - back[j]) * (FROT_NUDGE / FROT_APART);
@@ -51,11 +51,12 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
       noise[j] = fmax(noise[j], sensitivity + rounding);
     }
   }
-  if (frot_slope(m, s, w, t, w->z0, base) == FROT_OK) add_rounding(m, s, w, t, largest);
+  if (frot_slope(m, s, w, t, w->step.z0, base) == FROT_OK) add_rounding(m, s, w, t, largest);
   /* a position can be no better than its speed */
   for (int j = 0; j < m->nq; j++) {
     if (m->q_speed[j] < 0) continue;
     int speed = m->nq + m->q_speed[j];
-    noise[j] = fmax(noise[j], fmax(FROT_NUDGE * fabs(w->z0[speed]), fabs(s->h) * noise[speed]));
+    noise[j] =
+        fmax(noise[j], fmax(FROT_NUDGE * fabs(w->step.z0[speed]), fabs(s->h) * noise[speed]));
   }
 }

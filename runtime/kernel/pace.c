@@ -46,9 +46,9 @@ double frot_finest_step(const frot_model *m, const frot_state *s, double h) {
 /* Values into w->pace and rates behind them. */
 static double *rates_at(const frot_model *m, frot_state *s, frot_work *w, double t) {
   const double *d = s->data + w->layout.d;
-  frot_inputs(m, s, w, &t, w->z0, w->z0 + m->nq, d);
-  w->res[0] = w->pace, w->res[1] = w->pace + m->n_paced;
-  m->pace.call(w->arg, w->res, w->iw, w->w, 0);
+  frot_inputs(m, s, w, &t, w->step.z0, w->step.z0 + m->nq, d);
+  w->call.res[0] = w->pace, w->call.res[1] = w->pace + m->n_paced;
+  frot_call(w, &m->pace);
   return w->pace + m->n_paced;
 }
 
@@ -66,7 +66,7 @@ double frot_pace_step(const frot_model *m, frot_state *s, frot_work *w, double t
   int count = (int)fmin(ceil(h / spacing), SAMPLES);
   double *seen = w->pace + 2 * m->n_paced, *most = seen + m->n_paced;
   memset(seen, 0, 2 * sizeof(double) * (size_t)m->n_paced);
-  memcpy(w->y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
   for (int k = 0; k <= DP_STAGES; k++)
     if (dp_e5[k] != 0 || dp_e3[k] != 0) note_rates(m, s, w, t + dp_c[k] * h, seen);
   for (int k = 1; k < count; k++) note_rates(m, s, w, t + k * spacing, most);

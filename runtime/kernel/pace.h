@@ -9,7 +9,7 @@
 #ifndef FROT_PACE_H
 #define FROT_PACE_H
 
-#include "state.h"
+#include "work.h"
 
 /* The longest step at t; `still`: nothing moves. */
 double frot_longest_step(const frot_model *m, const frot_state *s, double t, int still);

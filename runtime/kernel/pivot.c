@@ -24,7 +24,8 @@
 #define DOUBT 1e-7  /* part of its size within which a reaction is at its bound, a motion none */
 #define SOFT 1e-14  /* part of its diagonal added to a singular system */
 
-/* The rows that take part, w->row_of[0 .. n), with the bounds least and most of their reactions. */
+/* The rows that take part, w->relations.rows[0 .. n), with the bounds least and most of their
+ * reactions. */
 typedef struct {
   const frot_instant *in;
   const frot_model *m;
@@ -40,11 +41,11 @@ static void list_rows(box *b, const int *chosen, int count) {
   const frot_model *m = b->m;
   for (int c = 0; c < count; c++) {
     const frot_contact *contact = &m->contacts[chosen[c]];
-    if (contact->row_n >= 0 && !contact->reduced) b->w->row_of[b->n++] = contact->row_n;
+    if (contact->row_n >= 0 && !contact->reduced) b->w->relations.rows[b->n++] = contact->row_n;
     for (int e = 0; e < m->n_elements; e++)
       if (m->elements[e].contact == chosen[c] && frot_bounds_something(m, b->w, e) &&
           !m->elements[e].prescribed)
-        b->w->row_of[b->n++] = m->elements[e].row;
+        b->w->relations.rows[b->n++] = m->elements[e].row;
   }
 }
 
@@ -56,7 +57,7 @@ static double follow(const box *b, const int *chosen, int count) {
   for (int i = 0; i < b->g->n_rows; i++) {
     int r = b->g->rows[i];
     double size;
-    if (frot_is_reading(m, r)) w->lam[r] = frot_acceleration(m, w, r, &size);
+    if (frot_is_reading(m, r)) w->core.lam[r] = frot_acceleration(m, w, r, &size);
   }
   for (int c = 0; c < count; c++) {
     const frot_contact *contact = &m->contacts[chosen[c]];
@@ -66,20 +67,21 @@ static double follow(const box *b, const int *chosen, int count) {
     }
   }
   for (int k = 0; k < b->n; k++) {
-    int r = w->row_of[k], e = -1;
+    int r = w->relations.rows[k], e = -1;
     for (int i = 0; i < m->n_elements; i++)
       if (m->elements[i].row == r) e = i;
     if (e < 0) continue;
     const frot_element *element = &m->elements[e];
     double bounding = 1;
-    if (element->bound != FROT_BY_VALUE) bounding = fabs(w->lam[element->bounded_by[0]]);
-    if (element->bound == FROT_BY_PIN) bounding = hypot(bounding, w->lam[element->bounded_by[1]]);
+    if (element->bound != FROT_BY_VALUE) bounding = fabs(w->core.lam[element->bounded_by[0]]);
+    if (element->bound == FROT_BY_PIN)
+      bounding = hypot(bounding, w->core.lam[element->bounded_by[1]]);
     int rests = b->in->at_rest[e];
-    double bound = w->coefficient[2 * e + rests] * bounding * (b->ends ? 1 - PAST : 1),
+    double bound = w->core.coefficient[2 * e + rests] * bounding * (b->ends ? 1 - PAST : 1),
            before = b->most[r];
     b->least[r] = -bound, b->most[r] = bound;
-    if (!rests && w->rate[r] > 0) b->most[r] = -bound;
-    if (!rests && w->rate[r] < 0) b->least[r] = bound;
+    if (!rests && w->core.rate[r] > 0) b->most[r] = -bound;
+    if (!rests && w->core.rate[r] < 0) b->least[r] = bound;
     double change = fabs(fabs(b->least[r]) - fabs(before));
     if (change > 0) largest = fmax(largest, change / fmax(bound, fabs(before)));
   }
@@ -93,9 +95,9 @@ static double clip(double x, double least, double most) {
 static void sweep(const box *b) {
   double size;
   for (int k = 0; k < b->n; k++) {
-    int r = b->w->row_of[k];
+    int r = b->w->relations.rows[k];
     double own = own_effect(b, r), a = frot_acceleration(b->m, b->w, r, &size);
-    if (own > 0) b->w->lam[r] = clip(b->w->lam[r] - a / own, b->least[r], b->most[r]);
+    if (own > 0) b->w->core.lam[r] = clip(b->w->core.lam[r] - a / own, b->least[r], b->most[r]);
   }
 }
 
@@ -103,31 +105,32 @@ static void sweep(const box *b) {
  * of it that was taken. */
 static double step_inside(const box *b) {
   frot_work *w = b->w;
-  int free = 0, *rows = w->fold; /* two places for each row: room enough */
+  int free = 0, *rows = w->reactions.fold; /* two places for each row: room enough */
   double size, part = 1;
   for (int k = 0; k < b->n; k++) {
-    int r = w->row_of[k];
-    if (w->lam[r] > b->least[r] && w->lam[r] < b->most[r]) rows[free++] = r;
+    int r = w->relations.rows[k];
+    if (w->core.lam[r] > b->least[r] && w->core.lam[r] < b->most[r]) rows[free++] = r;
   }
   if (free == 0) return 1;
-  double *step = w->solution;
+  double *step = w->reactions.solution;
   for (int i = 0; i < free; i++) {
     double scale = 1 / sqrt(own_effect(b, rows[i]));
     for (int j = 0; j < free; j++)
-      w->active[j * free + i] = scale * frot_effect(b->m, w, rows[i], rows[j]) /
-                                sqrt(own_effect(b, rows[j])) * (i == j ? 1 + SOFT : 1);
-    w->right[i] = -scale * frot_acceleration(b->m, w, rows[i], &size);
+      w->linear.matrix[j * free + i] = scale * frot_effect(b->m, w, rows[i], rows[j]) /
+                                       sqrt(own_effect(b, rows[j])) * (i == j ? 1 + SOFT : 1);
+    w->linear.right[i] = -scale * frot_acceleration(b->m, w, rows[i], &size);
   }
-  frot_least_norm(w->active, w->right, free, free, step, w->lstsq, w->pivot);
+  frot_least_norm(w->linear.matrix, w->linear.right, free, free, step, w->linear.scratch,
+                  w->linear.pivot);
   for (int i = 0; i < free; i++) {
     int r = rows[i];
     step[i] /= sqrt(own_effect(b, r));
-    double room = step[i] > 0 ? b->most[r] - w->lam[r] : w->lam[r] - b->least[r];
+    double room = step[i] > 0 ? b->most[r] - w->core.lam[r] : w->core.lam[r] - b->least[r];
     if (fabs(step[i]) > room) part = fmin(part, room / fabs(step[i]));
   }
   for (int i = 0; i < free; i++) {
     int r = rows[i];
-    w->lam[r] = clip(w->lam[r] + part * step[i], b->least[r], b->most[r]);
+    w->core.lam[r] = clip(w->core.lam[r] + part * step[i], b->least[r], b->most[r]);
   }
   return part;
 }
@@ -143,22 +146,23 @@ static void read_modes(const box *b, const int *chosen, int count, unsigned char
     certain[i] = 1;
     if (row >= 0 && b->in->unilateral[i] != 0) {
       a = frot_acceleration(m, w, row, &size);
-      size += w->row_load[row];
-      mode.closed = !(w->lam[row] <= 0 && a > DOUBT * size);
-      if (mode.closed && w->lam[row] <= DOUBT * frot_reaction_size(m, w, row)) certain[i] = 0;
+      size += w->core.row_load[row];
+      mode.closed = !(w->core.lam[row] <= 0 && a > DOUBT * size);
+      if (mode.closed && w->core.lam[row] <= DOUBT * frot_reaction_size(m, w, row)) certain[i] = 0;
     } else if (row >= 0) {
-      mode.side = w->lam[row] < 0 ? -1 : 1;
+      mode.side = w->core.lam[row] < 0 ? -1 : 1;
     }
-    w->trial[i] = mode;
+    w->search.trial[i] = mode;
     for (int e = 0; e < m->n_elements; e++) {
       const frot_element *element = &m->elements[e];
-      frot_contact_mode *law = &w->trial[m->n_contacts + e];
+      frot_contact_mode *law = &w->search.trial[m->n_contacts + e];
       if (element->contact != i) continue;
       *law = (frot_contact_mode){0};
       if (!mode.closed || !frot_bounds_something(m, w, e)) continue;
       a = frot_acceleration(m, w, element->row, &size);
-      size += w->row_load[element->row];
-      double rate = w->rate[element->row], lam = w->lam[element->row], most = b->most[element->row];
+      size += w->core.row_load[element->row];
+      double rate = w->core.rate[element->row], lam = w->core.lam[element->row],
+             most = b->most[element->row];
       if (!b->in->zero[e] || element->prescribed) {
         law->friction = rate > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD;
         if (element->prescribed && rate == 0) law->friction = FROT_STICK, certain[i] = 0;
@@ -184,17 +188,17 @@ void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int 
            &m->groups[m->contact_group[chosen[0]]],
            0,
            ends,
-           w->pivot_bound,
-           w->pivot_bound + m->n_rows};
-  memset(w->pivot_bound, 0, sizeof(double) * 4 * (size_t)m->n_rows);
-  memset(w->lam, 0, sizeof(double) * (size_t)m->n_rows);
+           w->search.pivot_bound,
+           w->search.pivot_bound + m->n_rows};
+  memset(w->search.pivot_bound, 0, sizeof(double) * 4 * (size_t)m->n_rows);
+  memset(w->core.lam, 0, sizeof(double) * (size_t)m->n_rows);
   list_rows(&b, chosen, count);
   for (int boxes = 0; boxes < BOXES; boxes++) {
     double change = follow(&b, chosen, count);
     if (boxes > 0 && change <= AGREE) break;
     for (int k = 0; k < b.n; k++) {
-      int r = w->row_of[k];
-      w->lam[r] = clip(w->lam[r], b.least[r], b.most[r]);
+      int r = w->relations.rows[k];
+      w->core.lam[r] = clip(w->core.lam[r], b.least[r], b.most[r]);
     }
     for (int round = 0, settled = 0; round < ROUNDS && settled < 2; round++) {
       for (int k = 0; k < SWEEPS; k++) sweep(&b);

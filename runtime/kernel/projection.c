@@ -38,30 +38,30 @@ int frot_holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode
                       const unsigned char *stuck, int normals_only) {
   int n = 0;
   for (int k = 0; k < m->n_groups; k++)
-    n += rows_of_group(m, &m->groups[k], modes, stuck, normals_only, w->row_of + n);
+    n += rows_of_group(m, &m->groups[k], modes, stuck, normals_only, w->relations.rows + n);
   return n;
 }
 
-/* w->step (n_speeds) <- the least change of the group's speeds, in the metric, that takes `error`
- * from the n rows of w->row_of: with the rows H = L^-1 J' made orthonormal, H = Q R, it is L'^-1 Q
- * R'^-1 error. A row that depends on those before it is left to them. */
+/* w->relations.step (n_speeds) <- the least change of the group's speeds, in the metric, that takes
+ * `error` from the n rows of w->relations.rows: with the rows H = L^-1 J' made orthonormal, H = Q
+ * R, it is L'^-1 Q R'^-1 error. A row that depends on those before it is left to them. */
 static void correction(const frot_model *m, frot_work *w, const frot_group *g, int n,
                        const double *error) {
   int ns = g->n_speeds, rank = 0;
-  const double *factor = w->factor + g->metric;
-  double *step = w->step;
+  const double *factor = w->core.factor + g->metric;
+  double *step = w->relations.step;
   memset(step, 0, sizeof(double) * (size_t)ns);
   for (int i = 0; i < n; i++) {
-    double *x = w->basis + ns * rank, *parts = w->parts;
-    memcpy(x, frot_entries(m, w->rows, w->row_of[i]), sizeof(double) * (size_t)ns);
+    double *x = w->span.basis + ns * rank, *parts = w->span.parts;
+    memcpy(x, frot_entries(m, w->core.rows, w->relations.rows[i]), sizeof(double) * (size_t)ns);
     frot_forward(factor, ns, ns, x);
     double length = sqrt(frot_dot(x, x, ns)), part = error[i];
-    double rest = frot_reject(x, w->basis, rank, ns, parts);
-    if (!(rest > frot_least_length(m, w, w->row_of[i], length))) continue;
-    for (int k = 0; k < rank; k++) part -= parts[k] * w->bias[k];
+    double rest = frot_reject(x, w->span.basis, rank, ns, parts);
+    if (!(rest > frot_least_length(m, w, w->relations.rows[i], length))) continue;
+    for (int k = 0; k < rank; k++) part -= parts[k] * w->span.bias[k];
     for (int k = 0; k < ns; k++) x[k] /= rest;
-    w->bias[rank] = part / rest;
-    for (int k = 0; k < ns; k++) step[k] += w->bias[rank] * x[k];
+    w->span.bias[rank] = part / rest;
+    for (int k = 0; k < ns; k++) step[k] += w->span.bias[rank] * x[k];
     rank++;
   }
   frot_backward(factor, ns, ns, step);
@@ -76,18 +76,18 @@ static int project_positions(const frot_model *m, frot_state *s, frot_work *w, d
     if (status != FROT_OK) return status;
     for (int k = 0; k < m->n_groups; k++) {
       const frot_group *g = &m->groups[k];
-      int n = rows_of_group(m, g, modes, NULL, 1, w->row_of), off = 0, at = 0;
+      int n = rows_of_group(m, g, modes, NULL, 1, w->relations.rows), off = 0, at = 0;
       for (int i = 0; i < g->n_contacts; i++) {
         int c = g->contacts[i];
         if (!is_kept(m, modes, c)) continue;
-        w->residual[at++] = w->gap[c];
-        off |= fabs(w->gap[c]) > FROT_ROUNDING * frot_gap_size(m, w, m->contacts[c].row_n, q);
+        w->relations.residual[at++] = w->core.gap[c];
+        off |= fabs(w->core.gap[c]) > FROT_ROUNDING * frot_gap_size(m, w, m->contacts[c].row_n, q);
       }
       if (!off) continue;
-      correction(m, w, g, n, w->residual);
+      correction(m, w, g, n, w->relations.residual);
       for (int i = 0; i < g->n_speeds; i++) {
         int coordinate = m->speed_coordinate[g->unknowns[i]];
-        if (coordinate >= 0) q[coordinate] -= w->step[i];
+        if (coordinate >= 0) q[coordinate] -= w->relations.step[i];
       }
       any = *moved = 1;
     }
@@ -104,15 +104,15 @@ static int project_speeds(const frot_model *m, frot_state *s, frot_work *w, doub
     if (status != FROT_OK) return status;
     for (int k = 0; k < m->n_groups; k++) {
       const frot_group *g = &m->groups[k];
-      int n = rows_of_group(m, g, modes, stuck, 0, w->row_of), off = 0;
+      int n = rows_of_group(m, g, modes, stuck, 0, w->relations.rows), off = 0;
       for (int i = 0; i < n; i++) {
-        int row = w->row_of[i];
-        w->residual[i] = w->rate[row];
-        off |= fabs(w->rate[row]) > 0.5 * FROT_ROUNDING * frot_row_size(m, w, row, v);
+        int row = w->relations.rows[i];
+        w->relations.residual[i] = w->core.rate[row];
+        off |= fabs(w->core.rate[row]) > 0.5 * FROT_ROUNDING * frot_row_size(m, w, row, v);
       }
       if (!off) continue;
-      correction(m, w, g, n, w->residual);
-      for (int i = 0; i < g->n_speeds; i++) v[g->unknowns[i]] -= w->step[i];
+      correction(m, w, g, n, w->relations.residual);
+      for (int i = 0; i < g->n_speeds; i++) v[g->unknowns[i]] -= w->relations.step[i];
       any = *moved = 1;
     }
     if (!any) break;
@@ -142,23 +142,23 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
 static int frozen_by_rows(const frot_model *m, frot_work *w, const frot_group *g, int n,
                           const double *known, double *frozen) {
   int ns = g->n_speeds, count = 0, columns = 0;
-  double *unit = w->rest, *scale = w->column;
+  double *unit = w->core.rest, *scale = w->core.column;
   for (int k = 0; k < ns; k++) {
     scale[k] = 0;
     for (int i = 0; i < n; i++)
-      scale[k] = fmax(scale[k], fabs(frot_entries(m, w->rows, w->row_of[i])[k]));
+      scale[k] = fmax(scale[k], fabs(frot_entries(m, w->core.rows, w->relations.rows[i])[k]));
   }
   for (int i = 0; i < n; i++) {
-    int row = w->row_of[i], usable = !m->row_depends[row * (m->nq + 1) + m->nq];
+    int row = w->relations.rows[i], usable = !m->row_depends[row * (m->nq + 1) + m->nq];
     for (int k = 0; k < m->nq; k++)
       if (m->row_depends[row * (m->nq + 1) + k] && (m->q_speed[k] < 0 || known[m->q_speed[k]] == 0))
         usable = 0;
     if (!usable) continue;
-    double *x = w->basis + ns * columns;
-    const double *entries = frot_entries(m, w->rows, row);
+    double *x = w->span.basis + ns * columns;
+    const double *entries = frot_entries(m, w->core.rows, row);
     for (int k = 0; k < ns; k++) x[k] = scale[k] > 0 ? entries[k] / scale[k] : 0;
     double length = sqrt(frot_dot(x, x, ns)),
-           rest = frot_reject(x, w->basis, columns, ns, w->parts);
+           rest = frot_reject(x, w->span.basis, columns, ns, w->span.parts);
     if (!(rest > 0.1 * FROT_DEPENDENT * length)) continue;
     for (int k = 0; k < ns; k++) x[k] /= rest;
     columns++;
@@ -166,7 +166,8 @@ static int frozen_by_rows(const frot_model *m, frot_work *w, const frot_group *g
   for (int k = 0; k < ns; k++) {
     int speed = g->unknowns[k];
     for (int i = 0; i < ns; i++) unit[i] = i == k;
-    frozen[speed] = known[speed] != 0 && frot_reject(unit, w->basis, columns, ns, w->parts) < HELD;
+    frozen[speed] =
+        known[speed] != 0 && frot_reject(unit, w->span.basis, columns, ns, w->span.parts) < HELD;
     count += frozen[speed] != 0;
   }
   return count;
@@ -174,11 +175,11 @@ static int frozen_by_rows(const frot_model *m, frot_work *w, const frot_group *g
 
 void frot_find_frozen(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                       double *frozen) {
-  double *known = w->load;
+  double *known = w->core.load;
   for (int k = 0; k < m->nv; k++) frozen[k] = 0;
   for (int i = 0; i < m->n_groups; i++) {
     const frot_group *g = &m->groups[i];
-    int n = rows_of_group(m, g, modes, NULL, 0, w->row_of), count = g->n_speeds + 1;
+    int n = rows_of_group(m, g, modes, NULL, 0, w->relations.rows), count = g->n_speeds + 1;
     for (int k = 0; k < m->nv; k++) known[k] = m->speed_group[k] == i;
     while (n > 0) {
       int now = frozen_by_rows(m, w, g, n, known, frozen);

@@ -2,7 +2,7 @@
 #ifndef FROT_PROJECTION_H
 #define FROT_PROJECTION_H
 
-#include "state.h"
+#include "work.h"
 
 /* Move coordinates and speeds onto the relations that hold in `modes` and onto the invariants, by
  * the least change: in the metric of the speeds or, where there are invariants, in units of each
@@ -13,13 +13,14 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
                  const double *d, const frot_contact_mode *modes, const unsigned char *stuck,
                  int *moved);
 
-/* Rows that hold in `modes` and act on the speeds themselves, into w->row_of; returns their number.
- * With `normals_only`, the relations between positions. */
+/* Rows that hold in `modes` and act on the speeds themselves, into w->relations.rows; returns their
+ * number. With `normals_only`, the relations between positions. */
 int frot_holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                       const unsigned char *stuck, int normals_only);
 
 /* Speeds that the relations of `modes` hold at zero for as long as the mode lasts: frozen (nv).
- * A relation counts when it depends on frozen coordinates alone. Uses w->rows and w->factor. */
+ * A relation counts when it depends on frozen coordinates alone. Uses w->core.rows and w->factor.
+ */
 void frot_find_frozen(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                       double *frozen);
 

@@ -4,7 +4,7 @@
  * ratio * bounding. Where that is the reaction of a held row, its column takes the friction along;
  * where it is a reading, which depends on all reactions, the friction is an unknown with an
  * equation of its own. The size of a pin's reaction is not linear: it is replaced by its part along
- * the direction w->along of the last pass, which is Newton's method.
+ * the direction w->reactions.along of the last pass, which is Newton's method.
  *
  * Of a mass matrix the held rows H = L^-1 J' are made orthonormal, in their order, H = Q R, and the
  * conditions taken as Q' u + R'^-1 c = 0 with u = f + sum of H lam: the condition of the system is
@@ -19,9 +19,9 @@
 #include "linear.h"
 #include "tolerances.h"
 
-/* The unknown reactions are w->unknown[0 .. unknowns): first those of held rows, then friction that
- * follows readings. Friction that follows a held normal goes with its column: w->fold, two places
- * for each unknown, the rows, w->fold_ratio, the ratios. */
+/* The unknown reactions are w->reactions.unknown[0 .. unknowns): first those of held rows, then
+ * friction that follows readings. Friction that follows a held normal goes with its column:
+ * w->reactions.fold, two places for each unknown, the rows, w->reactions.fold_ratio, the ratios. */
 typedef struct {
   const frot_model *m;
   frot_work *w;
@@ -34,22 +34,23 @@ double frot_bounding(const frot_model *m, const frot_work *w, int element,
                      const frot_contact_mode *modes) {
   const frot_element *e = &m->elements[element];
   if (e->bound == FROT_BY_VALUE) return 1;
-  if (e->bound == FROT_BY_PIN) return hypot(w->lam[e->bounded_by[0]], w->lam[e->bounded_by[1]]);
-  return modes[e->contact].side * w->lam[e->bounded_by[0]];
+  if (e->bound == FROT_BY_PIN)
+    return hypot(w->core.lam[e->bounded_by[0]], w->core.lam[e->bounded_by[1]]);
+  return modes[e->contact].side * w->core.lam[e->bounded_by[0]];
 }
 
 double frot_bound_of_rest(const frot_model *m, const frot_work *w, int element,
                           const frot_contact_mode *modes) {
-  return w->coefficient[2 * element + 1] * frot_bounding(m, w, element, modes);
+  return w->core.coefficient[2 * element + 1] * frot_bounding(m, w, element, modes);
 }
 
 double frot_acceleration(const frot_model *m, const frot_work *w, int row, double *size) {
   const frot_group *g = frot_group_of(m, row);
   const double *effects = frot_effect_on(m, w, row);
-  double sum = w->free[row];
+  double sum = w->core.free[row];
   *size = 0;
   for (int k = 0; k < g->n_rows; k++) {
-    double lam = w->lam[g->rows[k]];
+    double lam = w->core.lam[g->rows[k]];
     if (lam == 0 || frot_is_reading(m, g->rows[k])) continue;
     sum += effects[k] * lam, *size += fabs(effects[k] * lam);
   }
@@ -58,9 +59,9 @@ double frot_acceleration(const frot_model *m, const frot_work *w, int row, doubl
 
 double frot_free_size(const frot_model *m, const frot_work *w, int row) {
   const frot_group *g = frot_group_of(m, row);
-  double sum = fabs(w->c[row]);
-  const double *force = w->force + g->vector;
-  const double *entries = frot_entries(m, g->general ? w->rows : w->half, row);
+  double sum = fabs(w->core.c[row]);
+  const double *force = w->core.force + g->vector;
+  const double *entries = frot_entries(m, g->general ? w->core.rows : w->core.half, row);
   int count = g->general ? g->n : g->n_speeds;
   for (int k = 0; k < count; k++) sum += fabs(entries[k] * force[k]);
   return sum;
@@ -82,7 +83,7 @@ int frot_is_loaded(const frot_model *m, const frot_contact_mode *modes, int cont
 static double ratio_of(const problem *p, int e, const unsigned char *at_rest) {
   const frot_contact_mode *contact = &p->modes[p->m->elements[e].contact];
   const frot_contact_mode *mode = frot_element_mode(p->m, p->modes, e);
-  const double *k = p->w->coefficient + 2 * e;
+  const double *k = p->w->core.coefficient + 2 * e;
   if (!contact->closed || contact->unloaded) return 0;
   if (mode->friction == FROT_STICK) return mode->at_bound * contact->side * k[1];
   double size = at_rest && at_rest[e] ? k[1] : k[0];
@@ -99,35 +100,35 @@ static void list_unknowns(problem *p, const unsigned char *at_rest) {
   /* what always holds stands first, friction depends on it */
   for (int i = 0; i < g->n_contacts; i++)
     if (frot_is_loaded(m, p->modes, g->contacts[i]))
-      w->unknown[n++] = m->contacts[g->contacts[i]].row_n;
-  for (int k = 0; k < n; k++) w->friction[k] = 0;
+      w->reactions.unknown[n++] = m->contacts[g->contacts[i]].row_n;
+  for (int k = 0; k < n; k++) w->reactions.friction[k] = 0;
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
-    w->ratio[e] = 0;
+    w->reactions.ratio[e] = 0;
     if (!frot_is_held(m, p->modes, e)) continue;
-    w->friction[n] = (unsigned char)(1 + (m->elements[e].bound == FROT_BY_VALUE));
-    w->owner[n] = e;
-    w->unknown[n++] = m->elements[e].row;
+    w->reactions.friction[n] = (unsigned char)(1 + (m->elements[e].bound == FROT_BY_VALUE));
+    w->reactions.owner[n] = e;
+    w->reactions.unknown[n++] = m->elements[e].row;
   }
   p->held = n;
-  for (int k = 0; k < 2 * n; k++) w->fold[k] = -1;
+  for (int k = 0; k < 2 * n; k++) w->reactions.fold[k] = -1;
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
     const frot_element *element = &m->elements[e];
     double ratio = ratio_of(p, e, at_rest);
-    w->ratio[e] = ratio;
+    w->reactions.ratio[e] = ratio;
     if (ratio == 0 || element->bound == FROT_BY_VALUE) continue;
     if (element->bound == FROT_BY_NORMAL && !frot_is_reading(m, element->bounded_by[0])) {
       for (int k = 0; k < p->held; k++) {
-        if (w->unknown[k] != element->bounded_by[0]) continue;
-        int at = 2 * k + (w->fold[2 * k] >= 0);
-        w->fold[at] = element->row, w->fold_ratio[at] = ratio;
+        if (w->reactions.unknown[k] != element->bounded_by[0]) continue;
+        int at = 2 * k + (w->reactions.fold[2 * k] >= 0);
+        w->reactions.fold[at] = element->row, w->reactions.fold_ratio[at] = ratio;
       }
       continue;
     }
-    w->friction[n] = 0, w->owner[n] = e;
-    w->fold[2 * n] = w->fold[2 * n + 1] = -1;
-    w->unknown[n++] = element->row;
+    w->reactions.friction[n] = 0, w->reactions.owner[n] = e;
+    w->reactions.fold[2 * n] = w->reactions.fold[2 * n + 1] = -1;
+    w->reactions.unknown[n++] = element->row;
   }
   p->unknowns = n;
 }
@@ -136,20 +137,21 @@ static void list_unknowns(problem *p, const unsigned char *at_rest) {
 static double effect_of(const problem *p, int row, int c) {
   const frot_work *w = p->w;
   const double *effects = frot_effect_on(p->m, w, row);
-  double value = effects[p->m->row_local[w->unknown[c]]];
+  double value = effects[p->m->row_local[w->reactions.unknown[c]]];
   for (int k = 2 * c; k < 2 * c + 2; k++)
-    if (w->fold[k] >= 0) value += w->fold_ratio[k] * effects[p->m->row_local[w->fold[k]]];
+    if (w->reactions.fold[k] >= 0)
+      value += w->reactions.fold_ratio[k] * effects[p->m->row_local[w->reactions.fold[k]]];
   return value;
 }
 
 /* A row's value without the unknowns: with the friction that values bound. */
 static double known_part(const problem *p, int row) {
   const frot_model *m = p->m;
-  double sum = p->w->free[row];
+  double sum = p->w->core.free[row];
   for (int i = 0; i < p->g->n_elements; i++) {
     int e = p->g->elements[i];
-    if (m->elements[e].bound == FROT_BY_VALUE && p->w->ratio[e] != 0)
-      sum += p->w->ratio[e] * frot_effect(m, p->w, row, m->elements[e].row);
+    if (m->elements[e].bound == FROT_BY_VALUE && p->w->reactions.ratio[e] != 0)
+      sum += p->w->reactions.ratio[e] * frot_effect(m, p->w, row, m->elements[e].row);
   }
   return sum;
 }
@@ -161,84 +163,86 @@ static void column_of(const problem *p, int c, double *x) {
   const frot_group *g = p->g;
   int ns = g->n_speeds;
   if (c >= 0) {
-    memcpy(x, frot_entries(m, w->half, w->unknown[c]), sizeof(double) * (size_t)ns);
+    memcpy(x, frot_entries(m, w->core.half, w->reactions.unknown[c]), sizeof(double) * (size_t)ns);
     for (int k = 2 * c; k < 2 * c + 2; k++) {
-      if (w->fold[k] < 0) continue;
-      const double *half = frot_entries(m, w->half, w->fold[k]);
-      for (int j = 0; j < ns; j++) x[j] += w->fold_ratio[k] * half[j];
+      if (w->reactions.fold[k] < 0) continue;
+      const double *half = frot_entries(m, w->core.half, w->reactions.fold[k]);
+      for (int j = 0; j < ns; j++) x[j] += w->reactions.fold_ratio[k] * half[j];
     }
     return;
   }
-  memcpy(x, w->force + g->vector, sizeof(double) * (size_t)ns);
+  memcpy(x, w->core.force + g->vector, sizeof(double) * (size_t)ns);
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
-    if (m->elements[e].bound != FROT_BY_VALUE || w->ratio[e] == 0) continue;
-    const double *half = frot_entries(m, w->half, m->elements[e].row);
-    for (int j = 0; j < ns; j++) x[j] += w->ratio[e] * half[j];
+    if (m->elements[e].bound != FROT_BY_VALUE || w->reactions.ratio[e] == 0) continue;
+    const double *half = frot_entries(m, w->core.half, m->elements[e].row);
+    for (int j = 0; j < ns; j++) x[j] += w->reactions.ratio[e] * half[j];
   }
 }
 
-/* The held rows of a mass matrix, orthonormal, into w->basis with their biases in w->bias;
- * p->equations is their number. Returns 1 when a row that depends on others contradicts them. */
+/* The held rows of a mass matrix, orthonormal, into w->span.basis with their biases in
+ * w->span.bias; p->equations is their number. Returns 1 when a row that depends on others
+ * contradicts them. */
 static int orthonormalize(problem *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   int ns = p->g->n_speeds, rank = 0;
   for (int k = 0; k < p->held; k++) {
-    int row = w->unknown[k];
-    double *x = w->basis + ns * rank, *parts = w->parts;
-    memcpy(x, frot_entries(m, w->half, row), sizeof(double) * (size_t)ns);
-    w->carried[row] = 0;
-    double length = sqrt(frot_dot(x, x, ns)), bias = w->c[row], size = fabs(bias);
-    double rest = frot_reject(x, w->basis, rank, ns, parts);
+    int row = w->reactions.unknown[k];
+    double *x = w->span.basis + ns * rank, *parts = w->span.parts;
+    memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
+    w->reactions.carried[row] = 0;
+    double length = sqrt(frot_dot(x, x, ns)), bias = w->core.c[row], size = fabs(bias);
+    double rest = frot_reject(x, w->span.basis, rank, ns, parts);
     for (int i = 0; i < rank; i++) {
-      bias -= parts[i] * w->bias[i];
-      size += fabs(parts[i] * w->bias[i]);
+      bias -= parts[i] * w->span.bias[i];
+      size += fabs(parts[i] * w->span.bias[i]);
     }
     if (!(rest > frot_least_length(m, w, row, length))) {
-      w->dependent = w->carried[row] = 1;
+      w->reactions.dependent = w->reactions.carried[row] = 1;
       if (!(fabs(bias) <= FROT_AGREES * (size + frot_free_size(m, w, row)))) return 1;
       continue;
     }
     for (int i = 0; i < ns; i++) x[i] /= rest;
-    w->bias[rank++] = bias / rest;
+    w->span.bias[rank++] = bias / rest;
   }
-  p->equations = w->rank = rank;
+  p->equations = w->span.rank = rank;
   return 0;
 }
 
-/* The conditions that hold the held rows into the first lines of w->active and w->right, the
- * columns in units w->unit_of. The leading dimension is the number of unknowns. Returns 1 when they
- * contradict each other. */
+/* The conditions that hold the held rows into the first lines of w->linear.matrix and
+ * w->linear.right, the columns in units w->unit_of. The leading dimension is the number of
+ * unknowns. Returns 1 when they contradict each other. */
 static int hold_rows(problem *p) {
   frot_work *w = p->w;
   int n = p->unknowns, ns = p->g->n_speeds;
   if (p->g->general) {
     p->equations = p->held;
     for (int c = 0; c < n; c++) {
-      double size = fabs(effect_of(p, w->unknown[c], c));
-      w->unit_of[c] = size > 0 ? 1 / sqrt(size) : 1;
+      double size = fabs(effect_of(p, w->reactions.unknown[c], c));
+      w->reactions.unit_of[c] = size > 0 ? 1 / sqrt(size) : 1;
     }
     for (int r = 0; r < p->held; r++) {
-      double scale = w->unit_of[r];
+      double scale = w->reactions.unit_of[r];
       for (int c = 0; c < n; c++)
-        w->active[c * n + r] = scale * w->unit_of[c] * effect_of(p, w->unknown[r], c);
-      w->right[r] = -scale * known_part(p, w->unknown[r]);
+        w->linear.matrix[c * n + r] =
+            scale * w->reactions.unit_of[c] * effect_of(p, w->reactions.unknown[r], c);
+      w->linear.right[r] = -scale * known_part(p, w->reactions.unknown[r]);
     }
     return 0;
   }
   if (orthonormalize(p)) return 1;
-  double *x = w->rest;
+  double *x = w->core.rest;
   for (int c = -1; c < n; c++) {
     column_of(p, c, x);
     double length = sqrt(frot_dot(x, x, ns)), unit = length > 0 ? 1 / length : 1;
-    if (c >= 0) w->unit_of[c] = unit;
+    if (c >= 0) w->reactions.unit_of[c] = unit;
     for (int r = 0; r < p->equations; r++) {
-      double part = frot_dot(w->basis + ns * r, x, ns);
+      double part = frot_dot(w->span.basis + ns * r, x, ns);
       if (c < 0)
-        w->right[r] = -(part + w->bias[r]);
+        w->linear.right[r] = -(part + w->span.bias[r]);
       else
-        w->active[c * n + r] = unit * part;
+        w->linear.matrix[c * n + r] = unit * part;
     }
   }
   return 0;
@@ -250,76 +254,80 @@ static void follow_readings(problem *p) {
   frot_work *w = p->w;
   int n = p->unknowns;
   for (int f = p->held; f < n; f++) {
-    int e = w->owner[f], line = p->equations++;
+    int e = w->reactions.owner[f], line = p->equations++;
     const frot_element *element = &m->elements[e];
-    double scale = 1 / w->unit_of[f], ratio = w->ratio[e] * scale, known = 0;
+    double scale = 1 / w->reactions.unit_of[f], ratio = w->reactions.ratio[e] * scale, known = 0;
     double along[2] = {1, 0};
-    if (element->bound == FROT_BY_PIN) memcpy(along, w->along + 2 * e, sizeof along);
-    for (int c = 0; c < n; c++) w->active[c * n + line] = c == f;
+    if (element->bound == FROT_BY_PIN) memcpy(along, w->reactions.along + 2 * e, sizeof along);
+    for (int c = 0; c < n; c++) w->linear.matrix[c * n + line] = c == f;
     for (int k = 0; k < 2; k++) {
       if (along[k] == 0) continue;
       int reading = element->bounded_by[k];
       known += along[k] * known_part(p, reading);
       for (int c = 0; c < n; c++)
-        w->active[c * n + line] -= ratio * along[k] * w->unit_of[c] * effect_of(p, reading, c);
+        w->linear.matrix[c * n + line] -=
+            ratio * along[k] * w->reactions.unit_of[c] * effect_of(p, reading, c);
     }
-    w->right[line] = ratio * known;
+    w->linear.right[line] = ratio * known;
   }
 }
 
-/* What the unknowns weigh, into w->weight: friction so much more than normal reactions that rest is
- * not lost for want of it. Elements side by side that values bound share a load in proportion to
- * their bounds, so that they reach them together: sum of lam^2 g / bound is least, where g, the
- * size of the row, makes a gear between them count. */
+/* What the unknowns weigh, into w->reactions.weight: friction so much more than normal reactions
+ * that rest is not lost for want of it. Elements side by side that values bound share a load in
+ * proportion to their bounds, so that they reach them together: sum of lam^2 g / bound is least,
+ * where g, the size of the row, makes a gear between them count. */
 static void weigh(const problem *p) {
   frot_work *w = p->w;
   double largest = 0;
   for (int c = 0; c < p->unknowns; c++) {
-    w->weight[c] = 1;
-    if (c >= p->held || w->friction[c] < 2) continue;
-    double size = sqrt(fabs(frot_effect(p->m, w, w->unknown[c], w->unknown[c])));
-    w->weight[c] = size > 0 ? sqrt(w->coefficient[2 * w->owner[c] + 1] / size) : 1;
-    largest = fmax(largest, w->weight[c]);
+    w->reactions.weight[c] = 1;
+    if (c >= p->held || w->reactions.friction[c] < 2) continue;
+    double size =
+        sqrt(fabs(frot_effect(p->m, w, w->reactions.unknown[c], w->reactions.unknown[c])));
+    w->reactions.weight[c] =
+        size > 0 ? sqrt(w->core.coefficient[2 * w->reactions.owner[c] + 1] / size) : 1;
+    largest = fmax(largest, w->reactions.weight[c]);
   }
   for (int c = 0; c < p->held; c++) {
-    if (w->friction[c] == 0) continue;
-    if (w->friction[c] == 2 && largest > 0) w->weight[c] /= largest;
-    w->weight[c] *= FROT_FRICTION_WEIGHT;
+    if (w->reactions.friction[c] == 0) continue;
+    if (w->reactions.friction[c] == 2 && largest > 0) w->reactions.weight[c] /= largest;
+    w->reactions.weight[c] *= FROT_FRICTION_WEIGHT;
   }
 }
 
-/* Least reactions, in units w->unit_of, of the system that w->active holds. Solved twice: the
- * second time for what the first left, so that the weights cost no digits. */
+/* Least reactions, in units w->reactions.unit_of, of the system that w->linear.matrix holds. Solved
+ * twice: the second time for what the first left, so that the weights cost no digits. */
 static void solve_least(const problem *p, double *x) {
   frot_work *w = p->w;
   int n = p->unknowns, rows = p->equations;
-  double *copy = w->lstsq, *b = copy + n * n, *step = b + n, *scratch = step + n;
+  double *copy = w->linear.scratch, *b = copy + n * n, *step = b + n, *scratch = step + n;
   weigh(p);
   memset(x, 0, sizeof(double) * (size_t)n);
   for (int pass = 0; pass < 2; pass++) {
     for (int r = 0; r < rows; r++) {
-      double largest = 0, rest = w->right[r];
+      double largest = 0, rest = w->linear.right[r];
       for (int c = 0; c < n; c++) {
-        double weighed = w->active[c * n + r] / w->unit_of[c] * w->weight[c];
+        double weighed =
+            w->linear.matrix[c * n + r] / w->reactions.unit_of[c] * w->reactions.weight[c];
         copy[c * rows + r] = weighed, largest = fmax(largest, fabs(weighed));
-        rest -= w->active[c * n + r] * x[c];
+        rest -= w->linear.matrix[c * n + r] * x[c];
       }
       double scale = largest > 0 ? 1 / largest : 1;
       for (int c = 0; c < n; c++) copy[c * rows + r] *= scale;
       b[r] = rest * scale;
     }
-    frot_least_norm(copy, b, rows, n, step, scratch, w->pivot);
-    for (int c = 0; c < n; c++) x[c] += step[c] * w->weight[c] / w->unit_of[c];
+    frot_least_norm(copy, b, rows, n, step, scratch, w->linear.pivot);
+    for (int c = 0; c < n; c++) x[c] += step[c] * w->reactions.weight[c] / w->reactions.unit_of[c];
   }
 }
 
 double frot_size_of_motion(const frot_model *m, const frot_work *w, const frot_group *g) {
   int count = g->general ? g->n : g->n_speeds;
-  const double *force = w->force + g->vector;
+  const double *force = w->core.force + g->vector;
   double motion = sqrt(frot_dot(force, force, count));
   for (int i = 0; i < g->n_rows; i++) {
-    const double *half = w->half + g->entries + i * g->n;
-    double lam = w->lam[g->rows[i]];
+    const double *half = w->core.half + g->entries + i * g->n;
+    double lam = w->core.lam[g->rows[i]];
     if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
     motion += fabs(lam) * sqrt(frot_dot(half, half, count));
   }
@@ -329,7 +337,7 @@ double frot_size_of_motion(const frot_model *m, const frot_work *w, const frot_g
 double frot_row_rounding(const frot_model *m, const frot_work *w, int row) {
   const frot_group *g = frot_group_of(m, row);
   int count = g->general ? g->n : g->n_speeds;
-  const double *own = frot_entries(m, g->general ? w->rows : w->half, row);
+  const double *own = frot_entries(m, g->general ? w->core.rows : w->core.half, row);
   return 4 * FROT_ROUNDING * sqrt(frot_dot(own, own, count)) * frot_size_of_motion(m, w, g);
 }
 
@@ -340,17 +348,18 @@ static int is_solution(const problem *p) {
   for (int k = 0; k < p->unknowns; k++) {
     double size, value, rounding = 0;
     if (k < p->held) {
-      value = frot_acceleration(m, w, w->unknown[k], &size);
-      size += frot_free_size(m, w, w->unknown[k]);
-      rounding = frot_row_rounding(m, w, w->unknown[k]);
+      value = frot_acceleration(m, w, w->reactions.unknown[k], &size);
+      size += frot_free_size(m, w, w->reactions.unknown[k]);
+      rounding = frot_row_rounding(m, w, w->reactions.unknown[k]);
     } else {
-      const frot_element *element = &m->elements[w->owner[k]];
+      const frot_element *element = &m->elements[w->reactions.owner[k]];
       double along[2] = {1, 0}, bounding = 0;
-      if (element->bound == FROT_BY_PIN) memcpy(along, w->along + 2 * w->owner[k], sizeof along);
+      if (element->bound == FROT_BY_PIN)
+        memcpy(along, w->reactions.along + 2 * w->reactions.owner[k], sizeof along);
       for (int i = 0; i < 2; i++)
-        if (along[i] != 0) bounding += along[i] * w->lam[element->bounded_by[i]];
-      value = w->lam[element->row] - w->ratio[w->owner[k]] * bounding;
-      size = fabs(w->lam[element->row]) + fabs(value);
+        if (along[i] != 0) bounding += along[i] * w->core.lam[element->bounded_by[i]];
+      value = w->core.lam[element->row] - w->reactions.ratio[w->reactions.owner[k]] * bounding;
+      size = fabs(w->core.lam[element->row]) + fabs(value);
     }
     if (!(fabs(value) <= FROT_AGREES * size + rounding)) return 0;
   }
@@ -362,28 +371,30 @@ static void spread_reactions(const problem *p, const double *x) {
   const frot_model *m = p->m;
   const frot_group *g = p->g;
   frot_work *w = p->w;
-  for (int i = 0; i < g->n_rows; i++) w->lam[g->rows[i]] = 0;
+  for (int i = 0; i < g->n_rows; i++) w->core.lam[g->rows[i]] = 0;
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
-    if (m->elements[e].bound == FROT_BY_VALUE && w->ratio[e] != 0)
-      w->lam[m->elements[e].row] = w->ratio[e];
+    if (m->elements[e].bound == FROT_BY_VALUE && w->reactions.ratio[e] != 0)
+      w->core.lam[m->elements[e].row] = w->reactions.ratio[e];
   }
   for (int c = 0; c < p->unknowns; c++) {
-    double lam = x[c] * w->unit_of[c];
-    w->lam[w->unknown[c]] = lam;
+    double lam = x[c] * w->reactions.unit_of[c];
+    w->core.lam[w->reactions.unknown[c]] = lam;
     for (int k = 2 * c; k < 2 * c + 2; k++)
-      if (w->fold[k] >= 0) w->lam[w->fold[k]] = w->fold_ratio[k] * lam;
+      if (w->reactions.fold[k] >= 0)
+        w->core.lam[w->reactions.fold[k]] = w->reactions.fold_ratio[k] * lam;
   }
   for (int i = 0; i < g->n_rows; i++) {
     int r = g->rows[i];
     double size;
-    if (frot_is_reading(m, r) && w->wanted[r]) w->lam[r] = frot_acceleration(m, w, r, &size);
+    if (frot_is_reading(m, r) && w->core.wanted[r])
+      w->core.lam[r] = frot_acceleration(m, w, r, &size);
   }
 }
 
 static int group_is_finite(const problem *p) {
   for (int i = 0; i < p->g->n_rows; i++)
-    if (!isfinite(p->w->lam[p->g->rows[i]])) return 0;
+    if (!isfinite(p->w->core.lam[p->g->rows[i]])) return 0;
   return 1;
 }
 
@@ -391,17 +402,17 @@ static int group_is_finite(const problem *p) {
 static int solve(problem *p) {
   frot_work *w = p->w;
   int n = p->unknowns;
-  double *x = w->solution;
+  double *x = w->reactions.solution;
   if (hold_rows(p)) return 1;
   follow_readings(p);
   int regular = p->equations == n;
   if (regular) {
-    memcpy(w->lstsq, w->active, sizeof(double) * (size_t)(n * n));
-    memcpy(x, w->right, sizeof(double) * (size_t)n);
-    regular = !frot_lu_solve(w->lstsq, x, n);
+    memcpy(w->linear.scratch, w->linear.matrix, sizeof(double) * (size_t)(n * n));
+    memcpy(x, w->linear.right, sizeof(double) * (size_t)n);
+    regular = !frot_lu_solve(w->linear.scratch, x, n);
   }
   if (!regular) {
-    w->dependent = 1;
+    w->reactions.dependent = 1;
     solve_least(p, x);
   }
   spread_reactions(p, x);
@@ -416,11 +427,11 @@ static double turn_pins(const problem *p) {
   frot_work *w = p->w;
   double missed = 0;
   for (int f = p->held; f < p->unknowns; f++) {
-    int e = w->owner[f];
+    int e = w->reactions.owner[f];
     if (m->elements[e].bound != FROT_BY_PIN) continue;
-    double *along = w->along + 2 * e;
-    double first = w->lam[m->elements[e].bounded_by[0]];
-    double second = w->lam[m->elements[e].bounded_by[1]];
+    double *along = w->reactions.along + 2 * e;
+    double first = w->core.lam[m->elements[e].bounded_by[0]];
+    double second = w->core.lam[m->elements[e].bounded_by[1]];
     double size = hypot(first, second), before = along[0] * first + along[1] * second;
     if (!(size > 0)) continue;
     missed = fmax(missed, (size - before) / size);
@@ -432,13 +443,14 @@ static double turn_pins(const problem *p) {
 int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
                          const frot_contact_mode *modes, const unsigned char *at_rest) {
   problem p = {m, w, g, modes, 0, 0, 0};
-  w->dependent = 0;
+  w->reactions.dependent = 0;
   if (g->n_rows == 0) return 0;
   list_unknowns(&p, at_rest);
   int pins = 0;
-  for (int f = p.held; f < p.unknowns; f++) pins |= m->elements[w->owner[f]].bound == FROT_BY_PIN;
-  w->rank = 0;
-  if (p.unknowns == 0) return spread_reactions(&p, w->solution), !group_is_finite(&p);
+  for (int f = p.held; f < p.unknowns; f++)
+    pins |= m->elements[w->reactions.owner[f]].bound == FROT_BY_PIN;
+  w->span.rank = 0;
+  if (p.unknowns == 0) return spread_reactions(&p, w->reactions.solution), !group_is_finite(&p);
   for (int pass = 0, last = 0; pass < FROT_PIN_PASSES; pass++) {
     if (solve(&p)) return 1;
     if (!pins) return 0;

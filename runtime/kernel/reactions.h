@@ -2,32 +2,33 @@
 #ifndef FROT_REACTIONS_H
 #define FROT_REACTIONS_H
 
-#include "state.h"
+#include "work.h"
 
-/* Reactions w->lam of the rows of a group in `modes`, after frot_dynamics. Where at_rest
+/* Reactions w->core.lam of the rows of a group in `modes`, after frot_dynamics. Where at_rest
  * (n_elements, may be NULL) is nonzero, slip is resisted by the coefficient of rest. Where they are
- * not unique, those of least friction are taken and w->dependent is set. Returns 1 when no finite
- * reactions keep what `modes` says. */
+ * not unique, those of least friction are taken and w->reactions.dependent is set. Returns 1 when
+ * no finite reactions keep what `modes` says. */
 int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
                          const frot_contact_mode *modes, const unsigned char *at_rest);
 
-/* The same for all groups. Directions of pins' reactions are looked for from w->along on. */
+/* The same for all groups. Directions of pins' reactions are looked for from w->reactions.along on.
+ */
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                    const unsigned char *at_rest);
 
-/* Size of the reaction that bounds an element, by w->lam; 1 where a value bounds it. With the sign
- * of the mode: negative where a normal reaction has the wrong one. */
+/* Size of the reaction that bounds an element, by w->core.lam; 1 where a value bounds it. With the
+ * sign of the mode: negative where a normal reaction has the wrong one. */
 double frot_bounding(const frot_model *m, const frot_work *w, int element,
                      const frot_contact_mode *modes);
-/* What an element can resist at rest, from the coefficients w->coefficient and w->lam. */
+/* What an element can resist at rest, from the coefficients w->core.coefficient and w->lam. */
 double frot_bound_of_rest(const frot_model *m, const frot_work *w, int element,
                           const frot_contact_mode *modes);
 
-/* Acceleration of a row (of a reading: its reaction) by w->lam, and the size of its reactions'
+/* Acceleration of a row (of a reading: its reaction) by w->core.lam, and the size of its reactions'
  * terms. */
 double frot_acceleration(const frot_model *m, const frot_work *w, int row, double *size);
 
-/* Length of what loads and each of the reactions w->lam do to the group, in the metric of its
+/* Length of what loads and each of the reactions w->core.lam do to the group, in the metric of its
  * speeds: what its accelerations are the sum of. */
 double frot_size_of_motion(const frot_model *m, const frot_work *w, const frot_group *g);
 

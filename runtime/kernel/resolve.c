@@ -15,9 +15,10 @@
 static int is_zero_rate(const frot_instant *in, int e, const double *v, int slipped) {
   int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
   if (slipped && in->fired[guard] != 0) return 1;
-  if (in->m->elements[e].prescribed && fabs(in->w->rate[row]) <= FROT_PRESCRIBED_REST) return 1;
+  if (in->m->elements[e].prescribed && fabs(in->w->core.rate[row]) <= FROT_PRESCRIBED_REST)
+    return 1;
   double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
-  return fabs(in->w->rate[row]) <=
+  return fabs(in->w->core.rate[row]) <=
          FROT_ZERO * size + FROT_ZERO_OF_MOTION * frot_row_speed(in->m, in->w, row, v);
 }
 
@@ -40,12 +41,13 @@ static int rows_of_contact(const frot_model *m, int i, int *rows) {
 /* Whether a reaction of contact j changes anything at contact i. */
 static int coupled(const frot_instant *in, int i, int j) {
   const frot_model *m = in->m;
-  int *a = in->w->row_of, count = rows_of_contact(m, i, a), *b = a + count;
+  int *a = in->w->relations.rows, count = rows_of_contact(m, i, a), *b = a + count;
   int others = rows_of_contact(m, j, b);
   for (int k = 0; k < count; k++)
     for (int c = 0; c < others; c++)
       if (!frot_is_reading(m, b[c]) && m->row_group[a[k]] == m->row_group[b[c]] &&
-          in->w->wanted[a[k]] && in->w->wanted[b[c]] && frot_effect(m, in->w, a[k], b[c]) != 0)
+          in->w->core.wanted[a[k]] && in->w->core.wanted[b[c]] &&
+          frot_effect(m, in->w, a[k], b[c]) != 0)
         return 1;
   return 0;
 }
@@ -53,8 +55,8 @@ static int coupled(const frot_instant *in, int i, int j) {
 /* Contacts in one component act on each other through the masses. */
 static void find_components(const frot_instant *in) {
   const frot_model *m = in->m;
-  int *component = in->w->component;
-  for (int i = 0; i < m->n_contacts; i++) component[i] = in->w->best[i].closed ? i : -1;
+  int *component = in->w->search.component;
+  for (int i = 0; i < m->n_contacts; i++) component[i] = in->w->search.best[i].closed ? i : -1;
   for (int i = 0; i < m->n_contacts; i++)
     for (int j = 0; j < i; j++) {
       if (component[i] < 0 || component[j] < 0 || component[i] == component[j]) continue;
@@ -71,18 +73,18 @@ static double typical_speed(const frot_instant *in, int row) {
   return frot_row_size(in->m, in->w, row, in->s->data + in->l.scale_x + in->m->nq);
 }
 
-/* Contacts that may be closed after the instant, into w->best: those that were, and open ones whose
- * gap has closed. A gap that closes with speed is an impact. */
+/* Contacts that may be closed after the instant, into w->search.best: those that were, and open
+ * ones whose gap has closed. A gap that closes with speed is an impact. */
 static int closable(const frot_instant *in, double t, int first) {
   const frot_model *m = in->m;
   for (int i = 0; i < m->n_contacts; i++) {
-    in->w->best[i] = in->w->before[i];
-    if (in->w->before[i].closed || first || in->fired[i] == 0) continue;
+    in->w->search.best[i] = in->w->search.before[i];
+    if (in->w->search.before[i].closed || first || in->fired[i] == 0) continue;
     int row = m->contacts[i].row_n;
-    double rate = in->w->rate[row];
+    double rate = in->w->core.rate[row];
     if (rate < -FROT_TOUCH * typical_speed(in, row))
       return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
-    in->w->best[i].closed = 1;
+    in->w->search.best[i].closed = 1;
   }
   return FROT_OK;
 }
@@ -108,16 +110,17 @@ static int settle_speeds(frot_instant *in, double t, double *q, double *v) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   for (int e = 0; e < m->n_elements; e++) {
-    int slipped = frot_element_mode(m, w->before, e)->friction > FROT_STICK;
-    in->zero[e] = w->best[m->elements[e].contact].closed && frot_bounds_something(m, w, e) &&
+    int slipped = frot_element_mode(m, w->search.before, e)->friction > FROT_STICK;
+    in->zero[e] = w->search.best[m->elements[e].contact].closed && frot_bounds_something(m, w, e) &&
                   is_zero_rate(in, e, v, slipped);
     in->at_rest[e] = in->zero[e];
   }
   size_t modes = (size_t)(m->n_contacts + m->n_elements);
-  memcpy(w->trial, w->best, sizeof *w->trial * modes);
-  for (int e = 0; e < m->n_elements; e++) w->trial[m->n_contacts + e].friction = FROT_NONE;
+  memcpy(w->search.trial, w->search.best, sizeof *w->search.trial * modes);
+  for (int e = 0; e < m->n_elements; e++) w->search.trial[m->n_contacts + e].friction = FROT_NONE;
   int moved;
-  return frot_project(m, in->s, w, t, q, v, in->s->data + in->l.d, w->trial, in->zero, &moved);
+  return frot_project(m, in->s, w, t, q, v, in->s->data + in->l.d, w->search.trial, in->zero,
+                      &moved);
 }
 
 /* Elements of the contacts chosen that start to slip against less friction than held them: from now
@@ -127,10 +130,10 @@ static int note_departures(const frot_instant *in, const int *chosen, int count)
   int departed = 0;
   for (int c = 0; c < count; c++)
     for (int e = 0; e < m->n_elements; e++) {
-      const double *k = in->w->coefficient + 2 * e;
+      const double *k = in->w->core.coefficient + 2 * e;
       if (m->elements[e].contact != chosen[c] || !in->at_rest[e] || k[0] == k[1]) continue;
-      if (!in->w->best[chosen[c]].closed) continue;
-      if (frot_element_mode(m, in->w->best, e)->friction <= FROT_STICK) continue;
+      if (!in->w->search.best[chosen[c]].closed) continue;
+      if (frot_element_mode(m, in->w->search.best, e)->friction <= FROT_STICK) continue;
       in->at_rest[e] = 0, departed++;
     }
   return departed;
@@ -151,7 +154,8 @@ static int look_for_motions(const frot_instant *in, const int *chosen, int count
   return motions;
 }
 
-/* The modes into w->best, component after component; each that has several motions is told. */
+/* The modes into w->search.best, component after component; each that has several motions is told.
+ */
 static int choose_modes(const frot_instant *in, double t, int first, frot_recorder *recorder) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
@@ -159,9 +163,9 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
   if (first) memset(in->s->data + in->l.several, 0, sizeof(double) * (size_t)m->n_contacts);
   find_components(in);
   for (int root = 0; root < m->n_contacts; root++) {
-    int *chosen = w->chosen, count = 0, unsearched = 0;
+    int *chosen = w->search.chosen, count = 0, unsearched = 0;
     for (int i = 0; i < m->n_contacts; i++)
-      if (w->component[i] == root) chosen[count++] = i;
+      if (w->search.component[i] == root) chosen[count++] = i;
     if (count == 0) continue;
     int motions = look_for_motions(in, chosen, count, &unsearched);
     in->s->statistics.unsearched += unsearched;
@@ -172,8 +176,8 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
     if (!several) several = motions, several_at = chosen[0];
     if (!first)
       frot_note(recorder, in->s, t, FROT_EVENT_SEVERAL, chosen[0],
-                frot_mode_value(m, w->before, chosen[0]), frot_mode_value(m, w->best, chosen[0]),
-                motions);
+                frot_mode_value(m, w->search.before, chosen[0]),
+                frot_mode_value(m, w->search.best, chosen[0]), motions);
     else
       in->s->several = 1, in->s->data[in->l.several + chosen[0]] = motions; /* told at once after */
   }
@@ -189,37 +193,47 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + l.modes);
   size_t count = (size_t)(m->n_contacts + m->n_elements);
   note_left(m, s, t);
-  frot_instant in = {m,       s,          w, l, fired, s->data + l.unilateral, s->data + l.left,
-                     w->zero, w->at_rest, t, q, v};
-  memcpy(w->before, modes, sizeof *modes * count);
-  memcpy(w->best, modes, sizeof *modes * count);
-  memset(w->zero, 0, (size_t)m->n_elements);
+  frot_instant in = {m,
+                     s,
+                     w,
+                     l,
+                     fired,
+                     s->data + l.unilateral,
+                     s->data + l.left,
+                     w->search.zero,
+                     w->search.at_rest,
+                     t,
+                     q,
+                     v};
+  memcpy(w->search.before, modes, sizeof *modes * count);
+  memcpy(w->search.best, modes, sizeof *modes * count);
+  memset(w->search.zero, 0, (size_t)m->n_elements);
 
   int status = frot_kinematics(m, s, w, t, q, v, d);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   status = closable(&in, t, first);
   if (status != FROT_OK) return status;
-  status = frot_dynamics(m, s, w, t, q, v, d, w->best, FROT_LAWS);
+  status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
   if (status == FROT_OK) status = frot_metric(m, w);
   if (status == FROT_OK) status = settle_speeds(&in, t, q, v);
-  if (status == FROT_OK) status = frot_dynamics(m, s, w, t, q, v, d, w->best, FROT_LAWS);
+  if (status == FROT_OK) status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
   if (status == FROT_OK) status = frot_metric(m, w);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
 
   frot_row_loads(m, s, w, t, q, v, d);
   status = choose_modes(&in, t, first, recorder);
   if (status != FROT_OK) return status;
-  memcpy(modes, w->best, sizeof *modes * count);
-  if (!first) frot_note_changes(m, s, t, w->before, modes, recorder);
+  memcpy(modes, w->search.best, sizeof *modes * count);
+  if (!first) frot_note_changes(m, s, t, w->search.before, modes, recorder);
   frot_find_frozen(m, w, modes, frozen);
   for (int k = 0; k < m->nv; k++)
     if (frozen[k] != 0) v[k] = 0;
   memset(fired, 0, sizeof(double) * (size_t)l.nf);
   /* The guards of another mode have another size. */
   for (int i = 0; i < m->n_contacts; i++)
-    if (memcmp(&modes[i], &w->before[i], sizeof *modes) != 0) s->data[l.scale_g + i] = 0;
+    if (memcmp(&modes[i], &w->search.before[i], sizeof *modes) != 0) s->data[l.scale_g + i] = 0;
   for (int e = 0; e < m->n_elements; e++)
-    if (memcmp(&modes[m->n_contacts + e], &w->before[m->n_contacts + e], sizeof *modes) != 0)
+    if (memcmp(&modes[m->n_contacts + e], &w->search.before[m->n_contacts + e], sizeof *modes) != 0)
       memset(s->data + l.scale_g + frot_element_guard(m, e), 0, 2 * sizeof(double));
   return FROT_OK;
 }

@@ -2,7 +2,7 @@
 #ifndef FROT_RESOLVE_H
 #define FROT_RESOLVE_H
 
-#include "state.h"
+#include "work.h"
 
 /* Find the modes that follow time t at coordinates q and speeds v (both may be moved onto the
  * relations that hold, by rounding only), from the modes held in the state and the guards fired.

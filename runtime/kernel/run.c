@@ -9,7 +9,7 @@
 #include "initial.h"
 #include "mechanics.h"
 #include "record.h"
-#include "state.h"
+#include "work.h"
 #include "segment.h"
 #include "step.h"
 #include "stiffness.h"
@@ -24,12 +24,13 @@
 int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, double experiment[4]) {
   frot_bind_work(m, w);
   frot_layout l = frot_layout_of(m);
-  double *p = w->values, *checks = w->values + m->np;
-  w->arg[0] = s->data + l.given, w->arg[1] = s->data + l.set, w->arg[2] = s->data + l.u;
-  w->res[0] = p, w->res[1] = checks;
-  w->res[2] = s->data + l.unilateral, w->res[3] = s->data + l.experiment;
-  w->res[4] = s->data + l.nominal;
-  m->parameters.call(w->arg, w->res, w->iw, w->w, 0);
+  double *p = w->call.values, *checks = w->call.values + m->np;
+  w->call.arg[0] = s->data + l.given, w->call.arg[1] = s->data + l.set,
+  w->call.arg[2] = s->data + l.u;
+  w->call.res[0] = p, w->call.res[1] = checks;
+  w->call.res[2] = s->data + l.unilateral, w->call.res[3] = s->data + l.experiment;
+  w->call.res[4] = s->data + l.nominal;
+  frot_call(w, &m->parameters);
   memcpy(s->data + l.p, p, sizeof(double) * (size_t)m->np);
   for (int i = 0; i < m->n_checks; i++) {
     double x = checks[i];
@@ -112,7 +113,7 @@ static int fire_changed_conditions(const frot_model *m, frot_state *s, frot_work
   int status = frot_kinematics(m, s, w, s->t, x, x + m->nq, d);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, s->t);
   for (int j = 0; j < m->n_conditions; j++) {
-    int holds = m->condition_strict[j] ? w->condition[j] > 0 : w->condition[j] >= 0;
+    int holds = m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;
     s->data[l.fired + frot_condition_guard(m) + j] = holds != (d[j] != 0);
   }
   return FROT_OK;
@@ -140,7 +141,7 @@ static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
   frot_bind_work(m, w);
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
-  double *x = w->z1;
+  double *x = w->step.z1;
   frot_interpolate(m, &g, s->t, x);
   frot_guess_unknowns(m, w, &g, s->t);
   double before = energy_now(m, s, w, x);
@@ -176,11 +177,11 @@ static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   double *x = s->data + l.x;
-  memcpy(w->y, s->data + l.y, sizeof(double) * (size_t)m->ny);
+  memcpy(w->blocks.y, s->data + l.y, sizeof(double) * (size_t)m->ny);
   int status = frot_cross(m, s, w, g.t1, x, x + m->nq);
   double t = *g.t1;
   if (status == FROT_OK) status = frot_happen(m, s, w, t, x, x + m->nq, 0, recorder);
-  memcpy(s->data + l.y, w->y, sizeof(double) * (size_t)m->ny);
+  memcpy(s->data + l.y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   frot_tell(m, s, recorder);
   if (status != FROT_TERMINATED) return status;
   s->t = t;
@@ -255,10 +256,10 @@ int frot_energy(const frot_model *m, frot_state *s, frot_work *w, double balance
   frot_bind_work(m, w);
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
-  frot_interpolate(m, &g, s->t, w->z1);
+  frot_interpolate(m, &g, s->t, w->step.z1);
   frot_guess_unknowns(m, w, &g, s->t);
-  double mechanical = energy_now(m, s, w, w->z1);
-  double dissipated = w->z1[m->nq + m->nv], work = w->z1[m->nq + m->nv + 1];
+  double mechanical = energy_now(m, s, w, w->step.z1);
+  double dissipated = w->step.z1[m->nq + m->nv], work = w->step.z1[m->nq + m->nv + 1];
   balance[0] = mechanical - s->energy + dissipated - work;
   balance[1] =
       fmax(fmax(s->energy_scale, fabs(mechanical - s->energy)), fmax(fabs(dissipated), fabs(work)));

@@ -6,7 +6,7 @@
 #include "core.h"
 #include "mechanics.h"
 #include "projection.h"
-#include "state.h"
+#include "work.h"
 #include "segment.h"
 
 /* Whether a mode holds anything that coordinates do not. */
@@ -31,7 +31,7 @@ static void rest_exactly(const frot_model *m, const frot_contact_mode *modes, do
 
 static int values_in(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g,
                      double t, double *values) {
-  double *x = w->z1;
+  double *x = w->step.z1;
   frot_interpolate(m, g, t, x);
   frot_guess_unknowns(m, w, g, t);
   double *q = x, *v = x + m->nq;
@@ -49,9 +49,9 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
   if (status != FROT_OK) return status;
   frot_inputs(m, s, w, &t, q, v, g->d);
-  w->arg[7] = w->a, w->arg[8] = w->lam, w->arg[9] = x + m->nq + m->nv;
-  w->res[0] = values;
-  m->variables.call(w->arg, w->res, w->iw, w->w, 0);
+  w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam, w->call.arg[9] = x + m->nq + m->nv;
+  w->call.res[0] = values;
+  frot_call(w, &m->variables);
   for (int i = 0; i < m->n_contacts; i++) values[i] = frot_mode_value(m, g->modes, i);
   rest_exactly(m, g->modes, values);
   return frot_all_finite(values, m->n_variables) ? FROT_OK : FROT_NAN;

@@ -19,7 +19,7 @@ typedef struct {
 static const frot_contact_mode OPEN = {0, 1, 0, 0, 0, {0}};
 
 int frot_bounds_something(const frot_model *m, const frot_work *w, int element) {
-  const double *k = w->coefficient + 2 * element;
+  const double *k = w->core.coefficient + 2 * element;
   return !(m->elements[element].fixed && k[0] == 0 && k[1] == 0);
 }
 
@@ -35,7 +35,7 @@ static int elements_of(const frot_model *m, int contact, int own[LAWS]) {
 static int direction_left(const frot_instant *in, int e) {
   int left = (int)in->left[e];
   if (left != 0 && in->m->elements[e].prescribed)
-    return in->w->c[in->m->elements[e].row] > 0 ? 1 : -1;
+    return in->w->core.c[in->m->elements[e].row] > 0 ? 1 : -1;
   return left;
 }
 
@@ -47,7 +47,7 @@ static int element_options(const frot_instant *in, int e, int forced, frot_conta
   list[0] = still;
   if (!frot_bounds_something(in->m, in->w, e)) return list[0].friction = FROT_NONE, 1;
   if (!in->zero[e]) {
-    double rate = in->w->rate[in->m->elements[e].row];
+    double rate = in->w->core.rate[in->m->elements[e].row];
     return list[0].friction = rate > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD, 1;
   }
   if (!in->at_rest[e]) { /* it departs, in either direction */
@@ -65,7 +65,7 @@ static int element_options(const frot_instant *in, int e, int forced, frot_conta
 
 static int contact_options(const frot_instant *in, int i, int forced, option *list) {
   const frot_contact *contact = &in->m->contacts[i];
-  frot_contact_mode before = in->w->before[i], modes[LAWS][4];
+  frot_contact_mode before = in->w->search.before[i], modes[LAWS][4];
   int own[LAWS], counts[LAWS] = {1, 1}, laws = elements_of(in->m, i, own), n = 0;
   int can_open = in->unilateral[i] != 0 && frot_has_normal(contact);
   int one_sided = can_open || !frot_has_normal(contact), acts = 0;
@@ -95,8 +95,9 @@ static int contact_options(const frot_instant *in, int i, int forced, option *li
 
 static void take(const frot_instant *in, int i, const option *chosen) {
   int own[LAWS], laws = elements_of(in->m, i, own);
-  in->w->trial[i] = chosen->contact;
-  for (int k = 0; k < laws; k++) in->w->trial[in->m->n_contacts + own[k]] = chosen->element[k];
+  in->w->search.trial[i] = chosen->contact;
+  for (int k = 0; k < laws; k++)
+    in->w->search.trial[in->m->n_contacts + own[k]] = chosen->element[k];
 }
 
 static int same(const frot_contact_mode *a, const frot_contact_mode *b) {
@@ -109,40 +110,41 @@ static int preference(const frot_instant *in, const int *chosen, int count) {
   int rest = 0, kept = 0, own[LAWS];
   for (int c = 0; c < count; c++) {
     int laws = elements_of(m, chosen[c], own);
-    kept += same(&in->w->trial[chosen[c]], &in->w->before[chosen[c]]);
+    kept += same(&in->w->search.trial[chosen[c]], &in->w->search.before[chosen[c]]);
     for (int k = 0; k < laws; k++) {
-      const frot_contact_mode *mode = frot_element_mode(m, in->w->trial, own[k]);
+      const frot_contact_mode *mode = frot_element_mode(m, in->w->search.trial, own[k]);
       rest += mode->friction == FROT_STICK;
-      kept += same(mode, frot_element_mode(m, in->w->before, own[k]));
+      kept += same(mode, frot_element_mode(m, in->w->search.before, own[k]));
     }
   }
   int big = (1 + LAWS) * m->n_contacts + 1;
   return in->s->options.on_indeterminate == FROT_CONTINUE ? kept * big + rest : rest * big + kept;
 }
 
-/* The motion of w->trial as the accelerations of its rows, into place `at` of w->motions unless one
- * of the motions before is the same to what rounding of their terms can do; returns their number.
+/* The motion of w->search.trial as the accelerations of its rows, into place `at` of
+ * w->search.motions unless one of the motions before is the same to what rounding of their terms
+ * can do; returns their number.
  */
 static int count_motion(const frot_instant *in, const int *chosen, int motions) {
   const frot_model *m = in->m;
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
-  double *own = in->w->motions + (size_t)(FROT_MOTIONS - 1) * (size_t)m->n_rows;
+  double *own = in->w->search.motions + (size_t)(FROT_MOTIONS - 1) * (size_t)m->n_rows;
   if (motions >= FROT_MOTIONS - 1) return motions;
   for (int at = 0; at <= motions; at++) {
-    const double *other = in->w->motions + (size_t)at * (size_t)m->n_rows;
+    const double *other = in->w->search.motions + (size_t)at * (size_t)m->n_rows;
     int differs = 0;
     for (int i = 0; i < g->n_rows; i++) {
       int r = g->rows[i];
-      if (frot_is_reading(m, r) || !in->w->wanted[r]) continue;
+      if (frot_is_reading(m, r) || !in->w->core.wanted[r]) continue;
       double size, a = frot_acceleration(m, in->w, r, &size);
       own[r] = a;
-      differs |= fabs(a - other[r]) >
-                 FROT_DIFFERENT * (size + in->w->row_load[r]) + 2 * frot_row_rounding(m, in->w, r);
+      differs |= fabs(a - other[r]) > FROT_DIFFERENT * (size + in->w->core.row_load[r]) +
+                                          2 * frot_row_rounding(m, in->w, r);
     }
     if (at == motions) break;
     if (!differs) return motions;
   }
-  memcpy(in->w->motions + (size_t)motions * (size_t)m->n_rows, own,
+  memcpy(in->w->search.motions + (size_t)motions * (size_t)m->n_rows, own,
          sizeof(double) * (size_t)m->n_rows);
   return motions + 1;
 }
@@ -152,9 +154,9 @@ static void remember(const frot_instant *in, const int *chosen, int count) {
   int own[LAWS];
   for (int c = 0; c < count; c++) {
     int laws = elements_of(m, chosen[c], own);
-    in->w->best[chosen[c]] = in->w->trial[chosen[c]];
+    in->w->search.best[chosen[c]] = in->w->search.trial[chosen[c]];
     for (int k = 0; k < laws; k++)
-      in->w->best[m->n_contacts + own[k]] = in->w->trial[m->n_contacts + own[k]];
+      in->w->search.best[m->n_contacts + own[k]] = in->w->search.trial[m->n_contacts + own[k]];
   }
 }
 
@@ -164,7 +166,8 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
                      const unsigned char *certain) {
   frot_work *w = in->w;
   option lists[OPTIONS];
-  int *options = w->choice, *digit = w->choice + count, motions = 0, best = 0, any = 0;
+  int *options = w->search.choice, *digit = w->search.choice + count, motions = 0, best = 0,
+      any = 0;
   for (int c = 0; c < count; c++) {
     int fixed = certain && certain[chosen[c]];
     options[c] = fixed ? 1 : contact_options(in, chosen[c], forced, lists);
@@ -172,7 +175,7 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
     if (!fixed) take(in, chosen[c], &lists[0]);
   }
   size_t modes = (size_t)(in->m->n_contacts + in->m->n_elements);
-  memcpy(w->guess, w->trial, sizeof *w->trial * modes);
+  memcpy(w->search.guess, w->search.trial, sizeof *w->search.trial * modes);
   for (;;) {
     if (frot_is_admissible(in, chosen, count)) {
       int rank = preference(in, chosen, count);
@@ -197,9 +200,9 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
         take(in, chosen[k], &lists[digit[k]]);
       } else {
         int own[LAWS], laws = elements_of(in->m, chosen[k], own);
-        w->trial[chosen[k]] = w->guess[chosen[k]];
+        w->search.trial[chosen[k]] = w->search.guess[chosen[k]];
         for (int j = 0; j < laws; j++)
-          w->trial[in->m->n_contacts + own[j]] = w->guess[in->m->n_contacts + own[j]];
+          w->search.trial[in->m->n_contacts + own[j]] = w->search.guess[in->m->n_contacts + own[j]];
       }
     }
   }
@@ -218,19 +221,19 @@ int frot_search(const frot_instant *in, const int *chosen, int count, int forced
   option lists[OPTIONS];
   double combinations = 1;
   for (int c = 0; c < count; c++) combinations *= contact_options(in, chosen[c], forced, lists);
-  memset(w->trial, 0, sizeof *w->trial * (size_t)(m->n_contacts + m->n_elements));
+  memset(w->search.trial, 0, sizeof *w->search.trial * (size_t)(m->n_contacts + m->n_elements));
   if (combinations <= FROT_ENOUGH) return enumerate(in, chosen, count, forced, NULL);
   *unsearched = 1;
-  frot_guess_modes(in, chosen, count, forced, w->certain);
+  frot_guess_modes(in, chosen, count, forced, w->search.certain);
   combinations = 1;
   for (int c = 0; c < count; c++) {
     int options = contact_options(in, chosen[c], forced, lists);
-    if (left_here(in, chosen[c])) w->certain[chosen[c]] = 0;
-    if (w->certain[chosen[c]]) continue;
+    if (left_here(in, chosen[c])) w->search.certain[chosen[c]] = 0;
+    if (w->search.certain[chosen[c]]) continue;
     if (combinations * options > FROT_ENOUGH)
-      w->certain[chosen[c]] = 1;
+      w->search.certain[chosen[c]] = 1;
     else
       combinations *= options;
   }
-  return enumerate(in, chosen, count, forced, w->certain);
+  return enumerate(in, chosen, count, forced, w->search.certain);
 }

@@ -2,7 +2,7 @@
 #ifndef FROT_SEARCH_H
 #define FROT_SEARCH_H
 
-#include "state.h"
+#include "work.h"
 
 /* An instant at which modes are looked for, after frot_dynamics (FROT_LAWS) and frot_row_loads. */
 typedef struct {
@@ -21,22 +21,23 @@ typedef struct {
 /* Whether a law's coefficients can ever bound anything: a constant zero is skipped. */
 int frot_bounds_something(const frot_model *m, const frot_work *w, int element);
 
-/* Whether the reactions of w->trial over `count` contacts `chosen` satisfy every inequality. Where
- * they are not unique, sets those elements at their bounds and those contacts without load that let
- * the others carry. */
+/* Whether the reactions of w->search.trial over `count` contacts `chosen` satisfy every inequality.
+ * Where they are not unique, sets those elements at their bounds and those contacts without load
+ * that let the others carry. */
 int frot_is_admissible(const frot_instant *in, const int *chosen, int count);
 
-/* The signs of the slips a little later, moving on as w->trial and w->lam say, into w->ahead
- * (n_elements): 0 where a motion stays none. Leaves the kinematics at the instant (ahead.c). */
+/* The signs of the slips a little later, moving on as w->search.trial and w->core.lam say, into
+ * w->search.ahead (n_elements): 0 where a motion stays none. Leaves the kinematics at the instant
+ * (ahead.c). */
 int frot_look_ahead(const frot_instant *in, const frot_group *g);
 
 /* Looks for the modes of the contacts `chosen`, which act on each other only and are closed in
- * w->best; leaves those preferred in w->best. Every combination is examined where there are few;
- * else one motion is found by pivoting and only what stays ambiguous is examined, and *unsearched
- * is set. `forced`: what fired must change. Returns the number of motions. */
+ * w->search.best; leaves those preferred in w->best. Every combination is examined where there are
+ * few; else one motion is found by pivoting and only what stays ambiguous is examined, and
+ * *unsearched is set. `forced`: what fired must change. Returns the number of motions. */
 int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int *unsearched);
 
-/* A first guess of the modes of many contacts into w->trial, and into `certain` (n_contacts)
+/* A first guess of the modes of many contacts into w->search.trial, and into `certain` (n_contacts)
  * whether a contact's are beyond doubt (pivot.c). `ends`: a rest ends, so that what is just at its
  * bound is past it. */
 void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int ends,

@@ -17,7 +17,7 @@ void frot_interpolate(const frot_model *m, const frot_segment *g, double t, doub
 
 void frot_guess_unknowns(const frot_model *m, frot_work *w, const frot_segment *g, double t) {
   double theta = *g->h > 0 ? (t - *g->t0) / *g->h : 0;
-  for (int k = 0; k < m->ny; k++) w->y[k] = g->y0[k] + theta * (g->y1[k] - g->y0[k]);
+  for (int k = 0; k < m->ny; k++) w->blocks.y[k] = g->y0[k] + theta * (g->y1[k] - g->y0[k]);
 }
 
 static void copy_modes(const frot_model *m, frot_state *s, const frot_layout *l,
@@ -35,9 +35,9 @@ void frot_make_instant(const frot_model *m, frot_state *s, const frot_work *w, d
   *g.t0 = *g.t1 = t;
   *g.h = 0;
   copy_modes(m, s, &l, &g);
-  memcpy(s->data + l.y, w->y, sizeof(double) * (size_t)m->ny);
-  memcpy(g.y0, w->y, sizeof(double) * (size_t)m->ny);
-  memcpy(g.y1, w->y, sizeof(double) * (size_t)m->ny);
+  memcpy(s->data + l.y, w->blocks.y, sizeof(double) * (size_t)m->ny);
+  memcpy(g.y0, w->blocks.y, sizeof(double) * (size_t)m->ny);
+  memcpy(g.y1, w->blocks.y, sizeof(double) * (size_t)m->ny);
   memcpy(g.x0, x, sizeof(double) * (size_t)l.nx);
   memset(g.f, 0, sizeof(double) * DP_DENSE * (size_t)l.nx);
   memmove(s->data + l.x, x, sizeof(double) * (size_t)l.nx);
@@ -51,8 +51,8 @@ void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, doub
   *g.t0 = t, *g.t1 = end, *g.h = h;
   copy_modes(m, s, &l, &g);
   memcpy(g.y0, s->data + l.y, sizeof(double) * (size_t)m->ny);
-  memcpy(g.y1, w->y_end, sizeof(double) * (size_t)m->ny);
-  memcpy(g.x0, w->z0, sizeof(double) * (size_t)l.nx);
+  memcpy(g.y1, w->step.y_end, sizeof(double) * (size_t)m->ny);
+  memcpy(g.x0, w->step.z0, sizeof(double) * (size_t)l.nx);
   for (int i = 0; i < DP_DENSE; i++)
-    memcpy(g.f + i * l.nx, w->f + i * l.nz, sizeof(double) * (size_t)l.nx);
+    memcpy(g.f + i * l.nx, w->step.f + i * l.nz, sizeof(double) * (size_t)l.nx);
 }

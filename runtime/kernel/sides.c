@@ -5,8 +5,8 @@
 
 void frot_look_at_sides(const frot_opening *p) {
   frot_inputs(p->m, p->s, p->w, &p->t, p->q, p->v, p->d);
-  p->w->res[0] = p->w->witness, p->w->res[1] = p->w->reach;
-  p->m->sides.call(p->w->arg, p->w->res, p->w->iw, p->w->w, 0);
+  p->w->call.res[0] = p->w->opening.witness, p->w->call.res[1] = p->w->opening.reach;
+  frot_call(p->w, &p->m->sides);
 }
 
 static int sign_beyond(double x, double rounding) {
@@ -19,7 +19,7 @@ int frot_choose_sides(const frot_opening *p, double *side, int natural) {
   frot_look_at_sides(p);
   for (int i = 0; i < m->n_contacts; i++) {
     if (!frot_has_normal(&m->contacts[i])) continue;
-    const double *witness = p->w->witness + 3 * i;
+    const double *witness = p->w->opening.witness + 3 * i;
     double rounding = FROT_TOUCH * frot_length_size(m, p->w, i, p->q);
     int sign = natural ? 0 : sign_beyond(witness[0], rounding);
     if (sign == 0) sign = sign_beyond(witness[1], FROT_TOUCH);

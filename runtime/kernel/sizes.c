@@ -28,24 +28,24 @@ int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   const double *most = s->data + l.scale_x, *worth = s->data + l.worth;
   const double *nominal = s->data + l.nominal;
-  double *largest = w->largest_alike;
+  double *largest = w->sizes.alike;
   int zero = 0;
   memset(largest, 0, sizeof(double) * (size_t)m->nq);
   for (int j = 0; j < m->nq; j++) {
     if (!is_own(m, j)) continue;
-    double size = larger(larger(worth[j], fabs(w->z0[j])), w->change[j]);
-    w->own_size[j] = larger(larger(size, nominal[j]), LEAST_WORTH * most[j]);
+    double size = larger(larger(worth[j], fabs(w->step.z0[j])), w->sizes.change[j]);
+    w->sizes.own[j] = larger(larger(size, nominal[j]), LEAST_WORTH * most[j]);
     double *alike = &largest[m->q_alike[j]];
-    *alike = larger(*alike, w->own_size[j]);
-    zero |= w->own_size[j] == 0;
+    *alike = larger(*alike, w->sizes.own[j]);
+    zero |= w->sizes.own[j] == 0;
   }
   return zero;
 }
 
 int frot_is_small(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
   return is_own(m, j) && s->data[w->layout.nominal + j] == 0 &&
-         larger(s->data[w->layout.scale_x + j], w->own_size[j]) <
-             SMALL_PART * w->largest_alike[m->q_alike[j]];
+         larger(s->data[w->layout.scale_x + j], w->sizes.own[j]) <
+             SMALL_PART * w->sizes.alike[m->q_alike[j]];
 }
 
 /* Tables of frot_raise_small: how long an error of each state lives, the most that its size may be
@@ -59,10 +59,10 @@ typedef struct {
 static int raise(frot_work *w, const raising *r, int row, int column, double entry) {
   if (r->most[row] == 0 || row == column || r->by[column] == row) return 0;
   double time = r->lives[row] < r->lives[column] ? r->lives[row] : r->lives[column];
-  double size = fabs(entry) * time * w->own_size[column];
+  double size = fabs(entry) * time * w->sizes.own[column];
   if (size > r->most[row]) size = r->most[row];
-  if (!(size > w->own_size[row])) return 0;
-  w->own_size[row] = size;
+  if (!(size > w->sizes.own[row])) return 0;
+  w->sizes.own[row] = size;
   r->by[row] = column;
   return 1;
 }
@@ -74,7 +74,7 @@ static void raise_by_jacobian(const frot_model *m, const frot_state *s, frot_wor
   raising r = {j.scratch, j.scratch + n, j.pivot};
   for (int k = 0; k < n; k++) {
     r.lives[k] = (double)LASTING / LASTING_STEPS / h;
-    r.most[k] = frot_is_small(m, s, w, k) ? SMALL_PART * w->largest_alike[m->q_alike[k]] : 0;
+    r.most[k] = frot_is_small(m, s, w, k) ? SMALL_PART * w->sizes.alike[m->q_alike[k]] : 0;
     r.by[k] = -1;
   }
   for (int e = 0; e < entries; e++) {
@@ -99,8 +99,8 @@ void frot_raise_small(const frot_model *m, const frot_state *s, frot_work *w, do
     return;
   }
   for (int j = 0; j < m->nq; j++)
-    if (frot_is_small(m, s, w, j) && fabs(w->z0[j]) <= w->change[j])
-      w->own_size[j] = SMALL_PART * w->largest_alike[m->q_alike[j]];
+    if (frot_is_small(m, s, w, j) && fabs(w->step.z0[j]) <= w->sizes.change[j])
+      w->sizes.own[j] = SMALL_PART * w->sizes.alike[m->q_alike[j]];
 }
 
 void frot_note_worth(const frot_model *m, frot_state *s, const double *z) {
@@ -114,5 +114,6 @@ void frot_note_worth(const frot_model *m, frot_state *s, const double *z) {
 void frot_hold_worth(const frot_model *m, frot_state *s, const frot_work *w) {
   double *worth = s->data + frot_layout_of(m).worth;
   for (int j = 0; j < m->nq; j++)
-    if (is_own(m, j) && isfinite(w->change[j])) worth[j] = larger(worth[j], w->change[j]);
+    if (is_own(m, j) && isfinite(w->sizes.change[j]))
+      worth[j] = larger(worth[j], w->sizes.change[j]);
 }

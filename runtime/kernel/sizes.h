@@ -13,10 +13,10 @@
 #ifndef FROT_SIZES_H
 #define FROT_SIZES_H
 
-#include "state.h"
+#include "work.h"
 
-/* Sizes into w->own_size (nq) from what a step brings the states, w->change (nq), and what they are
- * worth. Returns 1 when a size is zero. */
+/* Sizes into w->sizes.own (nq) from what a step brings the states, w->sizes.change (nq), and what
+ * they are worth. Returns 1 when a size is zero. */
 int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w);
 
 /* Whether state j is small beside another of its dimension, after frot_state_sizes. */
@@ -31,8 +31,8 @@ void frot_raise_small(const frot_model *m, const frot_state *s, frot_work *w, do
 /* What the states are worth after a step to z (nq). */
 void frot_note_worth(const frot_model *m, frot_state *s, const double *z);
 
-/* A step that failed again and again shows by w->change what its states will soon be: they are
- * worth that, however much shorter it becomes. */
+/* A step that failed again and again shows by w->sizes.change what its states will soon be: they
+ * are worth that, however much shorter it becomes. */
 void frot_hold_worth(const frot_model *m, frot_state *s, const frot_work *w);
 
 #endif

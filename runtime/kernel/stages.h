@@ -1,33 +1,34 @@
 /* The evaluations of one explicit step of order 8, with its dense output of order 7.
  *
  * Beside coordinates, speeds and the energies, the integrals of the listed guards are integrated.
- * In the scratch memory w->z0 is the start, stage 0 of w->k the slope there; w->z1 becomes the end,
- * stage DP_STAGES the slope there. Where s->implicit is set, the implicit step is made instead, in
- * the same places. */
+ * In the scratch memory w->step.z0 is the start, stage 0 of w->step.k the slope there; w->step.z1
+ * becomes the end, stage DP_STAGES the slope there. Where s->implicit is set, the implicit step is
+ * made instead, in the same places. */
 #ifndef FROT_STAGES_H
 #define FROT_STAGES_H
 
-#include "state.h"
+#include "work.h"
 
 #define FROT_CHUNK 4 /* values summed together, in registers */
 
 /* The slope (nz) of stage i. */
-static inline double *frot_stage(const frot_work *w, int i) { return w->k + i * w->layout.nz; }
+static inline double *frot_stage(const frot_work *w, int i) { return w->step.k + i * w->layout.nz; }
 
 /* Values integrated together: the states and the guards listed. */
-static inline int frot_width(const frot_work *w) { return w->layout.nx + w->n_guards; }
+static inline int frot_width(const frot_work *w) { return w->layout.nx + w->guards.count; }
 
 /* sum[j] <- sum of coefficient[k] times stage k < count of the value from + j, j < size <=
  * FROT_CHUNK. */
 void frot_weigh_stages(const frot_work *w, const double *coefficient, int count, int from, int size,
                        double sum[FROT_CHUNK]);
 
-/* Stages 1 .. DP_STAGES of the step h, stage 0 being there; w->y_end becomes the unknowns of the
- * blocks at the end. Where a stage fails, w->z1 is its argument. FROT_OK or a status that is not
- * recorded as a fault. */
+/* Stages 1 .. DP_STAGES of the step h, stage 0 being there; w->step.y_end becomes the unknowns of
+ * the blocks at the end. Where a stage fails, w->step.z1 is its argument. FROT_OK or a status that
+ * is not recorded as a fault. */
 int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 
-/* Vectors of the dense output of the step h into w->f (DP_DENSE x nz). Takes three evaluations. */
+/* Vectors of the dense output of the step h into w->step.f (DP_DENSE x nz). Takes three
+ * evaluations. */
 int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 
 #endif

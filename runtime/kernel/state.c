@@ -1,11 +1,8 @@
-/* Layout of the state and of the scratch block; parameters and inputs. */
+/* Layout of the state; parameters and inputs. */
 #include "state.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "implicit.h"
-#include "tolerances.h"
 
 /* A mode fills a double exactly, so that it can lie in an array of doubles. */
 typedef char frot_mode_fills_double[sizeof(frot_contact_mode) == sizeof(double) ? 1 : -1];
@@ -73,127 +70,6 @@ frot_segment frot_segment_at(const frot_model *m, double *data) {
   s.x0 = data, data += l.nx;
   s.f = data;
   return s;
-}
-
-/* Hands out pieces of the scratch block; with a NULL base it only counts. */
-typedef struct {
-  char *base;
-  size_t used;
-} arena;
-
-static void *take(arena *a, size_t count, size_t size) {
-  size_t at = (a->used + 15) & ~(size_t)15;
-  a->used = at + (count + 1) * size;
-  return a->base ? a->base + at : NULL;
-}
-
-#define TAKE(field, count) (w->field = take(&a, (size_t)(count), sizeof *w->field))
-
-/* The scratch that any of the generated functions needs. */
-static frot_callable scratch_of_all(const frot_model *m) {
-  const frot_callable *calls[] = {&m->parameters,
-                                  &m->start,
-                                  &m->initial_position,
-                                  &m->initial_velocity,
-                                  &m->kinematics,
-                                  &m->sides,
-                                  &m->places,
-                                  &m->pace,
-                                  &m->dynamics,
-                                  &m->spread,
-                                  &m->rates,
-                                  &m->jacobian,
-                                  &m->invariants,
-                                  &m->block_slopes,
-                                  &m->update,
-                                  &m->sizes,
-                                  &m->variables,
-                                  &m->energy,
-                                  &m->timers,
-                                  &m->watched};
-  int count = (int)(sizeof calls / sizeof *calls);
-  frot_callable most = {NULL, 11, 11, 0, 0};
-  for (int i = 0; i < count + m->n_blocks; i++) {
-    const frot_callable *call = i < count ? calls[i] : &m->blocks[i - count].residual;
-    if (call->n_arg > most.n_arg) most.n_arg = call->n_arg;
-    if (call->n_res > most.n_res) most.n_res = call->n_res;
-    if (call->n_iw > most.n_iw) most.n_iw = call->n_iw;
-    if (call->n_w > most.n_w) most.n_w = call->n_w;
-  }
-  return most;
-}
-
-static size_t bind(const frot_model *m, frot_work *w, char *base) {
-  frot_layout l = frot_layout_of(m);
-  frot_callable most = scratch_of_all(m);
-  int nr = m->n_rows, nc = m->n_contacts, ni = m->n_invariants, nb = 0;
-  int ne = (m->n_position > m->n_velocity ? m->n_position : m->n_velocity) + nr + nc + ni;
-  int wide = ni > 0 ? m->nq + m->nv : m->nq;
-  if (l.nw > wide) wide = l.nw;
-  int big = ne > l.nw ? ne : l.nw;
-  for (int i = 0; i < m->n_blocks; i++)
-    if (m->blocks[i].count > nb) nb = m->blocks[i].count;
-  arena a = {base, sizeof(frot_work)};
-  w->layout = l;
-  TAKE(arg, most.n_arg), TAKE(res, most.n_res), TAKE(iw, most.n_iw), TAKE(w, most.n_w);
-  TAKE(pivot, big > wide ? big : wide);
-  TAKE(y, m->ny), TAKE(y_end, m->ny);
-  TAKE(block_r, nb), TAKE(block_j, nb * nb), TAKE(block_lu, nb * nb), TAKE(block_size, 2 * nb);
-  TAKE(block_step, 2 * nb), TAKE(block_scale, nb * nb + 5 * nb), TAKE(block_pivot, nb);
-  int n_el = m->n_elements, widest = 0;
-  for (int k = 0; k < m->n_groups; k++)
-    if (m->groups[k].n > widest) widest = m->groups[k].n;
-  TAKE(qd, m->nq), TAKE(mass, m->n_matrix), TAKE(h, l.nw), TAKE(rows, m->n_entries), TAKE(c, nr);
-  TAKE(rate, nr), TAKE(gap, nc), TAKE(condition, m->n_conditions), TAKE(coefficient, 2 * n_el);
-  TAKE(power, 1), TAKE(witness, 3 * nc), TAKE(reach, nc);
-  TAKE(pace, 4 * m->n_paced);
-  TAKE(stood, nc + nr + 2 * (FROT_PLACE * m->n_carried + ni));
-  TAKE(effect, m->general ? m->n_entries : 0), TAKE(metric, m->general ? m->n_metric : 0);
-  TAKE(factor, m->n_metric), TAKE(force, l.nw), TAKE(half, m->n_entries);
-  TAKE(lu, m->general ? m->n_matrix : 0), TAKE(lu_scale, m->general ? 2 * l.nw : 0);
-  TAKE(lu_pivot, m->general ? l.nw : 0);
-  TAKE(wanted, nr), TAKE(free, nr), TAKE(delassus, m->n_square);
-  TAKE(load, big > l.nw ? big : l.nw), TAKE(load_size, l.nw), TAKE(row_load, nr), TAKE(lam, nr);
-  TAKE(a, l.nw), TAKE(unknown, nr), TAKE(owner, nr), TAKE(fold, 2 * nr), TAKE(friction, nr);
-  TAKE(fold_ratio, 2 * nr), TAKE(ratio, n_el), TAKE(along, 2 * n_el), TAKE(unit_of, nr);
-  TAKE(weight, nr), TAKE(solution, nr);
-  TAKE(basis, (nr + 1) * widest), TAKE(parts, nr + widest), TAKE(bias, nr);
-  TAKE(active, big * (big > wide ? big : wide)), TAKE(right, big);
-  int least = big < wide ? big : wide;
-  TAKE(lstsq, 2 * big * big + 6 * big + 4 * wide + least * wide);
-  TAKE(rest, l.nw), TAKE(column, l.nw), TAKE(row_of, nr + nc + n_el), TAKE(guards, l.ng);
-  TAKE(guard, l.ng), TAKE(end_reaction, 2 * n_el), TAKE(k, DP_ALL * l.nz);
-  TAKE(change, m->nq), TAKE(own_size, m->nq), TAKE(largest_alike, m->nq);
-  TAKE(implicit, frot_implicit_doubles(m)), TAKE(implicit_pivot, frot_implicit_integers(m));
-  TAKE(z0, l.nz), TAKE(z1, l.nz), TAKE(ztry, l.nz), TAKE(f, DP_DENSE * l.nz);
-  int nvar = m->np > l.nw ? m->np : l.nw;
-  TAKE(values, nvar + m->n_checks + m->nq + m->nv + m->n_loads + m->n_watched + 4);
-  TAKE(jacobian, wide * ne), TAKE(residual, ne + l.nw), TAKE(size, ne);
-  TAKE(step, wide + l.nw + ne);
-  int asked = m->n_position + m->n_velocity > 0 ? l.early : 0;
-  TAKE(residual_y, m->ny * ne), TAKE(slopes, (m->nq + m->nv) * asked);
-  TAKE(slopes_y, asked * asked + 3 * asked), TAKE(slopes_pivot, asked), TAKE(unit, wide);
-  TAKE(position_factor, m->nv * m->nv);
-  TAKE(row_weight, ne), TAKE(off_at_first, ne), TAKE(begin, wide), TAKE(nearest, wide);
-  TAKE(rose, m->n_conditions), TAKE(firing, m->n_whens), TAKE(outcome, m->n_outcomes);
-  TAKE(condition_before, m->n_conditions), TAKE(condition_known, m->n_conditions);
-  TAKE(timer, 2 * m->n_timed), TAKE(discrete, m->n_discrete);
-  TAKE(discrete_before, m->n_discrete), TAKE(held, m->n_held);
-  TAKE(trial, nc + n_el), TAKE(best, nc + n_el), TAKE(before, nc + n_el);
-  TAKE(guess, nc + n_el), TAKE(certain, nc), TAKE(pivot_bound, 4 * nr);
-  TAKE(motions, FROT_MOTIONS * nr), TAKE(choice, 4 * nc + 4 * n_el), TAKE(component, nc);
-  TAKE(chosen, nc), TAKE(zero, n_el), TAKE(at_rest, n_el), TAKE(ahead, n_el), TAKE(departs, n_el),
-      TAKE(carried, nr);
-  TAKE(guess_ahead, nc + n_el), TAKE(nothing_frozen, m->nv);
-  for (int k = 0; base && k < m->nv; k++) w->nothing_frozen[k] = 0;
-  return a.used;
-}
-
-void frot_bind_work(const frot_model *model, frot_work *work) { bind(model, work, (char *)work); }
-
-size_t frot_work_size(const frot_model *model) {
-  frot_work counted;
-  return bind(model, &counted, NULL);
 }
 
 int frot_has_normal(const frot_contact *contact) { return contact->row_n >= 0; }

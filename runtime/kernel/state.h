@@ -1,4 +1,4 @@
-/* The flat block of an instance and the scratch memory, as the kernel's files see them. */
+/* The flat block of an instance, as the kernel's files see it. */
 #ifndef FROT_STATE_H
 #define FROT_STATE_H
 
@@ -84,82 +84,10 @@ typedef struct {
   double *f;       /* DP_DENSE x nx */
 } frot_segment;
 
-struct frot_work {
-  frot_layout layout;
-  const double **arg;
-  double **res;
-  long long *iw;
-  double *w;
-  int *pivot;
-  double *y;     /* unknowns of the blocks: the guess before, the solution after */
-  double *y_end; /* the same at the end of a step */
-  int block;     /* the block that failed last, or -1; and why */
-  int block_singular;
-  double *block_r, *block_j, *block_lu, *block_size, *block_step, *block_scale;
-  int *block_pivot;
-  double *residual_y; /* ny x equations: transposed Jacobian in y of initial values */
-  /* results of `dynamics` and `kinematics` */
-  double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
-  double *witness, *reach; /* 3 and 1 per contact: results of `sides` */
-  double *pace;            /* see pace.c */
-  double *stood;           /* see supports.c */
-  double *effect, *metric;
-  /* Packed by groups. Mass matrix: Cholesky factor L of the metric, L^-1 h, L^-1 J'. General core:
-   * LU of A, A^-1 h, A^-1 E. */
-  double *factor, *force, *half, *lu, *lu_scale;
-  int *lu_pivot;
-  unsigned char *wanted;    /* n_rows: what frot_dynamics looks at */
-  double *free, *delassus;  /* see frot_dynamics */
-  double *load, *load_size; /* nw: sizes of all loads, and of what they do */
-  double *row_load;         /* n_rows */
-  double *lam, *a;          /* reactions (n_rows), solution z of the core (nw) */
-  /* reactions.c: the unknowns and what goes with them */
-  int *unknown, *owner, *fold;
-  unsigned char *friction;
-  double *fold_ratio, *ratio, *along, *unit_of, *weight, *solution;
-  int dependent;                  /* the reactions are not unique */
-  int rank;                       /* orthonormal rows in `basis` */
-  double *basis, *parts, *bias;   /* orthonormal rows */
-  double *active, *right, *lstsq; /* the system of the unknowns */
-  double *rest, *column;          /* nw: of the function that runs */
-  int *row_of;
-  int *guards, n_guards;  /* see guards.h */
-  double *guard;          /* ng: sizes of the terms of the guards listed */
-  double *end_reaction;   /* 2 n_elements: reactions of pins at the end of a step */
-  double *k;              /* DP_ALL x nz */
-  double *z0, *z1, *ztry; /* nz */
-  double *f;              /* DP_DENSE x nz */
-  int worst;              /* state whose error is the worst, or -1 */
-  double *change, *own_size, *largest_alike; /* nq: see sizes.h */
-  double *implicit;                          /* see jacobian.h */
-  int *implicit_pivot;
-  double *values, *jacobian, *residual, *size, *step;  /* initial values and projection */
-  double *slopes, *slopes_y, *unit, *position_factor;  /* initial values: see initial.c */
-  double *row_weight, *off_at_first, *begin, *nearest; /* likewise */
-  int *slopes_pivot;
-  /* events of the text: see conditions.h and happen.c */
-  double *rose, *firing, *outcome, *condition_before, *condition_known, *timer;
-  double *discrete, *discrete_before, *held;
-  frot_contact_mode *trial, *best, *before, *guess;
-  unsigned char *certain; /* n_contacts: see search.h */
-  double *motions;        /* search.c: accelerations of the motions found */
-  double *pivot_bound;    /* pivot.c: bounds, gradient, step of each row */
-  int *choice, *component, *chosen;
-  unsigned char *zero, *at_rest; /* n_elements: see search.h */
-  signed char *ahead;            /* n_elements: see search.h */
-  unsigned char *departs;        /* n_elements: slips that no acceleration starts */
-  unsigned char *carried;        /* n_rows: held rows that depend on those before them */
-  frot_contact_mode *guess_ahead;
-  double *nothing_frozen; /* nv zeros */
-  double t;               /* where dynamics was last evaluated */
-};
-
 /* Times that differ by less are one instant: both are sums, rounded in different ways. */
 #define FROT_SAME_INSTANT(t) (4 * DBL_EPSILON * fabs(t))
 
 frot_layout frot_layout_of(const frot_model *model);
-/* Set the pointers of a scratch block into itself. */
-void frot_bind_work(const frot_model *model, frot_work *work);
 frot_segment frot_segment_at(const frot_model *model, double *data);
 
 /* Whether a contact has a normal, and can open. */

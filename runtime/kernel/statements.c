@@ -15,27 +15,28 @@ static int through_blocks(const frot_opening *p, int n) {
   frot_work *w = p->w;
   int early = frot_layout_of(m).early, nx = frot_opening_count(p);
   if (early == 0 || n == 0 || !m->block_slopes.call) return FROT_OK;
-  double *slopes_q = w->slopes, *slopes_v = slopes_q + m->nq * early;
-  double *lu = w->slopes_y, *scale = lu + early * early, *part = scale + 2 * early;
+  double *slopes_q = w->opening.slopes, *slopes_v = slopes_q + m->nq * early;
+  double *lu = w->opening.slopes_y, *scale = lu + early * early, *part = scale + 2 * early;
   frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
-  w->res[0] = part, w->res[1] = slopes_q, w->res[2] = slopes_v, w->res[3] = lu;
-  m->block_slopes.call(w->arg, w->res, w->iw, w->w, 0);
-  if (!frot_all_finite(lu, early * early) || !frot_all_finite(w->slopes, (m->nq + m->nv) * early))
+  w->call.res[0] = part, w->call.res[1] = slopes_q, w->call.res[2] = slopes_v, w->call.res[3] = lu;
+  frot_call(w, &m->block_slopes);
+  if (!frot_all_finite(lu, early * early) ||
+      !frot_all_finite(w->opening.slopes, (m->nq + m->nv) * early))
     return FROT_NAN;
-  if (frot_lu(lu, early, w->slopes_pivot, scale)) return FROT_NAN;
+  if (frot_lu(lu, early, w->opening.slopes_pivot, scale)) return FROT_NAN;
   const double *slopes = p->velocity ? slopes_v : slopes_q;
   for (int i = 0; i < n; i++) {
-    memcpy(part, w->residual_y + m->ny * i, sizeof(double) * (size_t)early);
-    frot_lu_apply(lu, early, w->slopes_pivot, scale, part);
+    memcpy(part, w->opening.residual_y + m->ny * i, sizeof(double) * (size_t)early);
+    frot_lu_apply(lu, early, w->opening.slopes_pivot, scale, part);
     for (int j = 0; j < early; j++)
       for (int k = 0; part[j] != 0 && k < nx; k++)
-        w->jacobian[nx * i + k] -= slopes[nx * j + k] * part[j];
+        w->relations.jacobian[nx * i + k] -= slopes[nx * j + k] * part[j];
   }
   return FROT_OK;
 }
 
 double frot_length_size(const frot_model *m, const frot_work *w, int contact, const double *q) {
-  return fabs(w->gap[contact]) + w->reach[contact] +
+  return fabs(w->core.gap[contact]) + w->opening.reach[contact] +
          frot_gap_size(m, w, m->contacts[contact].row_n, q);
 }
 
@@ -45,7 +46,7 @@ static double reach_of(const frot_opening *p, int i) {
   int nx = frot_opening_count(p);
   double sum = 0;
   for (int k = 0; k < nx; k++)
-    sum += fabs(p->w->jacobian[nx * i + k]) * fmax(fabs(frot_opening_unknown(p)[k]), 1);
+    sum += fabs(p->w->relations.jacobian[nx * i + k]) * fmax(fabs(frot_opening_unknown(p)[k]), 1);
   return sum;
 }
 
@@ -60,53 +61,56 @@ int frot_evaluate_statements(frot_opening *p) {
   if (status != FROT_OK) return status;
   if (n > 0) {
     frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
-    w->res[0] = w->residual, w->res[1] = w->jacobian, w->res[2] = w->size;
-    w->res[3] = w->residual_y;
-    call->call(w->arg, w->res, w->iw, w->w, 0);
+    w->call.res[0] = w->relations.residual, w->call.res[1] = w->relations.jacobian,
+    w->call.res[2] = w->relations.size;
+    w->call.res[3] = w->opening.residual_y;
+    frot_call(w, call);
     status = through_blocks(p, n);
     if (status != FROT_OK) return status;
     /* slopes that are rounding of what cancels out tell no way */
     for (int i = 0; i < n; i++)
-      if (reach_of(p, i) <= FROT_CONSTANT * w->size[i])
-        memset(w->jacobian + nx * i, 0, sizeof(double) * (size_t)nx);
+      if (reach_of(p, i) <= FROT_CONSTANT * w->relations.size[i])
+        memset(w->relations.jacobian + nx * i, 0, sizeof(double) * (size_t)nx);
   }
   for (int i = 0; i < m->n_contacts; i++) {
     if (!p->use[i]) continue;
     int row = m->contacts[i].row_n;
     const frot_group *group = frot_group_of(m, row);
-    const double *entries = frot_entries(m, w->rows, row);
-    double *equation = w->jacobian + nx * n;
-    w->residual[n] = p->velocity ? w->rate[row] : w->gap[i];
+    const double *entries = frot_entries(m, w->core.rows, row);
+    double *equation = w->relations.jacobian + nx * n;
+    w->relations.residual[n] = p->velocity ? w->core.rate[row] : w->core.gap[i];
     memset(equation, 0, sizeof(double) * (size_t)nx);
     for (int k = 0; k < group->n_speeds; k++) {
       int speed = group->unknowns[k], at = p->velocity ? speed : m->speed_coordinate[speed];
       if (at >= 0) equation[at] = entries[k];
     }
-    w->size[n] = p->velocity ? fabs(w->residual[n]) : frot_length_size(m, w, i, p->q);
+    w->relations.size[n] =
+        p->velocity ? fabs(w->relations.residual[n]) : frot_length_size(m, w, i, p->q);
     double steepest = 0;
     for (int k = 0; k < nx; k++) steepest = fmax(steepest, fabs(equation[k]));
-    if (steepest <= FROT_CONSTANT * w->reach[i]) {
+    if (steepest <= FROT_CONSTANT * w->opening.reach[i]) {
       /* the lengths cancel out: no unknown moves this gap, and none is moved for it */
       memset(equation, 0, sizeof(double) * (size_t)nx);
-      if (p->velocity) w->residual[n] = w->size[n] = 0;
+      if (p->velocity) w->relations.residual[n] = w->relations.size[n] = 0;
     }
     n++;
   }
   p->n = n;
-  int finite = frot_all_finite(w->residual, n) && frot_all_finite(w->jacobian, n * nx);
+  int finite =
+      frot_all_finite(w->relations.residual, n) && frot_all_finite(w->relations.jacobian, n * nx);
   return finite ? FROT_OK : FROT_NAN;
 }
 
 double frot_statement_size(const frot_opening *p, int i) {
-  double sum = p->w->size[i];
+  double sum = p->w->relations.size[i];
   const double *x = frot_opening_unknown(p);
   int nx = frot_opening_count(p);
-  for (int k = 0; k < nx; k++) sum += fabs(p->w->jacobian[nx * i + k] * x[k]);
+  for (int k = 0; k < nx; k++) sum += fabs(p->w->relations.jacobian[nx * i + k] * x[k]);
   return sum;
 }
 
 int frot_statement_agrees(const frot_opening *p, int i, double before) {
-  double off = fabs(p->w->residual[i]);
+  double off = fabs(p->w->relations.residual[i]);
   return off <= FROT_AGREES * fmax(frot_statement_size(p, i), before) ||
          off <= FROT_NO_DIGIT * reach_of(p, i);
 }
@@ -116,11 +120,12 @@ int frot_contradiction(const frot_opening *p) {
   const int *statement = p->velocity ? m->velocity_statement : m->position_statement;
   int own = p->velocity ? m->n_velocity : m->n_position, worst = 0, other = -1, contact = -1;
   for (int i = 1; i < p->n; i++)
-    if (fabs(p->w->residual[i]) > fabs(p->w->residual[worst])) worst = i;
+    if (fabs(p->w->relations.residual[i]) > fabs(p->w->relations.residual[worst])) worst = i;
   for (int i = 0; i < p->n; i++) {
     if (i == worst || frot_statement_agrees(p, i, 0)) continue;
     if (i < own && worst < own && statement[i] == statement[worst]) continue;
-    if (other < 0 || fabs(p->w->residual[i]) > fabs(p->w->residual[other])) other = i;
+    if (other < 0 || fabs(p->w->relations.residual[i]) > fabs(p->w->relations.residual[other]))
+      other = i;
   }
   int rows[2] = {worst, other}, items[2] = {-1, -1};
   for (int k = 0; k < 2; k++) {
@@ -135,7 +140,8 @@ int frot_contradiction(const frot_opening *p) {
   }
   if (items[0] < 0) items[0] = items[1], items[1] = -1;
   /* the least-squares solution shares the contradiction out among the equations */
-  double apart = fabs(p->w->residual[worst]) + (other < 0 ? 0 : fabs(p->w->residual[other]));
+  double apart = fabs(p->w->relations.residual[worst]) +
+                 (other < 0 ? 0 : fabs(p->w->relations.residual[other]));
   return frot_fail(p->s, FROT_INITIAL, p->t, contact, items[0], items[1], apart);
 }
 
@@ -144,7 +150,7 @@ int frot_no_number(const frot_opening *p, int status) {
   const int *statement = p->velocity ? m->velocity_statement : m->position_statement;
   int own = p->velocity ? m->n_velocity : m->n_position;
   for (int i = 0; i < own && p->n > 0 && status == FROT_NAN; i++)
-    if (!isfinite(p->w->residual[i]))
+    if (!isfinite(p->w->relations.residual[i]))
       return frot_fail(p->s, FROT_INITIAL, p->t, -1, statement[i], -1, NAN);
   return frot_fail_evaluation(p->m, p->s, p->w, status, p->t);
 }

@@ -3,7 +3,7 @@
 #ifndef FROT_STATEMENTS_H
 #define FROT_STATEMENTS_H
 
-#include "state.h"
+#include "work.h"
 
 /* One system to solve: for coordinates, or for speeds. */
 typedef struct {
@@ -34,8 +34,8 @@ static inline int frot_is_attached(const frot_opening *p, int k) {
   return frot_speed_behind(p, k) >= 0;
 }
 
-/* Residuals (w->residual), the rows of the Jacobian (w->jacobian) and the sizes of the terms
- * (w->size); sets p->n. FROT_OK or the status of a failed evaluation. */
+/* Residuals (w->relations.residual), the rows of the Jacobian (w->relations.jacobian) and the sizes
+ * of the terms (w->relations.size); sets p->n. FROT_OK or the status of a failed evaluation. */
 int frot_evaluate_statements(frot_opening *p);
 
 /* Size of the terms of equation i at the present values. */

@@ -59,7 +59,7 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0);
   double h = FIRST_PART * s->h_max;
   for (int j = 0; j < m->nq + m->nv; j++) {
-    double slope = fabs(frot_stage(w, 0)[j]), size = fabs(w->z0[j]);
+    double slope = fabs(frot_stage(w, 0)[j]), size = fabs(w->step.z0[j]);
     if (slope > 0 && size > 0) h = fmin(h, FIRST_CHANGE * size / slope);
   }
   h = frot_probe_step(m, s, w, s->t, fmax(h, FIRST_LEAST * s->h_max));
@@ -70,7 +70,7 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
 /* Whether nothing moves, nor starts to. */
 static int is_still(const frot_model *m, const frot_work *w) {
   for (int j = 0; j < m->nq + m->nv; j++)
-    if (w->k[j] != 0) return 0;
+    if (w->step.k[j] != 0) return 0;
   return 1;
 }
 
@@ -103,7 +103,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a
   if (a->ratio <= 1) {
     a->stiff = frot_is_stiff(m, s, w, h);
     a->stable = frot_stable_step(m, s, w);
-    frot_measure_end(m, s, w, t + h, w->z1);
+    frot_measure_end(m, s, w, t + h, w->step.z1);
     status = frot_make_dense(m, s, w, t, h);
     if (status == FROT_OK && s->implicit && !frot_implicit_follows_guards(m, s, w))
       status = FROT_DIVERGE;
@@ -172,7 +172,7 @@ static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, attemp
   a->to_due = 0;
   int status = frot_locate(m, s, w, a->t, first, theta, &a->h, &falls);
   if (status != FROT_OK) return status;
-  frot_measure_end(m, s, w, a->t + a->h, w->z1);
+  frot_measure_end(m, s, w, a->t + a->h, w->step.z1);
   *guard = falls ? first : -1;
   return frot_make_dense(m, s, w, a->t, a->h);
 }
@@ -187,19 +187,19 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
   s->statistics.steps++;
   s->statistics.implicit_steps += s->implicit;
   memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
-  frot_note_sizes(m, s, w, w->z1);
-  frot_note_worth(m, s, w->z1);
+  frot_note_sizes(m, s, w, w->step.z1);
+  frot_note_worth(m, s, w->step.z1);
   if (guard >= 0) frot_fire_guards(m, s, w, guard, a->t, a->h);
   if (a->to_due) frot_fire_due(m, s);
   for (int j = 0; j < m->nq + m->nv; j++) s->data[l->noise + j] *= FORGET;
   frot_keep_step(m, s, w, a->t, a->h, end);
-  memcpy(x, w->z1, sizeof(double) * (size_t)l->nx);
+  memcpy(x, w->step.z1, sizeof(double) * (size_t)l->nx);
   memcpy(slope, frot_stage(w, DP_STAGES), sizeof(double) * (size_t)l->nz);
-  memcpy(w->y, w->y_end, sizeof(double) * (size_t)m->ny);
+  memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   int moved;
   int status = frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL, &moved);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, end, a->h);
-  memcpy(s->data + l->y, w->y, sizeof(double) * (size_t)m->ny);
+  memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   s->has_slope = !moved && !s->pending;
   if (s->has_slope) frot_turn_at_end(m, s, w, slope);
   frot_choose_next(m, s, a->stiff);

@@ -5,7 +5,7 @@
 #ifndef FROT_STEP_H
 #define FROT_STEP_H
 
-#include "state.h"
+#include "work.h"
 
 /* Advance from the end of the current segment by one step in the current modes, to the next event
  * at most. Replaces the current segment; s->pending says that an event waits at its end (or, when

@@ -36,8 +36,8 @@ void frot_choose_first(const frot_model *m, frot_state *s) {
 static double distance(const frot_model *m, const frot_work *w, const double *x, const double *y) {
   double sum = 0;
   for (int j = 0; j < m->nq; j++) {
-    if (w->own_size[j] == 0) continue;
-    double part = (x[j] - y[j]) / w->own_size[j];
+    if (w->sizes.own[j] == 0) continue;
+    double part = (x[j] - y[j]) / w->sizes.own[j];
     sum += part * part;
   }
   return sum;
@@ -47,8 +47,8 @@ static double distance(const frot_model *m, const frot_work *w, const double *x,
  * that their slopes differ by the Jacobian alone. */
 static double felt_rate(const frot_model *m, const frot_work *w) {
   int nz = frot_layout_of(m).nz;
-  const double *last = w->k + (DP_STAGES - 1) * nz, *end = w->k + DP_STAGES * nz;
-  double values = distance(m, w, w->z1, w->ztry);
+  const double *last = w->step.k + (DP_STAGES - 1) * nz, *end = w->step.k + DP_STAGES * nz;
+  double values = distance(m, w, w->step.z1, w->step.z);
   return values > 0 ? sqrt(distance(m, w, end, last) / values) : 0;
 }
 
@@ -62,8 +62,8 @@ int frot_is_stiff(const frot_model *m, const frot_state *s, const frot_work *w, 
   if (!is_chosen(m)) return 0;
   if (s->implicit) return h * frot_implicit_rate(m, w) >= EASY;
   int nz = frot_layout_of(m).nz;
-  const double *start = w->k, *end = w->k + DP_STAGES * nz;
-  double way = distance(m, w, w->z1, w->z0), fastest = h * felt_rate(m, w);
+  const double *start = w->step.k, *end = w->step.k + DP_STAGES * nz;
+  double way = distance(m, w, w->step.z1, w->step.z0), fastest = h * felt_rate(m, w);
   if (!(way > 0)) return 0;
   double own = h * sqrt(distance(m, w, end, start) / way);
   return fastest > NEAR_LIMIT || (fastest > FELT && fastest > APART * own);

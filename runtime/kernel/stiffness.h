@@ -9,7 +9,7 @@
 #ifndef FROT_STIFFNESS_H
 #define FROT_STIFFNESS_H
 
-#include "state.h"
+#include "work.h"
 
 /* The method of the first step. */
 void frot_choose_first(const frot_model *m, frot_state *s);

@@ -49,12 +49,13 @@ static int look(const frot_model *m, frot_state *s, frot_work *w, double t, cons
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   frot_inputs(m, s, w, &t, q, v, d);
   if (m->n_carried > 0) {
-    w->res[0] = place;
-    m->places.call(w->arg, w->res, w->iw, w->w, 0);
+    w->call.res[0] = place;
+    frot_call(w, &m->places);
   }
   if (m->n_invariants > 0) {
-    w->res[0] = invariant, w->res[1] = w->jacobian, w->res[2] = w->residual;
-    m->invariants.call(w->arg, w->res, w->iw, w->w, 0);
+    w->call.res[0] = invariant, w->call.res[1] = w->relations.jacobian,
+    w->call.res[2] = w->relations.residual;
+    frot_call(w, &m->invariants);
   }
   return FROT_OK;
 }
@@ -63,8 +64,8 @@ int frot_note_supports(const frot_model *m, frot_state *s, frot_work *w, double 
                        const double *v) {
   noted n = noted_in(m, w->stood);
   int status = look(m, s, w, t, q, v, n.place, n.invariant);
-  memcpy(n.gap, w->gap, sizeof(double) * (size_t)m->n_contacts);
-  memcpy(n.rate, w->rate, sizeof(double) * (size_t)m->n_rows);
+  memcpy(n.gap, w->core.gap, sizeof(double) * (size_t)m->n_contacts);
+  memcpy(n.rate, w->core.rate, sizeof(double) * (size_t)m->n_rows);
   return status;
 }
 
@@ -123,7 +124,7 @@ static int check_contact(const change *c, int i, int act) {
   const frot_model *m = c->m;
   frot_contact_mode *mode = (frot_contact_mode *)(void *)(s->data + c->l.modes) + i;
   int row = m->contacts[i].row_n, parts = s->data[c->l.unilateral + i] != 0;
-  double gap = c->w->gap[i], rate = c->w->rate[row];
+  double gap = c->w->core.gap[i], rate = c->w->core.rate[row];
   double moved = gap - c->before.gap[i], jerked = rate - c->before.rate[row];
   const double *usual_speeds = s->data + c->l.scale_x + m->nq;
   double size = fabs(gap) + fabs(c->before.gap[i]) + frot_gap_size(m, c->w, row, c->q);
@@ -148,7 +149,7 @@ static int check_invariants(const change *c, const double *now) {
   const frot_model *m = c->m;
   for (int i = 0; i < m->n_invariants; i++) {
     double moved = now[i] - c->before.invariant[i];
-    if (fabs(moved) > FROT_TOUCH * (c->w->residual[i] + fabs(now[i])))
+    if (fabs(moved) > FROT_TOUCH * (c->w->relations.residual[i] + fabs(now[i])))
       return refuse(c->s, c->t, -1, m->n_statements - m->n_invariants + i, FROT_BREAKS, moved);
   }
   return FROT_OK;

@@ -7,7 +7,7 @@
 #ifndef FROT_SUPPORTS_H
 #define FROT_SUPPORTS_H
 
-#include "state.h"
+#include "work.h"
 
 /* Note what is given now: the values to which a refused change goes back. */
 void frot_hold_given(const frot_model *m, frot_state *s);

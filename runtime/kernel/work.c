@@ -1,0 +1,186 @@
+/* Layout of the scratch block. */
+#include "work.h"
+
+#include "implicit.h"
+#include "tolerances.h"
+
+/* Hands out pieces of the scratch block; with a NULL base it only counts. */
+typedef struct {
+  char *base;
+  size_t used;
+} arena;
+
+static void *take(arena *a, size_t count, size_t size) {
+  size_t at = (a->used + 15) & ~(size_t)15;
+  a->used = at + (count + 1) * size;
+  return a->base ? a->base + at : NULL;
+}
+
+#define TAKE(field, count) (field = take(a, (size_t)(count), sizeof *field))
+
+/* Sizes that several rooms share. */
+typedef struct {
+  int equations; /* relations at once: statements, contacts, held rows, invariants */
+  int states;    /* unknowns of these relations */
+  int square;    /* of the largest linear system */
+  int widest;    /* unknowns of the largest group */
+  int block;     /* of the largest block */
+} extent;
+
+static int larger(int a, int b) { return a > b ? a : b; }
+
+static extent extent_of(const frot_model *m, const frot_layout *l) {
+  extent e = {0, m->n_invariants > 0 ? m->nq + m->nv : m->nq, 0, 0, 0};
+  e.equations = larger(m->n_position, m->n_velocity) + m->n_rows + m->n_contacts + m->n_invariants;
+  e.states = larger(e.states, l->nw);
+  e.square = larger(e.equations, l->nw);
+  for (int k = 0; k < m->n_groups; k++) e.widest = larger(e.widest, m->groups[k].n);
+  for (int i = 0; i < m->n_blocks; i++) e.block = larger(e.block, m->blocks[i].count);
+  return e;
+}
+
+/* The scratch that any of the generated functions needs. */
+static frot_callable scratch_of_all(const frot_model *m) {
+  const frot_callable *calls[] = {&m->parameters,
+                                  &m->start,
+                                  &m->initial_position,
+                                  &m->initial_velocity,
+                                  &m->kinematics,
+                                  &m->sides,
+                                  &m->places,
+                                  &m->pace,
+                                  &m->dynamics,
+                                  &m->spread,
+                                  &m->rates,
+                                  &m->jacobian,
+                                  &m->invariants,
+                                  &m->block_slopes,
+                                  &m->update,
+                                  &m->sizes,
+                                  &m->variables,
+                                  &m->energy,
+                                  &m->timers,
+                                  &m->watched};
+  int count = (int)(sizeof calls / sizeof *calls);
+  frot_callable most = {NULL, 11, 11, 0, 0};
+  for (int i = 0; i < count + m->n_blocks; i++) {
+    const frot_callable *call = i < count ? calls[i] : &m->blocks[i - count].residual;
+    most.n_arg = larger(most.n_arg, call->n_arg), most.n_res = larger(most.n_res, call->n_res);
+    most.n_iw = larger(most.n_iw, call->n_iw), most.n_w = larger(most.n_w, call->n_w);
+  }
+  return most;
+}
+
+static void bind_call(const frot_model *m, const frot_layout *l, frot_call_work *w, arena *a) {
+  frot_callable most = scratch_of_all(m);
+  TAKE(w->arg, most.n_arg), TAKE(w->res, most.n_res), TAKE(w->iw, most.n_iw);
+  TAKE(w->w, most.n_w);
+  TAKE(w->values, larger(m->np, l->nw) + m->n_checks + m->nq + m->nv + m->n_loads + m->n_watched);
+}
+
+static void bind_blocks(const frot_model *m, const extent *e, frot_block_work *w, arena *a) {
+  int n = e->block;
+  TAKE(w->y, m->ny), TAKE(w->r, n), TAKE(w->j, n * n), TAKE(w->lu, n * n), TAKE(w->size, 2 * n);
+  TAKE(w->step, 2 * n), TAKE(w->scale, n * n + 5 * n), TAKE(w->pivot, n);
+}
+
+static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work *w, arena *a) {
+  int nr = m->n_rows, general = m->general != 0;
+  TAKE(w->qd, m->nq), TAKE(w->mass, m->n_matrix), TAKE(w->h, l->nw), TAKE(w->rows, m->n_entries);
+  TAKE(w->c, nr), TAKE(w->rate, nr), TAKE(w->gap, m->n_contacts);
+  TAKE(w->condition, m->n_conditions), TAKE(w->coefficient, 2 * m->n_elements), TAKE(w->power, 1);
+  TAKE(w->effect, general * m->n_entries), TAKE(w->metric, general * m->n_metric);
+  TAKE(w->factor, m->n_metric), TAKE(w->force, l->nw), TAKE(w->half, m->n_entries);
+  TAKE(w->lu, general * m->n_matrix), TAKE(w->lu_scale, general * 2 * l->nw);
+  TAKE(w->lu_pivot, general * l->nw);
+  TAKE(w->wanted, nr), TAKE(w->free, nr), TAKE(w->delassus, m->n_square);
+  TAKE(w->load, l->nw), TAKE(w->load_size, l->nw), TAKE(w->row_load, nr);
+  TAKE(w->lam, nr), TAKE(w->a, l->nw), TAKE(w->rest, l->nw), TAKE(w->column, l->nw);
+}
+
+static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, arena *a) {
+  frot_reaction_work *r = &w->reactions;
+  int n = m->n_rows, elements = m->n_elements;
+  TAKE(r->unknown, n), TAKE(r->owner, n), TAKE(r->fold, 2 * n), TAKE(r->friction, n);
+  TAKE(r->carried, n), TAKE(r->fold_ratio, 2 * n), TAKE(r->ratio, elements);
+  TAKE(r->along, 2 * elements), TAKE(r->unit_of, n), TAKE(r->weight, n), TAKE(r->solution, n);
+  TAKE(w->span.basis, (n + 1) * e->widest), TAKE(w->span.parts, n + e->widest);
+  TAKE(w->span.bias, n);
+}
+
+static void bind_relations(const frot_model *m, const frot_layout *l, const extent *e, frot_work *w,
+                           arena *a) {
+  frot_relation_work *r = &w->relations;
+  int big = e->square, wide = e->states, least = big < wide ? big : wide;
+  TAKE(w->linear.matrix, big * larger(big, wide)), TAKE(w->linear.right, big);
+  TAKE(w->linear.scratch, 2 * big * big + 6 * big + 4 * wide + least * wide);
+  TAKE(w->linear.pivot, larger(big, wide));
+  TAKE(r->jacobian, wide * e->equations), TAKE(r->residual, e->equations + l->nw);
+  TAKE(r->size, e->equations), TAKE(r->step, wide + l->nw + e->equations);
+  TAKE(r->unit, wide), TAKE(r->rows, m->n_rows + m->n_contacts + m->n_elements);
+}
+
+static void bind_opening(const frot_model *m, const frot_layout *l, const extent *e,
+                         frot_opening_work *w, arena *a) {
+  int early = m->n_position + m->n_velocity > 0 ? l->early : 0;
+  TAKE(w->use, m->n_contacts), TAKE(w->witness, 3 * m->n_contacts), TAKE(w->reach, m->n_contacts);
+  TAKE(w->residual_y, m->ny * e->equations), TAKE(w->slopes, (m->nq + m->nv) * early);
+  TAKE(w->slopes_y, early * early + 3 * early), TAKE(w->slopes_pivot, early);
+  TAKE(w->factor, m->nv * m->nv), TAKE(w->row_weight, e->equations);
+  TAKE(w->off_at_first, e->equations), TAKE(w->begin, e->states), TAKE(w->nearest, e->states);
+}
+
+static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, arena *a) {
+  frot_step_work *p = &w->step;
+  TAKE(w->guards.list, l->ng), TAKE(w->guards.size, l->ng);
+  TAKE(w->guards.end_reaction, 2 * m->n_elements);
+  TAKE(p->k, DP_ALL * l->nz), TAKE(p->z0, l->nz), TAKE(p->z1, l->nz), TAKE(p->z, l->nz);
+  TAKE(p->y_end, m->ny), TAKE(p->f, DP_DENSE * l->nz);
+  TAKE(w->sizes.change, m->nq), TAKE(w->sizes.own, m->nq), TAKE(w->sizes.alike, m->nq);
+  TAKE(w->implicit.items, frot_implicit_doubles(m));
+  TAKE(w->implicit.pivot, frot_implicit_integers(m));
+}
+
+static void bind_events(const frot_model *m, frot_event_work *w, arena *a) {
+  TAKE(w->rose, m->n_conditions), TAKE(w->firing, m->n_whens), TAKE(w->outcome, m->n_outcomes);
+  TAKE(w->before, m->n_conditions), TAKE(w->known, m->n_conditions);
+  TAKE(w->timer, 2 * m->n_timed), TAKE(w->discrete, m->n_discrete);
+  TAKE(w->discrete_before, m->n_discrete), TAKE(w->held, m->n_held);
+}
+
+static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
+  int nc = m->n_contacts, ne = m->n_elements, nr = m->n_rows;
+  TAKE(w->trial, nc + ne), TAKE(w->best, nc + ne), TAKE(w->before, nc + ne);
+  TAKE(w->guess, nc + ne), TAKE(w->guess_ahead, nc + ne), TAKE(w->certain, nc);
+  TAKE(w->zero, ne), TAKE(w->at_rest, ne), TAKE(w->departs, ne), TAKE(w->ahead, ne);
+  TAKE(w->motions, FROT_MOTIONS * nr), TAKE(w->pivot_bound, 4 * nr);
+  TAKE(w->choice, 4 * nc + 4 * ne), TAKE(w->component, nc), TAKE(w->chosen, nc);
+  TAKE(w->nothing_frozen, m->nv);
+  for (int k = 0; a->base && k < m->nv; k++) w->nothing_frozen[k] = 0;
+}
+
+static size_t bind(const frot_model *m, frot_work *w, char *base) {
+  frot_layout l = frot_layout_of(m);
+  extent e = extent_of(m, &l);
+  arena held = {base, sizeof(frot_work)}, *a = &held;
+  w->layout = l;
+  bind_call(m, &l, &w->call, a);
+  bind_blocks(m, &e, &w->blocks, a);
+  bind_core(m, &l, &w->core, a);
+  bind_reactions(m, &e, w, a);
+  bind_relations(m, &l, &e, w, a);
+  bind_opening(m, &l, &e, &w->opening, a);
+  bind_step(m, &l, w, a);
+  bind_events(m, &w->events, a);
+  bind_search(m, &w->search, a);
+  TAKE(w->pace, 4 * m->n_paced);
+  TAKE(w->stood, m->n_contacts + m->n_rows + 2 * (FROT_PLACE * m->n_carried + m->n_invariants));
+  return held.used;
+}
+
+void frot_bind_work(const frot_model *model, frot_work *work) { bind(model, work, (char *)work); }
+
+size_t frot_work_size(const frot_model *model) {
+  frot_work counted;
+  return bind(model, &counted, NULL);
+}

@@ -1,0 +1,154 @@
+/* The scratch memory: one struct for each room, which fills it and says what the others may read.
+ *
+ * Nothing in it lives longer than a call from outside. What one function leaves for the next is
+ * said in the contract of its room; arrays called scratch belong to the function that runs. */
+#ifndef FROT_WORK_H
+#define FROT_WORK_H
+
+#include "state.h"
+
+/* Arguments and results of the generated function that is called, and its own scratch. `values`:
+ * room for results that are looked at once. */
+typedef struct {
+  const double **arg;
+  double **res;
+  long long *iw;
+  double *w, *values;
+} frot_call_work;
+
+/* blocks.h: y is the guess before, the solution after; the block that failed last, or -1, and
+ * whether it was singular. The rest is the system of one block. */
+typedef struct {
+  double *y;
+  int failed, singular;
+  double *r, *j, *lu, *size, *step, *scale;
+  int *pivot;
+} frot_block_work;
+
+/* core.h: results of `dynamics`, `kinematics` and `spread` at t; the inertia, packed by groups (of
+ * a mass matrix the Cholesky factor L of the metric, L^-1 h, L^-1 J'; of a general core LU of A,
+ * A^-1 h, A^-1 E); what it does to the rows wanted; sizes of all loads and of what they do;
+ * reactions lam (n_rows) and the solution a (nw). Scratch: rest and column (nw). */
+typedef struct {
+  double t;
+  double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
+  double *effect, *metric;
+  double *factor, *force, *half, *lu, *lu_scale;
+  int *lu_pivot;
+  unsigned char *wanted;
+  double *free, *delassus;
+  double *load, *load_size, *row_load;
+  double *lam, *a;
+  double *rest, *column;
+} frot_core_work;
+
+/* reactions.h: the unknowns and what goes with them; whether reactions are not unique; held rows
+ * that depend on those before them; where to begin to look for the pins' directions. */
+typedef struct {
+  int *unknown, *owner, *fold;
+  unsigned char *friction, *carried;
+  double *fold_ratio, *ratio, *along, *unit_of, *weight, *solution;
+  int dependent;
+} frot_reaction_work;
+
+/* Orthonormal rows of one group, and what belongs to each: reactions.c, projection.c. */
+typedef struct {
+  int rank;
+  double *basis, *parts, *bias;
+} frot_span_work;
+
+/* Scratch: the linear system that is being solved. */
+typedef struct {
+  double *matrix, *right, *scratch;
+  int *pivot;
+} frot_linear_work;
+
+/* The relations that a projection or the search at the start makes hold: their residuals, rows and
+ * sizes, the units of the states, the change, and which rows of the core they are. */
+typedef struct {
+  double *jacobian, *residual, *size, *step, *unit;
+  int *rows;
+} frot_relation_work;
+
+/* Initial values: witness and reach (3 and 1 a contact) are results of `sides`; `use` says which
+ * contacts are equations (statements.h). */
+typedef struct {
+  unsigned char *use;
+  double *witness, *reach;
+  double *residual_y, *slopes, *slopes_y;
+  int *slopes_pivot;
+  double *factor, *row_weight, *off_at_first, *begin, *nearest;
+} frot_opening_work;
+
+/* guards.h: those that can fall in the modes, the sizes of their terms; pins' reactions at the end
+ * of a step (2 n_elements, ends.h). */
+typedef struct {
+  int *list, count;
+  double *size, *end_reaction;
+} frot_guard_work;
+
+/* stages.h: slopes k (DP_ALL x nz), values at the start, the end and the stage that runs, unknowns
+ * of the blocks at the end, dense output f (DP_DENSE x nz); the state whose error is the worst, or
+ * -1 (error.h). Between steps z1 and z are scratch. */
+typedef struct {
+  double *k, *z0, *z1, *z, *y_end, *f;
+  int worst;
+} frot_step_work;
+
+/* sizes.h (nq each). */
+typedef struct {
+  double *change, *own, *alike;
+} frot_size_work;
+
+/* jacobian.h. */
+typedef struct {
+  double *items;
+  int *pivot;
+} frot_implicit_work;
+
+/* Events of the text: conditions.h and happen.c. */
+typedef struct {
+  double *rose, *firing, *outcome, *before, *known, *timer;
+  double *discrete, *discrete_before, *held;
+} frot_event_work;
+
+/* The search for modes (search.h, admissible.c, ahead.c, pivot.c, resolve.c): modes tried, found
+ * and before; of contacts: which are decided; of elements: whose motion is zero or at rest, where
+ * it would go, and which slips no acceleration starts. */
+typedef struct {
+  frot_contact_mode *trial, *best, *before, *guess, *guess_ahead;
+  unsigned char *certain, *zero, *at_rest, *departs;
+  signed char *ahead;
+  double *motions, *pivot_bound, *nothing_frozen;
+  int *choice, *component, *chosen;
+} frot_search_work;
+
+struct frot_work {
+  frot_layout layout;
+  frot_call_work call;
+  frot_block_work blocks;
+  frot_core_work core;
+  frot_reaction_work reactions;
+  frot_span_work span;
+  frot_linear_work linear;
+  frot_relation_work relations;
+  frot_opening_work opening;
+  frot_guard_work guards;
+  frot_step_work step;
+  frot_size_work sizes;
+  frot_implicit_work implicit;
+  frot_event_work events;
+  frot_search_work search;
+  double *pace;  /* pace.c */
+  double *stood; /* supports.c */
+};
+
+/* Set the pointers of a scratch block into itself. */
+void frot_bind_work(const frot_model *model, frot_work *work);
+
+/* Call a generated function with the arguments and results that are set. */
+static inline void frot_call(frot_work *w, const frot_callable *function) {
+  function->call(w->call.arg, w->call.res, w->call.iw, w->call.w, 0);
+}
+
+#endif
