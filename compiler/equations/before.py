@@ -68,7 +68,7 @@ class Before:
 
 def _reads(root: Expression, now: set[Variable], before: set[Variable]) -> None:
     """The variables that an expression reads, and those that it reads before the event."""
-    from frot.compiler.lowering.walk import parts
+    from frot.compiler.lowering.walk import through
 
     stack: list[tuple[Expression, bool, bool]] = [(root, True, False)]
     seen: set[tuple[int, bool, bool]] = set()
@@ -84,7 +84,7 @@ def _reads(root: Expression, now: set[Variable], before: set[Variable]) -> None:
                 before.add(node.target)
         if isinstance(node, Call) and node.function in ("pre", "change", "edge"):
             is_now, is_before = node.function != "pre", True
-        stack.extend((part, is_now, is_before) for part in parts(node))
+        stack.extend((part, is_now, is_before) for part in through(node))
 
 
 def whole(expression: Expression) -> tuple[Variable, list[int]] | None:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import casadi as ca
 from frot.compiler.equations.before import Before, whole
 from frot.compiler.lowering.symbols import Symbols
 from frot.compiler.lowering.walk import is_fixed
 from frot.dsl import Log
+from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked import (
     Binary,
     Call,
@@ -28,42 +29,8 @@ from frot.dsl.checked import (
     Variable,
     Vector,
 )
+from frot.dsl.checked.walk import Rules, SharedWalk, parts
 from frot.dsl.messages.source import Span
-
-FUNCTIONS: dict[str, Callable[..., ca.SX]] = {
-    name: getattr(ca, name)
-    for name in [
-        "sin",
-        "cos",
-        "tan",
-        "asin",
-        "acos",
-        "atan",
-        "sinh",
-        "cosh",
-        "tanh",
-        "asinh",
-        "acosh",
-        "atanh",
-        "exp",
-        "log",
-        "log10",
-        "sqrt",
-        "floor",
-        "ceil",
-        "sign",
-        "atan2",
-    ]
-} | {
-    "abs": ca.fabs,
-    "mod": lambda x, y: x - y * ca.floor(x / y),
-    "hypot": lambda x, y: ca.sqrt(x * x + y * y),
-    "dot": ca.dot,
-    "norm": lambda x: ca.sqrt(ca.sumsqr(x)),
-    "cross": lambda x, y: x[0] * y[1] - x[1] * y[0] if x.numel() == 2 else ca.cross(x, y),
-    "sum": lambda x: ca.sum1(ca.sum2(x)),
-    "transpose": lambda x: x.T,
-}
 
 NEVER, RISING, ALWAYS = range(3)
 
@@ -73,10 +40,6 @@ def words(node: Expression) -> str:
     text = " ".join(node.span.text.split())
     missing = text.count("(") - text.count(")")
     return "(" * -missing + text + ")" * missing
-
-
-STEPPING = ("floor", "ceil", "mod")
-OF_EVENTS = ("pre", "edge", "change", "sample", "initial", "friction")
 
 
 @dataclass(slots=True)
@@ -131,7 +94,7 @@ class Conditions:
 
 
 @dataclass(slots=True)
-class Lowering:
+class Lowering(SharedWalk[ca.SX]):
     """Lowers expressions; `quantity` gives the variables of bodies and liaisons, `rate` d/dt.
 
     `variable` gives the variables of the text, `before` those before an event;
@@ -154,7 +117,7 @@ class Lowering:
     friction: Callable[[Call, list[ca.SX], str], ca.SX] | None = None
     without_rate: Callable[[ca.SX], list[str]] | None = None
     owner: str = ""
-    _done: dict[int, tuple[Expression, ca.SX]] = field(default_factory=dict)
+    done: dict[int, tuple[Expression, ca.SX]] = field(default_factory=dict)
 
     def look_at(self, *expressions: Expression) -> None:
         """Say which expressions are lowered next as one."""
@@ -163,47 +126,38 @@ class Lowering:
 
     def lower(self, expression: Expression) -> ca.SX:
         """The CasADi value: a scalar, a column or a matrix. Shared parts are lowered once."""
-        known = self._done.get(id(expression))
-        if known is None:
-            known = (expression, self._lower(expression))
-            self._done[id(expression)] = known
-        return known[1]
+        return self.of(expression)
 
-    def _lower(self, expression: Expression) -> ca.SX:
-        match expression:
-            case Literal():
-                return ca.SX(float(expression.value))
-            case Reference():
-                return self._reference(expression)
-            case Time():
-                return self.symbols.t
-            case Quantity():
-                return self.quantity(expression)
-            case Derivative():
-                return self._rate(expression)
-            case Element():
-                whole = self.lower(expression.operand)
-                if len(expression.operand.type.shape) == 2:
-                    return whole[expression.index, :].T
-                return whole[expression.index]
-            case Vector():
-                items = [self.lower(item) for item in expression.items]
-                rows = [i.T for i in items] if len(expression.type.shape) == 2 else items
-                return ca.vertcat(*rows) if rows else ca.SX.zeros(0)
-            case Unary():
-                value = self.lower(expression.operand)
-                return 1 - value if expression.op == "not" else -value
-            case Binary():
-                return self._binary(expression)
-            case If():
-                condition = self.lower(expression.condition)
-                return ca.if_else(condition, self.lower(expression.yes), self.lower(expression.no))
-            case Call():
-                return self._call(expression)
-        raise TypeError(f"no expression: {expression!r}")
+    def _literal(self, node: Literal) -> ca.SX:
+        return ca.SX(float(node.value))
+
+    def _time(self, node: Time) -> ca.SX:
+        return self.symbols.t
+
+    def _quantity(self, node: Quantity) -> ca.SX:
+        return self.quantity(node)
+
+    def _element(self, node: Element) -> ca.SX:
+        whole = self.of(node.operand)
+        if len(node.operand.type.shape) == 2:
+            return whole[node.index, :].T
+        return whole[node.index]
+
+    def _vector(self, node: Vector) -> ca.SX:
+        items = [self.of(item) for item in node.items]
+        rows = [i.T for i in items] if len(node.type.shape) == 2 else items
+        return ca.vertcat(*rows) if rows else ca.SX.zeros(0)
+
+    def _unary(self, node: Unary) -> ca.SX:
+        value = self.of(node.operand)
+        return 1 - value if node.op == "not" else -value
+
+    def _if(self, node: If) -> ca.SX:
+        condition, yes, no = (self.of(part) for part in parts(node))
+        return ca.if_else(condition, yes, no)
 
     def _rate(self, node: Derivative) -> ca.SX:
-        value = self.lower(node.operand)
+        value = self.of(node.operand)
         unknown = self.without_rate(value) if self.without_rate is not None else []
         if not unknown:
             return self.rate(value)
@@ -218,20 +172,20 @@ class Lowering:
     def _reference(self, node: Reference) -> ca.SX:
         target = node.target
         if isinstance(target, Parameter) and target.constant:
-            return self.lower(target.value)
+            return self.of(target.value)
         if isinstance(target, Parameter | Input):
             return self.symbols.value(target)
         if isinstance(target, Variable):
             assert self.variable is not None
             return self.variable(target)
-        return self.lower(target.value)
+        return self.of(target.value)
 
     def _located(self, expression: Expression) -> Conditions | None:
         """Where the events of a switch go; None if it never changes or is only looked at."""
         return None if is_fixed(expression) else self.conditions
 
     def _binary(self, node: Binary) -> ca.SX:
-        left, right = self.lower(node.left), self.lower(node.right)
+        left, right = self.of(node.left), self.of(node.right)
         match node.op:
             case "+":
                 return left + right
@@ -263,12 +217,13 @@ class Lowering:
         return positive > 0 if strict else positive >= 0
 
     def _call(self, node: Call) -> ca.SX:
-        arguments = [self.lower(argument) for argument in node.arguments]
+        arguments = [self.of(argument) for argument in node.arguments]
         conditions = self._located(node)
         name = node.function
-        if name in OF_EVENTS:
+        function = FUNCTIONS[name]
+        if function.place == "event":
             return self._of_events(node, arguments)
-        if name in ("min", "max"):
+        if function.switch == "order":
             value, text = arguments[0], words(node.arguments[0])
             for other, written in zip(arguments[1:], node.arguments[1:], strict=True):
                 sign = ">=" if name == "max" else "<="
@@ -282,14 +237,16 @@ class Lowering:
                 )
                 text = f"{name}({text}, {words(written)})"
             return value
-        if conditions is not None and name in ("abs", "sign"):
+        if conditions is not None and function.switch == "sign":
             above = conditions.add(
                 arguments[0], False, self._told(f"{words(node.arguments[0])} >= 0"), node.span
             )
             return (2 * above - 1) * (arguments[0] if name == "abs" else 1)
-        if conditions is not None and name in STEPPING:
+        if conditions is not None and function.switch == "step":
             self._refuse(f"`{name}` of a value that changes, in a force or coefficient", node)
-        return FUNCTIONS[name](*arguments)
+        assert function.form is not None
+        made: ca.SX = function.form(ca, *arguments)
+        return made
 
     def _told(self, text: str) -> str:
         """A condition's words, with the component it stands in."""
@@ -338,6 +295,20 @@ class Lowering:
 
     def _refuse(self, what: str, node: Expression) -> None:
         self.log.report("E0701", f"{what} is not supported yet", node.span)
+
+    rules: ClassVar[Rules] = {
+        Literal: _literal,
+        Reference: _reference,
+        Time: _time,
+        Quantity: _quantity,
+        Derivative: _rate,
+        Element: _element,
+        Vector: _vector,
+        Unary: _unary,
+        Binary: _binary,
+        Call: _call,
+        If: _if,
+    }
 
 
 def _items(value: ca.SX) -> list[ca.SX]:

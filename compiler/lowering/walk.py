@@ -7,59 +7,38 @@ from collections.abc import Iterable, Iterator
 from frot.dsl.checked import (
     Assertion,
     Assign,
-    Binary,
-    Call,
     Derivative,
-    Element,
     Equation,
     Expression,
-    If,
     IfEquations,
     Model,
+    Output,
     Parameter,
     Quantity,
     Reference,
     Reinit,
     Time,
-    Unary,
-    Vector,
 )
+from frot.dsl.checked.walk import nodes, parts
 
 
 def subexpressions(expression: Expression) -> Iterator[Expression]:
     """The expression and everything in it once, through outputs and constants it names."""
-    stack = [expression]
-    seen: set[int] = set()
-    while stack:
-        node = stack.pop()
-        if id(node) in seen:
-            continue
-        seen.add(id(node))
-        yield node
-        stack.extend(parts(node))
-        parameter = node.target if isinstance(node, Reference) else None
-        if isinstance(parameter, Parameter) and parameter.constant:
-            stack.append(parameter.value)
+    return nodes(expression, _behind)
 
 
-def parts(node: Expression) -> tuple[Expression, ...]:
+def through(node: Expression) -> tuple[Expression, ...]:
     """What an expression is made of; of a declared output, its value."""
-    from frot.dsl.checked import Output
+    if isinstance(node, Reference) and isinstance(node.target, Output):
+        return (node.target.value,)
+    return parts(node)
 
-    match node:
-        case Derivative() | Element() | Unary():
-            return (node.operand,)
-        case Vector():
-            return node.items
-        case Binary():
-            return (node.left, node.right)
-        case Call():
-            return node.arguments
-        case If():
-            return (node.condition, node.yes, node.no)
-        case Reference() if isinstance(node.target, Output):
-            return (node.target.value,)
-    return ()
+
+def _behind(node: Expression) -> tuple[Expression, ...]:
+    """As `through`; of a constant, its value too."""
+    if isinstance(node, Reference) and isinstance(node.target, Parameter) and node.target.constant:
+        return (node.target.value,)
+    return through(node)
 
 
 def is_fixed(expression: Expression) -> bool:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import ClassVar
 
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe
+from frot.dsl.checked.walk import Rules, Walk, parts
 from frot.dsl.quantities.units import parse_unit
 
 # An expression that is longer is cut: calls that are expanded may repeat their arguments.
@@ -16,64 +19,92 @@ _COMPARISON = 4
 
 def show(node: checked.Expression) -> str:
     """An expression as it could be written, values in the author's units; cut past 400 parts."""
-    left = [_LONGEST]
-    return _show(node, left)
+    return _Printing(_LONGEST).of(node)
 
 
-def _show(node: checked.Expression, left: list[int]) -> str:
-    left[0] -= 1
-    if left[0] < 0:
-        return "..."
-    match node:
-        case checked.Literal():
-            return _literal(node)
-        case checked.Reference(target=target):
-            return target.name
-        case checked.Time():
-            return "time"
-        case checked.Quantity(owner=checked.BodyPoint() as owner, name=name):
-            return f"{owner.body.name}.{owner.name}.{name}"
-        case checked.Quantity(owner=owner, name=name):
-            return f"{owner.name}.{name}"
-        case checked.Derivative(operand=operand):
-            return f"der({_show(operand, left)})"
-        case checked.Element(operand=operand, index=index):
-            return f"{_inside(operand, 9, left)}[{index + 1}]"
-        case checked.Vector(items=items):
-            return f"({', '.join(_show(i, left) for i in items)})"
-        case checked.Unary(op=op, operand=operand):
-            gap = " " if op == "not" else ""
-            return f"{op}{gap}{_inside(operand, 7, left)}"
-        case checked.Binary():
-            return _binary(node, left)
-        case checked.Call(function=function, arguments=arguments):
-            return f"{function}({', '.join(_show(a, left) for a in arguments)})"
-        case checked.If(condition=condition, yes=yes, no=no):
-            parts = [_show(p, left) for p in (condition, yes, no)]
-            return f"if {parts[0]} then {parts[1]} else {parts[2]}"
+@dataclass(slots=True)
+class _Printing(Walk[str]):
+    """Expressions as text; `left` is the number of parts that are still shown."""
+
+    left: int
+
+    def of(self, node: checked.Expression) -> str:
+        self.left -= 1
+        shown: str = self.rules[type(node)](self, node) if self.left >= 0 else "..."
+        return shown
+
+    def _inside(self, node: checked.Expression, rank: int) -> str:
+        """An operand, in parentheses where it binds less than what is around it."""
+        shown = self.of(node)
+        match node:
+            case checked.Binary(op=op) if _BINDING.get(op, _COMPARISON) < rank:
+                return f"({shown})"
+            case checked.Unary() if rank > _BINDING["-"]:
+                return f"({shown})"
+            case checked.If():
+                return f"({shown})"
+        return shown
+
+    def _listed(self, items: tuple[checked.Expression, ...]) -> str:
+        return f"({', '.join(self.of(item) for item in items)})"
+
+    def _literal(self, node: checked.Literal) -> str:
+        return _written(node)
+
+    def _reference(self, node: checked.Reference) -> str:
+        return node.target.name
+
+    def _time(self, node: checked.Time) -> str:
+        return "time"
+
+    def _quantity(self, node: checked.Quantity) -> str:
+        owner = node.owner
+        whole = f"{owner.body.name}." if isinstance(owner, checked.BodyPoint) else ""
+        return f"{whole}{owner.name}.{node.name}"
+
+    def _derivative(self, node: checked.Derivative) -> str:
+        return f"der({self.of(node.operand)})"
+
+    def _element(self, node: checked.Element) -> str:
+        return f"{self._inside(node.operand, 9)}[{node.index + 1}]"
+
+    def _vector(self, node: checked.Vector) -> str:
+        return self._listed(node.items)
+
+    def _unary(self, node: checked.Unary) -> str:
+        gap = " " if node.op == "not" else ""
+        return f"{node.op}{gap}{self._inside(node.operand, 7)}"
+
+    def _binary(self, node: checked.Binary) -> str:
+        rank = _BINDING.get(node.op, _COMPARISON)
+        first = self._inside(node.left, rank + (node.op == "^"))
+        second = self._inside(node.right, rank + (node.op != "^"))
+        tight = node.op in "*/^"
+        return f"{first}{node.op}{second}" if tight else f"{first} {node.op} {second}"
+
+    def _call(self, node: checked.Call) -> str:
+        return f"{node.function}{self._listed(node.arguments)}"
+
+    def _if(self, node: checked.If) -> str:
+        condition, yes, no = (self.of(part) for part in parts(node))
+        return f"if {condition} then {yes} else {no}"
+
+    rules: ClassVar[Rules] = {
+        checked.Literal: _literal,
+        checked.Reference: _reference,
+        checked.Time: _time,
+        checked.Quantity: _quantity,
+        checked.Derivative: _derivative,
+        checked.Element: _element,
+        checked.Vector: _vector,
+        checked.Unary: _unary,
+        checked.Binary: _binary,
+        checked.Call: _call,
+        checked.If: _if,
+    }
 
 
-def _binary(node: checked.Binary, left: list[int]) -> str:
-    rank = _BINDING.get(node.op, _COMPARISON)
-    tight = node.op in "*/^"
-    first = _inside(node.left, rank + (node.op == "^"), left)
-    second = _inside(node.right, rank + (node.op != "^"), left)
-    return f"{first}{node.op}{second}" if tight else f"{first} {node.op} {second}"
-
-
-def _inside(node: checked.Expression, rank: int, left: list[int]) -> str:
-    shown = _show(node, left)
-    match node:
-        case checked.Binary(op=op) if _BINDING.get(op, _COMPARISON) < rank:
-            return f"({shown})"
-        case checked.Unary() if rank > _BINDING["-"]:
-            return f"({shown})"
-        case checked.If():
-            return f"({shown})"
-    return shown
-
-
-def _literal(node: checked.Literal) -> str:
+def _written(node: checked.Literal) -> str:
     value = node.value
     if isinstance(value, bool):
         return "true" if value else "false"

@@ -8,8 +8,9 @@ from collections.abc import Iterator, Mapping
 
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe
-from frot.dsl.checked.evaluation import Value, evaluate, nodes
+from frot.dsl.checked.evaluation import Value, evaluate
 from frot.dsl.checked.order import in_order
+from frot.dsl.checked.walk import nodes
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.quantities.turns import factor_between, rate_of_kind, rate_of_unit
 from frot.dsl.quantities.units import Unit, UnknownUnit, parse_unit

@@ -5,26 +5,17 @@ from __future__ import annotations
 from frot.dsl import checked
 from frot.dsl.checked.arrays import element, items_of, scalars, total, vector
 from frot.dsl.checked.describe import describe
-from frot.dsl.expressions.expression import NUMERIC, expression, wrong_count
+from frot.dsl.expressions.expression import NUMERIC, expression
 from frot.dsl.expressions.structure import whole_number
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import INTEGER, REAL, Type
 from frot.dsl.text import tree
-
-ARRAYS = ("sum", "size", "zeros", "ones", "fill", "transpose")
 
 
 def array_call(node: tree.Call, scope: Scope) -> checked.Expression | None:
     """The checked call of a function of arrays; None after a message."""
     assert isinstance(node.callee, tree.Name)
     name = node.callee.text
-    count = len(node.arguments)
-    least, most = {"sum": (1, 1), "size": (1, 2), "transpose": (1, 1), "fill": (2, 9)}.get(
-        name, (1, 8) if name in ("zeros", "ones") else (1, 1)
-    )
-    if not least <= count <= most:
-        wrong_count(node, name, str(least) if least == most else f"at least {least}", scope)
-        return None
     if name in ("zeros", "ones", "fill"):
         return _filled(name, node, scope)
     operand = expression(node.arguments[0].value, scope)

@@ -6,14 +6,12 @@ from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked.describe import describe
 from frot.dsl.checked.evaluation import constant
-from frot.dsl.expressions.expression import NUMERIC, expect, expression, wrong_count
+from frot.dsl.expressions.expression import NUMERIC, expect, expression
 from frot.dsl.expressions.known import known, out_of_bounds
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import BOOLEAN, Type
 from frot.dsl.text import tree
 
-# How many operands each takes.
-EVENTS = {"pre": 1, "edge": 1, "change": 1, "sample": 2, "initial": 0, "friction": 3}
 _BOUNDS = {
     TYPES["Velocity"].dimension: TYPES["Force"],
     TYPES["AngularVelocity"].dimension: TYPES["Torque"],
@@ -24,10 +22,6 @@ def event_call(node: tree.Call, scope: Scope) -> checked.Expression | None:
     """The checked call; None after a message."""
     assert isinstance(node.callee, tree.Name)
     name = node.callee.text
-    wanted = EVENTS[name]
-    if len(node.arguments) != wanted and not (name == "friction" and len(node.arguments) == 2):
-        wrong_count(node, name, str(wanted), scope)
-        return None
     match name:
         case "initial":
             return checked.Call("initial", (), BOOLEAN, node.span)

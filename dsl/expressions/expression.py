@@ -126,20 +126,3 @@ def tell_no_value(what: str, node: tree.Expression, help_text: str, scope: Scope
     """Report a thing that is no value where one is needed."""
     message = f"{what} stands where a value is needed"
     scope.log.report("E0205", message, node.span, help=help_text)
-
-
-def positional(node: tree.Call, name: str, scope: Scope) -> bool:
-    """Whether all operands are without names; the first one that is not is told."""
-    for argument in node.arguments:
-        if argument.name is not None:
-            message = f"{name!r} takes its operands without names"
-            scope.log.report("E0204", message, argument.name.span)
-            return False
-    return True
-
-
-def wrong_count(node: tree.Call, name: str, count: str, scope: Scope) -> None:
-    """Report a number of operands that a function does not take."""
-    ends = "" if count.endswith(" 1") or count == "1" else "s"
-    message = f"{name!r} takes {count} operand{ends}, found {len(node.arguments)}"
-    scope.log.report("E0204", message, node.span)

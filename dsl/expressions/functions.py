@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from frot.dsl import checked
-from frot.dsl.checked.evaluation import parts
 from frot.dsl.checked.order import in_order
+from frot.dsl.checked.walk import parts
 from frot.dsl.expressions.expression import expression, fitting, value_of
 from frot.dsl.expressions.records import as_record
 from frot.dsl.expressions.structure import sizes

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe
-from frot.dsl.checked.evaluation import NotConstant, constant, evaluate, nodes
+from frot.dsl.checked.evaluation import NotConstant, constant, evaluate
+from frot.dsl.checked.walk import nodes
 from frot.dsl.expressions.expression import expression
 from frot.dsl.names.scope import Scope
 from frot.dsl.text import tree

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from frot.dsl import checked
-from frot.dsl.checked.evaluation import nodes
+from frot.dsl.checked.walk import nodes
 from frot.dsl.names.scope import Build, Instance
 from frot.dsl.statements.equations import Made, count
 
