@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "Event": "frot.runtime.result",
-    "FrotError": "frot.dsl.messages.diagnostics",
+    "FrotError": "frot.dsl.messages.errors",
     "Interrupted": "frot.runtime.run",
     "Model": "frot.model",
     "Result": "frot.runtime.result",
