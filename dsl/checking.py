@@ -91,28 +91,28 @@ def _model(
 
     flanges = tuple(build.flanges)
     result = checked.Model(
-        definition.name.text,
-        planar,
-        of_kind(checked.Parameter),  # type: ignore[arg-type]
-        of_kind(checked.Input),  # type: ignore[arg-type]
-        of_kind(checked.Output),  # type: ignore[arg-type]
-        holds,
-        build.ground,
-        of_kind(checked.Body),  # type: ignore[arg-type]
-        of_kind(checked.Frame),  # type: ignore[arg-type]
-        of_kind(checked.Curve),  # type: ignore[arg-type]
-        of_kind(checked.Liaison),  # type: ignore[arg-type]
-        of_kind(checked.Force),  # type: ignore[arg-type]
-        tuple(build.initial),
-        experiments[-1] if experiments else default_experiment(),
-        tuple(libraries.sources),
-        definition.span,
-        definition.doc,
-        (*of_kind(checked.Variable), *(f.effort for f in flanges)),  # type: ignore[arg-type]
-        tuple(equations),
-        flanges,
-        tuple(build.whens),
-        tuple(build.assertions),
+        name=definition.name.text,
+        planar=planar,
+        parameters=of_kind(checked.Parameter),  # type: ignore[arg-type]
+        inputs=of_kind(checked.Input),  # type: ignore[arg-type]
+        outputs=of_kind(checked.Output),  # type: ignore[arg-type]
+        world=holds,
+        ground=build.ground,
+        bodies=of_kind(checked.Body),  # type: ignore[arg-type]
+        frames=of_kind(checked.Frame),  # type: ignore[arg-type]
+        curves=of_kind(checked.Curve),  # type: ignore[arg-type]
+        liaisons=of_kind(checked.Liaison),  # type: ignore[arg-type]
+        forces=of_kind(checked.Force),  # type: ignore[arg-type]
+        initial=tuple(build.initial),
+        experiment=experiments[-1] if experiments else default_experiment(),
+        files=tuple(libraries.sources),
+        span=definition.span,
+        doc=definition.doc,
+        variables=(*of_kind(checked.Variable), *(f.effort for f in flanges)),  # type: ignore[arg-type]
+        equations=tuple(equations),
+        flanges=flanges,
+        whens=tuple(build.whens),
+        assertions=tuple(build.assertions),
     )
     tell_clashes(libraries)
     if not log.failed:

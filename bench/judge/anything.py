@@ -140,14 +140,14 @@ class Maker:
         c = Contact(
             self.word("C"),
             line,
-            point,
-            body if rim else None,
-            bilateral,
-            kind,
-            swapped,
-            mu,
-            mu_s,
-            delta,
+            point=point,
+            rim=body if rim else None,
+            bilateral=bilateral,
+            kind=kind,
+            swapped=swapped,
+            mu=mu,
+            mu_s=mu_s,
+            delta=delta,
         )
         self.s.contacts.append(c)
 

@@ -51,13 +51,13 @@ def legs(rng: Random) -> Structure:
             Contact(
                 f"c{i}",
                 floor,
-                foot,
-                None,
-                bilateral,
-                kind,
-                kind != "point_courbe" and bool(rng.integers(2)),
-                own,
-                own * more,
+                point=foot,
+                rim=None,
+                bilateral=bilateral,
+                kind=kind,
+                swapped=kind != "point_courbe" and bool(rng.integers(2)),
+                mu=own,
+                mu_s=own * more,
             )
         )
     rate, way, t0 = (

@@ -31,7 +31,17 @@ def crank(rng: Random) -> Structure:
     ]
     s.pins += pins
     s.contacts.append(
-        Contact("C", bore, s.middle(piston), None, True, "point_courbe", False, mu_b, mu_b * factor)
+        Contact(
+            "C",
+            bore,
+            point=s.middle(piston),
+            rim=None,
+            bilateral=True,
+            kind="point_courbe",
+            swapped=False,
+            mu=mu_b,
+            mu_s=mu_b * factor,
+        )
     )
     even, wave, w = (
         s.parameter("even", "Torque"),

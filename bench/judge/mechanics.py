@@ -254,7 +254,18 @@ class Mechanics:
         mu_s = mu if c.mu_s is None else c.mu_s.at(self.look)
         delta = 0.0 if c.delta is None else c.delta.at(self.look)
         size = norm(centre) + norm(start) + radius
-        return Joint(c, rows, height - radius, size, d, n, touching, mu, mu_s, delta)
+        return Joint(
+            c,
+            rows,
+            gap=height - radius,
+            size=size,
+            direction=d,
+            normal=n,
+            touching=touching,
+            mu=mu,
+            mu_s=mu_s,
+            delta=delta,
+        )
 
     def _pin(self, p: Pin) -> Joint:
         a, b = self.position(p.a), self.position(p.b)
@@ -271,7 +282,18 @@ class Mechanics:
         mu = 0.0 if p.mu is None else p.mu.at(self.look) * radius
         mu_s = mu if p.mu_s is None else p.mu_s.at(self.look) * radius
         size = norm(a) + norm(b)
-        return Joint(p, rows, norm(b - a), size, np.zeros(2), np.zeros(2), b, mu, mu_s, 0.0)
+        return Joint(
+            p,
+            rows,
+            gap=norm(b - a),
+            size=size,
+            direction=np.zeros(2),
+            normal=np.zeros(2),
+            touching=b,
+            mu=mu,
+            mu_s=mu_s,
+            delta=0.0,
+        )
 
 
 def _less(one: Row, other: Row, bias: float) -> Row:

@@ -42,14 +42,14 @@ def rest(rng: Random) -> Structure:
         Contact(
             "c",
             line,
-            None if disc else s.middle(b),
-            b if disc else None,
-            False,
-            "contact_ponctuel",
-            bool(rng.integers(2)),
-            mu,
-            mu * s.parameter("more", "Real"),
-            delta,
+            point=None if disc else s.middle(b),
+            rim=b if disc else None,
+            bilateral=False,
+            kind="contact_ponctuel",
+            swapped=bool(rng.integers(2)),
+            mu=mu,
+            mu_s=mu * s.parameter("more", "Real"),
+            delta=delta,
         )
     )
     push, a = _pushes(rng, s), name("a_floor")
@@ -101,14 +101,14 @@ def hoop(rng: Random) -> Structure:
         Contact(
             "c",
             line,
-            None,
-            b,
-            bool(rng.integers(2)),
-            "contact_ponctuel",
-            bool(rng.integers(2)),
-            law,
-            law * s.parameter("more", "Real"),
-            s.parameter("delta", "Length") if rng.random() < 0.7 else None,
+            point=None,
+            rim=b,
+            bilateral=bool(rng.integers(2)),
+            kind="contact_ponctuel",
+            swapped=bool(rng.integers(2)),
+            mu=law,
+            mu_s=law * s.parameter("more", "Real"),
+            delta=s.parameter("delta", "Length") if rng.random() < 0.7 else None,
         )
     )
     if rng.random() < 0.5:
@@ -181,14 +181,14 @@ def stack(rng: Random) -> Structure:
             Contact(
                 f"c{i}",
                 top,
-                s.middle(b) if shape == "particle" else None,
-                None if shape == "particle" else b,
-                False,
-                "contact_ponctuel",
-                bool(rng.integers(2)),
-                s.parameter(f"mu{i}", "Real"),
-                None,
-                s.parameter(f"delta{i}", "Length")
+                point=s.middle(b) if shape == "particle" else None,
+                rim=None if shape == "particle" else b,
+                bilateral=False,
+                kind="contact_ponctuel",
+                swapped=bool(rng.integers(2)),
+                mu=s.parameter(f"mu{i}", "Real"),
+                mu_s=None,
+                delta=s.parameter(f"delta{i}", "Length")
                 if shape != "particle" and rng.random() < 0.5
                 else None,
             )
@@ -268,14 +268,14 @@ def corner(rng: Random) -> Structure:
             Contact(
                 word,
                 line,
-                None if round_ else s.middle(b),
-                b if round_ else None,
-                False,
-                "contact_ponctuel",
-                False,
-                law,
-                None,
-                delta,
+                point=None if round_ else s.middle(b),
+                rim=b if round_ else None,
+                bilateral=False,
+                kind="contact_ponctuel",
+                swapped=False,
+                mu=law,
+                mu_s=None,
+                delta=delta,
             )
         )
         if law is None and delta is None:

@@ -83,18 +83,20 @@ def differentiate(
         for n in component.needs:
             users[n].append(k)
     return Differentiated(
-        chains,
-        values,
-        origins,
-        newton,
-        left,
-        index.unknowns,
-        invariants,
-        of_invariants,
-        components,
-        users,
-        {i: k for k, c in enumerate(components) for i in c.equations},
-        {(left[j], index.unknowns[j]): k for k, c in enumerate(components) for j in c.unknowns},
+        chains=chains,
+        values=values,
+        origins=origins,
+        newton=newton,
+        chains_left=left,
+        orders=index.unknowns,
+        invariants=invariants,
+        invariant_origins=of_invariants,
+        components=components,
+        users=users,
+        component_of_equation={i: k for k, c in enumerate(components) for i in c.equations},
+        component_of_unknown={
+            (left[j], index.unknowns[j]): k for k, c in enumerate(components) for j in c.unknowns
+        },
     )
 
 

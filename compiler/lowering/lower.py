@@ -157,21 +157,21 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
         for name, (arguments, results) in outputs.items()
     }
     return Lowered(
-        reduced,
-        system,
-        grouping,
-        functions,
-        tuple(_block(k, b, system) for k, b in enumerate(system.blocks)),
-        carried,
-        checks,
-        variables,
-        initial.statements,
-        initial.position_statement,
-        initial.velocity_statement,
-        _row_depends(system),
-        tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
-        jacobian,
-        tuple(watched_origins),
+        reduced=reduced,
+        system=system,
+        grouping=grouping,
+        functions=functions,
+        blocks=tuple(_block(k, b, system) for k, b in enumerate(system.blocks)),
+        carried=carried,
+        checks=checks,
+        variables=variables,
+        statements=initial.statements,
+        position_statement=initial.position_statement,
+        velocity_statement=initial.velocity_statement,
+        row_depends=_row_depends(system),
+        dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
+        jacobian=jacobian,
+        watched=tuple(watched_origins),
     )
 
 

@@ -140,16 +140,16 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
             help="a particle has no angle; use a disc or a ring",
         )
     return Contact(
-        liaison,
-        point,
-        round_body,
-        line,
-        line_first,
-        False,
-        liaison.options["unilateral"],
-        coulomb.arguments["mu"] if coulomb else None,
-        coulomb.arguments["mu_s"] if coulomb else None,
-        rolling.arguments["delta"] if rolling else None,
+        liaison=liaison,
+        point=point,
+        round=round_body,
+        line=line,
+        line_first=line_first,
+        reduced=False,
+        unilateral=liaison.options["unilateral"],
+        mu=coulomb.arguments["mu"] if coulomb else None,
+        mu_s=coulomb.arguments["mu_s"] if coulomb else None,
+        delta=rolling.arguments["delta"] if rolling else None,
     )
 
 

@@ -17,7 +17,7 @@ def _point(name: str, doc: str) -> Argument:
     return Argument(name, LENGTH, "point", places=("point",), doc=doc)
 
 
-FORCES = table(
+_ROWS = (
     ForceKind(
         "on",
         (
@@ -81,3 +81,5 @@ FORCES = table(
         doc="A force against the velocity, c times a power of the speed.",
     ),
 )
+
+FORCES = table(_ROWS)

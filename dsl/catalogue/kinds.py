@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol, TypeVar
 
@@ -128,7 +128,7 @@ def plain(name: str) -> str:
     return "".join(c for c in split if not unicodedata.combining(c))
 
 
-def table(*entries: Entry) -> Mapping[str, Entry]:
+def table(entries: Iterable[Entry]) -> Mapping[str, Entry]:
     """The entries by canonical name, in the order given."""
     return {entry.name: entry for entry in entries}
 

@@ -23,7 +23,7 @@ _MU_S = Argument(
 )
 _E = Argument("e", REAL, sign="nonnegative", at_most=1.0, doc="coefficient of restitution")
 
-LAWS = table(
+_ROWS = (
     LawKind(
         "coulomb",
         (
@@ -125,3 +125,5 @@ LAWS = table(
         doc="Bounds on the coordinate of a liaison.",
     ),
 )
+
+LAWS = table(_ROWS)

@@ -50,7 +50,7 @@ def _liaison(
     )
 
 
-LIAISONS = table(
+_ROWS = (
     _liaison("encastrement", ("weld",), POINT, POINT, (6, 3), doc="No relative motion."),
     _liaison(
         "rotoide",
@@ -221,3 +221,5 @@ LIAISONS = table(
     ),
     _liaison("libre", ("free",), POINT, POINT, (0, 0), doc="No relation."),
 )
+
+LIAISONS = table(_ROWS)

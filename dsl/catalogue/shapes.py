@@ -21,7 +21,7 @@ def _semi_axis(name: str, axis: str) -> Argument:
     return Argument(name, LENGTH, sign="positive", doc=f"semi-axis along {axis}")
 
 
-SHAPES = table(
+_ROWS = (
     Shape(
         "particle",
         (_MASS,),
@@ -139,3 +139,5 @@ SHAPES = table(
         doc="A body given by its mass and inertia.",
     ),
 )
+
+SHAPES = table(_ROWS)

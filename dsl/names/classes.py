@@ -180,7 +180,17 @@ def library(name: str, space: Namespace) -> Class:
     """A file or folder as a package: its members are those of a namespace."""
     here = Span(space.source, 0, 0)
     word = tree.Word(name, here)
-    definition = tree.Definition("package", "package", (), word, (), "", (), here, here)
+    definition = tree.Definition(
+        kind="package",
+        keyword="package",
+        prefixes=(),
+        name=word,
+        formals=(),
+        doc="",
+        elements=(),
+        header=here,
+        span=here,
+    )
     found = Class(definition, Namespace(space.source))
     found._space = space
     space.owner = found

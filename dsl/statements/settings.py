@@ -101,7 +101,17 @@ def _direction(node: tree.Expression, scope: Scope) -> str | None:
 
 def default_experiment() -> checked.Experiment:
     """The options of a run where the text is silent."""
-    return checked.Experiment(None, None, None, None, None, "auto", "impact", "rest", None)
+    return checked.Experiment(
+        stop=None,
+        start=None,
+        tolerance=None,
+        interval=None,
+        max_step=None,
+        method="auto",
+        on_impasse="impact",
+        on_indeterminate="rest",
+        span=None,
+    )
 
 
 def experiment(call: tree.Call, scope: Scope) -> checked.Experiment:
@@ -127,15 +137,15 @@ def experiment(call: tree.Call, scope: Scope) -> checked.Experiment:
     }
     _check_times(values, scope)
     return checked.Experiment(
-        values["stop"],
-        values["start"],
-        values["tolerance"],
-        values["interval"],
-        values["max_step"],
-        chosen["method"],
-        chosen["on_impasse"],
-        chosen["on_indeterminate"],
-        call.span,
+        stop=values["stop"],
+        start=values["start"],
+        tolerance=values["tolerance"],
+        interval=values["interval"],
+        max_step=values["max_step"],
+        method=chosen["method"],
+        on_impasse=chosen["on_impasse"],
+        on_indeterminate=chosen["on_indeterminate"],
+        span=call.span,
     )
 
 

@@ -75,15 +75,15 @@ def _definition(node: Any, at: Place, dropped: set[str]) -> tree.Definition:
     span = at.span(node)
     _check_end(_pick(node, "end_name"), keyword, name, span, at)
     return tree.Definition(
-        _KINDS.get(keyword, keyword),
-        keyword,
-        prefixes,
-        name,
-        tuple(_formal(f, at) for f in formals.children) if formals is not None else (),
-        doc,
-        _elements((c for c in node.children if _is_element(c)), at, dropped),
-        Span(at.source, span.start, name.span.end),
-        span,
+        kind=_KINDS.get(keyword, keyword),
+        keyword=keyword,
+        prefixes=prefixes,
+        name=name,
+        formals=tuple(_formal(f, at) for f in formals.children) if formals is not None else (),
+        doc=doc,
+        elements=_elements((c for c in node.children if _is_element(c)), at, dropped),
+        header=Span(at.source, span.start, name.span.end),
+        span=span,
     )
 
 
@@ -190,15 +190,15 @@ def _liaison(node: Any, at: Place, dropped: set[str]) -> tree.Liaison:
     driven = _pick(node, "driven")
     laws = _pick(node, "laws")
     return tree.Liaison(
-        keyword,
-        name,
-        subscripts,
-        expression(rest[0], at),
-        arguments(_pick(driven, "modifiers"), at) if driven is not None else None,
-        at.span(driven) if driven is not None else None,
-        tuple(expression(c, at) for c in laws.children) if laws is not None else (),
-        _doc(node),
-        at.span(node),
+        keyword=keyword,
+        name=name,
+        subscripts=subscripts,
+        kind=expression(rest[0], at),
+        driven=arguments(_pick(driven, "modifiers"), at) if driven is not None else None,
+        driven_span=at.span(driven) if driven is not None else None,
+        laws=tuple(expression(c, at) for c in laws.children) if laws is not None else (),
+        doc=_doc(node),
+        span=at.span(node),
     )
 
 

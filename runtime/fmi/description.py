@@ -62,12 +62,30 @@ def _from_parameter(name: str, reference: int, info: ParameterInfo, causality: s
     if causality == "input":
         variability = "continuous" if info.type == "real" else "discrete"
         return Scalar(
-            name, reference, info.type, "input", variability, "", info.default, unit, info.doc
+            name,
+            reference,
+            info.type,
+            "input",
+            variability=variability,
+            initial="",
+            start=info.default,
+            unit=unit,
+            doc=info.doc,
         )
     if info.dependent:
         causality = "calculatedParameter"
     initial, start = ("calculated", None) if info.dependent else ("exact", info.default)
-    return Scalar(name, reference, info.type, causality, "tunable", initial, start, unit, info.doc)
+    return Scalar(
+        name,
+        reference,
+        info.type,
+        causality,
+        variability="tunable",
+        initial=initial,
+        start=start,
+        unit=unit,
+        doc=info.doc,
+    )
 
 
 def _from_variable(name: str, reference: int, info: VariableInfo) -> Scalar:
@@ -77,11 +95,11 @@ def _from_variable(name: str, reference: int, info: VariableInfo) -> Scalar:
         reference,
         info.type,
         info.causality,
-        "continuous" if real else "discrete",
-        "calculated",
-        None,
-        info.unit if real else None,
-        info.doc,
+        variability="continuous" if real else "discrete",
+        initial="calculated",
+        start=None,
+        unit=info.unit if real else None,
+        doc=info.doc,
     )
 
 
@@ -94,7 +112,19 @@ def scalars(program: Program) -> tuple[str, tuple[Scalar, ...]]:
     )
     convention, names = variable_names(("time", *(info.name for info in infos)))
     second = Unit("s", (0, 0, 1, 0, 0, 0, 0, 0))
-    found = [Scalar("time", 0, "real", "independent", "continuous", "", None, second, "time")]
+    found = [
+        Scalar(
+            "time",
+            0,
+            "real",
+            "independent",
+            variability="continuous",
+            initial="",
+            start=None,
+            unit=second,
+            doc="time",
+        )
+    ]
     for info, name in zip(infos, names[1:], strict=True):
         reference = len(found)
         if isinstance(info, VariableInfo):

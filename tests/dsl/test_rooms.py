@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping
+from importlib import import_module
 from pathlib import Path
+
+import pytest
 
 ROOT = Path(__file__).parents[2]
 DSL = ROOT / "dsl"
 MODULES_IN_A_FOLDER = 24
 SHORTEST = 25
+MOST_BY_POSITION = 8
 
 
 def _modules() -> dict[str, Path]:
@@ -105,3 +109,32 @@ def test_folders_and_modules_are_of_a_size() -> None:
         and (lines := len(path.read_text("utf-8").splitlines())) < SHORTEST
     }
     assert not short
+
+
+@pytest.mark.parametrize("room", ["bench", "compiler", "dsl", "frot", "runtime"])
+def test_calls_name_what_they_give_past_eight_operands(room: str) -> None:
+    found = [
+        f"{path.relative_to(ROOT)}:{node.lineno} {ast.unparse(node.func)}"
+        for path in (ROOT / room).rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.Call) and _by_position(node) > MOST_BY_POSITION
+    ]
+    assert not found
+
+
+def _by_position(call: ast.Call) -> int:
+    """The operands without names, those of a display after a star among them."""
+    return sum(
+        len(a.value.elts) if isinstance(a, ast.Starred) and isinstance(a.value, ast.Tuple) else 1
+        for a in call.args
+    )
+
+
+@pytest.mark.parametrize("room", ["frot", "frot.compiler", "frot.dsl", "frot.runtime"])
+def test_every_door_opens(room: str) -> None:
+    """What a room offers by name, and loads when it is asked for, is there."""
+    module = import_module(room)
+    offered = set(module.__all__) | set(getattr(module, "_HOMES", ()))
+    assert offered
+    for name in offered:
+        assert getattr(module, name) is not None
