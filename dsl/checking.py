@@ -6,15 +6,17 @@ import sys
 
 from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
-from frot.dsl.declarations.instantiate import declare_values, entities, instantiate, settle_all
+from frot.dsl.declarations.instantiate import declare_values, instantiate
 from frot.dsl.declarations.mechanism import give_laws
+from frot.dsl.declarations.settle import entities, settle_all
 from frot.dsl.expressions.rules import RULES
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
+from frot.dsl.names.build import Build, Checks, TooLarge
 from frot.dsl.names.choose import choose
 from frot.dsl.names.classes import Class, Namespace
+from frot.dsl.names.entities import Array, Entity, Instance
 from frot.dsl.names.imports import Libraries, tell_clashes
-from frot.dsl.names.scope import Array, Build, Checks, Entity, Instance, TooLarge
 from frot.dsl.quantities.dimensions import REAL, Type
 from frot.dsl.statements.connections import Connections
 from frot.dsl.statements.equations import Leaf, Sink, statement, unfold

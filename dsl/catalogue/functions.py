@@ -21,13 +21,15 @@ from frot.dsl.quantities.dimensions import REAL, Type
 class Rule:
     """Takes numbers, or `vectors` of one size, and gives the type that `gives` makes of theirs.
 
-    `alike`: the operands have the dimension of the first one; `plain`: they have none.
+    `alike`: the operands have the dimension of the first one; `plain`: they have none. `sizes` are
+    those a vector may have, where not all are meant.
     """
 
     gives: Callable[[tuple[Type, ...]], Type]
     vectors: bool = False
     alike: bool = False
     plain: bool = False
+    sizes: tuple[int, ...] = ()
 
 
 def _root(operands: tuple[Type, ...]) -> Type:
@@ -54,7 +56,7 @@ ROOT = Rule(_root)
 ALIKE = Rule(_first, alike=True)
 RATIO = Rule(lambda operands: REAL, alike=True)
 DOT = Rule(_product, vectors=True)
-CROSS = Rule(_cross_product, vectors=True)
+CROSS = Rule(_cross_product, vectors=True, sizes=(2, 3))
 NORM = Rule(_first, vectors=True)
 
 

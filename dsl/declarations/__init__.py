@@ -1,1 +1,4 @@
-"""Declarations: values, components, bodies, liaisons, forces."""
+"""Declarations: `instantiate` makes a class a component, whose names wait for `settle`.
+
+A value is declared in `components`, bodies and places in `geometry`, the rest in `mechanism`.
+"""

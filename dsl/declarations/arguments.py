@@ -14,8 +14,9 @@ from frot.dsl.expressions.expression import agrees, expect, expression
 from frot.dsl.expressions.known import check_bounds
 from frot.dsl.expressions.names import place, resolve
 from frot.dsl.messages.source import Span
+from frot.dsl.names.entities import Array
 from frot.dsl.names.near import did_you_mean, near
-from frot.dsl.names.scope import Array, Scope
+from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import kind_of
 from frot.dsl.quantities.dimensions import BOOLEAN, STRING, Type
 from frot.dsl.text import tree

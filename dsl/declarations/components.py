@@ -19,8 +19,9 @@ from frot.dsl.expressions.expression import (
 from frot.dsl.expressions.known import computed
 from frot.dsl.expressions.rates import as_rate
 from frot.dsl.expressions.structure import sizes
+from frot.dsl.names.entities import Record
 from frot.dsl.names.modifiers import Modifier
-from frot.dsl.names.scope import Record, Scope
+from frot.dsl.names.scope import Scope
 from frot.dsl.names.types import Kind, modified
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree

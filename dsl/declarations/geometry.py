@@ -14,8 +14,9 @@ from frot.dsl.declarations.user_kinds import check_shape
 from frot.dsl.expressions.expression import agrees, expect, expression, fitting
 from frot.dsl.expressions.known import known, out_of_bounds
 from frot.dsl.expressions.names import resolve
+from frot.dsl.names.entities import Array
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Array, Scope
+from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import kind_of
 from frot.dsl.names.types import find_class
 from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
 
-from frot.dsl.checked.order import in_order
 from frot.dsl.declarations.components import Declared, declare
 from frot.dsl.declarations.geometry import body, curve, frame, surface
 from frot.dsl.declarations.mechanism import force, liaison
@@ -14,7 +13,9 @@ from frot.dsl.expressions.records import binding
 from frot.dsl.expressions.structure import sizes
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
+from frot.dsl.names.build import COMPONENT, Build
 from frot.dsl.names.classes import Class, enter
+from frot.dsl.names.entities import REFUSED, Array, Entity, Instance, Pending
 from frot.dsl.names.modifiers import (
     Modifier,
     merge,
@@ -25,19 +26,7 @@ from frot.dsl.names.modifiers import (
     tell_unknown,
 )
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import (
-    BUILT_IN,
-    COMPONENT,
-    REFUSED,
-    RESERVED,
-    Array,
-    Build,
-    Entity,
-    Instance,
-    Pending,
-    Scope,
-    settled,
-)
+from frot.dsl.names.scope import BUILT_IN, RESERVED, Scope
 from frot.dsl.names.sections import sort
 from frot.dsl.names.types import Kind, find_class, find_type, role_of, split_call, split_type
 from frot.dsl.text import tree
@@ -370,40 +359,3 @@ def _add(name: tree.Word, pending: Pending, scope: Scope) -> bool:
     instance.written[name.text] = name.span
     instance.names[name.text] = pending
     return True
-
-
-# ------------------------------------------------------------------ checking what waits
-
-
-def settle_all(build: Build) -> list[Instance]:
-    """Check every declaration of every component, each after those it needs; give them all."""
-    done: list[Instance] = []
-    while build.fresh:
-        waiting, build.fresh = build.fresh, []
-        for made in waiting:
-            _settle(made, build)
-            done.append(made)
-    return done
-
-
-def _settle(made: Instance, build: Build) -> None:
-    needs = {n: p.needs for n, p in made.names.items() if isinstance(p, Pending)}
-    order, _ = in_order(needs)
-    for name in order:
-        settled(made.names[name], name, made, build)
-
-
-def entities(made: Instance) -> list[Entity]:
-    """Everything declared in a component and its components, in the order written."""
-    found: list[Entity] = []
-    pending: list[Entity] = [made]
-    while pending:
-        entity = pending.pop()
-        if isinstance(entity, Instance):
-            inner = [e for e in entity.names.values() if not isinstance(e, Pending)]
-            pending.extend(reversed([e for e in inner if e is not REFUSED]))  # type: ignore[misc]
-        elif isinstance(entity, Array):
-            pending.extend(reversed(entity.items))
-        if entity is not made and not isinstance(entity, Array):
-            found.append(entity)
-    return found

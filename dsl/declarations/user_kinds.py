@@ -13,8 +13,9 @@ from frot.dsl.expressions.expression import expect, expression, fitting
 from frot.dsl.expressions.names import place
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class, enter
+from frot.dsl.names.entities import Entity, Instance
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Entity, Instance, Scope
+from frot.dsl.names.scope import Scope
 from frot.dsl.names.types import Kind, find_type
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree

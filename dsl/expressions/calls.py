@@ -6,15 +6,15 @@ from collections.abc import Callable, Mapping
 
 from frot.dsl import checked
 from frot.dsl.catalogue import FUNCTIONS, LATER, TYPES, Function
-from frot.dsl.catalogue.functions import CROSS
 from frot.dsl.checked.describe import describe, pair, written_unit
 from frot.dsl.expressions.array_calls import array_call
 from frot.dsl.expressions.events import event_call
 from frot.dsl.expressions.expression import NUMERIC, expression, is_whole
 from frot.dsl.expressions.functions import expand
 from frot.dsl.expressions.records import construct
+from frot.dsl.names.entities import Record
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Record, Scope
+from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import kind_of
 from frot.dsl.names.types import find_class
 from frot.dsl.quantities.dimensions import REAL, Type
@@ -145,8 +145,10 @@ def _call_type(
         if rule.vectors and operand.type.shape != first.shape:
             scope.log.report("E0304", "the vectors have different sizes", argument.span)
             return None
-    if rule is CROSS and first.shape not in ((2,), (3,)):
-        scope.log.report("E0304", "'cross' takes vectors of 2 or 3 items", node.span)
+    if rule.sizes and first.shape[0] not in rule.sizes:
+        sizes = " or ".join(map(str, rule.sizes))
+        message = f"{function.name!r} takes vectors of {sizes} items"
+        scope.log.report("E0304", message, node.span)
         return None
     given = rule.gives(tuple(o.type for o in operands))
     kept = all(is_whole(o) for o in operands) and any(o.type.base == "integer" for o in operands)

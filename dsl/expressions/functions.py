@@ -14,20 +14,11 @@ from frot.dsl.checked.walk import parts
 from frot.dsl.expressions.expression import expression, fitting, value_of
 from frot.dsl.expressions.records import as_record
 from frot.dsl.expressions.structure import sizes
+from frot.dsl.names.build import CALL, Build, settled
 from frot.dsl.names.classes import Class, enter
+from frot.dsl.names.entities import Entity, Instance, Pending, Record, Refused
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import (
-    BUILT_IN,
-    CALL,
-    Build,
-    Entity,
-    Instance,
-    Pending,
-    Record,
-    Refused,
-    Scope,
-    settled,
-)
+from frot.dsl.names.scope import BUILT_IN, Scope
 from frot.dsl.names.types import Kind, find_type, role_of, split_type
 from frot.dsl.text import tree
 from frot.dsl.text.build_expressions import HIGHEST

@@ -10,7 +10,8 @@ from frot.dsl.checked.describe import describe, pair, written_unit
 from frot.dsl.expressions.expression import NUMERIC, expression
 from frot.dsl.expressions.structure import span_of
 from frot.dsl.messages.source import Span
-from frot.dsl.names.scope import Rule, Scope
+from frot.dsl.names.build import Rule
+from frot.dsl.names.scope import Scope
 from frot.dsl.names.types import unit_of
 from frot.dsl.quantities.dimensions import BOOLEAN, INTEGER, REAL, STRING, Type
 from frot.dsl.quantities.units import Unit

@@ -10,7 +10,8 @@ from frot.dsl.checked.describe import describe, pair, written_unit
 from frot.dsl.expressions.array_calls import product
 from frot.dsl.expressions.expression import NUMERIC, agrees, expect, expression, is_whole
 from frot.dsl.expressions.rates import rates_alike
-from frot.dsl.names.scope import Rule, Scope
+from frot.dsl.names.build import Rule
+from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
 from frot.dsl.quantities.units import parse_unit
 from frot.dsl.text import tree

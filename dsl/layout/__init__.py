@@ -1,1 +1,4 @@
-"""The formatter: the usual form of a text."""
+"""The formatter: `formatting` is the door.
+
+`pieces` are words and comments, which come to stand in `blocks` and `columns` with their `spacing`.
+"""

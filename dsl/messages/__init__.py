@@ -1,1 +1,5 @@
-"""What is told to the author of a text: places, diagnostics, the registry of their codes."""
+"""What is told to the author of a text.
+
+`source` has places in a text, `diagnostics` what is told of them and the log that collects it,
+`errors` the exception, `codes` the registry, `rendering` and `diagnostic_data` the forms of output.
+"""

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from frot.dsl import checked
+from frot.dsl.names.build import settled
 from frot.dsl.names.classes import Class, Namespace, enter
+from frot.dsl.names.entities import Entity, Instance, Refused
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Entity, Instance, Refused, Scope, settled
+from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import Thing, as_thing, kind_of
 from frot.dsl.names.types import enumeration_of
 from frot.dsl.text import tree

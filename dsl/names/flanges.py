@@ -5,7 +5,8 @@ from __future__ import annotations
 from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
 from frot.dsl.names.classes import built_in
-from frot.dsl.names.scope import Instance, Scope
+from frot.dsl.names.entities import Instance
+from frot.dsl.names.scope import Scope
 from frot.dsl.text import tree
 
 # The coordinate of a liaison: its connector, and the flow variable of that with its type.

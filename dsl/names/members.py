@@ -8,14 +8,18 @@ from frot.dsl import checked
 from frot.dsl.catalogue import body_members, liaison_members, point_members
 from frot.dsl.catalogue.types import LENGTH
 from frot.dsl.checked.arrays import element
+from frot.dsl.names.build import settled
 from frot.dsl.names.classes import Class
 from frot.dsl.names.constants import of_class
+from frot.dsl.names.entities import Array, Instance, Record, Refused
 from frot.dsl.names.flanges import flange
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Array, Instance, Record, Refused, Scope, settled
+from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import Thing, as_thing, gathered, kind_of
 from frot.dsl.quantities.dimensions import REAL, Type
 from frot.dsl.text import tree
+
+_AXES = "xyz"
 
 
 def member(owner: Thing, node: tree.Member, scope: Scope, want: str) -> Thing | None:
@@ -161,9 +165,6 @@ def _component(owner: checked.Expression, node: tree.Member, scope: Scope) -> Th
     return None
 
 
-_AXES = "xyz"
-
-
 def coordinates(liaison: checked.Liaison, planar: bool) -> Mapping[str, Type]:
     """The variables by name; `u` on a curve with a parameter is that parameter."""
     members = dict(liaison_members(liaison.kind, planar))
@@ -176,11 +177,6 @@ def coordinates(liaison: checked.Liaison, planar: bool) -> Mapping[str, Type]:
 def parameter_type(curve: checked.Curve) -> Type:
     """The type of the parameter of a curve: an abscissa on a line, an angle on a circle."""
     if curve.kind == "line":
-        return liaison_length()
+        return LENGTH
     start = curve.arguments.get("from")
     return REAL if start is None else start.type
-
-
-def liaison_length() -> Type:
-    """The type of an abscissa."""
-    return LENGTH

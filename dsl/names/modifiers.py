@@ -9,8 +9,9 @@ from frot.dsl import checked
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class
+from frot.dsl.names.entities import Instance, Record
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Instance, Record, Scope
+from frot.dsl.names.scope import Scope
 from frot.dsl.text import tree
 
 

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class
-from frot.dsl.names.scope import Scope, Statements
+from frot.dsl.names.entities import Statements
+from frot.dsl.names.scope import Scope
 from frot.dsl.text import tree
 
 # Calls that are statements of the section `equation`.

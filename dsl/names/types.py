@@ -8,15 +8,17 @@ from frot.dsl.catalogue import TYPES
 from frot.dsl.checked.describe import describe
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class, enter
+from frot.dsl.names.entities import Instance
 from frot.dsl.names.modifiers import Modifier, merge, read_modifiers
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Instance, Scope
+from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import Enumeration, Type
 from frot.dsl.quantities.turns import factor_between, rate_of_kind, rate_of_unit
 from frot.dsl.quantities.units import Unit, UnknownUnit, parse_unit
 from frot.dsl.text import tree
 
 _LONGEST = 50
+ROLES = ("parameter", "constant", "input", "output")
 ATTRIBUTES = ("nominal", "start", "unit")
 
 
@@ -226,9 +228,6 @@ def unit_of(text: str, span: Span, scope: Scope) -> Unit | None:
             help_text = "to divide by a variable leave spaces: 'a / b'"
         scope.log.report("E0302", str(error), span, help=help_text)
         return None
-
-
-ROLES = ("parameter", "constant", "input", "output")
 
 
 def role_of(clause: tree.Component) -> str:

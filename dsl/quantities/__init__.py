@@ -1,1 +1,1 @@
-"""Dimensions, the types of expressions, and units."""
+"""Dimensions and the types of expressions, units, and rates that only their words tell apart."""

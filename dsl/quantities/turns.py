@@ -8,23 +8,10 @@ import re
 from frot.dsl.quantities.dimensions import Dimension, dimension
 
 CYCLES, TURNING = "a frequency (Hz)", "an angular velocity (rad/s)"
-
-
-CYCLES, TURNING = "a frequency (Hz)", "an angular velocity (rad/s)"
-
-
 TURN = 2 * math.pi
-
-
 RATE = dimension(s=-1)
-
-
 _KINDS = {"Frequency": CYCLES, "AngularVelocity": TURNING}
-
-
 _HERTZ = re.compile(r"(?:T|G|M|k|h|da|d|c|m|u|µ|μ|n|p)?Hz")
-
-
 _ANGLES = re.compile(r"\b(?:rpm|m?rad|deg|tour|tr|rev)\b|°")
 
 

@@ -1,1 +1,5 @@
-"""Statements: equations, `when`, connections, `world`, `experiment`, `initial`."""
+"""Statements: equations, events, connections, and what is said of a run.
+
+`equations` and `when`; `connect`, `connections` and `open_flows`; `settings` are `world`,
+`experiment` and `initial`.
+"""

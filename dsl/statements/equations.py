@@ -15,7 +15,8 @@ from frot.dsl.expressions.records import pairs
 from frot.dsl.expressions.structure import settle, span_of
 from frot.dsl.messages.diagnostics import LIMIT, Label
 from frot.dsl.messages.source import Span
-from frot.dsl.names.scope import Record, Scope
+from frot.dsl.names.entities import Record
+from frot.dsl.names.scope import Scope
 from frot.dsl.names.sections import called_name
 from frot.dsl.quantities.dimensions import BOOLEAN, INTEGER, Type, dimension
 from frot.dsl.statements.connect import connect

@@ -1,1 +1,4 @@
-"""Bytes to tree: words, grammar, and the tree with the place of every part."""
+"""Bytes to tree: `parsing` is the door, `tree` what comes out, `walk` the way through expressions.
+
+`lex` and `grammar` give words and tables, `build` and `build_expressions` the nodes.
+"""

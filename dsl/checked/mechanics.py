@@ -1,0 +1,169 @@
+"""Bodies, what is fixed to them, liaisons with their laws, and forces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from frot.dsl.catalogue import ForceKind, LawKind, LiaisonKind, Shape
+    from frot.dsl.checked.declared import Variable
+    from frot.dsl.checked.expressions import Expression
+    from frot.dsl.messages.source import Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class World:
+    """Gravity: its magnitude and its direction, one of `+x -x +y -y +z -z`."""
+
+    gravity: Expression | None
+    down: str
+    span: Span | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """A body: `arguments` holds every argument of its shape, defaults filled where there is one.
+
+    `ground` is the one `Body` whose `shape` is None.
+    """
+
+    name: str
+    shape: Shape | None
+    arguments: Mapping[str, Expression]
+    span: Span | None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Frame:
+    """A frame fixed to a body: origin in the owner's axes and a rotation (planar: an angle)."""
+
+    name: str
+    owner: Body | Frame
+    origin: Expression | None
+    angle: Expression | None
+    span: Span
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Curve:
+    """A curve on a body or frame; `kind` is `line` (`through`, `direction`) and, later, others.
+
+    `ground.line` is a `Curve` too, with `span` None.
+    """
+
+    name: str
+    owner: Body | Frame
+    kind: str
+    arguments: Mapping[str, Expression]
+    span: Span | None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Surface:
+    """A surface on a body or frame; `ground.plane` has `span` None."""
+
+    name: str
+    owner: Body | Frame
+    kind: str
+    arguments: Mapping[str, Expression]
+    span: Span | None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyPoint:
+    """A named frame of a body's shape: `rod.start`; a bare body name means its `G`."""
+
+    body: Body
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyGeometry:
+    """A named geometry of a body's shape: `hoop.rim`."""
+
+    body: Body
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CurvePlace:
+    """A curve, as an argument: `ground.line`, `tube`."""
+
+    curve: Curve
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SurfacePlace:
+    """A surface, as an argument: `ground.plane`, `ramp`."""
+
+    surface: Surface
+    span: Span
+
+    @property
+    def name(self) -> str:
+        """The name of the surface."""
+        return self.surface.name
+
+
+Place = BodyPoint | BodyGeometry | CurvePlace | Frame
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Law:
+    """A law of a liaison with its arguments, defaults filled (`mu_s` is `mu` unless given)."""
+
+    kind: LawKind
+    arguments: Mapping[str, Expression]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Liaison:
+    """A liaison between the places `a` and `b`; its reaction is that of `a` on `b`."""
+
+    name: str
+    kind: LiaisonKind
+    a: Place
+    b: Place
+    options: Mapping[str, Expression]
+    laws: tuple[Law, ...]
+    span: Span
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Force:
+    """An applied force; `arguments` are expressions or places by the names of its kind.
+
+    A point argument given as a tuple, `(0, 0) m`, is an expression in ground axes. The `holder` of
+    a couple is a liaison, or the `G` of a body.
+    """
+
+    name: str
+    kind: ForceKind
+    arguments: Mapping[str, Expression | Place | Liaison]
+    span: Span
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Flange:
+    """The flange of a liaison of one coordinate, where something is connected to it.
+
+    `effort` is its flow variable, the force or couple that flows into the liaison: it drives the
+    coordinate `Quantity(liaison, coordinate)` upwards.
+    """
+
+    liaison: Liaison
+    coordinate: str
+    effort: Variable
