@@ -19,7 +19,7 @@ from frot.dsl.names.entities import Array, Entity, Instance
 from frot.dsl.names.imports import Libraries, tell_clashes
 from frot.dsl.quantities.dimensions import REAL, Type
 from frot.dsl.statements.connections import Connections
-from frot.dsl.statements.equations import Leaf, Sink, statement, unfold
+from frot.dsl.statements.equations import Sink, statement
 from frot.dsl.statements.open_flows import open_flows
 from frot.dsl.statements.settings import (
     default_experiment,
@@ -29,6 +29,7 @@ from frot.dsl.statements.settings import (
     same_world,
     world,
 )
+from frot.dsl.statements.unfold import Leaf, unfold
 from frot.dsl.statements.when import mark_discrete, when
 from frot.dsl.text import tree
 from frot.dsl.text.build import without_collection

@@ -2,42 +2,35 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from frot.dsl import checked
-from frot.dsl.checked.arrays import element, zero
-from frot.dsl.checked.describe import describe, pair, written_unit
+from frot.dsl.checked.arrays import zero
+from frot.dsl.checked.describe import pair, written_unit
 from frot.dsl.checked.evaluation import constant
+from frot.dsl.declarations.given import (
+    Declared,
+    author_unit,
+    bound_value,
+    given_value,
+    stretched,
+    stretches,
+    written_value,
+)
 from frot.dsl.expressions.expression import (
     agrees,
     as_integer,
     expression,
-    fitting,
     is_whole,
-    value_of,
 )
 from frot.dsl.expressions.known import computed
 from frot.dsl.expressions.rates import as_rate
 from frot.dsl.expressions.structure import sizes
-from frot.dsl.names.entities import Record
 from frot.dsl.names.modifiers import Modifier
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.types import Kind, modified
-from frot.dsl.quantities.dimensions import Type
-from frot.dsl.text import tree
 
 Value = checked.Parameter | checked.Input | checked.Output | checked.Variable
-
-
-@dataclass(frozen=True, slots=True)
-class Declared:
-    """One name with its type, its role and what is said of it from outside."""
-
-    item: tree.Declared
-    kind: Kind
-    role: str
-    modifier: Modifier | None
-    type_sizes: tuple[tree.Expression, ...] = ()
 
 
 def declare(what: Declared, scope: Scope) -> Value | None:
@@ -62,105 +55,9 @@ def declare(what: Declared, scope: Scope) -> Value | None:
     return _variable(what, kind, is_top and what.role == "output", scope)
 
 
-def given_value(
-    modifier: Modifier | None, kind: Kind, scope: Scope
-) -> tuple[checked.Expression | None, tree.Expression | None]:
-    """The value a modifier gives, for this item of an array, and its text; None after a message."""
-    if modifier is None:
-        return None, None
-    if modifier.known is not None:
-        return (modifier.known if not isinstance(modifier.known, Record) else None), None
-    node, there = modifier.value, modifier.scope
-    assert node is not None
-    if "value" not in modifier.memo:
-        modifier.memo["value"] = _raw(node, kind, there)
-    found = modifier.memo["value"]
-    if found is None:
-        return None, node
-    assert not isinstance(found, Record)
-    outer = tuple(size for _, size in modifier.picks)
-    whole = found.type.shape
-    for depth in range(len(outer), 0, -1):
-        if whole == (*outer[-depth:], *kind.type.shape):
-            for index, _ in modifier.picks[-depth:]:
-                found = element(found, index, found.span)
-            break
-    return fitting(found, node, kind.type, there, unit=kind.unit, rate=kind.rate), node
-
-
-def _raw(node: tree.Expression, kind: Kind, scope: Scope) -> checked.Expression | None:
-    """The expression; a bare number where the type has a unit is taken in that unit."""
-    found = value_of(node, scope)
-    if isinstance(found, Record):
-        message = f"expected {describe(kind.type)}, found a record {found.of.name!r}"
-        scope.log.report("E0205", message, node.span)
-        return None
-    if found is not None and kind.factor is not None:
-        return _in_unit(found, kind)
-    return found
-
-
-def _in_unit(found: checked.Expression, kind: Kind) -> checked.Expression:
-    match found:
-        case checked.Literal(value=float() as value, unit="") if found.type.dimension.is_one:
-            assert kind.factor is not None
-            one = Type("real", kind.type.dimension)
-            # The factor of a rate is already that of its kind.
-            unit = "" if kind.rate else kind.unit
-            return checked.Literal(value * kind.factor, one, found.span, unit)
-        case checked.Unary(op="-", operand=checked.Literal() as inner):
-            made = _in_unit(inner, kind)
-            return checked.Unary("-", made, made.type, found.span)
-        case checked.Vector(items=items) if found.type.dimension.is_one:
-            whole = [_in_unit(item, kind) for item in items]
-            if all(item.type.dimension == kind.type.dimension for item in whole):
-                one = Type("real", kind.type.dimension, found.type.shape)
-                return checked.Vector(tuple(whole), one, found.span)
-    return found
-
-
-def _bound(what: Declared, kind: Kind, scope: Scope) -> tuple[checked.Expression | None, str, bool]:
-    """The value of a declaration, the unit it is written in, and whether there is one at all."""
-    modifier = what.modifier
-    if modifier is not None and modifier.has_value:
-        value, node = given_value(modifier, kind, scope)
-        return value, _unit(node, value), True
-    if what.item.value is None:
-        return None, "", False
-    found = _raw(what.item.value, kind, scope)
-    if found is not None and _stretches(found, kind):
-        found = _stretched(found, kind)
-    if found is not None:
-        found = fitting(found, what.item.value, kind.type, scope, unit=kind.unit, rate=kind.rate)
-    return found, _unit(what.item.value, found), True
-
-
-def _stretches(found: checked.Expression, kind: Kind) -> bool:
-    """Whether one number stands for all items of an array that is declared."""
-    return bool(kind.type.shape) and agrees(found.type, kind.type.of_shape(()))
-
-
-def _stretched(found: checked.Expression, kind: Kind) -> checked.Expression:
-    for size in reversed(kind.type.shape):
-        inner = found.type
-        found = checked.Vector((found,) * size, inner.of_shape((size, *inner.shape)), found.span)
-    return found
-
-
-def _unit(node: tree.Expression | None, value: checked.Expression | None) -> str:
-    while isinstance(node, tree.Prefix):
-        node = node.operand
-    if isinstance(node, tree.Number | tree.Tuple) and node.unit:
-        return node.unit
-    return written_unit(value) if isinstance(value, checked.Literal) else ""
-
-
-# ------------------------------------------------------------------ the four roles
-
-
 def _parameter(what: Declared, kind: Kind, scope: Scope) -> checked.Parameter | None:
     item, is_constant = what.item, what.role == "constant"
-    value, unit, given = _bound(what, kind, scope)
+    value, unit, given = bound_value(what, kind, scope)
     if not given:
         owner = scope.instance.name
         scope.log.report(
@@ -213,7 +110,7 @@ def _attribute(
         message = f"{what} must depend on parameters only"
         scope.log.report("E0305", message, moving.span, caret="this varies")
         return None, "", False
-    return value, _unit(node, value), True
+    return value, author_unit(node, value), True
 
 
 def _spread(given: Modifier, kind: Kind) -> None:
@@ -221,8 +118,8 @@ def _spread(given: Modifier, kind: Kind) -> None:
     if given.value is None or not kind.type.shape or "spread" in given.memo:
         return
     found = given.memo["spread"] = expression(given.value, given.scope)
-    if found is not None and _stretches(found, kind):
-        given.memo["value"] = _stretched(found, kind)
+    if found is not None and stretches(found, kind):
+        given.memo["value"] = stretched(found, kind)
 
 
 def _input(what: Declared, kind: Kind, scope: Scope) -> checked.Input | None:
@@ -248,7 +145,7 @@ def _input(what: Declared, kind: Kind, scope: Scope) -> checked.Input | None:
 def _output(what: Declared, kind: Kind, scope: Scope) -> checked.Output | None:
     item = what.item
     assert item.value is not None
-    value = _raw(item.value, kind, scope)
+    value = written_value(item.value, kind, scope)
     if value is None:
         return None
     # An output of one number may be given a vector: its shape is that of its value.
@@ -265,7 +162,7 @@ def _output(what: Declared, kind: Kind, scope: Scope) -> checked.Output | None:
             caret=shown,
         )
         return None
-    unit = _unit(item.value, value) or kind.unit
+    unit = author_unit(item.value, value) or kind.unit
     of_rate = as_rate(value, kind.rate, scope)
     if of_rate is None:
         return None
@@ -307,7 +204,7 @@ def _variable(what: Declared, kind: Kind, is_output: bool, scope: Scope) -> chec
     span = node.span if node is not None else modifier.span if modifier is not None else item.span
 
     def bind() -> None:
-        value, _, _ = _bound(what, kind, scope)
+        value, _, _ = bound_value(what, kind, scope)
         if value is not None:
             left = checked.Reference(found, found.type, item.name.span)
             scope.build.equations.append(checked.Equation(left, value, span, scope.instance.name))

@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
 
-from frot.dsl.declarations.components import Declared, declare
+from frot.dsl.declarations.components import declare
 from frot.dsl.declarations.geometry import body, curve, frame, surface
+from frot.dsl.declarations.given import Declared
 from frot.dsl.declarations.mechanism import force, liaison
 from frot.dsl.expressions.records import binding
 from frot.dsl.expressions.structure import sizes

@@ -9,7 +9,8 @@ from frot.dsl.catalogue import Argument
 from frot.dsl.catalogue.types import ACCELERATION, TIME
 from frot.dsl.checked.describe import describe, quantity
 from frot.dsl.checked.evaluation import constant
-from frot.dsl.declarations.arguments import bind, word
+from frot.dsl.declarations.argument_values import word
+from frot.dsl.declarations.arguments import bind
 from frot.dsl.expressions.known import known
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span

@@ -13,7 +13,8 @@ from frot.dsl.names.scope import Scope
 from frot.dsl.names.sections import called_name
 from frot.dsl.quantities.dimensions import BOOLEAN
 from frot.dsl.quantities.turns import rate_of_kind
-from frot.dsl.statements.equations import assertion, unfold
+from frot.dsl.statements.equations import assertion
+from frot.dsl.statements.unfold import unfold
 from frot.dsl.text import tree
 
 Action = checked.Assign | checked.Reinit | checked.Terminate | checked.Assertion
