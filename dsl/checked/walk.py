@@ -53,6 +53,21 @@ def nodes(
         pending.extend(reversed(inside(node)))
 
 
+def height(root: checked.Expression, known: dict[int, tuple[checked.Expression, int]]) -> int:
+    """The number of levels of an expression; `known` keeps those of what was met."""
+    pending = [root]
+    while pending:
+        node = pending[-1]
+        inner = parts(node)
+        missing = [p for p in inner if id(p) not in known]
+        if missing:
+            pending += missing
+            continue
+        pending.pop()
+        known[id(node)] = (node, 1 + max((known[id(p)][1] for p in inner), default=0))
+    return known[id(root)][1]
+
+
 class Walk(Generic[R]):
     """What expressions come to, by a rule for each kind of them.
 

@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 
 from frot.dsl import checked
 from frot.dsl.checked.order import in_order
-from frot.dsl.checked.walk import parts
+from frot.dsl.checked.walk import height
 from frot.dsl.expressions.expression import expression, fitting, value_of
 from frot.dsl.expressions.records import as_record
 from frot.dsl.expressions.structure import sizes
-from frot.dsl.names.build import CALL, Build, settled
+from frot.dsl.names.build import CALL, settled
 from frot.dsl.names.classes import Class, enter
 from frot.dsl.names.entities import Entity, Instance, Pending, Record, Refused
 from frot.dsl.names.near import did_you_mean
@@ -237,7 +237,7 @@ def _local(
 def _low_enough(found: checked.Expression | Record, node: tree.Call, scope: Scope) -> bool:
     """Whether no expression became too high for the passes that walk it by recursion."""
     roots = [found] if not isinstance(found, Record) else list(_leaves(found))
-    if all(height(root, scope.build) <= HIGHEST for root in roots):
+    if all(height(root, scope.build.heights) <= HIGHEST for root in roots):
         return True
     message = f"the functions called here give an expression of more than {HIGHEST} levels"
     scope.log.report("E0108", message, node.span, help="give names to parts of it as variables")
@@ -249,19 +249,3 @@ def _leaves(record: Record) -> list[checked.Expression]:
     for value in record.members.values():
         found += _leaves(value) if isinstance(value, Record) else [value]
     return found
-
-
-def height(root: checked.Expression, build: Build) -> int:
-    """The number of levels of an expression; what is shared is measured once."""
-    known = build.heights
-    pending = [root]
-    while pending:
-        node = pending[-1]
-        inner = parts(node)
-        missing = [p for p in inner if id(p) not in known]
-        if missing:
-            pending += missing
-            continue
-        pending.pop()
-        known[id(node)] = (node, 1 + max((known[id(p)][1] for p in inner), default=0))
-    return known[id(root)][1]

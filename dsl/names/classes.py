@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING
 
+from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text import tree
+from frot.dsl.text.parsing import parse
 
 if TYPE_CHECKING:
     from frot.dsl.names.imports import Libraries
@@ -199,9 +201,6 @@ def library(name: str, space: Namespace) -> Class:
 
 @cache
 def _built_in_space() -> Namespace:
-    from frot.dsl.messages.diagnostics import Log
-    from frot.dsl.text.parsing import parse
-
     source = Source("<frot>", _BUILT_IN)
     return namespace(parse(source, Log()).elements, source)
 

@@ -16,6 +16,7 @@ from frot.dsl.messages.source import Source
 from frot.dsl.names.classes import Class, Imported, Namespace, library, namespace
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.text import tree
+from frot.dsl.text.parsing import parse
 
 # Files that import one another in a chain.
 LONGEST = 50
@@ -137,8 +138,6 @@ class Libraries:
         return self.known[path]
 
     def _read(self, name: str, path: Path) -> Class | None:
-        from frot.dsl.text.parsing import parse
-
         if path.is_dir():
             source = Source(str(path / f"{name}{SUFFIX}"), "")
             return library(name, Folder(source, path=path, libraries=self))
