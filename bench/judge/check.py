@@ -306,7 +306,8 @@ class Judge:
         """Coulomb: rest within the bound, exactly the bound in motion, against the slip."""
         name, r = joint.liaison.name, joint.rows[word]
         force = loads.reactions[name][word]
-        small = (SLACK * self.tol + 1e-9) * max(joint.mu_s, joint.mu) * load
+        largest = max(joint.mu_s, joint.mu)
+        small = (SLACK * self.tol + 1e-9) * largest * load + 1e-11 * max(largest, 1e-3) * load
         slip = row.get(f"{name}.slip", r.rate)
         if mode == STICK:
             self.found.hold("held slip", slip, 0.0, t, name)

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from judge.mechanics import Floats, Joint, Mechanics
 from judge.scene import Contact, Pin
@@ -198,16 +199,36 @@ def acting(joint: Joint) -> list[str]:
 def accelerations(now: Mechanics) -> Floats:
     """Sizes of the accelerations that the loads and the motion can bring about."""
     quick = now.load_size / now.mass
-    spread = np.max(quick.reshape(-1, 3)[:, :2], initial=0.0)
-    lengths = [j.size for j in now.joints.values()]
-    reach = max(lengths, default=1.0)
-    spread = max(spread, float(np.max(quick[2::3], initial=0.0)) * reach * 1e-3)
-    for joint in now.joints.values():
-        spread = max(spread, *(r.bias_size for w, r in joint.rows.items() if w not in "cr"))
-    quick = quick.copy()
-    quick[0::3] = np.maximum(quick[0::3], spread)
-    quick[1::3] = np.maximum(quick[1::3], spread)
+    for places, joints in parts(now):
+        here = quick[places]
+        spread = np.max(here[:, :2], initial=0.0)
+        reach = max((j.size for j in joints), default=1.0)
+        spread = max(spread, float(np.max(here[:, 2], initial=0.0)) * reach * 1e-3)
+        for joint in joints:
+            spread = max(spread, *(r.bias_size for w, r in joint.rows.items() if w not in "cr"))
+        quick[places[:, :2]] = np.maximum(here[:, :2], spread)
     return quick
+
+
+def parts(now: Mechanics) -> list[tuple[NDArray[np.intp], list[Joint]]]:
+    """Bodies that liaisons join, each by its three places, with these liaisons.
+
+    What no liaison joins cannot act on each other: one part has no size for the other.
+    """
+    of = np.arange(now.n // 3)
+    moved = {}
+    for name, joint in now.joints.items():
+        reaches = np.sum([r.reach for r in joint.rows.values()], axis=0).reshape(-1, 3)
+        moved[name] = np.flatnonzero(np.any(reaches > 0, axis=1))
+        if len(moved[name]):
+            of[np.isin(of, of[moved[name]])] = of[moved[name][0]]
+    return [
+        (
+            3 * np.flatnonzero(of == k)[:, None] + np.arange(3),
+            [j for n, j in now.joints.items() if len(moved[n]) and of[moved[n][0]] == k],
+        )
+        for k in np.unique(of)
+    ]
 
 
 def force_size(now: Mechanics, joint: Joint) -> float:
@@ -239,7 +260,12 @@ def motion(
     gap = float(s[rank - 1] / s[0])
 
     def solve(r: Floats) -> Floats:
-        return vt[:rank].T @ ((u.T @ r)[:rank] / s[:rank])
+        # the singular vectors mix parts that do not act on each other: what a large one leaves of
+        # its rounding in a small one goes by refinement
+        z = np.zeros(len(r))
+        for _ in range(3):
+            z = z + vt[:rank].T @ ((u.T @ (r - matrix @ z))[:rank] / s[:rank])
+        return z
 
     z = solve(right)
     if system.bends:
@@ -247,12 +273,18 @@ def motion(
         if z is None:
             return None
         right = matrix @ z if rank == len(s) else right
-    wrong = np.abs(matrix @ z - right)
-    size = np.abs(matrix) @ np.abs(z) + np.abs(right) + system.sizes / rows
-    if np.any(wrong > 1e-7 * (size + 1e-300)) and rank < len(s):
+
+    def holds(z: Floats) -> bool:
+        size = np.abs(matrix) @ np.abs(z) + np.abs(right) + system.sizes / rows
+        return bool(np.all(np.abs(matrix @ z - right) <= 1e-7 * (size + 1e-300)))
+
+    if rank < len(s) and not holds(z):
         return None
     free = vt[rank:].T
-    margin, z = _margin(system, z / columns, free / columns[:, None], modes)
+    margin, best = _margin(system, z / columns, free / columns[:, None], modes)
+    if rank < len(s) and not holds(best * columns):  # what seemed free is only nearly so
+        margin, best = _margin(system, z / columns, free[:, :0], modes)
+    z = best
     n = now.n
     return Motion(dict(modes), z[:n], z[n:], margin, gap, float(np.max(np.abs(z[n:]), initial=0.0)))
 

@@ -146,10 +146,16 @@ def later(
     return -1.0 if again is None else again.margin
 
 
+# Part of its size within which a slip is none where a run stopped. Whatever the tolerance of the
+# run, what it holds is zero there, and so is what an event was located at: a slip beyond that is
+# one, and whether a motion follows is asked of the place as it is.
+NEAR = 1e-6
+
+
 def judge_stop(judge: Judge, code: str, text: str, t: float) -> Verdict:
     """Is there truly no admissible motion where a run stopped?"""
     now = judge.mechanics(t)
-    loose = max(1e3 * judge.tol, 1e-9)
+    loose = min(max(10 * judge.tol, 1e-9), NEAR)
     if code == "E0905":
         for name, joint in now.joints.items():
             if (

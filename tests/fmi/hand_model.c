@@ -176,6 +176,7 @@ const frot_model frot_the_model = {
     .speed_group = none,
     .speed_local = none,
     .speed_coordinate = none,
+    .speed_turns = none,
     .checks = checks,
     .statements = statements,
     .position_statement = position_statement,

@@ -308,6 +308,7 @@ def source(m: Small, folder: Path) -> str:
         ("int", "speed_coordinate"): [
             m.speeds.index(k) if k in m.speeds else -1 for k in range(m.nv)
         ],
+        ("int", "speed_turns"): [0] * m.nv,
         ("frot_statement", "statements"): [
             f'{{"statement {i + 1}", "small:{i + 1}:1", "1"}}' for i in range(_statements(m))
         ],
