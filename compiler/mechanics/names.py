@@ -13,6 +13,15 @@ def component_names(name: str, shape: tuple[int, ...]) -> list[str]:
     return [f"{name}[{n}]" if n else name for n in names]
 
 
+def turning_coordinates(coordinates: tuple[Coordinates, ...]) -> list[bool]:
+    """Of each scalar coordinate, whether it is an angle."""
+    return [
+        turns(c.body) and k == len(coordinate_names(c)) - 1
+        for c in coordinates
+        for k in range(len(coordinate_names(c)))
+    ]
+
+
 def coordinate_names(coordinates: Coordinates) -> tuple[str, ...]:
     """Names of the coordinates, for messages and the DAE."""
     body = coordinates.body

@@ -15,6 +15,7 @@ from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.elements import Bound, Element
 from frot.compiler.mechanics.mechanism import Pin
+from frot.compiler.mechanics.names import turning_coordinates
 from frot.dsl.messages.source import Span
 
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
@@ -39,7 +40,7 @@ _MECHANICAL = (
         "row_local",
         "contact_group",
     ),
-    *("speed_group", "speed_local", "speed_coordinate"),
+    *("speed_group", "speed_local", "speed_coordinate", "speed_turns"),
 )
 
 # The tables of frot_pattern, in its order.
@@ -274,6 +275,12 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
         for e in grouping.elements
         if e.bound is Bound.NORMAL and not e.rolling
     }
+    own = zip(
+        _symbols(reduced.symbols.v),
+        turning_coordinates(reduced.mechanism.coordinates),
+        strict=True,
+    )
+    turning = {speed for speed, turns in own if turns}
     tables = {
         "row_reads": grouping.row_reads,
         "row_beside": [beside.get(r, -1) for r in range(len(grouping.row_reads))],
@@ -289,10 +296,15 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
         "speed_coordinate": [
             system.q_speed.index(k) if k in system.q_speed else -1 for k in range(system.nv)
         ],
+        "speed_turns": [int(x in turning) for x in _symbols(system.v)],
     }
     arrays.append(_array("frot_group", "groups", records))
     arrays += [_array("int", name, [str(i) for i in table]) for name, table in tables.items()]
     return arrays
+
+
+def _symbols(values: ca.SX) -> list[int]:
+    return [x.element_hash() for x in ca.vertsplit(values)] if values.numel() else []
 
 
 def _shown(element: Element, name: str, places: dict[str, int]) -> tuple[int, int]:

@@ -50,9 +50,11 @@ static double pressure(const frot_instant *in, int i) {
   int row = in->m->contacts[i].row_n;
   double lam = in->w->search.trial[i].side * in->w->core.lam[row];
   double rounding = reaction_rounding(in, row);
-  /* a guard that fired is zero as well as time resolves it */
-  if (in->fired[i] != 0) rounding += FROT_ZERO * in->s->data[in->l.scale_g + i];
-  double size = fabs(lam) + frot_reaction_size(in->m, in->w, row) + rounding / FROT_BOUND_SLACK;
+  double terms = fabs(lam) + frot_reaction_size(in->m, in->w, row);
+  /* a guard that fired is zero as well as time resolves it, in terms as they are now */
+  if (in->fired[i] != 0)
+    rounding += fmin(FROT_ZERO * in->s->data[in->l.scale_g + i], FROT_RESOLVED * terms);
+  double size = terms + rounding / FROT_BOUND_SLACK;
   return size > 0 ? lam / size : 0;
 }
 

@@ -42,6 +42,56 @@ static void want_rows(const frot_model *m, frot_work *w, const frot_contact_mode
   }
 }
 
+/* Sizes of the terms of c, of which those of the lengths of a contact may cancel: with the sum W of
+ * the group's angular velocities and V of its other speeds, reach W^2 + V W. */
+static void size_biases(const frot_model *m, const frot_state *s, frot_work *w, const double *v) {
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    double turning = 0, moving = 0;
+    for (int i = 0; i < g->n_speeds; i++) {
+      int speed = g->unknowns[i];
+      *(m->speed_turns[speed] ? &turning : &moving) += fabs(v[speed]);
+    }
+    for (int i = 0; i < g->n_rows; i++) w->core.bias_size[g->rows[i]] = fabs(w->core.c[g->rows[i]]);
+    for (int i = 0; i < g->n_elements; i++) {
+      const frot_element *e = &m->elements[g->elements[i]];
+      double reach = s->data[w->layout.reach + e->contact];
+      if (reach > 0 && !e->rolling)
+        w->core.bias_size[e->row] += (reach * turning + moving) * turning;
+    }
+    for (int i = 0; i < g->n_contacts; i++) {
+      int row = m->contacts[g->contacts[i]].row_n;
+      double reach = s->data[w->layout.reach + g->contacts[i]];
+      if (row >= 0 && reach > 0) w->core.bias_size[row] += (reach * turning + moving) * turning;
+    }
+  }
+}
+
+/* A row that is nothing but rounding of lengths that cancel, as that of a point which other
+ * liaisons keep on its line, is zero, and so is the speed it gives. */
+static void drop_rounding(const frot_model *m, frot_work *w, int row, double reach,
+                          const double *v) {
+  const frot_group *g = frot_group_of(m, row);
+  double *entries = frot_entries(m, w->core.rows, row), speed = 0;
+  for (int k = 0; k < g->n_speeds; k++) {
+    double length = m->speed_turns[g->unknowns[k]] ? reach : 1;
+    if (!(fabs(entries[k]) <= FROT_CANCELS * length)) return;
+    speed += length * fabs(v[g->unknowns[k]]);
+  }
+  memset(entries, 0, sizeof(double) * (size_t)g->n_speeds);
+  if (fabs(w->core.rate[row]) <= FROT_CANCELS * speed) w->core.rate[row] = 0;
+}
+
+static void clean_rows(const frot_model *m, const frot_state *s, frot_work *w, const double *v) {
+  const double *reach = s->data + w->layout.reach;
+  for (int i = 0; i < m->n_contacts; i++) {
+    int row = m->contacts[i].row_n, sliding = m->contacts[i].sliding;
+    if (!(reach[i] > 0)) continue;
+    if (row >= 0 && !m->contacts[i].reduced) drop_rounding(m, w, row, reach[i], v);
+    if (sliding >= 0) drop_rounding(m, w, m->elements[sliding].row, reach[i], v);
+  }
+}
+
 /* A is a mass matrix. */
 static int symmetric_group(const frot_model *m, frot_work *w, const frot_group *g) {
   int n = g->n, ns = g->n_speeds;
@@ -164,6 +214,8 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
       return FROT_NAN;
   }
   want_rows(m, w, modes, wanted);
+  clean_rows(m, s, w, v);
+  size_biases(m, s, w, v);
   for (int k = 0; k < m->n_groups && status == FROT_OK; k++) {
     const frot_group *g = &m->groups[k];
     status = g->general ? general_group(m, w, g) : symmetric_group(m, w, g);
@@ -179,7 +231,16 @@ int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, 
   double *res[] = {w->core.gap, w->core.rows, w->core.rate, w->core.condition};
   memcpy(w->call.res, res, sizeof res);
   frot_call(w, &m->kinematics);
+  clean_rows(m, s, w, v);
   return FROT_OK;
+}
+
+void frot_note_reaches(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                       const double *v, const double *d) {
+  if (m->n_contacts == 0) return;
+  frot_inputs(m, s, w, &t, q, v, d);
+  w->call.res[0] = w->opening.witness, w->call.res[1] = s->data + w->layout.reach;
+  frot_call(w, &m->sides);
 }
 
 int frot_metric(const frot_model *m, frot_work *w) {

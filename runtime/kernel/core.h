@@ -31,6 +31,11 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
 int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d);
 
+/* Note the lengths that the gaps are made of, which rounding of rows is measured by; after
+ * frot_kinematics there. They are held from event to event: as sizes they stay. */
+void frot_note_reaches(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                       const double *v, const double *d);
+
 /* Cholesky factors of the metrics of speeds into w->core.factor, after frot_dynamics; they are
  * there already where a group is a mass matrix. FROT_OK or FROT_SINGULAR. */
 int frot_metric(const frot_model *m, frot_work *w);

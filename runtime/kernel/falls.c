@@ -5,10 +5,13 @@
 #include <string.h>
 
 #include "core.h"
+#include "error.h"
 #include "groups.h"
 #include "roots.h"
 #include "stages.h"
 #include "tolerances.h"
+
+#define SAMPLES 8 /* places at which a guard that seems to dip may have risen again */
 
 void frot_guard_polynomial(const frot_state *s, const frot_work *w, int guard, double h,
                            double g[7]) {
@@ -65,13 +68,25 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
     for (int i = 0;
          j < conditions && i < 6 && g[i] < 0 && g[i] >= -FROT_ZERO * size && g[i + 1] > g[i]; i++)
       g[i] = 0;
-    double at = frot_first_fall(g, FROT_GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * slope);
+    double floor = FROT_GUARD_FLOOR * size + FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
+    double at = frot_first_fall(g, floor + 8 * DBL_EPSILON * fabs(t) * slope);
     if (j >= conditions && fabs(first) <= FROT_ZERO * size &&
         lost_at_once(s, w, j - conditions, g, inside, at < FROT_NO_ROOT))
       at = 0;
     if (at < *theta) *theta = at, found = k;
   }
   return found;
+}
+
+int frot_seems_to_dip(const frot_model *m, const frot_state *s, const frot_work *w, int k,
+                      double theta, double h) {
+  double g[7];
+  if (k < 0 || theta > FROT_EARLY || w->guards.list[k] >= frot_condition_guard(m)) return 0;
+  frot_guard_polynomial(s, w, k, h, g);
+  if (fabs(g[0]) > FROT_ZERO * s->data[w->layout.scale_g + w->guards.list[k]]) return 0;
+  for (int i = 1; i <= SAMPLES; i++)
+    if (frot_bernstein(g, theta + (1 - theta) * i / SAMPLES) > 0) return 1;
+  return 0;
 }
 
 void frot_fire_at_start(frot_state *s, const frot_work *w, int guard) {

@@ -329,6 +329,7 @@ typedef struct {
    */
   const int *row_group, *row_local, *contact_group, *speed_group, *speed_local;
   const int *speed_coordinate; /* nv: the coordinate whose rate is this speed, or -1 */
+  const int *speed_turns;      /* nv: 1 where it is an angular velocity */
   const frot_check *checks;
   const frot_carried *carried;
   const frot_statement *statements; /* those of the invariants are the last */

@@ -28,15 +28,26 @@ static void guess(const frot_opening *p, double *q, double *v) {
   frot_call(w, &m->start);
 }
 
+/* Whether the statements hold where the search begins, with the sides of that place: then nothing
+ * is to be moved. */
+static int hold_already(frot_opening *p, double *side) {
+  frot_choose_sides(p, side, 0);
+  if (frot_evaluate_statements(p) != FROT_OK) return 0;
+  for (int i = 0; i < p->n; i++)
+    if (!(fabs(p->w->relations.residual[i]) <= FROT_TOUCH * frot_statement_size(p, i))) return 0;
+  return p->n > 0;
+}
+
 /* The statements alone show on which side of its line each point is meant to be. A stated gap needs
- * a side before: the natural one or, if the statements contradict that, the one of the guess. */
+ * a side before: that of the guess if the statements hold there, else the natural one or, if the
+ * statements contradict that, the one of the guess. */
 static int solve_statements(frot_opening *p, double *side) {
   const frot_model *m = p->m;
   frot_state *s = p->s;
   memset(p->use, 0, (size_t)m->n_contacts);
   int status = frot_kinematics(m, s, p->w, p->t, p->q, p->v, p->d);
   if (status != FROT_OK) return frot_no_number(p, status);
-  frot_choose_sides(p, side, 1);
+  if (!hold_already(p, side)) frot_choose_sides(p, side, 1);
   status = frot_solve_widely(p);
   if (status != FROT_INITIAL) return status;
   frot_fault first = s->fault;

@@ -4,6 +4,7 @@
 
 #include "core.h"
 #include "error.h"
+#include "groups.h"
 #include "mechanics.h"
 #include "stages.h"
 #include "tolerances.h"
@@ -28,16 +29,29 @@ static int slope_from_start(const frot_model *m, frot_state *s, frot_work *w, do
   return frot_slope(m, s, w, t, z, slope);
 }
 
+double frot_guard_noise(const frot_model *m, const frot_state *s, const frot_work *w, int j,
+                        double h) {
+  const double *noise = s->data + w->layout.noise;
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  double own = noise[m->nq + m->nv + j];
+  int e = (j - m->n_contacts) / 2;
+  if (j < m->n_contacts || j >= frot_condition_guard(m) || j != frot_element_guard(m, e))
+    return own;
+  if (frot_element_mode(m, modes, e)->friction <= FROT_STICK) return own;
+  return own + h * frot_row_size(m, w, m->elements[e].row, noise + m->nq);
+}
+
 void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
   double *base = frot_stage(w, 1), *forth = frot_stage(w, 2), *back = frot_stage(w, 3);
   double *noise = s->data + w->layout.noise, *largest = w->step.f;
-  int n = m->nq + m->nv;
+  double *guards = noise + m->nq + m->nv;
+  int n = m->nq + m->nv, nx = w->layout.nx;
   for (int j = 0; j < n; j++) {
     largest[j] = 0;
     for (int i = 0; i <= DP_STAGES; i++) largest[j] = fmax(largest[j], fabs(frot_stage(w, i)[j]));
   }
   if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return;
-  memset(noise, 0, sizeof(double) * (size_t)n);
+  memset(noise, 0, sizeof(double) * (size_t)(n + w->layout.ng));
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {
       double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
@@ -45,10 +59,12 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
       for (int j = 0; j < n; j++) w->step.z[j] *= 1 + (((j >> pattern) & 1) != 0 ? moved : -moved);
       if (slope_from_start(m, s, w, t * (1 + moved), w->step.z, there) != FROT_OK) return;
     }
-    for (int j = 0; j < n; j++) {
+    for (int j = 0; j < frot_width(w); j++) {
+      if (j >= n && j < nx) continue; /* energies follow */
+      double *own = j < n ? noise + j : guards + w->guards.list[j - nx];
       double sensitivity = 0.5 * fabs(forth[j] - back[j]) * (FROT_NUDGE / FROT_APART);
       double rounding = 0.5 * fabs(forth[j] - 2 * base[j] + back[j]);
-      noise[j] = fmax(noise[j], sensitivity + rounding);
+      *own = fmax(*own, sensitivity + rounding);
     }
   }
   if (frot_slope(m, s, w, t, w->step.z0, base) == FROT_OK) add_rounding(m, s, w, t, largest);

@@ -59,7 +59,7 @@ double frot_acceleration(const frot_model *m, const frot_work *w, int row, doubl
 
 double frot_free_size(const frot_model *m, const frot_work *w, int row) {
   const frot_group *g = frot_group_of(m, row);
-  double sum = fabs(w->core.c[row]);
+  double sum = w->core.bias_size[row];
   const double *force = w->core.force + g->vector;
   const double *entries = frot_entries(m, g->general ? w->core.rows : w->core.half, row);
   int count = g->general ? g->n : g->n_speeds;
@@ -192,11 +192,12 @@ static int orthonormalize(problem *p) {
     double *x = w->span.basis + ns * rank, *parts = w->span.parts;
     memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
     w->reactions.carried[row] = 0;
-    double length = sqrt(frot_dot(x, x, ns)), bias = w->core.c[row], size = fabs(bias);
+    double length = sqrt(frot_dot(x, x, ns)), bias = w->core.c[row];
+    double size = w->core.bias_size[row];
     double rest = frot_reject(x, w->span.basis, rank, ns, parts);
     for (int i = 0; i < rank; i++) {
       bias -= parts[i] * w->span.bias[i];
-      size += fabs(parts[i] * w->span.bias[i]);
+      size += fabs(parts[i]) * w->span.bias_size[i];
     }
     if (!(rest > frot_least_length(m, w, row, length))) {
       w->reactions.dependent = w->reactions.carried[row] = 1;
@@ -204,6 +205,7 @@ static int orthonormalize(problem *p) {
       continue;
     }
     for (int i = 0; i < ns; i++) x[i] /= rest;
+    w->span.bias_size[rank] = size / rest;
     w->span.bias[rank++] = bias / rest;
   }
   p->equations = w->span.rank = rank;

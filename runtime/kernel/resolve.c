@@ -10,14 +10,21 @@
 #include "search.h"
 #include "tolerances.h"
 
+/* The speed that the loads bring a row in the next step. What begins from rest has no other to be
+ * measured against. */
+static double speed_to_come(const frot_instant *in, int row) {
+  return fabs(in->s->h) * in->w->core.row_load[row];
+}
+
 /* Whether the motion of element e is zero: its guard fired at zero, or it is zero to rounding
- * against its terms, the sizes it had and the motion as a whole. */
+ * against its terms, the sizes it had, the motion as a whole and the motion to come. */
 static int is_zero_rate(const frot_instant *in, int e, const double *v, int slipped) {
   int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
   if (slipped && in->fired[guard] != 0) return 1;
   if (in->m->elements[e].prescribed && fabs(in->w->core.rate[row]) <= FROT_PRESCRIBED_REST)
     return 1;
   double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
+  size = fmax(size, speed_to_come(in, row));
   return fabs(in->w->core.rate[row]) <=
          FROT_ZERO * size + FROT_ZERO_OF_MOTION * frot_row_speed(in->m, in->w, row, v);
 }
@@ -68,23 +75,31 @@ static void find_components(const frot_instant *in) {
     }
 }
 
-/* The speed of a row with the largest speeds met so far. */
+/* The speed of a row with the largest speeds met so far, or with those to come. */
 static double typical_speed(const frot_instant *in, int row) {
-  return frot_row_size(in->m, in->w, row, in->s->data + in->l.scale_x + in->m->nq);
+  double met = frot_row_size(in->m, in->w, row, in->s->data + in->l.scale_x + in->m->nq);
+  return fmax(met, speed_to_come(in, row));
 }
 
 /* Contacts that may be closed after the instant, into w->search.best: those that were, and open
- * ones whose gap has closed. A gap that closes with speed is an impact. */
-static int closable(const frot_instant *in, double t, int first) {
+ * ones whose gap has closed. */
+static void list_closable(const frot_instant *in, int first) {
+  for (int i = 0; i < in->m->n_contacts; i++) {
+    in->w->search.best[i] = in->w->search.before[i];
+    if (!in->w->search.before[i].closed && !first && in->fired[i] != 0)
+      in->w->search.best[i].closed = 1;
+  }
+}
+
+/* A gap that closes with speed is an impact. */
+static int refuse_impacts(const frot_instant *in, double t) {
   const frot_model *m = in->m;
   for (int i = 0; i < m->n_contacts; i++) {
-    in->w->search.best[i] = in->w->search.before[i];
-    if (in->w->search.before[i].closed || first || in->fired[i] == 0) continue;
+    if (in->w->search.before[i].closed || !in->w->search.best[i].closed) continue;
     int row = m->contacts[i].row_n;
     double rate = in->w->core.rate[row];
     if (rate < -FROT_TOUCH * typical_speed(in, row))
       return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
-    in->w->search.best[i].closed = 1;
   }
   return FROT_OK;
 }
@@ -211,11 +226,15 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
 
   int status = frot_kinematics(m, s, w, t, q, v, d);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
-  status = closable(&in, t, first);
-  if (status != FROT_OK) return status;
+  frot_note_reaches(m, s, w, t, q, v, d);
+  list_closable(&in, first);
   status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
   if (status == FROT_OK) status = frot_metric(m, w);
-  if (status == FROT_OK) status = settle_speeds(&in, t, q, v);
+  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
+  frot_row_loads(m, s, w, t, q, v, d);
+  status = refuse_impacts(&in, t);
+  if (status != FROT_OK) return status;
+  status = settle_speeds(&in, t, q, v);
   if (status == FROT_OK) status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
   if (status == FROT_OK) status = frot_metric(m, w);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);

@@ -64,6 +64,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->statistics = (frot_statistics){0};
   s->options = options ? *options : (frot_options){0, FROT_REST, 0};
   s->t = s->began = t;
+  s->h = 0;
   int status = frot_settle_parameters(m, s, w, NULL);
   if (status != FROT_OK) return status;
   frot_hold_given(m, s);
@@ -83,9 +84,10 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.worth, 0, sizeof(double) * (size_t)m->nq);
-  memset(s->data + l.noise, 0, sizeof(double) * (size_t)(m->nq + m->nv));
+  memset(s->data + l.noise, 0, sizeof(double) * (size_t)(m->nq + m->nv + l.ng));
   memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   memset(s->data + l.along, 0, sizeof(double) * 2 * (size_t)m->n_elements);
+  memset(s->data + l.reach, 0, sizeof(double) * (size_t)m->n_contacts);
   memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.nf);
   s->due = INFINITY;
   memset(s->data + l.left, 0, sizeof(double) * (size_t)m->n_elements);

@@ -34,8 +34,9 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.scale_x = at, at += l.nx;
   l.scale_g = at, at += l.ng;
   l.worth = at, at += m->nq;
-  l.noise = at, at += m->nq + m->nv;
+  l.noise = at, at += m->nq + m->nv + l.ng;
   l.along = at, at += 2 * m->n_elements;
+  l.reach = at, at += m->n_contacts;
   l.fired = at, at += l.nf;
   l.several = at, at += m->n_contacts;
   l.due = at, at += m->n_timed;

@@ -18,6 +18,7 @@
 #include "sizes.h"
 #include "stages.h"
 #include "stiffness.h"
+#include "tolerances.h"
 
 /* Part of the way to where a condition seems to be zero, beyond which there is no value. */
 #define NEARLY 0.9
@@ -35,6 +36,7 @@
 #define FORGET 0.99
 /* Rejections after which the sizes of states no longer shrink with the step. */
 #define HOLD 6
+#define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
 /* Change of the step's length: at most, at least, after no value, and what is kept back. */
 #define MOST_GROWTH 6
 #define LEAST_PART (1.0 / 3)
@@ -52,6 +54,9 @@ typedef struct {
   int to_due;    /* it ends where time changes a condition */
   int passed;    /* condition beyond which the last try had no value, or -1 */
   int rejections, changed, stiff;
+  int guard,
+      looks; /* the guard that falls first, or -1, at theta; looks at one that seems to dip */
+  double theta;
 } attempt;
 
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
@@ -93,6 +98,17 @@ static int begin(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
   return status;
 }
 
+/* Take a guard that seems to dip for what it is: first by what rounding does to it, then by a
+ * shorter step. */
+static int look_closer(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
+  if (a->looks++ == 0)
+    frot_measure_noise(m, s, w, a->t + a->h);
+  else
+    a->h *= FROT_EARLY, a->to_due = 0;
+  s->statistics.rejected++;
+  return FROT_DIVERGE;
+}
+
 /* Try the step once: FROT_OK if it is good, with its dense output; then s->h is the next one's
  * length. */
 static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
@@ -107,7 +123,11 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a
     status = frot_make_dense(m, s, w, t, h);
     if (status == FROT_OK && s->implicit && !frot_implicit_follows_guards(m, s, w))
       status = FROT_DIVERGE;
-    if (status == FROT_OK) return FROT_OK;
+    if (status == FROT_OK) {
+      a->guard = frot_falling_guard(m, s, w, t, h, &a->theta);
+      if (a->looks == LOOKS || !frot_seems_to_dip(m, s, w, a->guard, a->theta, h)) return FROT_OK;
+      return look_closer(m, s, w, a);
+    }
     a->ratio = NAN;
   }
   s->statistics.rejected++;
@@ -161,16 +181,15 @@ static int find_length(const frot_model *m, frot_state *s, frot_work *w, attempt
 
 /* End the step where the first guard falls inside it. *guard is the one that does, or -1. */
 static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, attempt *a, int *guard) {
-  double theta;
-  int falls = 0, first = frot_falling_guard(m, s, w, a->t, a->h, &theta);
+  int falls = 0, first = a->guard;
   *guard = -1;
   if (first < 0) return FROT_OK;
-  if (theta * a->h <= LEAST_STEP * fmax(fabs(a->t), a->h)) {
+  if (a->theta * a->h <= LEAST_STEP * fmax(fabs(a->t), a->h)) {
     frot_fire_at_start(s, w, first);
     return FROT_OK;
   }
   a->to_due = 0;
-  int status = frot_locate(m, s, w, a->t, first, theta, &a->h, &falls);
+  int status = frot_locate(m, s, w, a->t, first, a->theta, &a->h, &falls);
   if (status != FROT_OK) return status;
   frot_measure_end(m, s, w, a->t + a->h, w->step.z1);
   *guard = falls ? first : -1;
@@ -191,7 +210,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
   frot_note_worth(m, s, w->step.z1);
   if (guard >= 0) frot_fire_guards(m, s, w, guard, a->t, a->h);
   if (a->to_due) frot_fire_due(m, s);
-  for (int j = 0; j < m->nq + m->nv; j++) s->data[l->noise + j] *= FORGET;
+  for (int j = 0; j < m->nq + m->nv + l->ng; j++) s->data[l->noise + j] *= FORGET;
   frot_keep_step(m, s, w, a->t, a->h, end);
   memcpy(x, w->step.z1, sizeof(double) * (size_t)l->nx);
   memcpy(slope, frot_stage(w, DP_STAGES), sizeof(double) * (size_t)l->nz);
@@ -208,7 +227,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
 }
 
 int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
-  attempt a = {*frot_segment_at(m, s->data + w->layout.segment).t1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0};
+  attempt a = {.t = *frot_segment_at(m, s->data + w->layout.segment).t1, .passed = -1, .guard = -1};
   int guard;
   if (s->due <= a.t) {
     frot_fire_due(m, s);

@@ -21,6 +21,8 @@
 #define FROT_APART (1024 * DBL_EPSILON)
 /* The same for states whose rates no inertia smooths. */
 #define FROT_NOISE_OF_RATES 32.0
+/* Part of the lengths a row is made of below which it is what rounding leaves of them. */
+#define FROT_CANCELS 1e-12
 /* Part by which a gap or a statement may change with the unknowns and still be constant. */
 #define FROT_CONSTANT 1e-12
 /* Residual of a statement, in what its unknowns could change in it, that no digit of them mends. */
@@ -46,6 +48,9 @@ static inline double frot_guard_tolerance(double tolerance) {
   return fmin(FROT_GUARD_LOOSEST, fmax(FROT_GUARD_TIGHTEST, 10 * tolerance));
 }
 
+/* Part of a step before which a guard that is zero at its start is looked at in a shorter one. */
+#define FROT_EARLY 0.1
+
 /* -- zero at an event -------------------------------------------------------------------------- */
 /* Part of its size below which a velocity, a gap or a reaction is zero. */
 #define FROT_ZERO 1e-11
@@ -70,6 +75,8 @@ static inline double frot_guard_tolerance(double tolerance) {
  * crowd when their distance is this part of the first. */
 #define FROT_ONE_RATIO 0.01
 #define FROT_CROWDED 1e-5
+/* Part of its terms to which the instant of an event resolves a reaction. */
+#define FROT_RESOLVED 1e-6
 /* Prescribed rates and their rates below this are rest (SI): there is nothing to compare with. */
 #define FROT_PRESCRIBED_REST 1e-12
 /* Events closer than this part of the time are at one instant. */

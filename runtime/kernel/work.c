@@ -95,6 +95,7 @@ static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work 
   TAKE(w->lu_pivot, general * l->nw);
   TAKE(w->wanted, nr), TAKE(w->free, nr), TAKE(w->delassus, m->n_square);
   TAKE(w->load, l->nw), TAKE(w->load_size, l->nw), TAKE(w->row_load, nr);
+  TAKE(w->bias_size, nr);
   TAKE(w->lam, nr), TAKE(w->a, l->nw), TAKE(w->rest, l->nw), TAKE(w->column, l->nw);
 }
 
@@ -105,7 +106,7 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   TAKE(r->carried, n), TAKE(r->fold_ratio, 2 * n), TAKE(r->ratio, elements);
   TAKE(r->along, 2 * elements), TAKE(r->unit_of, n), TAKE(r->weight, n), TAKE(r->solution, n);
   TAKE(w->span.basis, (n + 1) * e->widest), TAKE(w->span.parts, n + e->widest);
-  TAKE(w->span.bias, n);
+  TAKE(w->span.bias, n), TAKE(w->span.bias_size, n);
 }
 
 static void bind_relations(const frot_model *m, const frot_layout *l, const extent *e, frot_work *w,

@@ -27,7 +27,8 @@ typedef struct {
 
 /* core.h: results of `dynamics`, `kinematics` and `spread` at t; the inertia, packed by groups (of
  * a mass matrix the Cholesky factor L of the metric, L^-1 h, L^-1 J'; of a general core LU of A,
- * A^-1 h, A^-1 E); what it does to the rows wanted; sizes of all loads and of what they do;
+ * A^-1 h, A^-1 E); what it does to the rows wanted; sizes of all loads and of what they do, and
+ * of the terms of c (bias_size, n_rows);
  * reactions lam (n_rows) and the solution a (nw). Scratch: rest and column (nw). */
 typedef struct {
   double t;
@@ -37,7 +38,7 @@ typedef struct {
   int *lu_pivot;
   unsigned char *wanted;
   double *free, *delassus;
-  double *load, *load_size, *row_load;
+  double *load, *load_size, *row_load, *bias_size;
   double *lam, *a;
   double *rest, *column;
 } frot_core_work;
@@ -51,10 +52,11 @@ typedef struct {
   int dependent;
 } frot_reaction_work;
 
-/* Orthonormal rows of one group, and what belongs to each: reactions.c, projection.c. */
+/* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:
+ * reactions.c, projection.c. */
 typedef struct {
   int rank;
-  double *basis, *parts, *bias;
+  double *basis, *parts, *bias, *bias_size;
 } frot_span_work;
 
 /* Scratch: the linear system that is being solved. */
