@@ -20,7 +20,8 @@
 #include "stiffness.h"
 #include "tolerances.h"
 
-/* Part of the way to where a condition seems to be zero, beyond which there is no value. */
+/* Part of the way to where a condition seems to be zero, beyond which there is no value, or a guard
+ * comes near zero. */
 #define NEARLY 0.9
 #define LEAST_STEP (16 * DBL_EPSILON)
 /* Time from which on steps are measured by its resolution, in longest steps. */
@@ -37,11 +38,18 @@
 /* Rejections after which the sizes of states no longer shrink with the step. */
 #define HOLD 6
 #define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
-/* Change of the step's length: at most, at least, after no value, and what is kept back. */
+/* Change of the step's length: at most, at least, after no value, and what of it is taken. */
 #define MOST_GROWTH 6
 #define LEAST_PART (1.0 / 3)
 #define CUT 0.25
 #define SAFETY 0.9
+#define SAFETY_OF_MOTION 0.7
+/* Part of its length at least to which a step is shortened in which a guard seems to fall and does
+ * not. */
+#define SHORTER 0.25
+/* Part of the step by which its end may be found after where it was looked for: further on, other
+ * guards may have fallen before. */
+#define STRAY 0.01
 /* Time beyond which events no longer crowd, in longest steps. */
 #define CROWDED 1e-9
 
@@ -79,8 +87,16 @@ static int is_still(const frot_model *m, const frot_work *w) {
   return 1;
 }
 
-/* What the ratio of an error to its bound is raised to for the change of the step. */
-static double order_power(const frot_state *s) { return s->implicit ? -1.0 / 5 : -1.0 / 8; }
+/* Change of the step's length that brings its error near the bound. More is kept back where a
+ * motion is what limits it: reactions that pass near zero bend it at once, and in a method of high
+ * order it costs little length, and saves most of the rejections. */
+static double change_of_length(const frot_model *m, const frot_state *s, const frot_work *w,
+                               double ratio) {
+  int j = w->step.worst;
+  int moves = m->nv > 0 && (j < 0 || j >= m->nq || m->q_speed[j] >= 0);
+  if (s->implicit) return SAFETY * pow(ratio, -1.0 / 5);
+  return (moves ? SAFETY_OF_MOTION : SAFETY) * pow(ratio, -1.0 / 8);
+}
 
 /* Everything at the start of the step, and the length to try first. */
 static int begin(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
@@ -135,7 +151,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a
   if (++a->rejections % PATIENCE == 0 && a->ratio > 1) frot_measure_noise(m, s, w, t + h);
   if (a->rejections % HOLD == 0) frot_hold_worth(m, s, w);
   if (a->ratio > 1 && a->ratio < 1e300)
-    a->h *= fmax(SAFETY * pow(a->ratio, order_power(s)), LEAST_PART);
+    a->h *= fmax(change_of_length(m, s, w, a->ratio), LEAST_PART);
   else
     a->h *= a->passed >= 0 ? fmin(fmax(NEARLY * part, 0.01), NEARLY) : CUT;
   return status == FROT_OK ? FROT_DIVERGE : status;
@@ -172,28 +188,46 @@ static int find_length(const frot_model *m, frot_state *s, frot_work *w, attempt
     status = try_step(m, s, w, a);
     if (status == FROT_OK) break;
   }
-  double factor = a->ratio > 0 ? SAFETY * pow(a->ratio, order_power(s)) : MOST_GROWTH;
+  double factor = a->ratio > 0 ? change_of_length(m, s, w, a->ratio) : MOST_GROWTH;
   factor = fmin(fmax(factor, LEAST_PART), a->rejections ? 1 : MOST_GROWTH);
   s->h = fmin(a->h * factor, fmin(a->longest, a->stable));
   if (a->to_due) s->h = fmax(s->h, planned);
   return FROT_OK;
 }
 
-/* End the step where the first guard falls inside it. *guard is the one that does, or -1. */
-static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, attempt *a, int *guard) {
-  int falls = 0, first = a->guard;
-  *guard = -1;
-  if (first < 0) return FROT_OK;
-  if (a->theta * a->h <= LEAST_STEP * fmax(fabs(a->t), a->h)) {
-    frot_fire_at_start(s, w, first);
-    return FROT_OK;
-  }
-  a->to_due = 0;
-  int status = frot_locate(m, s, w, a->t, first, a->theta, &a->h, &falls);
+/* Run the step again with the length h, with its dense output. */
+static int run_again(const frot_model *m, frot_state *s, frot_work *w, attempt *a, double h) {
+  a->h = h, a->to_due = 0;
+  int status = frot_run_stages(m, s, w, a->t, h);
   if (status != FROT_OK) return status;
-  frot_measure_end(m, s, w, a->t + a->h, w->step.z1);
-  *guard = falls ? first : -1;
-  return frot_make_dense(m, s, w, a->t, a->h);
+  frot_measure_end(m, s, w, a->t + h, w->step.z1);
+  return frot_make_dense(m, s, w, a->t, h);
+}
+
+/* End the step where the first guard falls inside it. *guard is the one that does, or -1. A guard
+ * may seem to fall, in a step that is long for it, where it only comes near zero: a step that ends
+ * before it, or is much shorter, shows that it does not, and hides no other guard's fall. */
+static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, attempt *a, int *guard) {
+  for (*guard = -1; a->guard >= 0;) {
+    double longest = a->h;
+    int falls;
+    if (a->theta * a->h <= LEAST_STEP * fmax(fabs(a->t), a->h)) {
+      frot_fire_at_start(s, w, a->guard);
+      return FROT_OK;
+    }
+    int status = frot_locate(m, s, w, a->t, a->guard, a->theta, &a->h, &falls);
+    falls &= a->h <= (a->theta + STRAY) * longest;
+    double part = fmin(fmax(NEARLY * a->theta, SHORTER), NEARLY);
+    if (status == FROT_OK && falls) {
+      *guard = a->guard, a->to_due = 0;
+      frot_measure_end(m, s, w, a->t + a->h, w->step.z1);
+      return frot_make_dense(m, s, w, a->t, a->h);
+    }
+    if (status == FROT_OK) status = run_again(m, s, w, a, part * longest);
+    if (status != FROT_OK) return status;
+    a->guard = frot_falling_guard(m, s, w, a->t, a->h, &a->theta);
+  }
+  return FROT_OK;
 }
 
 /* Take the step: it becomes the current segment. Its end goes onto the relations; the slope there
