@@ -352,7 +352,9 @@ def zero(rng: Random) -> Structure:
         )
         if rng.random() < 0.3:
             s.forces.append(
-                Force(f"d{i}", "damper", (before, s.middle(b)), (s.parameter(f"d{i}", "Damping"),))
+                Force(
+                    f"damp{i}", "damper", (before, s.middle(b)), (s.parameter(f"d{i}", "Damping"),)
+                )
             )
     last = s.middle(bodies[-1])
     growing = f * (TIME / t0) if rng.random() < 0.5 else f * sin(TIME / t0)

@@ -180,11 +180,12 @@ static int contact_is_admissible(const frot_instant *in, int i) {
   return pressure(in, i) >= -FROT_BOUND_SLACK;
 }
 
-/* Where reactions are not unique and some are not admissible, but others could carry instead: put
- * the worst at its bound or without load. Returns 1 when one was put there. */
-static int let_others_carry(const frot_instant *in, const int *chosen, int count) {
+/* The loaded contact whose reaction is worst beyond what is admissible or, if none is, the element;
+ * -1 for the other. Returns whether there is any. */
+static int find_worst(const frot_instant *in, const int *chosen, int count, int *contact,
+                      int *friction) {
   const frot_model *m = in->m;
-  frot_contact_mode *trial = in->w->search.trial;
+  const frot_contact_mode *trial = in->w->search.trial;
   double most = -FROT_BOUND_SLACK;
   int worst_contact = -1, worst_element = -1;
   for (int c = 0; c < count; c++) {
@@ -200,11 +201,34 @@ static int let_others_carry(const frot_instant *in, const int *chosen, int count
     double left = reserve(in, e);
     if (left < most) most = left, worst_element = e;
   }
+  *contact = worst_contact, *friction = worst_element;
+  return worst_contact >= 0 || worst_element >= 0;
+}
+
+/* Whether the modes say of a contact that it carries nothing, or of an element that it is at its
+ * bound. */
+static int gives_bounds(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  const frot_contact_mode *trial = in->w->search.trial;
+  for (int c = 0; c < count; c++) {
+    if (trial[chosen[c]].unloaded) return 1;
+    for (int e = 0; e < m->n_elements; e++)
+      if (m->elements[e].contact == chosen[c] && trial[m->n_contacts + e].at_bound != 0) return 1;
+  }
+  return 0;
+}
+
+/* Where reactions are not unique and some are not admissible, but others could carry instead: put
+ * the worst at its bound or without load. Returns 1 when one was put there. */
+static int let_others_carry(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  frot_contact_mode *trial = in->w->search.trial;
+  int worst_contact, worst_element;
+  if (!find_worst(in, chosen, count, &worst_contact, &worst_element)) return 0;
   if (worst_contact >= 0) {
     trial[worst_contact].unloaded = 1;
     return 1;
   }
-  if (worst_element < 0) return 0;
   trial[m->n_contacts + worst_element].at_bound =
       in->w->core.lam[m->elements[worst_element].row] > 0 ? 1 : -1;
   return 1;
@@ -216,7 +240,14 @@ int frot_is_admissible(const frot_instant *in, const int *chosen, int count) {
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
   memcpy(w->reactions.along, in->s->data + in->l.along, sizeof(double) * 2 * (size_t)m->n_elements);
   if (frot_group_reactions(m, w, g, w->search.trial, in->at_rest)) return 0;
-  for (int dependent = w->reactions.dependent; dependent && let_others_carry(in, chosen, count);)
+  int dependent = w->reactions.dependent, worst;
+  if (dependent &&
+      (gives_bounds(in, chosen, count) || find_worst(in, chosen, count, &worst, &worst))) {
+    enum frot_share share = frot_share_load(in, chosen, count);
+    if (share == FROT_NO_SHARE) return 0;
+    dependent = share != FROT_SHARED;
+  }
+  while (dependent && let_others_carry(in, chosen, count))
     if (frot_group_reactions(m, w, g, w->search.trial, in->at_rest)) return 0;
   for (int c = 0; c < count; c++)
     if (!contact_is_admissible(in, chosen[c])) return 0;

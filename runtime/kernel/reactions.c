@@ -180,6 +180,44 @@ static void column_of(const problem *p, int c, double *x) {
   }
 }
 
+/* Row k of those of a contact that is kept without a reaction of its own, then of its elements that
+ * are: -1 for the others. */
+static int row_without_reaction(const problem *p, int contact, int k) {
+  const frot_model *m = p->m;
+  const frot_contact_mode *mode = &p->modes[contact];
+  const frot_contact *c = &m->contacts[contact];
+  if (k < 0) return mode->closed && mode->unloaded && c->row_n >= 0 && !c->reduced ? c->row_n : -1;
+  const frot_contact_mode *law = frot_element_mode(m, p->modes, k);
+  int kept = m->elements[k].contact == contact && mode->closed && !m->elements[k].prescribed &&
+             law->friction == FROT_STICK && (mode->unloaded || law->at_bound != 0);
+  return kept ? m->elements[k].row : -1;
+}
+
+/* What is at its bound or carries nothing is kept by the others: where several friction forces at
+ * their bounds hold a row together, none of them has a row of its own. Appends those rows to the
+ * orthonormal ones. */
+static void add_kept_rows(problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int ns = p->g->n_speeds;
+  for (int i = 0; i < p->g->n_contacts; i++)
+    for (int e = -1; e < m->n_elements && w->span.rank < ns; e++) {
+      int row = row_without_reaction(p, p->g->contacts[i], e), rank = w->span.rank;
+      if (row < 0) continue;
+      double *x = w->span.basis + ns * rank, *parts = w->span.parts, bias = w->core.c[row];
+      memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
+      double length = sqrt(frot_dot(x, x, ns)), size = w->core.bias_size[row];
+      double rest = frot_reject(x, w->span.basis, rank, ns, parts);
+      if (!(rest > frot_least_length(m, w, row, length))) continue;
+      for (int k = 0; k < rank; k++)
+        bias -= parts[k] * w->span.bias[k], size += fabs(parts[k]) * w->span.bias_size[k];
+      for (int k = 0; k < ns; k++) x[k] /= rest;
+      w->span.bias[rank] = bias / rest, w->span.bias_size[rank] = size / rest;
+      w->span.rank++;
+    }
+  p->equations = w->span.rank;
+}
+
 /* The held rows of a mass matrix, orthonormal, into w->span.basis with their biases in
  * w->span.bias; p->equations is their number. Returns 1 when a row that depends on others
  * contradicts them. */
@@ -208,7 +246,8 @@ static int orthonormalize(problem *p) {
     w->span.bias_size[rank] = size / rest;
     w->span.bias[rank++] = bias / rest;
   }
-  p->equations = w->span.rank = rank;
+  w->span.rank = rank;
+  add_kept_rows(p);
   return 0;
 }
 
@@ -406,6 +445,7 @@ static int solve(problem *p) {
   int n = p->unknowns;
   double *x = w->reactions.solution;
   if (hold_rows(p)) return 1;
+  if (p->equations > n) return 1; /* no reaction is left for a row that is to be kept */
   follow_readings(p);
   int regular = p->equations == n;
   if (regular) {

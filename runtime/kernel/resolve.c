@@ -158,6 +158,7 @@ static int note_departures(const frot_instant *in, const int *chosen, int count)
  * at once, and what the others do follows from that: looked for again until nothing more departs.
  */
 static int look_for_motions(const frot_instant *in, const int *chosen, int count, int *unsearched) {
+  if (frot_rest_goes_on(in, chosen, count)) return 1;
   int motions = frot_search(in, chosen, count, 1, unsearched);
   if (motions == 0) motions = frot_search(in, chosen, count, 0, unsearched);
   while (motions > 0 && note_departures(in, chosen, count)) {
@@ -236,6 +237,8 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   if (status != FROT_OK) return status;
   status = settle_speeds(&in, t, q, v);
   if (status == FROT_OK) status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
+  if (status == FROT_OK && frot_find_growth(&in, d))
+    status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
   if (status == FROT_OK) status = frot_metric(m, w);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
 

@@ -208,11 +208,51 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
   }
 }
 
+int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  int own[LAWS];
+  memset(w->search.trial, 0, sizeof *w->search.trial * (size_t)(m->n_contacts + m->n_elements));
+  for (int c = 0; c < count; c++) {
+    int laws = elements_of(m, chosen[c], own);
+    w->search.trial[chosen[c]] = w->search.before[chosen[c]];
+    if (!w->search.before[chosen[c]].closed) return 0;
+    for (int k = 0; k < laws; k++) {
+      const frot_contact_mode *before = frot_element_mode(m, w->search.before, own[k]);
+      int bounds = frot_bounds_something(m, w, own[k]);
+      if (bounds && (before->friction != FROT_STICK || !in->at_rest[own[k]])) return 0;
+      w->search.trial[m->n_contacts + own[k]] = *before;
+    }
+  }
+  if (frot_share_load(in, chosen, count) != FROT_SHARED) return 0;
+  if (!frot_is_admissible(in, chosen, count)) return 0;
+  remember(in, chosen, count);
+  return 1;
+}
+
 /* Whether a guard of the contact or of its elements fired. */
 static int left_here(const frot_instant *in, int i) {
   int own[LAWS], laws = elements_of(in->m, i, own), any = in->fired[i] != 0;
   for (int k = 0; k < laws; k++) any |= in->left[own[k]] != 0;
   return any;
+}
+
+/* One motion by pivoting, and what it leaves in doubt examined. `ends`: a rest ends now. */
+static int search_near(const frot_instant *in, const int *chosen, int count, int forced, int ends) {
+  unsigned char *certain = in->w->search.certain;
+  option lists[OPTIONS];
+  double combinations = 1;
+  frot_guess_modes(in, chosen, count, ends, certain);
+  for (int c = 0; c < count; c++) {
+    int options = contact_options(in, chosen[c], forced, lists);
+    if (left_here(in, chosen[c])) certain[chosen[c]] = 0;
+    if (certain[chosen[c]]) continue;
+    if (combinations * options > FROT_ENOUGH)
+      certain[chosen[c]] = 1;
+    else
+      combinations *= options;
+  }
+  return enumerate(in, chosen, count, forced, certain);
 }
 
 int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int *unsearched) {
@@ -224,16 +264,8 @@ int frot_search(const frot_instant *in, const int *chosen, int count, int forced
   memset(w->search.trial, 0, sizeof *w->search.trial * (size_t)(m->n_contacts + m->n_elements));
   if (combinations <= FROT_ENOUGH) return enumerate(in, chosen, count, forced, NULL);
   *unsearched = 1;
-  frot_guess_modes(in, chosen, count, forced, w->search.certain);
-  combinations = 1;
-  for (int c = 0; c < count; c++) {
-    int options = contact_options(in, chosen[c], forced, lists);
-    if (left_here(in, chosen[c])) w->search.certain[chosen[c]] = 0;
-    if (w->search.certain[chosen[c]]) continue;
-    if (combinations * options > FROT_ENOUGH)
-      w->search.certain[chosen[c]] = 1;
-    else
-      combinations *= options;
-  }
-  return enumerate(in, chosen, count, forced, w->search.certain);
+  int motions = search_near(in, chosen, count, forced, forced);
+  /* the rest ends though what fired stays as it is: others carry what it carried */
+  if (motions == 0 && !forced) motions = search_near(in, chosen, count, 0, 1);
+  return motions;
 }

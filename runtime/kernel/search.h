@@ -26,6 +26,20 @@ int frot_bounds_something(const frot_model *m, const frot_work *w, int element);
  * that let the others carry. */
 int frot_is_admissible(const frot_instant *in, const int *chosen, int count);
 
+/* Share the load of w->search.trial among the contacts `chosen` and their stuck elements, so that
+ * reactions are unique and each within its bounds: sets those at their bounds and those without
+ * load. FROT_SHARE_UNKNOWN: reactions are unique already, or friction follows what is no cone; then
+ * and where there is no share the modes stay (share.c). */
+enum frot_share { FROT_SHARE_UNKNOWN, FROT_NO_SHARE, FROT_SHARED };
+enum frot_share frot_share_load(const frot_instant *in, const int *chosen, int count);
+/* Whether the contacts, all at rest before the instant, stay so with their load shared in another
+ * way; then these modes are in w->search.best. */
+int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count);
+
+/* How loads grow from the instant on, into w->share.growth, where nothing moves; else zero.
+ * Returns whether the dynamics are those of a little later now. */
+int frot_find_growth(const frot_instant *in, const double *d);
+
 /* The signs of the slips a little later, moving on as w->search.trial and w->core.lam say, into
  * w->search.ahead (n_elements): 0 where a motion stays none. Leaves the kinematics at the instant
  * (ahead.c). */

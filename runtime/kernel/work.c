@@ -160,6 +160,16 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
   for (int k = 0; a->base && k < m->nv; k++) w->nothing_frozen[k] = 0;
 }
 
+static void bind_share(const frot_model *m, const frot_layout *l, const extent *e,
+                       frot_share_work *w, arena *a) {
+  /* of a contact four edges at most, of another row two columns */
+  int columns = 4 * m->n_contacts + 2 * m->n_rows;
+  TAKE(w->tableau, e->widest * (columns + 1)), TAKE(w->columns, e->widest * columns);
+  TAKE(w->growth, l->nw), TAKE(w->basic, e->widest), TAKE(w->contact, columns);
+  TAKE(w->signs, columns), TAKE(w->read, m->n_contacts);
+  TAKE(w->before, m->n_contacts + m->n_elements);
+}
+
 static size_t bind(const frot_model *m, frot_work *w, char *base) {
   frot_layout l = frot_layout_of(m);
   extent e = extent_of(m, &l);
@@ -174,6 +184,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   bind_step(m, &l, w, a);
   bind_events(m, &w->events, a);
   bind_search(m, &w->search, a);
+  bind_share(m, &l, &e, &w->share, a);
   TAKE(w->pace, 4 * m->n_paced);
   TAKE(w->stood, m->n_contacts + m->n_rows + 2 * (FROT_PLACE * m->n_carried + m->n_invariants));
   return held.used;

@@ -125,6 +125,16 @@ typedef struct {
   int *choice, *component, *chosen;
 } frot_search_work;
 
+/* share.c: the tableau and its basic columns; the columns as they were, whose they are; of contacts
+ * whether they are read; growth of the loads where all rests (nw); the modes before. */
+typedef struct {
+  double *tableau, *columns, *growth;
+  int *basic, *contact;
+  signed char *signs;
+  unsigned char *read;
+  frot_contact_mode *before;
+} frot_share_work;
+
 struct frot_work {
   frot_layout layout;
   frot_call_work call;
@@ -141,6 +151,7 @@ struct frot_work {
   frot_implicit_work implicit;
   frot_event_work events;
   frot_search_work search;
+  frot_share_work share;
   double *pace;  /* pace.c */
   double *stood; /* supports.c */
 };
