@@ -103,7 +103,8 @@ static void add_free(program *p, int row) {
   }
 }
 
-/* All columns. Returns 0 where friction follows what no column says. */
+/* All columns. Returns 0 where friction is bounded by what no edge says: by a value, by the size of
+ * a pin's reaction or of one that may pull. */
 static int add_columns(program *p) {
   const frot_instant *in = p->in;
   const frot_model *m = in->m;
@@ -119,8 +120,7 @@ static int add_columns(program *p) {
     int e = p->g->elements[i];
     const frot_element *element = &m->elements[e];
     int edge = element->bound == FROT_BY_NORMAL && has_cone(in, element->contact);
-    if (frot_is_held(m, trial, e) && !edge) add_free(p, element->row);
-    if (in->w->reactions.ratio[e] != 0 && !edge) return 0;
+    if (!edge && (frot_is_held(m, trial, e) || in->w->reactions.ratio[e] != 0)) return 0;
   }
   return 1;
 }
