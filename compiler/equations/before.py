@@ -59,6 +59,8 @@ class Before:
 
     def look_at(self, expressions: Iterable[Expression]) -> None:
         """Find what the expressions, lowered next, read both now and before."""
+        if not self.text.discrete:
+            return
         now: set[Variable] = set()
         before: set[Variable] = set()
         for expression in expressions:

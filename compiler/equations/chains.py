@@ -73,6 +73,10 @@ class Chains:
         names = (self._without_rate.get(s.element_hash()) for s in ca.symvar(value))
         return [n for n in names if n is not None]
 
+    def is_unrated(self, symbol: ca.SX) -> bool:
+        """Whether a symbol is one whose derivative nobody knows."""
+        return symbol.element_hash() in self._without_rate
+
     def rate(self, value: ca.SX) -> ca.SX:
         """d/dt by the chain rule; what is neither an unknown nor time is taken as constant."""
         symbols: list[ca.SX] = []

@@ -8,6 +8,7 @@ import casadi as ca
 from frot.compiler.equations.chains import Chains, replace_known
 from frot.compiler.equations.differentiate import Differentiated
 from frot.compiler.equations.eliminate import Eliminated, Pivot, Residuals, eliminate, resolve_all
+from frot.compiler.equations.given import Given
 from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl import Log
@@ -55,7 +56,7 @@ def make_core(
     core: set[int],
     newton: ca.SX,
     known: dict[int, ca.SX],
-    defaults: ca.DM,
+    given: Given,
     log: Log,
 ) -> Core | None:
     """Form the core of the components `core`; a fault is reported.
@@ -66,7 +67,7 @@ def make_core(
     s, chains, elements = reduced.symbols, reduced.text.chains, reduced.text.elements
     states = _sort_states(found, core)
     nv, na, count = len(states.v), s.w.numel(), s.v.numel()
-    explicit = _remove_algebraic(found, states, core, known, s.p, defaults, chains)
+    explicit = _remove_algebraic(found, states, core, known, given, chains)
     known = {**known, **explicit.resolver.known}
     algebraic = [x for x in states.algebraic if x.element_hash() not in explicit.resolver.known]
     nc = len(algebraic)
@@ -133,8 +134,7 @@ def _remove_algebraic(
     states: _States,
     core: set[int],
     known: dict[int, ca.SX],
-    p: ca.SX,
-    defaults: ca.DM,
+    given: Given,
     chains: Chains,
 ) -> Eliminated:
     """The core's equations without the algebraic unknowns that have a formula: forces, mostly."""
@@ -145,8 +145,7 @@ def _remove_algebraic(
         Residuals(values, [found.origins[i] for i in inside]),
         lambda i, j, _: j in own and inside[i] >= found.newton,
         chains,
-        p,
-        defaults,
+        given,
     )
     return replace(taken, numbers=[inside[i] for i in taken.numbers])
 

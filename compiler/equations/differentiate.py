@@ -16,6 +16,7 @@ from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.index import find_unbalanced, reduce_index
 from frot.compiler.equations.order import Component, find_components
 from frot.compiler.equations.origins import Origin, Unknown
+from frot.compiler.equations.slopes import symbols_inside
 from frot.compiler.lowering.symbols import column
 from frot.dsl import Log
 
@@ -124,14 +125,12 @@ def find_incidence(
     """
     place = {chain: k for k, chain in enumerate(left)}
     incidence: list[dict[int, int]] = [{} for _ in values]
-    whole = column(values)
-    own = [s for s in ca.symvar(whole) if s.element_hash() in chains.place]
-    if own:
-        rows, columns = ca.jacobian_sparsity(whole, column(own)).get_triplet()
-        for i, at in zip(rows, columns, strict=True):
-            chain, order = chains.place[own[at].element_hash()]
+    symbols, inside = symbols_inside(values)
+    places = [chains.place.get(s.element_hash()) for s in symbols]
+    for row, own in zip(incidence, inside, strict=True):
+        for chain, order in filter(None, (places[k] for k in own)):
             j = place[chain]
-            incidence[i][j] = max(order, incidence[i].get(j, 0))
+            row[j] = max(order, row.get(j, 0))
     return incidence
 
 

@@ -8,12 +8,14 @@ of dummy derivatives made beforehand: it needs no state, no index reduction and 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains, Resolver
+from frot.compiler.equations.given import Given
 from frot.compiler.equations.origins import Origin
+from frot.compiler.equations.table import PARAMETER, Table
 from frot.compiler.lowering.symbols import column
 
 Entries = Mapping[int, int]
@@ -58,117 +60,65 @@ class _Candidate:
     rank: tuple[int, int, int]
     equation: int
     chain: int
-    entry: int
 
 
 def eliminate(
     residuals: Residuals,
     may_define: Callable[[int, int, Entries], bool],
     chains: Chains,
-    p: ca.SX,
-    defaults: ca.DM,
+    given: Given,
 ) -> Eliminated:
     """Remove explicit unknowns, a set of independent ones at a time, until none is left.
 
     `may_define(i, j, entries)`: whether equation i, counted as in `residuals`, may define the
-    unknown of chain j; `entries` maps the chains that stand in it to their highest orders. `p` and
-    `defaults` are the parameters and their values, by which a divisor is known not to be zero.
+    unknown of chain j; `entries` maps the chains that stand in it to their highest orders.
     """
-    values, origins = list(residuals.values), list(residuals.origins)
-    numbers = list(range(len(values)))
+    table = Table(chains, given)
+    table.put(dict(enumerate(residuals.values)))
     rounds: list[tuple[list[int], ca.SX]] = []
     pivots: list[Pivot] = []
-    while values:
-        table = _Table(values, chains, p, defaults)
-        chosen = _choose(table, numbers, may_define, chains)
-        if not chosen:
-            break
-        definitions = column(
-            -ca.substitute(values[c.equation], chains.symbol(c.chain, 0), ca.SX(0))
-            / table.coefficients[c.entry]
-            for c in chosen
-        )
-        for c in chosen:
-            coefficient = table.coefficients[c.entry]
-            if not coefficient.is_constant():
-                name = chains.items[c.chain].name
-                pivots.append(Pivot(coefficient, name, origins[c.equation]))
+    while chosen := _choose(table, may_define, chains):
         removed = [c.chain for c in chosen]
+        rows = [table.remove(c.equation) for c in chosen]
+        for c, row in zip(chosen, rows, strict=True):
+            factor = row.factors[c.chain]
+            if factor.kind == PARAMETER:
+                name = chains.items[c.chain].name
+                pivots.append(Pivot(factor.value, name, residuals.origins[c.equation]))
+        # None of these equations holds an unknown that another one defines.
+        rests = ca.substitute(
+            column(row.value for row in rows),
+            column(chains.symbol(chain, 0) for chain in removed),
+            ca.SX.zeros(len(removed)),
+        )
+        factors = column(row.factors[c.chain].value for c, row in zip(chosen, rows, strict=True))
+        definitions = -rests / factors
         rounds.append((removed, definitions))
-        used = {c.equation for c in chosen}
-        kept = [i for i in range(len(values)) if i not in used]
-        origins = [origins[i] for i in kept]
-        numbers = [numbers[i] for i in kept]
-        left = column(values[i] for i in kept)
-        values = ca.vertsplit(_replace(left, removed, definitions, chains)) if kept else []
-    removed_at_all = {chain for removed, _ in rounds for chain in removed}
+        touched = sorted({i for chain in removed for i in table.equations[chain]})
+        if touched:
+            values = column(table.rows[i].value for i in touched)
+            replaced = ca.vertsplit(_replace(values, removed, definitions, chains))
+            table.put(dict(zip(touched, replaced, strict=True)))
+    numbers = sorted(table.rows)
     return Eliminated(
-        Residuals(values, origins), numbers, removed_at_all, _resolver(rounds, chains), pivots
+        Residuals([table.rows[i].value for i in numbers], [residuals.origins[i] for i in numbers]),
+        numbers,
+        {chain for removed, _ in rounds for chain in removed},
+        _resolver(rounds, chains),
+        pivots,
     )
 
 
-class _Table:
-    """Which unknown occurs in which equation, and with what coefficient."""
-
-    def __init__(self, values: list[ca.SX], chains: Chains, p: ca.SX, defaults: ca.DM) -> None:
-        whole = column(values)
-        everything = ca.symvar(whole)
-        own = [s for s in everything if s.element_hash() in chains.place]
-        parameters = {s.element_hash() for s in ca.vertsplit(p)} if p.numel() else set()
-        varying = [s for s in everything if s.element_hash() not in parameters]
-        jacobian = ca.jacobian(whole, column(own)) if own else ca.SX(len(values), 0)
-        self.coefficients = jacobian.nz[:] if jacobian.nnz() else ca.SX.zeros(0)
-        rows, columns = jacobian.sparsity().get_triplet()
-        self.orders: list[dict[int, int]] = [{} for _ in values]
-        self.equations: dict[int, set[int]] = defaultdict(set)
-        self.differentiated: set[int] = set()
-        self.entries: list[tuple[int, int, int]] = []
-        for entry, (row, at) in enumerate(zip(rows, columns, strict=True)):
-            chain, order = chains.place[own[at].element_hash()]
-            self.orders[row][chain] = max(order, self.orders[row].get(chain, 0))
-            self.equations[chain].add(row)
-            if order:
-                self.differentiated.add(chain)
-            else:
-                self.entries.append((entry, row, chain))
-        self.unrated = {i for i, value in enumerate(values) if chains.without_rate(value)}
-        self.kinds = self._kinds(column(varying), p, defaults)
-
-    def _kinds(self, varying: ca.SX, p: ca.SX, defaults: ca.DM) -> list[int]:
-        """0 for a coefficient +-1, 1 for another constant, 2 for a parameter, -1 unusable."""
-        count = self.coefficients.numel()
-        if not count:
-            return []
-        moving: set[int] = set()
-        if varying.numel():
-            moving = set(ca.jacobian_sparsity(self.coefficients, varying).row())
-        fixed = [k for k in range(count) if k not in moving]
-        kinds = [-1] * count
-        values = ca.Function("coefficients", [p], [column(self.coefficients[k] for k in fixed)])(
-            defaults
-        )
-        for k, value in zip(fixed, values.full().ravel() if fixed else (), strict=True):
-            if value == 0 or value != value or abs(value) == float("inf"):
-                continue
-            if self.coefficients[k].is_constant():
-                kinds[k] = 0 if abs(value) == 1 else 1
-            else:
-                kinds[k] = 2
-        return kinds
-
-
 def _choose(
-    table: _Table,
-    numbers: Sequence[int],
-    may_define: Callable[[int, int, Entries], bool],
-    chains: Chains,
+    table: Table, may_define: Callable[[int, int, Entries], bool], chains: Chains
 ) -> list[_Candidate]:
     """Definitions none of which holds an unknown that another defines; algebraic ones first."""
     candidates = [
         c
-        for entry in table.entries
-        if may_define(numbers[entry[1]], entry[2], table.orders[entry[1]])
-        and (c := _candidate(entry, table, chains))
+        for number, row in table.rows.items()
+        for chain, factor in row.factors.items()
+        if may_define(number, chain, row.orders)
+        and (c := _candidate(number, chain, factor.kind, table, chains))
     ]
     if any(c.rank[0] == 0 for c in candidates):
         candidates = [c for c in candidates if c.rank[0] == 0]
@@ -177,8 +127,8 @@ def _choose(
     locked: set[int] = set()  # unknowns of the equations chosen
     taken: set[int] = set()
     for c in sorted(candidates, key=lambda c: (c.rank, c.equation, c.chain)):
-        inside = table.orders[c.equation]
-        if c.equation in taken or c.chain in locked or any(j in defined for j in inside):
+        inside = table.rows[c.equation].orders
+        if c.equation in taken or c.chain in locked or not defined.isdisjoint(inside):
             continue
         chosen.append(c)
         defined.add(c.chain)
@@ -187,18 +137,19 @@ def _choose(
     return chosen
 
 
-def _candidate(entry: tuple[int, int, int], table: _Table, chains: Chains) -> _Candidate | None:
-    at, row, chain = entry
-    kind = table.kinds[at]
-    if kind < 0 or chains.items[chain].fixed or table.orders[row][chain] > 0:
+def _candidate(
+    number: int, chain: int, kind: int, table: Table, chains: Chains
+) -> _Candidate | None:
+    row = table.rows[number]
+    if chains.items[chain].fixed or row.orders[chain] > 0:
         return None
-    terms, others = len(table.orders[row]) - 1, len(table.equations[chain]) - 1
+    terms, others = len(row.orders) - 1, len(table.equations[chain]) - 1
     if terms > 1 and others > 1 and terms * others > MOST_FILL:
         return None
-    differentiated = chain in table.differentiated
-    if differentiated and row in table.unrated:
+    differentiated = table.is_differentiated(chain)
+    if differentiated and row.unrated:
         return None
-    return _Candidate((int(differentiated), kind, terms * others), row, chain, at)
+    return _Candidate((int(differentiated), kind, terms * others), number, chain)
 
 
 def _replace(value: ca.SX, removed: list[int], definitions: ca.SX, chains: Chains) -> ca.SX:

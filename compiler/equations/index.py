@@ -90,9 +90,8 @@ def reduce_index(incidence: Sequence[dict[int, int]], count: int) -> Index:
     for row in incidence:
         for j, order in row.items():
             highest[j] = max(highest[j], order)
-    solver = [-1] * count
-    solves = [-1] * len(incidence)
-    for equation in range(len(incidence)):
+    solver, solves = _match_highest(incidence, highest)
+    for equation in (i for i, j in enumerate(solves) if j < 0):
         while True:
             path, equations, unknowns = _augment(
                 equation, incidence, differentiated, highest, solver, solves
@@ -104,6 +103,23 @@ def reduce_index(incidence: Sequence[dict[int, int]], count: int) -> Index:
             for i in equations:
                 differentiated[i] += 1
     return Index(tuple(differentiated), tuple(highest), tuple(solver))
+
+
+def _match_highest(
+    incidence: Sequence[dict[int, int]], highest: Sequence[int]
+) -> tuple[list[int], list[int]]:
+    """The most pairs of equations with highest derivatives in them, before any differentiation.
+
+    Gives the equation of each unknown and the unknown of each equation, or -1.
+    """
+    solver, solves = [-1] * len(highest), [-1] * len(incidence)
+    rows = [[j for j, order in row.items() if order == highest[j]] for row in incidence]
+    if rows and highest:
+        matching = maximum_bipartite_matching(_matrix(rows, len(highest)), perm_type="column")
+        for i, j in enumerate(matching.tolist()):
+            if j >= 0:
+                solver[j], solves[i] = i, j
+    return solver, solves
 
 
 def _augment(

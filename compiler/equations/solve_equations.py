@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import casadi as ca
-import numpy as np
 from frot.compiler.equations.chains import Chains, replace_known
 from frot.compiler.equations.combine import combine
 from frot.compiler.equations.core import Core, make_core
@@ -29,6 +28,7 @@ from frot.compiler.equations.eliminate import (
     resolve_all,
 )
 from frot.compiler.equations.floating import is_tied_down
+from frot.compiler.equations.given import Given
 from frot.compiler.equations.index import reduce_index
 from frot.compiler.equations.order import Component, closure
 from frot.compiler.equations.origins import Origin
@@ -54,7 +54,7 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
     """The kernel's system of a mechanism and the equations of its text; faults are reported."""
     chains, s = reduced.text.chains, reduced.symbols
     values = default_values(reduced.mechanism.model, {})
-    defaults = ca.DM(np.array([as_number(evaluate(p.value, values)) for p in s.parameters]))
+    given = Given(s.p, [as_number(evaluate(p.value, values)) for p in s.parameters])
     newton, count = _newton(reduced), s.v.numel()
     own = [Origin(reduced.mechanism.model.span, "the equations of motion", "")] * count
     raw = Residuals(
@@ -75,7 +75,7 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
         alias = len(entries) <= 2 and not any(entries.values())
         return index.equations[count + i] == states and (states > 0 or alias)
 
-    left = eliminate(reduced.equations, may_define, chains, s.p, defaults)
+    left = eliminate(reduced.equations, may_define, chains, given)
     if not _are_equations(left, chains, log):
         return None
     forces = resolve_all(newton, chains, left.resolver)
@@ -92,14 +92,14 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
     solving = Solving()
     for k, component in enumerate(found.components):
         if k not in core and k not in late:
-            _solve(component, found, solving, False, s.p, defaults)
-    built = make_core(reduced, left, found, core, forces, solving.known, defaults, log)
+            _solve(component, found, solving, False, given)
+    built = make_core(reduced, left, found, core, forces, solving.known, given, log)
     if built is None:
         return None
     solving.known.update(built.known)
     for k, component in enumerate(found.components):
         if k in late:
-            _solve(component, found, solving, True, s.p, defaults)
+            _solve(component, found, solving, True, given)
     return _finish(reduced, left, found, solving, built, log)
 
 
@@ -166,17 +166,15 @@ def _solve(
     found: Differentiated,
     solving: Solving,
     late: bool,
-    p: ca.SX,
-    defaults: ca.DM,
+    given: Given,
 ) -> None:
     """Solve one component: by formulas as far as they go, the rest as a block."""
     unknowns = [found.unknown(j) for j in component.unknowns]
     residual = [replace_known(found.values[i], solving.known) for i in component.equations]
-    torn = tear(residual, unknowns, p, defaults)
-    parameters = {x.element_hash() for x in (ca.vertsplit(p) if p.numel() else ())}
+    torn = tear(residual, unknowns, given)
     for factor, unknown, number in torn.divisors:
         inside = ca.symvar(factor)
-        if inside and all(x.element_hash() in parameters for x in inside):
+        if inside and all(x in given for x in inside):
             origin = found.origins[component.equations[number]]
             solving.pivots.append(Pivot(factor, unknown.name(), origin))
     first = len(solving.y)

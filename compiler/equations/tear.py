@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.chains import replace_known
+from frot.compiler.equations.given import Given
 from frot.compiler.lowering.symbols import column
 
 
@@ -28,7 +29,7 @@ class Torn:
     linear: bool
 
 
-def tear(residual: list[ca.SX], unknowns: list[ca.SX], p: ca.SX, defaults: ca.DM) -> Torn:
+def tear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> Torn:
     """Tear a component of as many equations as unknowns.
 
     A formula divides by a constant, or by a parameter expression that is not zero at its default;
@@ -43,7 +44,7 @@ def tear(residual: list[ca.SX], unknowns: list[ca.SX], p: ca.SX, defaults: ca.DM
         factor = jacobian[0, 0]
         formula = (unknowns[0], -rest / factor)
         return Torn((formula,), ((factor, unknowns[0], 0),), (), (), True)
-    divisors = _divisors(jacobian, z, p, defaults)
+    divisors = _divisors(jacobian, given)
     steps, iterated, rest_equations = _order(jacobian, divisors)
     explicit = []
     for i, j in steps:
@@ -74,20 +75,17 @@ def _put_in(explicit: list[tuple[ca.SX, ca.SX]], residual: list[ca.SX]) -> list[
     return [replace_known(value, known) for value in residual]
 
 
-def _divisors(jacobian: ca.SX, z: ca.SX, p: ca.SX, defaults: ca.DM) -> set[tuple[int, int]]:
+def _divisors(jacobian: ca.SX, given: Given) -> set[tuple[int, int]]:
     """Entries of the Jacobian that may be divided by."""
     rows, columns = jacobian.sparsity().get_triplet()
     if not rows:
         return set()
     values = jacobian.nz[:]
-    parameters = {s.element_hash() for s in ca.vertsplit(p)} if p.numel() else set()
-    varying = [s for s in ca.symvar(values) if s.element_hash() not in parameters]
-    moving = set(ca.jacobian_sparsity(values, column(varying)).row()) if varying else set[int]()
-    fixed = [k for k in range(len(rows)) if k not in moving]
-    numbers = ca.Function("divisors", [p], [column(values[k] for k in fixed)])(defaults).full()
+    fixed = given.fixed(values)
+    numbers = given.numbers([values[k] for k in fixed])
     return {
         (rows[k], columns[k])
-        for k, x in zip(fixed, numbers.ravel(), strict=True)
+        for k, x in zip(fixed, numbers, strict=True)
         if x != 0 and abs(x) < float("inf")
     }
 

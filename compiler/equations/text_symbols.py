@@ -87,4 +87,6 @@ def make_text_symbols(variables: tuple[Variable, ...], chains: Chains) -> TextSy
 
 def scalars(value: ca.SX) -> list[ca.SX]:
     """The items of a scalar, a column or a matrix, by rows."""
+    if value.is_scalar():
+        return [value]
     return list(ca.vertsplit(ca.vec(value.T))) if value.numel() else []

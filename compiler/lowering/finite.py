@@ -7,6 +7,8 @@ whose residual is not finite then is the one that fails.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import casadi as ca
 from frot.compiler.equations.origins import Origin
 from frot.compiler.lowering.assembled import Assembled
@@ -26,19 +28,33 @@ _LARGEST = 1e300
 def watch_numbers(system: Assembled) -> tuple[ca.SX, list[Origin]]:
     """The residuals to look at when a number is missed, and the equations they belong to."""
     equations = system.reduced.equations
-    values: list[ca.SX] = []
-    origins: list[Origin] = []
-    for value, origin in zip(equations.values, equations.origins, strict=True):
-        inside = ca.symvar(value)
-        if not inside or not _is_risky(value, inside):
-            continue
-        known = system.resolve(system.reduced.variables.settled(column(inside)))
-        guarded = ca.if_else(ca.fabs(known) < _LARGEST, known, 1)
-        values.append(ca.substitute(value, column(inside), guarded))
-        origins.append(origin)
-    return column(values), origins
+    risky = _risky(equations.values)
+    values = column(equations.values[k] for k in risky)
+    inside = column(ca.symvar(values))
+    known = system.resolve(system.reduced.variables.settled(inside))
+    guarded = ca.if_else(ca.fabs(known) < _LARGEST, known, 1)
+    watched = ca.substitute(values, inside, guarded) if inside.numel() else values
+    return watched, [equations.origins[k] for k in risky]
 
 
-def _is_risky(value: ca.SX, inside: list[ca.SX]) -> bool:
-    function = ca.Function("f", inside, [value])
-    return any(function.instruction_id(k) in _RISKY for k in range(function.n_instructions()))
+def _risky(values: Sequence[ca.SX]) -> list[int]:
+    """The places of what an operation may make infinite or no number."""
+    whole = column(values)
+    symbols = column(ca.symvar(whole))
+    function = ca.Function("f", [symbols], [whole])
+    marked = [False] * function.sz_w()
+    found: list[int] = []
+    for k in range(function.n_instructions()):
+        operation, to, of = (
+            function.instruction_id(k),
+            function.instruction_output(k),
+            function.instruction_input(k),
+        )
+        if operation == ca.OP_OUTPUT:
+            if marked[of[0]]:
+                found.append(to[1])
+        elif operation in (ca.OP_INPUT, ca.OP_CONST):
+            marked[to[0]] = False
+        else:
+            marked[to[0]] = operation in _RISKY or any(marked[i] for i in of)
+    return found

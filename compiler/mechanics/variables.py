@@ -40,6 +40,8 @@ class Variables:
 
     def settled(self, value: ca.SX) -> ca.SX:
         """The value with auxiliary coordinates and speeds at zero."""
+        if not self.symbols.w.numel():
+            return value
         auxiliary = self.symbols.auxiliary
         return ca.substitute(value, auxiliary, ca.SX.zeros(auxiliary.shape))
 
