@@ -126,7 +126,7 @@ def grid(n: int) -> str:
 
 
 def sphere(n: int) -> str:
-    """n points that repel each other on a sphere: index 3, n^2 + 4 n variables."""
+    """N points that repel each other on a sphere: index 3, n^2 + 4 n variables."""
     # spread evenly along a spiral, none beside another
     starts = []
     for i in range(n):
@@ -165,7 +165,7 @@ def brusselator(n: int) -> str:
     return dedent(f"""\
         model Brusselator "two substances that react and diffuse"
           constant Integer n = {n};
-          parameter AngularVelocity k = {(n + 1) ** 2 / 50!r} s^-1 "diffusion over the square of a cell";
+          parameter AngularVelocity k = {(n + 1) ** 2 / 50!r} s^-1 "diffusion in a cell";
           Real u[n + 2] "concentration";
           Real v[n + 2] "concentration";
         initial

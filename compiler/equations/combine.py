@@ -17,9 +17,13 @@ from frot.compiler.equations.differentiate import find_incidence
 from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.index import Index, find_unbalanced, reduce_index
 from frot.compiler.equations.order import find_components
+from frot.compiler.equations.slopes import slopes, symbols_inside
 from frot.compiler.lowering.symbols import column
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import splu
 
 NEGLIGIBLE = 1e-10  # of numbers of order one that should be nothing but rounding
+PLAIN = 1e-6  # pivots above it, in the largest, tell a matrix that has an inverse
 ECHELON = 1e-6  # below it an item of a vector of length one is no pivot
 POINTS = 3  # random places at which a dependence must be the same
 
@@ -93,16 +97,23 @@ def _weights(
 
     They must be the same whatever the values of variables and parameters.
     """
-    entries = ca.SX(len(rows), len(unknowns))
-    for k, i in enumerate(rows):
-        for at, j in enumerate(unknowns):
-            order = index.unknowns[j] - index.equations[i]
-            if order >= 0:
-                symbol = chains.symbol(left[j], order)
-                if ca.depends_on(values[i], symbol):
-                    entries[k, at] = ca.jacobian(values[i], symbol)
+    own = [values[i] for i in rows]
+    inside = [s for s in symbols_inside(own)[0] if s.element_hash() in chains.place]
+    at = {left[j]: k for k, j in enumerate(unknowns)}
+    places: list[tuple[int, int]] = []
+    entries: list[ca.SX] = []
+    for row, place, item in zip(*slopes(own, inside), strict=True):
+        chain, order = chains.place[inside[place].element_hash()]
+        k = at.get(chain)
+        if k is not None and order == index.unknowns[unknowns[k]] - index.equations[rows[row]]:
+            places.append((row, k))
+            entries.append(item)
     found: list[np.ndarray] = []
-    for matrix in _at_random(entries):
+    for numbers in _at_random(column(entries)):
+        matrix = np.zeros((len(rows), len(unknowns)))
+        matrix[tuple(np.array(places).T)] = numbers.ravel()
+        if np.isfinite(matrix).all() and _has_inverse(matrix):
+            return None
         sizes = np.abs(matrix).max(axis=0)
         if not np.isfinite(matrix).all() or not sizes.all():
             return None
@@ -115,6 +126,22 @@ def _weights(
         return None
     near = np.round(found[0])
     return near if np.abs(near - found[0]).max() < NEGLIGIBLE else found[0]
+
+
+def _has_inverse(matrix: np.ndarray) -> bool:
+    """Whether a matrix is seen to be far from singular, by its sparse factors.
+
+    That takes time in proportion to what they hold; singular values, the cube of the size.
+    """
+    sizes = np.abs(matrix).max(axis=0)
+    if not sizes.all():
+        return False
+    try:
+        factors = splu(csc_matrix(matrix / sizes))
+    except RuntimeError:
+        return False
+    pivots = np.abs(factors.U.diagonal())
+    return bool(pivots.min() > PLAIN * pivots.max())
 
 
 def _sparsest(basis: np.ndarray) -> np.ndarray:

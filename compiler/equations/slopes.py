@@ -46,9 +46,7 @@ def slopes(
     for group, own in groups:
         along = column(symbols[j] for j in own)
         jacobian = ca.jacobian(column(values[i] for i in group), along)
-        for i, j, item in zip(
-            *jacobian.sparsity().get_triplet(), jacobian.nonzeros(), strict=True
-        ):
+        for i, j, item in zip(*jacobian.sparsity().get_triplet(), jacobian.nonzeros(), strict=True):
             found.append((group[i], own[j], item))
     found.sort(key=lambda entry: entry[:2])
     return [i for i, _, _ in found], [j for _, j, _ in found], [x for _, _, x in found]

@@ -7,26 +7,12 @@ Elmqvist, M. Otter, 1994).
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.chains import replace_known
 from frot.compiler.equations.given import Given
+from frot.compiler.equations.tear_linear import Torn, tear_linear
 from frot.compiler.lowering.symbols import column
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Torn:
-    """`explicit` unknowns with their formulas in order, `iterated` ones with their `residual`.
-
-    `divisors` are (factor, unknown, number of the equation) of what the formulas divide by.
-    """
-
-    explicit: tuple[tuple[ca.SX, ca.SX], ...]
-    divisors: tuple[tuple[ca.SX, ca.SX, int], ...]
-    iterated: tuple[ca.SX, ...]
-    residual: tuple[ca.SX, ...]
-    linear: bool
 
 
 def tear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> Torn:
@@ -44,6 +30,8 @@ def tear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> Torn:
         factor = jacobian[0, 0]
         formula = (unknowns[0], -rest / factor)
         return Torn((formula,), ((factor, unknowns[0], 0),), (), (), True)
+    if not ca.depends_on(jacobian, z):
+        return tear_linear(residual, unknowns, given)
     divisors = _divisors(jacobian, given)
     steps, iterated, rest_equations = _order(jacobian, divisors)
     explicit = []
@@ -55,12 +43,6 @@ def tear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> Torn:
     put = _put_in(explicit, [residual[i] for i in rest_equations])
     slope = ca.jacobian(column(put), kept)
     linear = not ca.depends_on(slope, kept)
-    if len(put) == 1 and linear:
-        # one unknown left, in a linear equation: a formula too, and with it all the others
-        value = -ca.substitute(put[0], kept, ca.SX(0)) / slope
-        known = {kept.element_hash(): value}
-        formulas = ((s, replace_known(x, known)) for s, x in explicit)
-        return Torn(((kept, value), *formulas), divided, (), (), True)
     iterated_symbols = tuple(unknowns[j] for j in iterated)
     return Torn(tuple(explicit), divided, iterated_symbols, tuple(put), linear)
 

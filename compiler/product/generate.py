@@ -16,6 +16,7 @@ from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.elements import Bound, Element
 from frot.compiler.mechanics.mechanism import Pin
 from frot.compiler.mechanics.names import turning_coordinates
+from frot.compiler.product.split import split_functions
 from frot.dsl.messages.source import Span
 
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
@@ -388,7 +389,7 @@ def _functions(lowered: Lowered) -> str:
         text = path.read_text(encoding="utf-8")
     if "#error" in text:
         raise RuntimeError("CasADi could not generate C for a function of the model")
-    text = _UNASKED.sub("", _ABSENT.sub(r"\2", text))
+    text = split_functions(_UNASKED.sub("", _ABSENT.sub(r"\2", text)))
     return (_QUICK + text) if len(text) > _LONG else text
 
 

@@ -1,0 +1,146 @@
+"""Cuts long functions of generated C into pieces that a C compiler takes in its stride.
+
+CasADi writes a function of scalars as one straight line of statements over local variables; what C
+compilers do with such a line takes more than proportional time and memory. A piece is a function
+of its own over the same statements. Values that pass from one to a later one lie in the work
+array, which CasADi makes as long as it has variables. The same operations are done in the same
+order, so that not a bit of the results changes.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+# Statements of a piece. GCC takes least for some hundreds; a call costs nothing beside them.
+LONGEST = 500
+# Items of a result with one value that are written as a loop.
+RUN = 4
+
+_ARGUMENTS = "const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem"
+_PASSED = "const casadi_real** arg, casadi_real** res, casadi_real* w"
+_HEAD = re.compile(r"^static int (casadi_f\d+)\(" + re.escape(_ARGUMENTS) + r"\) \{$")
+_DECLARED = re.compile(r"^  casadi_real a\d+[a\d, ]*;$")
+_VARIABLE = re.compile(r"\ba(\d+)\b")
+_SET = re.compile(r"^  a(\d+)=(.*);$")
+_GIVEN = re.compile(r"arg\[\d+\]\[\d+\]$|-?[\d.]+(e[-+]?\d+)?$")
+_RESULT = re.compile(r"^  res\[(\d+)\]\[(\d+)\]=(a\d+);$")
+
+
+def split_functions(text: str) -> str:
+    """The same C with every long function of straight code in pieces."""
+    lines = text.split("\n")
+    made: list[str] = []
+    at = 0
+    while at < len(lines):
+        head = _HEAD.match(lines[at])
+        if head is None:
+            made.append(lines[at])
+            at += 1
+            continue
+        end = lines.index("}", at)
+        made += _rewritten(head.group(1), lines[at : end + 1])
+        at = end + 1
+    return "\n".join(made)
+
+
+def _rewritten(name: str, lines: list[str]) -> list[str]:
+    """One function, from its head to its closing brace."""
+    head, *body, end, brace = lines
+    statements = [line for line in body if not _DECLARED.match(line)]
+    if end != "  return 0;" or not all(map(_is_plain, statements)):
+        return lines
+    short = list(_with_loops(statements))
+    if len(short) <= LONGEST:
+        return [head, *_declared(_names(short)), *short, end, brace]
+    pieces = [short[k : k + LONGEST] for k in range(0, len(short), LONGEST)]
+    made: list[str] = []
+    for k, piece in enumerate(_with_passed(pieces)):
+        made += [
+            f"static void {name}_{k}({_PASSED}) {{",
+            *piece,
+            "}",
+            "",
+        ]
+    calls = [f"  {name}_{k}(arg, res, w);" for k in range(len(pieces))]
+    return [*made, head, *calls, end, brace]
+
+
+def _is_plain(line: str) -> bool:
+    return _SET.match(line) is not None or _RESULT.match(line) is not None
+
+
+def _with_loops(statements: list[str]) -> Iterator[str]:
+    """The statements, runs of one value in consecutive items of a result as loops."""
+    run: list[str] = []
+    first, result, value = 0, "", ""
+
+    def told() -> Iterator[str]:
+        if len(run) < RUN:
+            yield from run
+            return
+        each = f"res[{result}][k]={value};"
+        yield f"  for (casadi_int k={first}; k<{first + len(run)}; k++) {each}"
+
+    for line in statements:
+        found = _RESULT.match(line)
+        if found is None or (found[1], int(found[2]), found[3]) != (
+            result,
+            first + len(run),
+            value,
+        ):
+            yield from told()
+            run = []
+        if found is None:
+            yield line
+            result = ""
+        else:
+            if not run:
+                result, first, value = found[1], int(found[2]), found[3]
+            run.append(line)
+    yield from told()
+
+
+def _with_passed(pieces: list[list[str]]) -> Iterator[list[str]]:
+    """The pieces with what they take at the start, and leave in the work array at the end.
+
+    An argument or a number is read again.
+    """
+    own = [_reads_and_sets(piece) for piece in pieces]
+    later: set[str] = set()
+    wanted: list[set[str]] = []
+    for reads, sets in reversed(own):
+        wanted.append(later)
+        later = (later - sets) | reads
+    known: dict[str, str] = {}
+    for piece, (reads, sets), after in zip(pieces, own, reversed(wanted), strict=True):
+        taken = [f"  a{x}={known.get(x, f'w[{int(x)}]')};" for x in sorted(reads)]
+        for line in piece:
+            found = _SET.match(line)
+            if found:
+                known.pop(found[1], None)
+                if _GIVEN.match(found[2]):
+                    known[found[1]] = found[2]
+        left = [f"  w[{int(x)}]=a{x};" for x in sorted(sets & after) if x not in known]
+        yield [*_declared(_names([*piece, *taken])), *taken, *piece, *left]
+
+
+def _reads_and_sets(piece: list[str]) -> tuple[set[str], set[str]]:
+    """The variables that a piece reads before it sets them, and those that it sets."""
+    reads: set[str] = set()
+    sets: set[str] = set()
+    for line in piece:
+        found = _SET.match(line)
+        reads.update(x for x in _VARIABLE.findall(found[2] if found else line) if x not in sets)
+        if found:
+            sets.add(found[1])
+    return reads, sets
+
+
+def _names(statements: Iterable[str]) -> list[str]:
+    return sorted({x for line in statements for x in _VARIABLE.findall(line)})
+
+
+def _declared(names: list[str]) -> list[str]:
+    rows = [names[k : k + 12] for k in range(0, len(names), 12)]
+    return [f"  casadi_real {', '.join(f'a{x}' for x in row)};" for row in rows]

@@ -1,0 +1,134 @@
+"""What a text costs grows with its length: counted, not timed."""
+
+from __future__ import annotations
+
+import cProfile
+import pstats
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from frot.compiler.lowering.lower import Lowered, lower
+from frot.compiler.mechanics.mechanize import mechanize
+from frot.compiler.mechanics.reduce import reduce
+from frot.compiler.product import split
+from frot.compiler.product.generate import generate
+from frot.compiler.product.split import LONGEST
+from frot.dsl import Log, compile_text
+
+import frot
+
+LADDER = """
+model Ladder "cells of parts with connectors"
+  import Electrical.*;
+  parameter Integer n = {n};
+  ConstantVoltage source(V = 1 V);
+  Resistor r[n](R = 1 Ohm);
+  Capacitor c[n](C = 1 F);
+  Ground earth;
+initial
+  for i in 1:n loop
+    c[i].v = 0 V;
+  end for;
+equation
+  connect(source.n, earth.p);
+  connect(source.p, r[1].p);
+  for i in 1:n loop
+    connect(r[i].n, c[i].p);
+    connect(c[i].n, earth.p);
+  end for;
+  for i in 2:n loop
+    connect(r[i - 1].n, r[i].p);
+  end for;
+  experiment(stop = 1 s);
+end Ladder;
+"""
+
+SPHERE = """
+model Points "points that repel each other on a sphere: index 3"
+  constant Integer n = {n};
+  Real x[n, 3];
+  Real w[n, n];
+  Real g[n](unit = "1/s^2");
+initial
+  for i in 1:n loop
+    guess(x[i, 1] = cos(2.4*i)*sqrt(1 - (1 - (2*i - 1)/n)^2));
+    guess(x[i, 2] = sin(2.4*i)*sqrt(1 - (1 - (2*i - 1)/n)^2));
+    guess(x[i, 3] = 1 - (2*i - 1)/n);
+  end for;
+equation
+  for i in 1:n loop
+    for j in 1:n loop
+      w[i, j] = if i == j then 0 else
+        1/((x[i, 1] - x[j, 1])^2 + (x[i, 2] - x[j, 2])^2 + (x[i, 3] - x[j, 3])^2)^1.5;
+    end for;
+    for k in 1:3 loop
+      der(der(x[i, k])) = g[i]*x[i, k]
+        + (sum(w[i, 1:n])*x[i, k] - dot(w[i, 1:n], x[1:n, k]))*1 1/s^2;
+    end for;
+    x[i, 1]^2 + x[i, 2]^2 + x[i, 3]^2 = 1;
+  end for;
+  experiment(stop = 0.1 s);
+end Points;
+"""
+
+
+def lowered(text: str) -> Lowered:
+    log = Log()
+    model = compile_text(text, log)
+    assert model is not None
+    mechanism = mechanize(model, log)
+    assert mechanism is not None
+    reduced = reduce(mechanism, log)
+    assert reduced is not None
+    found = lower(reduced, log)
+    assert found is not None
+    return found
+
+
+def c_text(made: Lowered) -> str:
+    """The C of a model, every parameter with the value one."""
+    return generate(made, "key", [1.0] * len(made.reduced.symbols.parameters), [])
+
+
+def calls(text: str) -> int:
+    """Calls of Python's and CasADi's functions from the text to C."""
+    profile = cProfile.Profile()
+    profile.enable()
+    c_text(lowered(text))
+    profile.disable()
+    return int(pstats.Stats(profile).total_calls)
+
+
+def test_twice_the_cells_take_twice_the_calls() -> None:
+    lowered(LADDER.format(n=3))  # what is loaded once
+    one, two, four = (calls(LADDER.format(n=n)) for n in (40, 80, 160))
+    assert (four - two) < 2.3 * (two - one)
+
+
+def test_the_ladder_of_parts_costs_what_its_states_cost() -> None:
+    """Seven operations a state at most: two currents, their difference, by R and by C."""
+    for n in (50, 100):
+        rates = lowered(LADDER.format(n=n)).functions["dynamics"]
+        operations = rates.n_instructions() - n - sum(rates.nnz_in(k) for k in range(rates.n_in()))
+        assert operations < 10 * n
+
+
+def test_no_function_of_c_is_long() -> None:
+    longest = 0
+    for function in re.split(r"\n}\n", c_text(lowered(SPHERE.format(n=8)))):
+        longest = max(longest, function.count(";\n"))
+    assert LONGEST <= longest < 4 * LONGEST
+
+
+def test_a_function_in_pieces_gives_the_same_bits(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    found = []
+    for longest in (10**9, 40):
+        monkeypatch.setattr(split, "LONGEST", longest)
+        monkeypatch.setenv("FROT_CACHE", str(tmp_path / str(longest)))
+        result = frot.compile(SPHERE.format(n=3)).simulate(interval=0.01)
+        found.append(np.array([result[name] for name in result]))
+    assert np.array_equal(*found, equal_nan=True)
