@@ -8,6 +8,7 @@ long row needs as many as it has entries, each through all equations. Such rows 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import cast
 
 import casadi as ca
 from frot.compiler.lowering.symbols import column
@@ -46,7 +47,8 @@ def slopes(
     for group, own in groups:
         along = column(symbols[j] for j in own)
         jacobian = ca.jacobian(column(values[i] for i in group), along)
-        for i, j, item in zip(*jacobian.sparsity().get_triplet(), jacobian.nonzeros(), strict=True):
+        items = cast("list[ca.SX]", jacobian.nonzeros())
+        for i, j, item in zip(*jacobian.sparsity().get_triplet(), items, strict=True):
             found.append((group[i], own[j], item))
     found.sort(key=lambda entry: entry[:2])
     return [i for i, _, _ in found], [j for _, j, _ in found], [x for _, _, x in found]

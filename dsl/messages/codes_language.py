@@ -75,7 +75,7 @@ _SYNTAX = {
     "E0109": (
         "model too large",
         "Components, scalars of arrays, equations and calls of functions are counted while the "
-        "model is made; there are 400 000 at most, a component counted three times.",
+        "model is made; there are 200 000 at most, a component counted three times.",
         "Make the arrays smaller; look for a range or a size that is not meant.",
         snippet("parameter Real x = sum(zeros(1000000));"),
     ),

@@ -82,8 +82,8 @@ def test_texts_that_would_grow_without_bound_are_refused_by_name() -> None:
         "model M\n Real x = sum(fill(1, 1000, 1000));\nend M;\n",
     ]
     for text in texts:
-        begun = time.perf_counter()
+        begun = time.process_time()
         log = Log()
         assert compile_text(text, log, model="A0" if "A40" in text else None) is None
         assert [d.code for d in log] == ["E0109"], render_log(log)
-        assert time.perf_counter() - begun < 15
+        assert time.process_time() - begun < 15
