@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 # Scalars, components, equations, rounds of loops and expanded calls of one model, together: what a
 # check makes of a text stays below some seconds and hundreds of megabytes.
-LARGEST = 100_000
+LARGEST = 200_000
 # What a component and a call take, where an equation takes 1.
 COMPONENT, CALL = 3, 6
 # Declarations of different components that wait for one another.
