@@ -27,7 +27,8 @@ typedef struct {
   frot_work *w;
   const frot_group *g;
   const frot_contact_mode *modes;
-  int held, unknowns, equations;
+  int held, unknowns, equations; /* of these, those that hold rows: */
+  int holding;
 } problem;
 
 double frot_bounding(const frot_model *m, const frot_work *w, int element,
@@ -289,27 +290,41 @@ static int hold_rows(problem *p) {
   return 0;
 }
 
+/* What is known of the readings that bound friction, and what each unknown does to them, once for
+ * all directions: known (2 for each follower), effects (n for each of these). */
+static void read_bounds(const problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int n = p->unknowns;
+  double *known = w->reactions.known, *effects = w->reactions.effects;
+  for (int f = p->held; f < n; f++)
+    for (int k = 0; k < 2; k++, known++, effects += n) {
+      int reading = m->elements[w->reactions.owner[f]].bounded_by[k];
+      if (reading < 0) continue;
+      *known = known_part(p, reading);
+      for (int c = 0; c < n; c++) effects[c] = w->reactions.unit_of[c] * effect_of(p, reading, c);
+    }
+}
+
 /* The friction that follows readings: lam - ratio (its reading) = 0. */
 static void follow_readings(problem *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   int n = p->unknowns;
-  for (int f = p->held; f < n; f++) {
-    int e = w->reactions.owner[f], line = p->equations++;
-    const frot_element *element = &m->elements[e];
-    double scale = 1 / w->reactions.unit_of[f], ratio = w->reactions.ratio[e] * scale, known = 0;
-    double along[2] = {1, 0};
-    if (element->bound == FROT_BY_PIN) memcpy(along, w->reactions.along + 2 * e, sizeof along);
-    for (int c = 0; c < n; c++) w->linear.matrix[c * n + line] = c == f;
-    for (int k = 0; k < 2; k++) {
-      if (along[k] == 0) continue;
-      int reading = element->bounded_by[k];
-      known += along[k] * known_part(p, reading);
-      for (int c = 0; c < n; c++)
-        w->linear.matrix[c * n + line] -=
-            ratio * along[k] * w->reactions.unit_of[c] * effect_of(p, reading, c);
+  const double *known = w->reactions.known, *effects = w->reactions.effects;
+  p->equations = p->holding;
+  for (int f = p->held; f < n; f++, known += 2, effects += 2 * n) {
+    int e = w->reactions.owner[f], line = p->equations++, pin = m->elements[e].bound == FROT_BY_PIN;
+    double ratio = w->reactions.ratio[e] / w->reactions.unit_of[f];
+    double first = pin ? w->reactions.along[2 * e] : 1;
+    double second = pin ? w->reactions.along[2 * e + 1] : 0;
+    double *entry = w->linear.matrix + line;
+    for (int c = 0; c < n; c++, entry += n) {
+      double effect = first * effects[c];
+      if (pin) effect += second * effects[n + c];
+      *entry = (c == f) - ratio * effect;
     }
-    w->linear.right[line] = ratio * known;
+    w->linear.right[line] = ratio * (first * known[0] + (pin ? second * known[1] : 0));
   }
 }
 
@@ -439,27 +454,24 @@ static int group_is_finite(const problem *p) {
   return 1;
 }
 
-/* Solve once in the directions w->along. */
-static int solve(problem *p) {
+/* Solve once in the directions w->reactions.along; *regular: whether one solution was all there is,
+ * the reactions are then not yet spread. */
+static int solve(problem *p, int *regular) {
   frot_work *w = p->w;
   int n = p->unknowns;
   double *x = w->reactions.solution;
-  if (hold_rows(p)) return 1;
-  if (p->equations > n) return 1; /* no reaction is left for a row that is to be kept */
   follow_readings(p);
-  int regular = p->equations == n;
-  if (regular) {
+  *regular = p->equations == n;
+  if (*regular) {
     memcpy(w->linear.scratch, w->linear.matrix, sizeof(double) * (size_t)(n * n));
     memcpy(x, w->linear.right, sizeof(double) * (size_t)n);
-    regular = !frot_lu_solve(w->linear.scratch, x, n);
+    *regular = !frot_lu_solve(w->linear.scratch, x, n);
   }
-  if (!regular) {
-    w->reactions.dependent = 1;
-    solve_least(p, x);
-  }
+  if (*regular) return 0;
+  w->reactions.dependent = 1;
+  solve_least(p, x);
   spread_reactions(p, x);
-  if (!group_is_finite(p)) return 1;
-  return !regular && !is_solution(p);
+  return !group_is_finite(p) || !is_solution(p);
 }
 
 /* Turn the directions of the pins whose friction follows to their reactions. Returns the largest
@@ -467,13 +479,17 @@ static int solve(problem *p) {
 static double turn_pins(const problem *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
+  int n = p->unknowns;
   double missed = 0;
-  for (int f = p->held; f < p->unknowns; f++) {
+  const double *known = w->reactions.known, *effects = w->reactions.effects;
+  for (int f = p->held; f < n; f++, known += 2, effects += 2 * n) {
     int e = w->reactions.owner[f];
     if (m->elements[e].bound != FROT_BY_PIN) continue;
-    double *along = w->reactions.along + 2 * e;
-    double first = w->core.lam[m->elements[e].bounded_by[0]];
-    double second = w->core.lam[m->elements[e].bounded_by[1]];
+    double *along = w->reactions.along + 2 * e, first = known[0], second = known[1];
+    for (int c = 0; c < n; c++) {
+      first += effects[c] * w->reactions.solution[c];
+      second += effects[n + c] * w->reactions.solution[c];
+    }
     double size = hypot(first, second), before = along[0] * first + along[1] * second;
     if (!(size > 0)) continue;
     missed = fmax(missed, (size - before) / size);
@@ -484,20 +500,27 @@ static double turn_pins(const problem *p) {
 
 int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
                          const frot_contact_mode *modes, const unsigned char *at_rest) {
-  problem p = {m, w, g, modes, 0, 0, 0};
+  problem p = {m, w, g, modes, 0, 0, 0, 0};
   w->reactions.dependent = 0;
   if (g->n_rows == 0) return 0;
   list_unknowns(&p, at_rest);
-  int pins = 0;
+  int pins = 0, regular = 0;
   for (int f = p.held; f < p.unknowns; f++)
     pins |= m->elements[w->reactions.owner[f]].bound == FROT_BY_PIN;
   w->span.rank = 0;
   if (p.unknowns == 0) return spread_reactions(&p, w->reactions.solution), !group_is_finite(&p);
+  if (hold_rows(&p)) return 1;
+  if (p.equations > p.unknowns) return 1; /* no reaction is left for a row that is to be kept */
+  p.holding = p.equations;
+  read_bounds(&p);
   for (int pass = 0, last = 0; pass < FROT_PIN_PASSES; pass++) {
-    if (solve(&p)) return 1;
-    if (!pins) return 0;
-    double missed = turn_pins(&p);
-    if (last || missed <= 2 * DBL_EPSILON) return 0;
+    if (solve(&p, &regular)) return 1;
+    double missed = pins ? turn_pins(&p) : 0;
+    if (last || missed <= 2 * DBL_EPSILON) {
+      if (!regular) return 0;
+      spread_reactions(&p, w->reactions.solution);
+      return !group_is_finite(&p);
+    }
     last = missed < FROT_PIN_CLOSE;
   }
   return 1;

@@ -105,6 +105,12 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   TAKE(r->unknown, n), TAKE(r->owner, n), TAKE(r->fold, 2 * n), TAKE(r->friction, n);
   TAKE(r->carried, n), TAKE(r->fold_ratio, 2 * n), TAKE(r->ratio, elements);
   TAKE(r->along, 2 * elements), TAKE(r->unit_of, n), TAKE(r->weight, n), TAKE(r->solution, n);
+  int followers = 0, followed = 0;
+  for (int k = 0; k < m->n_groups; k++) {
+    followers = larger(followers, m->groups[k].n_elements);
+    followed = larger(followed, m->groups[k].n_elements * m->groups[k].n_rows);
+  }
+  TAKE(r->known, 2 * followers), TAKE(r->effects, 2 * followed);
   TAKE(w->span.basis, (n + 1) * e->widest), TAKE(w->span.parts, n + e->widest);
   TAKE(w->span.bias, n), TAKE(w->span.bias_size, n);
 }

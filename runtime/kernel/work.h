@@ -44,11 +44,15 @@ typedef struct {
 } frot_core_work;
 
 /* reactions.h: the unknowns and what goes with them; whether reactions are not unique; held rows
- * that depend on those before them; where to begin to look for the pins' directions. */
+ * that depend on those before them; where to begin to look for the pins' directions. Of each
+ * unknown friction, twice: what is known of the readings that bound it, and what each unknown does
+ * to them.
+ */
 typedef struct {
   int *unknown, *owner, *fold;
   unsigned char *friction, *carried;
   double *fold_ratio, *ratio, *along, *unit_of, *weight, *solution;
+  double *known, *effects;
   int dependent;
 } frot_reaction_work;
 
