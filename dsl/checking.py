@@ -37,7 +37,6 @@ from frot.dsl.warn import warn, warn_angles
 
 # Frames of Python: nested expressions in declarations that wait for one another.
 _DEEPEST = 10_000
-_MECHANICS = tree.Body | tree.Frame | tree.Curve | tree.Surface | tree.Liaison | tree.Force
 
 
 def check(file: tree.Tree, log: Log, model: str | None = None) -> checked.Model | None:
@@ -87,7 +86,7 @@ def _model(
     equations = _equations(made, build)
     experiments = [experiment(call, scope) for call, scope in statements.experiments]
     found = [*_constants(build), *entities(root)]
-    _refuse_space(of, found, build)
+    _refuse_surfaces(found, build)
 
     def of_kind(kind: type) -> tuple[Entity, ...]:
         return tuple(e for e in found if isinstance(e, kind))
@@ -218,19 +217,13 @@ def _constants(build: Build) -> list[Entity]:
     ]
 
 
-def _refuse_space(of: Class, found: list[Entity], build: Build) -> None:
-    """A model in space is refused once all of it has been checked; one of equations is not."""
-    if build.planar:
-        return
-    kinds = (checked.Body, checked.Liaison, checked.Force, checked.Curve, checked.Surface)
-    definition = of.definition
-    assert isinstance(definition, tree.Definition)
-    if any(isinstance(e, kinds) for e in found) or any(
-        isinstance(e, _MECHANICS) for e in of.elements
-    ):
-        build.log.report(
-            "E0701",
-            f"mechanics in space is not supported yet ({of.name!r})",
-            definition.header,
-            help="a model of the x-y plane begins with 'planar model'",
-        )
+def _refuse_surfaces(found: list[Entity], build: Build) -> None:
+    """Surfaces are refused once all of the text has been checked."""
+    for surface in found:
+        if isinstance(surface, checked.Surface):
+            build.log.report(
+                "E0701",
+                f"the surface '{surface.name}' is not supported yet",
+                surface.span,
+                help="liaisons between points, with axes, are",
+            )

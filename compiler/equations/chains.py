@@ -34,6 +34,8 @@ class Chains:
         self.items: list[Chain] = []
         self.place: dict[int, tuple[int, int]] = {}
         self._time = time.element_hash()
+        self._given: dict[int, ca.SX] = {}
+        self._turned_by: dict[int, list[int]] = {}
         self._without_rate: dict[int, str] = {}
 
     def add(
@@ -63,6 +65,23 @@ class Chains:
             self._append(index, ca.SX.sym(f"der({chain.symbols[-1].name()})"))
         return chain.symbols[order]
 
+    def give_rates(self, symbols: list[ca.SX], rates: list[ca.SX], chains: list[int]) -> None:
+        """Symbols that are no unknowns but have known rates, and the chains whose rates these hold.
+
+        The four components of a quaternion follow three angular velocities: they stand for the
+        lowest order of these chains.
+        """
+        for symbol, rate in zip(symbols, rates, strict=True):
+            self._given[symbol.element_hash()] = rate
+            self._turned_by[symbol.element_hash()] = chains
+
+    def involved(self, symbol: ca.SX) -> list[tuple[int, int]]:
+        """The chains that a symbol belongs to, with its order there; none if it is no unknown."""
+        key = symbol.element_hash()
+        if key in self.place:
+            return [self.place[key]]
+        return [(chain, 0) for chain in self._turned_by.get(key, ())]
+
     def forbid_rate(self, symbols: ca.SX, what: str) -> None:
         """Note symbols whose derivative nobody knows; `what` names them: `the input`."""
         for symbol in ca.vertsplit(symbols) if symbols.numel() else ():
@@ -86,6 +105,9 @@ class Chains:
             if key == self._time:
                 symbols.append(symbol)
                 rates.append(ca.SX(1))
+            elif key in self._given:
+                symbols.append(symbol)
+                rates.append(self._given[key])
             elif key in self.place:
                 index, order = self.place[key]
                 symbols.append(symbol)

@@ -13,7 +13,7 @@ from frot.compiler.equations.index import find_unbalanced
 from frot.compiler.equations.origins import Origin, Unknown
 from frot.compiler.lowering.walk import subexpressions
 from frot.compiler.mechanics.mechanism import Mechanism
-from frot.compiler.mechanics.names import component_names, coordinate_names
+from frot.compiler.mechanics.names import component_names
 from frot.dsl import Log
 from frot.dsl.checked import (
     Element,
@@ -80,7 +80,7 @@ def check_balance(model: Model, mechanism: Mechanism, log: Log) -> bool:
     """Report unknowns without equations and equations without unknowns; whether all is well."""
     if not (model.variables or model.equations):
         return True
-    names = [n for c in mechanism.coordinates for n in coordinate_names(c)]
+    names = [n for c in mechanism.coordinates for n in c.speeds]
     places = _Places(model, names)
     rows: list[tuple[int, ...]] = []
     origins: list[Origin] = []

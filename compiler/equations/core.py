@@ -66,7 +66,7 @@ def make_core(
     """
     s, chains, elements = reduced.symbols, reduced.text.chains, reduced.text.elements
     states = _sort_states(found, core)
-    nv, na, count = len(states.v), s.w.numel(), s.v.numel()
+    nv, na, count = len(states.v), s.sw.numel(), s.v.numel()
     explicit = _remove_algebraic(found, states, core, known, given, chains)
     known = {**known, **explicit.resolver.known}
     algebraic = [x for x in states.algebraic if x.element_hash() not in explicit.resolver.known]
@@ -111,9 +111,9 @@ def make_core(
         v=column(states.v),
         z=z,
         lam=lam,
-        names=tuple(str(x.name()) for x in (*ca.vertsplit(s.q), *states.q, *states.v)),
-        q_speed=_speeds(s.q, states),
-        rates=ca.vertcat(s.v, column(states.rates)),
+        names=tuple(str(x.name()) for x in (*_items(s.q), *states.q, *states.v)),
+        q_speed=_speeds(s.q_speed, states),
+        rates=ca.vertcat(s.rates, column(states.rates)),
         nc=nc,
         matrix=matrix,
         force=force,
@@ -208,11 +208,15 @@ def _sort_states(found: Differentiated, core: set[int]) -> _States:
     return states
 
 
-def _speeds(q: ca.SX, states: _States) -> tuple[int, ...]:
+def _items(symbols: ca.SX) -> tuple[ca.SX, ...]:
+    return tuple(ca.vertsplit(symbols)) if symbols.numel() else ()
+
+
+def _speeds(own_speeds: tuple[int, ...], states: _States) -> tuple[int, ...]:
     """For each coordinate the speed that is its rate, or -1."""
     place = {v.element_hash(): k for k, v in enumerate(states.v)}
     own = [place.get(r.element_hash(), -1) for r in states.rates]
-    return (*range(q.numel()), *own)
+    return (*own_speeds, *own)
 
 
 def _rows(

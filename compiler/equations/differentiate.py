@@ -126,9 +126,9 @@ def find_incidence(
     place = {chain: k for k, chain in enumerate(left)}
     incidence: list[dict[int, int]] = [{} for _ in values]
     symbols, inside = symbols_inside(values)
-    places = [chains.place.get(s.element_hash()) for s in symbols]
+    places = [chains.involved(s) for s in symbols]
     for row, own in zip(incidence, inside, strict=True):
-        for chain, order in filter(None, (places[k] for k in own)):
+        for chain, order in (pair for k in own for pair in places[k]):
             j = place[chain]
             row[j] = max(order, row.get(j, 0))
     return incidence

@@ -106,7 +106,7 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
 def _newton(reduced: Reduced) -> ca.SX:
     """M a - h - J' lam, auxiliary accelerations at zero; the auxiliary rows last."""
     s = reduced.symbols
-    accelerations = ca.vertcat(s.a, ca.SX.zeros(s.w.shape))
+    accelerations = ca.vertcat(s.a, ca.SX.zeros(s.sw.shape))
     return reduced.mass @ accelerations - reduced.force - reduced.rows.T @ s.lam
 
 
@@ -231,7 +231,7 @@ def _finish(
         discrete=column(d.symbol for d in reduced.text.memory),
         names=core.names,
         q_speed=core.q_speed,
-        na=s.w.numel(),
+        na=s.sw.numel(),
         nc=core.nc,
         late=late,
         rates=rates,

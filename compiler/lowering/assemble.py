@@ -29,9 +29,8 @@ def _reads_solution(reduced: Reduced) -> bool:
 def _plain(reduced: Reduced) -> Assembled:
     """A mechanism alone: its mass matrix is the core."""
     s = reduced.symbols
-    na = s.w.numel()
+    na = s.sw.numel()
     nothing = ca.SX.zeros(0)
-    names = reduced.text.chains.items
     return Assembled(
         reduced=reduced,
         elements=(),
@@ -41,12 +40,12 @@ def _plain(reduced: Reduced) -> Assembled:
         z=ca.vertcat(s.a, ca.SX.sym("auxiliary", na)),
         lam=s.lam,
         discrete=nothing,
-        names=tuple(c.name for c in names),
-        q_speed=tuple(range(s.v.numel())),
+        names=tuple(x.name() for x in (*_items(s.q), *_items(s.v))),
+        q_speed=s.q_speed,
         na=na,
         nc=0,
         late=False,
-        rates=s.v,
+        rates=s.rates,
         matrix=reduced.mass,
         force=reduced.force,
         force_size=reduced.force_size,
@@ -63,3 +62,7 @@ def _plain(reduced: Reduced) -> Assembled:
         pivots=(),
         resolve=lambda value: value,
     )
+
+
+def _items(symbols: ca.SX) -> tuple[ca.SX, ...]:
+    return tuple(ca.vertsplit(symbols)) if symbols.numel() else ()

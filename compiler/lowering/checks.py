@@ -10,9 +10,9 @@ from frot.compiler.equations.eliminate import Pivot
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.dsl.catalogue import Argument
-from frot.dsl.checked import Call, Expression, Liaison, Parameter, Place, Reference
+from frot.dsl.checked import Binary, Call, Element, Expression, Liaison, Parameter, Place, Reference
 from frot.dsl.messages.source import Span
-from frot.dsl.quantities.dimensions import REAL
+from frot.dsl.quantities.dimensions import REAL, Type
 
 POSITIVE, NOT_NEGATIVE, FINITE, NOT_BELOW_PREVIOUS, NOT_ZERO = range(5)
 
@@ -92,5 +92,27 @@ def _arguments(
         value = values.get(kind.name)
         if value is None or isinstance(value, (Place, Liaison)) or kind.sign not in rules:
             continue
-        if is_fixed(value):
+        if kind.kind == "inertia" and value.type.shape:
+            yield from _moments(owner, value)
+        elif is_fixed(value):
             yield Check(rules[kind.sign], f"{kind.name} of {owner}", value, value.span)
+
+
+def _moments(owner: str, inertia: Expression) -> Iterator[Check]:
+    """No moment is negative, nor larger than the other two together (of a tuple of three)."""
+    item = inertia.type.item
+    if inertia.type.shape == (3, 3):
+        row = Type(item.base, item.dimension, (3,))
+        for k in range(3):
+            moment = Element(Element(inertia, k, row, inertia.span), k, item, inertia.span)
+            yield Check(
+                NOT_NEGATIVE, f"moment {k + 1} of the inertia of {owner}", moment, inertia.span
+            )
+        return
+    moments = [Element(inertia, k, item, inertia.span) for k in range(3)]
+    for k, moment in enumerate(moments):
+        subject = f"moment {k + 1} of the inertia of {owner}"
+        yield Check(NOT_NEGATIVE, subject, moment, inertia.span)
+        others = Binary("+", moments[k - 1], moments[k - 2], item, inertia.span)
+        rest = Binary("-", others, moment, item, inertia.span)
+        yield Check(NOT_NEGATIVE, f"sum of the other moments less {subject}", rest, inertia.span)

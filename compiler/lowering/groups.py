@@ -13,8 +13,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.mechanics.elements import Element, joint_elements, text_element
-from frot.compiler.mechanics.mechanism import Pin
+from frot.compiler.mechanics.elements import Element, link_elements, text_element
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +79,7 @@ def make_groups(system: Assembled) -> Grouping:
     elements = [
         e
         for i, (joint, rows) in enumerate(zip(joints, reduced.contact_rows, strict=True))
-        for e in joint_elements(i, joint, rows)
+        for e in link_elements(i, joint, rows)
     ]
     first = n_rows - len(system.elements)
     elements += [text_element(len(joints) + k, first + k) for k in range(len(system.elements))]
@@ -96,10 +95,9 @@ def make_groups(system: Assembled) -> Grouping:
         sets.join(nw + r, k)
     owners: dict[int, int] = {}
     for i, found in enumerate(reduced.contact_rows):
-        among = [r for r in (found.normal, found.second, found.tangent, found.rolling) if r >= 0]
-        owners.update(dict.fromkeys(among, i))
-        for r in among[1:]:
-            sets.join(nw + among[0], nw + r)
+        owners.update(dict.fromkeys(found.all, i))
+        for r in found.all[1:]:
+            sets.join(nw + found.all[0], nw + r)
     owners.update({first + k: len(joints) + k for k in range(len(system.elements))})
     members: dict[int, list[int]] = {}
     for item in range(nw + n_rows):
@@ -151,10 +149,8 @@ def _readings(system: Assembled, groups: list[Group]) -> tuple[int, ...]:
     reads = [-1] * int(system.lam.numel())
     place = {unknown: k for g in groups for k, unknown in enumerate(g.unknowns)}
     at = system.nv
-    for joint, rows in zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True):
-        if not joint.reduced:
-            continue
-        for row in (rows.normal, rows.second) if isinstance(joint, Pin) else (rows.normal,):
+    for link, rows in zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True):
+        for row in rows.reaction if link.reduced else ():
             reads[row] = place[at]
             at += 1
     return tuple(reads)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import casadi as ca
@@ -14,6 +15,9 @@ from frot.compiler.lowering.walk import is_fixed
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation, Reference, Variable
 from frot.dsl.messages.source import Span
+
+# Square of the part of a guess that stronger ones must leave, or it says nothing more.
+_SLIGHT = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,18 +56,25 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
     for index, equation in enumerate(model.initial):
         if not equation.guess and not _sets_memory(equation, system):
             found += _residuals(index, equation, system, looking, log)
-    guess = {
-        "q": _guess(system, looking, system.q, ca.SX.zeros(system.q.shape)),
-        "v": _guess(system, looking, system.v, ca.SX.zeros(system.v.shape)),
-    }
     direct, complete = _direct(found, system)
     # values that are stated one by one are where the search begins, or all there is to find
-    guess = {
-        "q": _with(system.q, guess["q"], direct),
-        "v": _with(system.v, guess["v"], direct),
-    }
-    if complete and not (system.reduced.mechanism.contacts or system.invariants.origins):
+    q = _guess(system, looking, system.q, _with(system.q, _natural(system), direct), direct)
+    known = direct | _values(system.q, q)
+    v = _with(system.v, ca.SX.zeros(system.v.shape), direct)
+    v = _guess(system, looking, system.v, v, known)
+    guess = {"q": q, "v": v}
+    turns = system.reduced.symbols.turns
+    if (
+        complete
+        and not turns
+        and not (system.reduced.mechanism.contacts or system.invariants.origins)
+    ):
         found = []
+    for turn in system.reduced.symbols.turns:
+        q = system.q[turn.coordinate : turn.coordinate + 4]
+        found.append(_Residual(ca.sumsqr(q) - 1, ca.sumsqr(q) + 1, len(statements)))
+        text = f"{q[0].name().removesuffix('[1]')} is a unit quaternion"
+        statements.append(Statement(text, model.span, "1"))
     for value, origin in zip(
         ca.vertsplit(system.invariants.values) if system.invariants.origins else (),
         system.invariants.origins,
@@ -74,7 +85,8 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
     moving = [_depends(r.value, system, system.v) for r in found]
     position = [r for r, m in zip(found, moving, strict=True) if not m]
     velocity = [r for r, m in zip(found, moving, strict=True) if m]
-    y_start = _guess(system, looking, system.y, ca.SX.zeros(system.y.shape))
+    known |= _values(system.v, v)
+    y_start = _guess(system, looking, system.y, ca.SX.zeros(system.y.shape), known)
     discrete = column(d.start for d in system.reduced.text.memory)
     return Initial(
         [guess["q"], guess["v"], y_start, discrete],
@@ -84,6 +96,14 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
         tuple(r.statement for r in position),
         tuple(r.statement for r in velocity),
     )
+
+
+def _natural(system: Assembled) -> ca.SX:
+    """Where the search begins without a guess: no turn, and zero."""
+    start = ca.SX.zeros(system.q.shape)
+    for turn in system.reduced.symbols.turns:
+        start[turn.coordinate] = 1
+    return start
 
 
 def _statement(equation: InitialEquation) -> Statement:
@@ -202,24 +222,45 @@ def _outputs(residuals: list[_Residual], unknown: ca.SX, y: ca.SX) -> list[ca.SX
     ]
 
 
-def _guess(system: Assembled, looking: Lowering, unknown: ca.SX, value: ca.SX) -> ca.SX:
-    """Where the search for the nearest values starts: `value`, moved by each guess in turn."""
+def _values(symbols: ca.SX, values: ca.SX) -> dict[int, ca.SX]:
+    return {s.element_hash(): x for s, x in zip(_items(symbols), _items(values), strict=True)}
+
+
+def _guess(
+    system: Assembled,
+    looking: Lowering,
+    unknown: ca.SX,
+    value: ca.SX,
+    known: Mapping[int, ca.SX],
+) -> ca.SX:
+    """Where the search for the nearest values starts: `value`, moved by each guess in turn.
+
+    What is `known` stays. A guess moves in the directions that the stronger ones before it leave.
+    """
     if not unknown.numel():
         return value
     here = {s.element_hash(): ca.SX(0) for x in (system.q, system.v, system.y) for s in _items(x)}
-    own = {s.element_hash() for s in _items(unknown)}
-    here |= {s.element_hash(): x for s, x in zip(_items(unknown), _items(value), strict=True)}
-    for left, right in _guesses(system, looking):
-        inside = [s for s in ca.symvar(left) if s.element_hash() in here]
-        moved = [s for s in inside if s.element_hash() in own]
-        if not moved or (unknown is system.q and len(moved) < len(inside)):
+    here |= {**_values(unknown, value), **known}
+    free = [s for s in _items(unknown) if s.element_hash() not in known]
+    taken: list[ca.SX] = []
+    for left, right in reversed(_guesses(system, looking)):
+        inside = {s.element_hash() for s in ca.symvar(left)} & here.keys()
+        own = {s.element_hash() for s in _items(unknown)} | known.keys()
+        if not free or (unknown is system.q and inside - own):
             continue
-        slopes = [replace_known(ca.jacobian(left, s), here) for s in moved]
+        slope = replace_known(ca.jacobian(left, column(free)).T, here)
+        whole = ca.sumsqr(slope)
+        for other in taken:
+            slope -= ca.dot(slope, other) * other
+        length = ca.sumsqr(slope)
+        if length.is_zero():
+            continue
+        usable = length > _SLIGHT * whole
         short = right - replace_known(left, here)
-        length = sum((x * x for x in slopes), ca.SX(0))
-        for s, slope in zip(moved, slopes, strict=True):
-            move = ca.if_else(length > 0, slope * short / length, ca.SX(0))
-            here[s.element_hash()] = here[s.element_hash()] + move
+        move = ca.if_else(usable, slope * short / length, ca.SX.zeros(slope.shape))
+        taken.append(ca.if_else(usable, slope / ca.sqrt(length), ca.SX.zeros(slope.shape)))
+        for s, change in zip(free, ca.vertsplit(move), strict=True):
+            here[s.element_hash()] = here[s.element_hash()] + change
     return column(here[s.element_hash()] for s in _items(unknown))
 
 

@@ -9,8 +9,9 @@ import casadi as ca
 from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.mechanics.joint_geometry import JointGeometry
+from frot.compiler.mechanics.mechanism import Relation
 from frot.compiler.mechanics.names import component_names
-from frot.compiler.mechanics.pins import PinGeometry
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl.checked import Body, Liaison, Variable
 from frot.dsl.quantities.dimensions import Dimension, dimension
@@ -54,9 +55,10 @@ def list_variables(system: Assembled, looking: Lowering) -> tuple[Listed, ...]:
 def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
     reduced = system.reduced
     mechanism = reduced.mechanism
-    for contact in mechanism.contacts:
-        name = f"{contact.liaison.name}.mode"
-        yield Listed(name, ca.SX(0), NUMBER, "open, stick or slip", mode=True)
+    for link in mechanism.contacts:
+        if not isinstance(link, Relation) or link.first:
+            name = f"{link.liaison.name}.mode"
+            yield Listed(name, ca.SX(0), NUMBER, "open, stick or slip", mode=True)
     for element in system.elements:
         yield Listed(f"{element.name}.mode", ca.SX(0), NUMBER, "stick or slip", mode=True)
     for output in mechanism.model.outputs:
@@ -76,8 +78,8 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
     yield from _rates(system)
     for body in mechanism.model.bodies:
         yield from _of_body(reduced, body)
-    for contact in (*mechanism.contacts, *mechanism.ideal):
-        yield from _of_liaison(reduced, contact.liaison)
+    for liaison in dict.fromkeys(x.liaison for x in (*mechanism.contacts, *mechanism.ideal)):
+        yield from _of_liaison(reduced, liaison)
     if not mechanism.model.bodies:
         return
     dissipated, work = reduced.symbols.energy[0], reduced.symbols.energy[1]
@@ -116,8 +118,8 @@ def _rates(system: Assembled) -> Iterator[Listed]:
     """States that are derivatives of variables, by the name `der(x)`."""
     chains = system.reduced.text.chains
     for symbol in (*ca.vertsplit(system.q), *ca.vertsplit(system.v)):
-        index, order = chains.place[symbol.element_hash()]
-        variable = chains.items[index].variable
+        index, order = chains.place.get(symbol.element_hash(), (-1, 0))
+        variable = chains.items[index].variable if index >= 0 else None
         if order == 1 and variable is not None:
             name = chains.items[index].name
             rate = variable.type.dimension / dimension(s=1)
@@ -134,15 +136,31 @@ def _of_body(reduced: Reduced, body: Body) -> Iterator[Listed]:
     yield from vector("velocity", VELOCITY, "velocity of G")
     yield from vector("acceleration", ACCELERATION, "acceleration of G")
     if body.shape is not None and body.shape.turns:
+        if reduced.mechanism.model.planar:
+            value = reduced.variables.of_body(body, "angle")
+            yield Listed(f"{body.name}.angle", value, NUMBER, "angle to the x axis", "Angle")
+        else:
+            yield from vector("orientation", NUMBER, "unit quaternion of the axes: w, x, y, z")
         for name, of, doc, quantity in (
-            ("angle", NUMBER, "angle to the x axis", "Angle"),
             ("angular_velocity", RATE, "angular velocity", "AngularVelocity"),
             ("angular_acceleration", RATE_OF_RATE, "angular acceleration", "AngularAcceleration"),
         ):
             value = reduced.variables.of_body(body, name)
-            yield Listed(f"{body.name}.{name}", value, of, doc, quantity)
+            for suffix, part in _components(f"{body.name}.{name}", value):
+                yield Listed(suffix, part, of, doc, quantity)
     value = reduced.variables.of_body(body, "kinetic_energy")
     yield Listed(f"{body.name}.kinetic_energy", value, ENERGY, "kinetic energy")
+
+
+# Of the coordinates of joints: their dimensions, what they are, their types.
+_COORDINATES = {
+    "angle": (NUMBER, "angle of b's axes from a's", "Angle"),
+    "angle_a": (NUMBER, "angle about the axis of a", "Angle"),
+    "angle_b": (NUMBER, "angle about the axis of b", "Angle"),
+    "displacement": (LENGTH, "way of b along the axis", ""),
+    "x": (LENGTH, "way of b in the plane", ""),
+    "y": (LENGTH, "way of b in the plane", ""),
+}
 
 
 def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
@@ -153,9 +171,14 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
 
     geometry = reduced.variables.geometry[liaison]
     reacts = liaison in reduced.variables.reactions
-    if isinstance(geometry, PinGeometry):
-        yield from one("angle", NUMBER, "angle of b's axes less that of a's", "Angle")
-        yield from one("speed", RATE, "its rate", "AngularVelocity")
+    if isinstance(geometry, JointGeometry):
+        for name in liaison.kind.coordinates:
+            if name in _COORDINATES:
+                yield from one(name, *_COORDINATES[name])
+            elif name == "speed" and "displacement" in geometry.coordinates:
+                yield from one(name, VELOCITY, "speed of b along the axis")
+            else:
+                yield from one(name, RATE, "angular velocity of b from a", "AngularVelocity")
         yield from one("gap", LENGTH, "distance of the places")
         if geometry.radius is not None:
             yield from one("slip", VELOCITY, "relative velocity at the surface of the pin")

@@ -72,8 +72,13 @@ def lower_parameters(
 
 
 def _nominal_sizes(q: ca.SX, reduced: Reduced, looking: Lowering) -> list[ca.SX]:
-    """The usual size of each state by its author, zero where none is given."""
+    """The usual size of each state: of a unit quaternion 1, else by its author, or zero."""
     chains = reduced.text.chains
+    unit = {
+        reduced.symbols.q[turn.coordinate + k].element_hash()
+        for turn in reduced.symbols.turns
+        for k in range(4)
+    }
     first: dict[Variable, int] = {}
     for index, item in enumerate(chains.items):
         if item.variable is not None:
@@ -82,7 +87,9 @@ def _nominal_sizes(q: ca.SX, reduced: Reduced, looking: Lowering) -> list[ca.SX]
     for symbol in ca.vertsplit(q) if q.numel() else ():
         index, order = chains.place.get(symbol.element_hash(), (-1, 0))
         variable = chains.items[index].variable if index >= 0 else None
-        if variable is None or variable.nominal is None or order > 0:
+        if symbol.element_hash() in unit:
+            sizes.append(ca.SX(1))
+        elif variable is None or variable.nominal is None or order > 0:
             sizes.append(ca.SX(0))
         else:
             items = scalars(looking.lower(variable.nominal))

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.lowering.flatten import T, by_input, tunable
-from frot.compiler.mechanics.mechanism import (
-    Joint,
-    Mechanism,
-    Pin,
-)
-from frot.compiler.mechanics.names import coordinate_names
+from frot.compiler.mechanics.mechanism import Link, Mechanism
+from frot.compiler.mechanics.motions import Motion, count_speeds
 from frot.dsl.checked import Input, Liaison, Parameter
 
 
@@ -20,17 +16,17 @@ from frot.dsl.checked import Input, Liaison, Parameter
 class Symbols:
     """CasADi symbols, all columns.
 
-    `t` time; `q` coordinates (nq), `v` speeds (nv = nq in the plane), `w` and `sw` auxiliary
-    coordinates and speeds (na), zero in the motion, along which the reaction of a reduced liaison
-    is read; `u` inputs, `p` parameters, `sides` of the contacts (+1 or -1); `a` accelerations (nv),
-    `lam` reactions of the rows by the names of their liaisons, `energy` (dissipated, work).
+    `t` time; `q` coordinates (nq), `v` speeds (nv), `sw` auxiliary speeds (na), zero in the motion,
+    along which the reaction of a reduced liaison is read; `u` inputs, `p` parameters, `sides` of
+    the contacts (+1 or -1); `a` rates of v (nv), `lam` reactions of the rows by the names of their
+    liaisons, `energy` (dissipated, work). `rates` are those of q in q and v; `q_speed` is the speed
+    that is the rate of a coordinate, or -1; `turns` are the coordinates that are quaternions.
     `parameters` and `inputs` are scalars in the order of p and u; `items` are those of each array.
     """
 
     t: ca.SX
     q: ca.SX
     v: ca.SX
-    w: ca.SX
     sw: ca.SX
     u: ca.SX
     p: ca.SX
@@ -38,6 +34,9 @@ class Symbols:
     a: ca.SX
     lam: ca.SX
     energy: ca.SX
+    rates: ca.SX
+    q_speed: tuple[int, ...]
+    turns: tuple[Turning, ...]
     parameters: tuple[Parameter, ...]
     inputs: tuple[Input, ...]
     items: dict[Parameter, tuple[Parameter, ...]]
@@ -47,23 +46,34 @@ class Symbols:
         """A parameter or an input in the shape of its type, or one scalar of it."""
         return self._values[of]
 
-    @property
-    def auxiliary(self) -> ca.SX:
-        """Auxiliary coordinates and speeds, to be replaced by zero."""
-        return ca.vertcat(self.w, self.sw)
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """A quaternion: its first coordinate, its three speeds, -1 for one that is always zero.
+
+    `own_axes`: the speeds are along the axes that turn, else along those of the ground.
+    """
+
+    coordinate: int
+    speeds: tuple[int, int, int]
+    own_axes: bool
 
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """Rows of a contact or pin in the order of the kernel's arrays; -1 where there is none.
+    """Rows of a link in the order of the kernel's arrays; -1 where there is none.
 
-    `normal` and, for a pin, `second` are the components of the reaction.
+    `reaction` are the components of what it locks: of a contact the normal one.
     """
 
-    normal: int
+    reaction: tuple[int, ...]
     tangent: int
     rolling: int
-    second: int = -1
+
+    @property
+    def all(self) -> tuple[int, ...]:
+        """Every row."""
+        return (*self.reaction, *(r for r in (self.tangent, self.rolling) if r >= 0))
 
 
 def column(values: Iterable[ca.SX]) -> ca.SX:
@@ -72,68 +82,103 @@ def column(values: Iterable[ca.SX]) -> ca.SX:
     return ca.vertcat(*items) if items else ca.SX.zeros(0)
 
 
-def auxiliary_places(mechanism: Mechanism) -> tuple[dict[Liaison, int], int]:
-    """First auxiliary speed of each liaison that has some, and the number of all.
-
-    A line has one, along its normal; a pin has two, along the axes of the ground.
-    """
+def reading_places(mechanism: Mechanism) -> tuple[dict[Liaison, int], int]:
+    """First auxiliary speed of each liaison that has some, and the number of all."""
     places: dict[Liaison, int] = {}
     count = 0
-    for joint in mechanism.contacts:
-        if joint.reduced:
-            places[joint.liaison] = count
-            count += 2 if isinstance(joint, Pin) else 1
+    for link in mechanism.contacts:
+        if link.readings:
+            places[link.liaison] = count
+            count += link.readings
     return places, count
 
 
-def contact_rows(contacts: tuple[Joint, ...]) -> tuple[Rows, ...]:
-    """Number the rows of the contacts and pins."""
+def link_rows(links: tuple[Link, ...]) -> tuple[Rows, ...]:
+    """Number the rows of the links."""
     rows: list[Rows] = []
     count = 0
-    for contact in contacts:
-        normal, second, tangent, rolling = count, -1, -1, -1
-        count += 1
-        if isinstance(contact, Pin):
-            second, count = count, count + 1
-        if contact.mu is not None:
+    for link in links:
+        reaction = tuple(range(count, count + (link.readings or 1)))
+        count += len(reaction)
+        tangent = rolling = -1
+        if link.mu is not None:
             tangent, count = count, count + 1
-        if contact.delta is not None:
+        if link.delta is not None:
             rolling, count = count, count + 1
-        rows.append(Rows(normal, tangent, rolling, second))
+        rows.append(Rows(reaction, tangent, rolling))
     return tuple(rows)
 
 
 def make_symbols(mechanism: Mechanism) -> Symbols:
     """Symbols of the sizes the mechanism needs."""
-    names = [n for c in mechanism.coordinates for n in coordinate_names(c)]
-    _, na = auxiliary_places(mechanism)
-    rows = contact_rows(mechanism.contacts)
+    names = [n for c in mechanism.coordinates for n in c.names]
+    speeds = [n for c in mechanism.coordinates for n in c.speeds]
+    _, na = reading_places(mechanism)
+    rows = link_rows(mechanism.contacts)
     reactions = [
-        joint.liaison.name
-        for joint, r in zip(mechanism.contacts, rows, strict=True)
-        for k in (r.normal, r.second, r.tangent, r.rolling)
-        if k >= 0
+        link.liaison.name for link, r in zip(mechanism.contacts, rows, strict=True) for _ in r.all
     ]
+    q, v = column(ca.SX.sym(n) for n in names), column(ca.SX.sym(n) for n in speeds)
+    motions = [m for c in mechanism.coordinates for m in c.motions]
     items, of_input = tunable(mechanism.model.parameters), by_input(mechanism.model.inputs)
     values: dict[Parameter | Input, ca.SX] = {}
     p, u = _scalars(items, values), _scalars(of_input, values)
     return Symbols(
         t=ca.SX.sym("t"),
-        q=column(ca.SX.sym(n) for n in names),
-        v=column(ca.SX.sym(f"der({n})") for n in names),
-        w=ca.SX.sym("w", na),
+        q=q,
+        v=v,
         sw=ca.SX.sym("sw", na),
         u=column(u),
         p=column(p),
         sides=ca.SX.sym("side", len(mechanism.contacts)),
-        a=column(ca.SX.sym(f"der(der({n}))") for n in names),
+        a=column(ca.SX.sym(f"der({n})") for n in speeds),
         lam=column(ca.SX.sym(n) for n in reactions),
         energy=ca.SX.sym("energy", 2),
+        rates=_rates(motions, q, v),
+        q_speed=_rate_places(motions),
+        turns=_turns(motions),
         parameters=tuple(one for group in items.values() for one in group),
         inputs=tuple(one for group in of_input.values() for one in group),
         items=items,
         _values=values,
     )
+
+
+def _places(motions: list[Motion]) -> Iterator[tuple[Motion, slice, slice]]:
+    """Each motion with its coordinates and its speeds."""
+    nq = nv = 0
+    for motion in motions:
+        m, n = len(motion.coordinates), count_speeds(motion)
+        yield motion, slice(nq, nq + m), slice(nv, nv + n)
+        nq, nv = nq + m, nv + n
+
+
+def _rates(motions: list[Motion], q: ca.SX, v: ca.SX) -> ca.SX:
+    """Q' = N(q) v."""
+    if not any(motion.quaternion for motion in motions):
+        return v
+    from frot.compiler.mechanics.moves import rates
+
+    return column(rates(motion, q[i], v[k]) for motion, i, k in _places(motions))
+
+
+def _rate_places(motions: list[Motion]) -> tuple[int, ...]:
+    found: list[int] = []
+    for motion, i, k in _places(motions):
+        count = i.stop - i.start
+        found += [-1] * count if motion.quaternion else range(k.start, k.start + count)
+    return tuple(found)
+
+
+def _turns(motions: list[Motion]) -> tuple[Turning, ...]:
+    found: list[Turning] = []
+    for motion, i, k in _places(motions):
+        if motion.quaternion is not None:
+            own = motion.quaternion.own_axes
+            first = k.start - 1 if own else k.start
+            speeds = (-1 if own else first, first + 1, first + 2)
+            found.append(Turning(i.start, speeds, own))
+    return tuple(found)
 
 
 def _scalars(

@@ -5,20 +5,26 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.mechanics.kinematics import Kinematics, Line, rotation
+from frot.compiler.mechanics.joint_geometry import (
+    JointGeometry,
+    RelationGeometry,
+    joint_geometry,
+    relation_geometry,
+)
+from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
-    Pin,
+    Link,
     is_unilateral,
     owner_body,
     point_body,
 )
-from frot.compiler.mechanics.pins import PinGeometry, pin_geometry
+from frot.compiler.mechanics.spatial import X, Y, Z
 from frot.dsl.checked import World
 
 STANDARD_GRAVITY = 9.81
-DOWN = {"+x": (1, 0), "-x": (-1, 0), "+y": (0, 1), "-y": (0, -1)}
+DOWN = {"+x": X, "-x": -X, "+y": Y, "-y": -Y, "+z": Z, "-z": -Z}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -26,9 +32,10 @@ class Geometry:
     """A contact as functions of the coordinates.
 
     `line.normal` points to the left of the line's direction; `side`, chosen once, multiplies it by
-    the side of the body. `gap` >= 0 while apart. `witness` are the three numbers the first of which
-    that is not zero has the sign of the side: height of the point or of the rim's centre over the
-    line, part of the normal that is against gravity, height of the body's G. `reach` is the size of
+    the side of the body. `gap` >= 0 while apart, `approach` its rate. `witness` are the three
+    numbers the first of which that is not zero has the sign of the side: height of the point or of
+    the rim's centre over the line, part of the normal that is against gravity, height of the body's
+    G. `reach` is the size of
     the lengths that the gap is made of beside the coordinates, even where they cancel out. `slip`
     and `roll` are the velocity of the body's material point relative to the line's, along the
     line's direction, and the relative angular velocity.
@@ -37,6 +44,7 @@ class Geometry:
     line: Line
     side: ca.SX
     gap: ca.SX
+    approach: ca.SX
     witness: ca.SX
     reach: ca.SX
     slip: ca.SX
@@ -53,7 +61,7 @@ def _witness(contact: Contact, line: Line, kinematics: Kinematics, world: World)
     if contact.line.span is None or _keeps_left(contact):
         return ca.SX.ones(3)
     centre = kinematics.position(contact.point)
-    middle = kinematics.poses[point_body(contact.point)].origin
+    middle = kinematics.position(point_body(contact.point))
     vectors = (centre - line.through, _upward(world, kinematics), middle - line.through)
     return ca.vertcat(*(ca.dot(line.normal, vector) for vector in vectors))
 
@@ -63,27 +71,24 @@ def _keeps_left(contact: Contact) -> bool:
 
 
 def _reach(contact: Contact, line: Line, kinematics: Kinematics) -> ca.SX:
-    """Size of the vectors from the bodies' coordinates to the point and to the line.
-
-    What both hang on is left out: it cancels out before any rounding.
-    """
-    body, base = point_body(contact.point), owner_body(contact.line.owner)
-    own, other = kinematics.arms[body], kinematics.arms[base]
-    while own and other and own[0][0] is other[0][0]:
-        own, other = own[1:], other[1:]
-    arm = kinematics.arm(body, kinematics.local_point(contact.point))
-    arm = sum((size for _, size in (*own, *other)), arm)
+    """Size of the vectors from the bodies' coordinates to the point and to the line."""
+    base = owner_body(contact.line.owner)
+    sizes = kinematics.lengths_between(
+        (base, None), (point_body(contact.point), kinematics.local_point(contact.point))
+    )
     # along a line its given point counts for nothing, wherever its body turns
-    turn = rotation(kinematics.poses[base].angle).T
+    turn = kinematics.pose(base).axes.T
     through = kinematics.local_through(contact.line)
-    return ca.dot(ca.fabs(line.normal), arm) + ca.dot(ca.fabs(turn @ line.normal), ca.fabs(through))
+    return ca.dot(ca.fabs(line.normal), sizes) + ca.dot(
+        ca.fabs(turn @ line.normal), ca.fabs(through)
+    )
 
 
 def gravity(world: World, kinematics: Kinematics) -> ca.SX:
-    """Acceleration of free fall (2)."""
+    """Acceleration of free fall (3)."""
     given = world.gravity
     size = ca.SX(STANDARD_GRAVITY) if given is None else kinematics.fixed.lower(given)
-    return size * ca.DM(DOWN[world.down])
+    return ca.sparsify(size * DOWN[world.down])
 
 
 def _upward(world: World, kinematics: Kinematics) -> ca.SX:
@@ -93,27 +98,31 @@ def _upward(world: World, kinematics: Kinematics) -> ca.SX:
     return -fall / ca.if_else(size > 0, size, 1)
 
 
-def joint_geometry(
-    joint: Joint, kinematics: Kinematics, side: ca.SX, world: World
-) -> Geometry | PinGeometry:
-    """Geometry and relative velocities of a contact or pin, be it ideal or with friction."""
-    if isinstance(joint, Pin):
-        return pin_geometry(joint, kinematics)
-    return contact_geometry(joint, kinematics, side, world)
+def link_geometry(
+    link: Link, kinematics: Kinematics, side: ca.SX, world: World
+) -> Geometry | JointGeometry | RelationGeometry:
+    """Geometry and relative velocities of a link, be it ideal or with friction."""
+    if isinstance(link, Contact):
+        return contact_geometry(link, kinematics, side, world)
+    if isinstance(link, Joint):
+        return joint_geometry(link, kinematics)
+    return relation_geometry(link, kinematics)
 
 
 def row_rates(
-    joint: Joint, geometry: Geometry | PinGeometry, kinematics: Kinematics
+    link: Link, geometry: Geometry | JointGeometry | RelationGeometry, kinematics: Kinematics
 ) -> list[ca.SX]:
-    """Relative velocities of the joint's rows, in their order."""
-    if isinstance(geometry, PinGeometry):
-        return [geometry.apart, *([geometry.speed] if joint.mu is not None else [])]
-    at = kinematics.auxiliary.get(joint.liaison)
+    """Relative velocities of the link's rows, in their order."""
+    if isinstance(geometry, RelationGeometry):
+        return [geometry.rate]
+    if isinstance(geometry, JointGeometry):
+        return [geometry.apart, *([geometry.speed] if link.mu is not None else [])]
+    at = kinematics.readings.get(link.liaison)
     # what coordinates keep moves along its normal by its auxiliary speed alone
-    rates = [kinematics.velocity(geometry.gap) if at is None else kinematics.symbols.sw[at]]
-    if joint.mu is not None:
+    rates = [geometry.approach if at is None else kinematics.symbols.sw[at]]
+    if link.mu is not None:
         rates.append(geometry.slip)
-    if joint.delta is not None:
+    if link.delta is not None:
         rates.append(geometry.roll)
     return rates
 
@@ -134,18 +143,17 @@ def contact_geometry(
     )
     height = ca.dot(line.normal, centre - line.through)
     touching = centre - side * radius * line.normal
-    slip = ca.dot(
-        line.direction,
-        kinematics.velocity_at(body, touching) - kinematics.velocity_at(base, touching),
-    )
-    roll = kinematics.velocity(kinematics.poses[body].angle - kinematics.poses[base].angle)
+    apart = kinematics.velocity_at(body, touching) - kinematics.velocity_at(base, touching)
+    nearing = kinematics.velocity_at(body, centre) - kinematics.velocity_at(base, centre)
+    turning = kinematics.angular_velocity(body) - kinematics.angular_velocity(base)
     return Geometry(
         line=line,
         side=side,
         gap=side * height - radius,
+        approach=side * ca.dot(line.normal, nearing),
         witness=_witness(contact, line, kinematics, world),
         reach=radius + _reach(contact, line, kinematics),
-        slip=slip,
-        roll=roll,
+        slip=ca.dot(line.direction, apart),
+        roll=ca.dot(Z, turning),
         abscissa=ca.dot(line.direction, centre - line.through),
     )

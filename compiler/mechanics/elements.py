@@ -7,7 +7,7 @@ from enum import Enum
 
 from frot.compiler.lowering.symbols import Rows
 from frot.compiler.lowering.walk import is_fixed
-from frot.compiler.mechanics.mechanism import Joint, Pin
+from frot.compiler.mechanics.mechanism import Joint, Link
 from frot.dsl.checked import Expression
 
 
@@ -36,17 +36,16 @@ class Element:
     fixed: bool
 
 
-def joint_elements(contact: int, joint: Joint, rows: Rows) -> list[Element]:
+def link_elements(contact: int, link: Link, rows: Rows) -> list[Element]:
     """The elements of a liaison: sliding or turning, then rolling."""
-    pin = isinstance(joint, Pin)
-    bound = Bound.PIN if pin else Bound.NORMAL
-    by = (rows.normal, rows.second) if pin else (rows.normal,)
+    bound = Bound.PIN if isinstance(link, Joint) else Bound.NORMAL
     found: list[Element] = []
     if rows.tangent >= 0:
-        fixed = _is_fixed(joint.mu) and _is_fixed(joint.mu_s)
-        found.append(Element(contact, bound, rows.tangent, by, False, fixed))
+        fixed = _is_fixed(link.mu) and _is_fixed(link.mu_s)
+        found.append(Element(contact, bound, rows.tangent, rows.reaction, False, fixed))
     if rows.rolling >= 0:
-        found.append(Element(contact, bound, rows.rolling, by, True, _is_fixed(joint.delta)))
+        fixed = _is_fixed(link.delta)
+        found.append(Element(contact, bound, rows.rolling, rows.reaction, True, fixed))
     return found
 
 

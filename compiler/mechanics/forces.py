@@ -9,7 +9,8 @@ import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.mechanism import Point, point_body
+from frot.compiler.mechanics.mechanism import Joint, Point, point_body
+from frot.compiler.mechanics.spatial import whole
 from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Liaison, Literal, Place
 
 Argument = Expression | Place | Liaison
@@ -17,7 +18,7 @@ Argument = Expression | Place | Liaison
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Action:
-    """A force (2) and the velocity of its point, or a couple and the angular velocity it drives.
+    """A force (3) and the velocity of its point, or a couple and the angular velocity it drives.
 
     `velocity` is linear in the speeds and `force` times it is the power.
     """
@@ -40,18 +41,24 @@ def _point(
     if isinstance(argument, (BodyPoint, Frame)):
         point: Point = argument
         return point_body(point), kinematics.position(point)
-    return ground, lowering.lower(_value(argument))
+    return ground, whole(lowering.lower(_value(argument)))
 
 
-def load(force: Force, kinematics: Kinematics, lowering: Lowering, ground: Body) -> Load:
+def load(
+    force: Force,
+    kinematics: Kinematics,
+    lowering: Lowering,
+    ground: Body,
+    joints: Mapping[Liaison, Joint],
+) -> Load:
     """Lower one force. `lowering` is that of the motion, so that its switches are located."""
     arguments = force.arguments
     if force.kind.name == "on":
         body, place = _point(arguments["frame"], kinematics, lowering, ground)
-        push = lowering.lower(_value(arguments["value"]))
+        push = whole(lowering.lower(_value(arguments["value"])))
         return Load((Action(kinematics.velocity_at(body, place), push),), None)
     if force.kind.name == "couple":
-        turning = _turning(arguments["holder"], kinematics)
+        turning = _turning(arguments["holder"], kinematics, joints)
         return Load((Action(turning, lowering.lower(_value(arguments["value"]))),), None)
     if force.kind.name == "drag":
         return _drag(arguments, kinematics, lowering, ground)
@@ -83,16 +90,15 @@ def load(force: Force, kinematics: Kinematics, lowering: Lowering, ground: Body)
     return Load(actions, energy if constant else None)
 
 
-def _turning(holder: Argument, kinematics: Kinematics) -> ca.SX:
-    """Angular velocity of a body, or of the body of b relative to that of a in a liaison."""
+def _turning(holder: Argument, kinematics: Kinematics, joints: Mapping[Liaison, Joint]) -> ca.SX:
+    """What a couple drives: the angle of a liaison, or a body (about z in the plane)."""
     if isinstance(holder, Liaison):
-        index = kinematics.pin_angles.get(holder)
-        if index is not None:
-            return kinematics.symbols.v[index]
-        assert isinstance(holder.a, Point) and isinstance(holder.b, Point)
-        return kinematics.velocity(kinematics.angle(holder.b) - kinematics.angle(holder.a))
+        joint = joints[holder]
+        index = next(k for k, m in enumerate(joint.motions) if "angle" in m.coordinates)
+        return kinematics.coordinate(joint, index)[1]
     assert isinstance(holder, BodyPoint)
-    return kinematics.velocity(kinematics.poses[holder.body].angle)
+    turning = kinematics.angular_velocity(holder.body)
+    return turning[2] if kinematics.planar else turning
 
 
 def _drag(
@@ -110,7 +116,7 @@ def _drag(
 def _unit(vector: ca.SX) -> ca.SX:
     """The vector's direction; zero where it has none."""
     length = ca.sqrt(ca.sumsqr(vector))
-    return ca.if_else(length > 0, vector / length, ca.SX.zeros(2))
+    return ca.if_else(length > 0, vector / length, ca.SX.zeros(3))
 
 
 def _value(argument: Argument) -> Expression:

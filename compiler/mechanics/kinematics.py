@@ -1,50 +1,59 @@
-"""Positions and velocities of bodies, frames, points and lines as functions of the coordinates."""
+"""Poses and velocities of bodies, frames, points and lines as functions of coordinates and speeds.
+
+One pass along the spanning tree, from each body to those that hang on it. Velocities follow with
+the poses, and so do the accelerations that are there while no speed changes: nothing is
+differentiated.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
-from frot.compiler.lowering.symbols import Symbols, auxiliary_places
+from frot.compiler.lowering.symbols import Symbols, reading_places
 from frot.compiler.mechanics.mechanism import (
-    LineCoordinates,
+    Hanging,
+    Joint,
     Mechanism,
-    PinCoordinates,
     Point,
     owner_body,
     point_body,
     turns,
 )
-from frot.compiler.mechanics.names import coordinate_names
-from frot.dsl.checked import Body, BodyPoint, Curve, Frame, Liaison
-
-
-def rotation(angle: ca.SX) -> ca.SX:
-    """R (2 x 2): axes turned counter-clockwise by `angle`."""
-    c, s = ca.cos(angle), ca.sin(angle)
-    return ca.vertcat(ca.horzcat(c, -s), ca.horzcat(s, c))
-
-
-def turned(vector: ca.SX) -> ca.SX:
-    """The vector turned by a right angle counter-clockwise."""
-    return ca.vertcat(-vector[1], vector[0])
+from frot.compiler.mechanics.motions import count_speeds
+from frot.compiler.mechanics.moves import Column, Lower, move, seen, turned_pose, unit_vector
+from frot.compiler.mechanics.shapes import shape_of
+from frot.compiler.mechanics.spatial import (
+    AT_REST,
+    Moving,
+    Pose,
+    Z,
+    cross,
+    nowhere,
+    turn_about,
+    whole,
+)
+from frot.compiler.mechanics.wrenches import act
+from frot.dsl.checked import Body, BodyPoint, Curve, Expression, Frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Pose:
-    """Origin (2) in ground axes and angle of a body's (at G) or frame's axes."""
+class Node:
+    """A step of the tree: what the speeds `places` (of v, then auxiliary) move beyond it.
 
-    origin: ca.SX
-    angle: ca.SX
+    `arm` (3) goes from the origin of the node before to its own. `columns` are velocities of the
+    axes and of their origin there. `faces_ground`: what is
+    beyond keeps its orientation whatever carries it, and only its places follow. `above`: the node
+    before, -1 for the ground.
+    """
 
-    def point(self, local: ca.SX) -> ca.SX:
-        """Ground coordinates of a point given in these axes."""
-        return self.origin + self.direction(local)
-
-    def direction(self, local: ca.SX) -> ca.SX:
-        """Ground components of a vector given in these axes."""
-        return local if self.angle.is_zero() else rotation(self.angle) @ local
+    above: int
+    arm: ca.SX
+    faces_ground: bool
+    places: tuple[int, ...]
+    columns: tuple[Column, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,137 +66,261 @@ class Line:
 
 
 class Kinematics:
-    """Where everything is, with the auxiliary coordinates w and speeds sw still in.
+    """Where everything is, with the auxiliary speeds sw still in.
 
-    `auxiliary` gives the first auxiliary coordinate of a liaison, `pin_angles` the coordinate that
-    is the angle of a pin. `arms` are the bodies that one hangs on, itself last, each with the sizes
-    in ground axes (2) of the vectors from the body before to its own G.
+    `nodes` are the steps of the tree, each after those above it, `node_of` the last of each body
+    and `beyond` the vector (3) from its origin to the body's G.
+    `arms` are the bodies that one hangs on, itself last, each with the sizes in ground axes (3) of
+    the vectors from the body before to its own G.
     """
 
     def __init__(self, mechanism: Mechanism, symbols: Symbols, fixed: Lowering) -> None:
         """`fixed` lowers expressions of parameters."""
         self.symbols = symbols
         self.fixed = fixed
-        ground = Pose(ca.SX.zeros(2), ca.SX(0))
-        self.poses: dict[Body, Pose] = {mechanism.model.ground: ground}
-        self.auxiliary, _ = auxiliary_places(mechanism)
-        self.pin_angles: dict[Liaison, int] = {}
+        self.planar = mechanism.model.planar
+        self.bodies: dict[Body, Moving] = {mechanism.model.ground: AT_REST}
+        self.readings, _ = reading_places(mechanism)
+        self.nodes: list[Node] = []
+        self.node_of: dict[Body, int] = {mechanism.model.ground: -1}
+        self.beyond: dict[Body, ca.SX] = {mechanism.model.ground: nowhere()}
         self.arms: dict[Body, tuple[tuple[Body, ca.SX], ...]] = {mechanism.model.ground: ()}
-        at = 0
-        for coordinates in mechanism.coordinates:
-            body = coordinates.body
-            count = len(coordinate_names(coordinates))
-            q = symbols.q[at : at + count]
-            at += count
-            if isinstance(coordinates, PinCoordinates):
-                if count:
-                    self.pin_angles[coordinates.pin.liaison] = at - 1
-                self.poses[body] = self._pinned(coordinates, q)
-                continue
-            angle = q[count - 1] if turns(body) else ca.SX(0)
-            if isinstance(coordinates, LineCoordinates):
-                line = self.line(coordinates.line)
-                place = line.through + q[0] * line.direction
-                index = self.auxiliary.get(coordinates.liaison)
-                if index is not None:
-                    place += symbols.w[index] * line.normal
-                local = self.local_point(coordinates.point)
-                offset = Pose(ca.SX.zeros(2), angle).direction(local)
-                self.poses[body] = Pose(place - offset, angle)
-                base, through = owner_body(coordinates.line.owner), self.local_through
-                arm = self.arm(base, through(coordinates.line)) + self.arm(body, local)
-                self.arms[body] = (*self.arms[base], (body, arm))
-            else:
-                self.poses[body] = Pose(q[:2], angle)
-                self.arms[body] = ((body, ca.SX.zeros(2)),)
+        self.hangs: dict[Body, Hanging] = {}
+        self.places: dict[Body, tuple[int, int]] = {}
+        nq = nv = 0
+        for hanging in mechanism.coordinates:
+            self.hangs[hanging.body] = hanging
+            self.places[hanging.body] = (nq, nv)
+            self._hang(hanging, nq, nv, mechanism.model.ground)
+            nq, nv = nq + len(hanging.names), nv + len(hanging.speeds)
 
-    def _pinned(self, coordinates: PinCoordinates, q: ca.SX) -> Pose:
-        """Pose of a body that hangs on another; q is empty for one that does not turn."""
-        pin, sign = coordinates.pin, 1 if coordinates.carries_b else -1
-        own, base = (pin.b, pin.a) if coordinates.carries_b else (pin.a, pin.b)
-        place, angle = self.position(base), ca.SX(0)
-        at = self.auxiliary.get(pin.liaison)
-        if at is not None:
-            place += sign * self.symbols.w[at : at + 2]
-        if q.numel():
-            angle = self.angle(base) + sign * q - self.local_angle(own)
-        body, carrier = point_body(own), point_body(base)
-        arm = self.arm(carrier, self.local_point(base)) + self.arm(body, self.local_point(own))
-        self.arms[body] = (*self.arms[carrier], (body, arm))
-        return Pose(place - Pose(ca.SX.zeros(2), angle).direction(self.local_point(own)), angle)
+    def _hang(self, hanging: Hanging, nq: int, nv: int, ground: Body) -> None:
+        """Go from the place that carries a body to its G."""
+        symbols, body = self.symbols, hanging.body
+        base, at, out = self._base(hanging, ground)
+        node = self.node_of[base]
+        moving, arm = at, self.beyond[base] + out
+        for motion in hanging.motions:
+            m, n = len(motion.coordinates), count_speeds(motion)
+            q = symbols.q[nq : nq + m]
+            moving, columns = move(motion, moving, q, symbols.v[nv : nv + n], self.fixed.lower)
+            if columns or motion.faces_ground:
+                places = tuple(range(nv, nv + n))
+                self.nodes.append(Node(node, arm, motion.faces_ground, places, columns))
+                node = len(self.nodes) - 1
+                # only what slides or screws moves the origin, and has one coordinate
+                arm = columns[0].linear * q if columns and columns[0].linear.nnz() else nowhere()
+            nq, nv = nq + m, nv + n
+        moving, node, arm = self._read(hanging, at, moving, node, arm)
+        self.bodies[body], back = self._to_centre(hanging, moving)
+        self.node_of[body], self.beyond[body] = node, arm + back
+        self._measure(hanging, base)
 
-    def frame(self, owner: Body | Frame) -> Pose:
-        """Pose of a body or frame."""
+    def _base(self, hanging: Hanging, ground: Body) -> tuple[Body, Moving, ca.SX]:
+        """The body that carries, the axes at its place, and the vector there from its G."""
+        if hanging.base is None:
+            return ground, AT_REST, nowhere()
+        if isinstance(hanging.base, Curve):
+            owner = self.moving(hanging.base.owner)
+            through = whole(self.fixed.lower(hanging.base.arguments["through"]))
+            body = owner_body(hanging.base.owner)
+            out = self.bodies[body].pose.direction(self.local_through(hanging.base))
+            return body, owner.shifted(owner.pose.direction(through)), out
+        body = point_body(hanging.base)
+        out = self.bodies[body].pose.direction(self.local_point(hanging.base))
+        return body, self.moving(hanging.base), out
+
+    def _read(
+        self, hanging: Hanging, at: Moving, moving: Moving, node: int, arm: ca.SX
+    ) -> tuple[Moving, int, ca.SX]:
+        """Auxiliary speeds along what the liaison locks, where its reaction is read."""
+        link = hanging.link
+        first = None if link is None else self.readings.get(link.liaison)
+        if first is None or link is None:
+            return moving, node, arm
+        sign = 1
+        if isinstance(link, Joint):
+            sign = 1 if hanging.carries_b else -1
+            a, b = (at.pose, moving.pose) if hanging.carries_b else (moving.pose, at.pose)
+            columns = [act(lock, a, b, self.fixed.lower).column for lock in link.locks]
+        else:
+            columns = [Column(nowhere(), self.line(link.line).normal)]
+        nv, back = self.symbols.v.numel(), nowhere()
+        if sign < 0:  # a reaction acts at the place b
+            back = ca.sparsify(moving.pose.origin - at.pose.origin)
+        moving = moving.shifted(-back)
+        for k, column in enumerate(columns):
+            speed = sign * self.symbols.sw[first + k]
+            moving = replace(
+                moving,
+                angular=moving.angular + column.angular * speed,
+                linear=moving.linear + column.linear * speed,
+            )
+        places = tuple(range(nv + first, nv + first + len(columns)))
+        signed = tuple(Column(sign * c.angular, sign * c.linear) for c in columns)
+        self.nodes.append(Node(node, arm - back, False, places, signed))
+        return moving.shifted(back), len(self.nodes) - 1, back
+
+    def _to_centre(self, hanging: Hanging, moving: Moving) -> tuple[Moving, ca.SX]:
+        """From the place of the body that is carried to the axes at its G, and the way there."""
+        if hanging.own is None:
+            return moving, nowhere()
+        if not any(m.faces_ground for m in hanging.motions):  # else they place the body's own axes
+            moving = self._to_axes_of_body(hanging.own, moving)
+        back = -moving.pose.direction(self.local_point(hanging.own))
+        return moving.shifted(back), back
+
+    def _to_axes_of_body(self, own: Point, moving: Moving) -> Moving:
+        """The axes of a body whose axes at a point are known."""
+        pose = moving.pose
+        for frame in _frames(own):
+            if frame.angle is not None:
+                pose = _turned(pose, frame.axis, -self.fixed.lower(frame.angle), self.fixed.lower)
+        return replace(moving, pose=pose)
+
+    def _measure(self, hanging: Hanging, base: Body) -> None:
+        body = hanging.body
+        if hanging.base is None or hanging.own is None:
+            self.arms[body] = ((body, ca.SX.zeros(3)),)
+            return
+        there = (
+            self.local_through(hanging.base)
+            if isinstance(hanging.base, Curve)
+            else self.local_point(hanging.base)
+        )
+        arm = self.arm(base, there) + self.arm(body, self.local_point(hanging.own))
+        self.arms[body] = (*self.arms[base], (body, arm))
+
+    # ------------------------------------------------------------------ axes and points
+
+    def moving(self, owner: Body | Frame | BodyPoint) -> Moving:
+        """Axes of a body (at G), of a frame, or of a body at one of its points."""
         if isinstance(owner, Body):
-            return self.poses[owner]
-        base = self.frame(owner.owner)
-        origin = base.origin if owner.origin is None else base.point(self.fixed.lower(owner.origin))
-        angle = base.angle if owner.angle is None else base.angle + self.fixed.lower(owner.angle)
-        return Pose(origin, angle)
+            return self.bodies[owner]
+        if isinstance(owner, BodyPoint):
+            own = self.bodies[owner.body]
+            local = self.local_point(owner)
+            return own.shifted(own.pose.direction(local)) if local.nnz() else own
+        base = self.moving(owner.owner)
+        if owner.origin is not None:
+            base = base.shifted(base.pose.direction(whole(self.fixed.lower(owner.origin))))
+        if owner.angle is None:
+            return base
+        angle = self.fixed.lower(owner.angle)
+        return replace(base, pose=_turned(base.pose, owner.axis, angle, self.fixed.lower))
+
+    def pose(self, owner: Body | Frame | BodyPoint) -> Pose:
+        """Pose of a body (at G), frame or point."""
+        return self.moving(owner).pose
 
     def local_point(self, point: Point) -> ca.SX:
         """A point of a body in the body's own axes at G."""
         if isinstance(point, Frame):
-            return self._in_body(point, ca.SX.zeros(2))
-        if point.name in ("start", "tip"):
-            half = self.fixed.lower(point.body.arguments["length"]) / 2
-            return ca.vertcat(-half if point.name == "start" else half, 0)
-        return ca.SX.zeros(2)
+            return self._in_body(point, nowhere())
+        if point.body.shape is None:
+            return nowhere()
+        return shape_of(point.body).point(point.body, point.name, self.fixed.lower)
 
     def local_through(self, curve: Curve) -> ca.SX:
         """The given point of a line in the body's own axes at G."""
-        return self._in_body(curve.owner, self.fixed.lower(curve.arguments["through"]))
+        return self._in_body(curve.owner, whole(self.fixed.lower(curve.arguments["through"])))
 
     def _in_body(self, frame: Body | Frame, local: ca.SX) -> ca.SX:
-        """What is given in the axes of a frame, in those of its body."""
+        """What is given in the axes of a frame, in those of its body at G."""
         while isinstance(frame, Frame):
             if frame.angle is not None:
-                local = rotation(self.fixed.lower(frame.angle)) @ local
+                axis = unit_vector(frame.axis, self.fixed.lower)
+                local = turn_about(axis, self.fixed.lower(frame.angle)) @ local
             if frame.origin is not None:
-                local = local + self.fixed.lower(frame.origin)
+                local = local + whole(self.fixed.lower(frame.origin))
             frame = frame.owner
         return local
 
     def arm(self, body: Body, local: ca.SX) -> ca.SX:
-        """Sizes in ground axes (2) of a vector given in a body's axes, however the body turns."""
+        """Sizes in ground axes (3) of a vector given in a body's axes, however the body turns."""
         if not turns(body):
             return ca.fabs(local)
-        return ca.sqrt(ca.sumsqr(local)) * ca.SX.ones(2)
+        return ca.sqrt(ca.sumsqr(local)) * ca.SX.ones(3)
 
-    def local_angle(self, point: Point) -> ca.SX:
-        """Angle of the axes at a point of a body, from those of the body."""
-        angle = ca.SX(0)
-        frame: Body | Frame = point.body if isinstance(point, BodyPoint) else point
-        while isinstance(frame, Frame):
-            if frame.angle is not None:
-                angle += self.fixed.lower(frame.angle)
-            frame = frame.owner
-        return angle
+    def lengths_between(
+        self, first: tuple[Body, ca.SX | None], second: tuple[Body, ca.SX | None]
+    ) -> ca.SX:
+        """Sizes (3) of the vectors from the bodies' coordinates to points given in their axes.
+
+        What both hang on is left out: it cancels out before any rounding.
+        """
+        own, other = self.arms[first[0]], self.arms[second[0]]
+        while own and other and own[0][0] is other[0][0]:
+            own, other = own[1:], other[1:]
+        total = sum((size for _, size in (*own, *other)), ca.SX.zeros(3))
+        for body, local in (first, second):
+            if local is not None:
+                total += self.arm(body, local)
+        return total
 
     def position(self, point: Point | Body) -> ca.SX:
-        """Ground coordinates (2)."""
-        if isinstance(point, BodyPoint):
-            return self.poses[point.body].point(self.local_point(point))
-        return self.frame(point).origin
+        """Ground coordinates (3)."""
+        return self.pose(point).origin
 
     def angle(self, owner: Body | Frame | BodyPoint) -> ca.SX:
-        """Angle of the axes."""
-        return self.frame(owner.body if isinstance(owner, BodyPoint) else owner).angle
+        """Angle of the axes in a planar model."""
+        return self.pose(owner).angle
 
     def line(self, curve: Curve) -> Line:
-        """A line in ground axes."""
-        pose = self.frame(curve.owner)
-        along = self.fixed.lower(curve.arguments["direction"])
+        """A line of a planar model in ground axes."""
+        pose = self.pose(curve.owner)
+        along = whole(self.fixed.lower(curve.arguments["direction"]))
         direction = pose.direction(along / ca.sqrt(ca.sumsqr(along)))
-        through = pose.point(self.fixed.lower(curve.arguments["through"]))
-        return Line(through, direction, turned(direction))
+        through = pose.point(whole(self.fixed.lower(curve.arguments["through"])))
+        return Line(through, direction, cross(Z, direction))
 
-    def velocity(self, value: ca.SX) -> ca.SX:
-        """Rate of a function of the coordinates, auxiliary ones included."""
+    # ------------------------------------------------------------------ rates
+
+    def rate(self, value: ca.SX) -> ca.SX:
+        """Rate of a function of the coordinates, without auxiliary speeds."""
         s = self.symbols
-        return ca.jtimes(value, ca.vertcat(s.q, s.w), ca.vertcat(s.v, s.sw))
+        return ca.jtimes(value, s.q, s.rates) if s.q.numel() else ca.SX.zeros(value.shape)
 
     def velocity_at(self, body: Body, place: ca.SX) -> ca.SX:
-        """Velocity of the material point of a body that is at `place`."""
-        pose = self.poses[body]
-        return self.velocity(pose.origin) + self.velocity(pose.angle) * turned(place - pose.origin)
+        """Velocity (3) of the material point of a body that is at `place`."""
+        return self.bodies[body].velocity_of(place)
+
+    def angular_velocity(self, owner: Body | Frame | BodyPoint) -> ca.SX:
+        """Angular velocity (3) of the axes."""
+        return self.moving(owner).angular
+
+    # ------------------------------------------------------------------ coordinates of joints
+
+    def coordinate(self, joint: Joint, index: int) -> tuple[ca.SX, ca.SX]:
+        """A coordinate of a joint that can be counted, of b relative to a, and its rate."""
+        motion = joint.motions[index]
+        hanging = self._hanging_by(joint)
+        if hanging is not None and len(hanging.motions) == len(joint.motions):
+            k = index if hanging.carries_b else len(joint.motions) - 1 - index
+            nq, nv = self.places[hanging.body]
+            nq += sum(len(m.coordinates) for m in hanging.motions[:k])
+            nv += sum(count_speeds(m) for m in hanging.motions[:k])
+            if hanging.motions[k].coordinates == motion.coordinates:
+                return self.symbols.q[nq], self.symbols.v[nv]
+        a, b = self.moving(joint.a), self.moving(joint.b)
+        return seen(motion, a, b, self.fixed.lower)
+
+    def _hanging_by(self, joint: Joint) -> Hanging | None:
+        for place in (joint.a, joint.b):
+            hanging = self.hangs.get(point_body(place))
+            if hanging is not None and hanging.link is joint:
+                return hanging
+        return None
+
+
+def _frames(point: Point) -> Iterator[Frame]:
+    """The frames between a point and its body, from the point on."""
+    frame: Body | Frame = point.body if isinstance(point, BodyPoint) else point
+    while isinstance(frame, Frame):
+        yield frame
+        frame = frame.owner
+
+
+def _turned(pose: Pose, axis: Expression | str, angle: ca.SX, lower: Lower) -> Pose:
+    """Axes turned by a constant angle about one of their own."""
+    return turned_pose(pose, unit_vector(axis, lower), angle)

@@ -6,44 +6,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from frot.compiler.mechanics.locks import Lock
+from frot.compiler.mechanics.motions import Motion
 from frot.dsl.checked import Body, BodyPoint, Curve, Expression, Force, Frame, Liaison, Model
 
 Point = BodyPoint | Frame
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class FreeCoordinates:
-    """The body moves freely: x, y of its centre of mass and, if it turns, its angle."""
-
-    body: Body
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class LineCoordinates:
-    """A point of the body stays on a line: its abscissa and, if the body turns, its angle.
-
-    The liaison is built into the coordinates, so that it never drifts.
-    """
-
-    body: Body
-    point: Point
-    line: Curve
-    liaison: Liaison
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PinCoordinates:
-    """The body hangs on another by a rotoïde: the angle of the liaison, if the body turns.
-
-    `carries_b`: the body is that of the place `b` of the liaison, else of `a`.
-    """
-
-    body: Body
-    pin: Pin
-    carries_b: bool
-
-
-Coordinates = FreeCoordinates | LineCoordinates | PinCoordinates
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,50 +33,112 @@ class Contact:
     mu_s: Expression | None
     delta: Expression | None
 
+    @property
+    def radius(self) -> None:
+        """Of pins only."""
+        return None
+
+    @property
+    def readings(self) -> int:
+        """Reactions that auxiliary speeds bring to light: the normal one."""
+        return 1 if self.reduced else 0
+
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Pin:
-    """A rotoïde of the points `a` and `b`, built into the coordinates.
+class Joint:
+    """A liaison of the points `a` and `b` that leaves `motions` and locks the rest.
 
-    `mu` and `mu_s` with the `radius` of the pin bound its couple; all three are None without
-    friction.
+    `reduced`: it is built into the coordinates. `mu` and `mu_s` with the `radius` of the pin bound
+    its couple; all three are None without friction.
     """
 
     liaison: Liaison
     a: Point
     b: Point
+    motions: tuple[Motion, ...]
+    locks: tuple[Lock, ...]
+    reduced: bool
     unilateral: Expression
     mu: Expression | None
     mu_s: Expression | None
     radius: Expression | None
 
     @property
-    def reduced(self) -> bool:
-        """The coordinates always keep the liaison."""
-        return True
-
-    @property
     def delta(self) -> None:
-        """A pin does not roll."""
+        """A joint does not roll."""
         return None
 
+    @property
+    def readings(self) -> int:
+        """Reactions that auxiliary speeds bring to light: all of them."""
+        return len(self.locks) if self.reduced else 0
 
-Joint = Contact | Pin
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Relation:
+    """One lock of a joint that closes a loop: a row of its own, kept by its reaction."""
+
+    joint: Joint
+    lock: Lock
+    first: bool
+    reduced: bool = False
+    readings: int = 0
+    mu: None = None
+    mu_s: None = None
+    delta: None = None
+    radius: None = None
+
+    @property
+    def liaison(self) -> Liaison:
+        """The liaison it belongs to."""
+        return self.joint.liaison
+
+    @property
+    def unilateral(self) -> Expression:
+        """Never."""
+        return self.joint.unilateral
+
+
+Link = Contact | Joint | Relation
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Hanging:
+    """How a body hangs on another, or on the ground: its coordinates.
+
+    `motions` take the axes at the place `base` of the other to those at the place `own` of the
+    body: points, or a line on which the point slides; a body that moves freely has no `link` and
+    hangs on the ground by its G. `names` are those of the coordinates, `speeds` those of the
+    speeds.
+    """
+
+    body: Body
+    link: Contact | Joint | None
+    base: Point | Curve | None
+    own: Point | None
+    motions: tuple[Motion, ...]
+    names: tuple[str, ...]
+    speeds: tuple[str, ...]
+
+    @property
+    def carries_b(self) -> bool:
+        """Whether the body is that of the place `b` of its joint."""
+        return isinstance(self.link, Joint) and self.own is self.link.b
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mechanism:
     """What moves and what acts on it.
 
-    `coordinates` has one entry a body, each after the bodies it is described relative to.
-    `contacts` are the liaisons whose reactions are computed, because a law or an expression reads
-    them or because they close a loop; `ideal` are the liaisons kept by coordinates alone.
+    `coordinates` has one entry a body, each after the bodies it hangs on. `contacts` are the
+    liaisons whose reactions are computed, because a law or an expression reads them or because they
+    close a loop, these relation by relation; `ideal` are those kept by coordinates alone.
     """
 
     model: Model
-    coordinates: tuple[Coordinates, ...]
-    contacts: tuple[Joint, ...]
-    ideal: tuple[Joint, ...]
+    coordinates: tuple[Hanging, ...]
+    contacts: tuple[Link, ...]
+    ideal: tuple[Contact | Joint, ...]
     forces: tuple[Force, ...]
 
 
@@ -136,16 +165,30 @@ def is_unilateral(liaison: Liaison) -> bool:
 
 
 def mobility(mechanism: Mechanism) -> Mobility:
-    """Count freedoms and relations (planar: 3 a body, 2 a particle)."""
-    liaisons = mechanism.model.liaisons
-    freedoms = sum(b.shape.freedoms_planar for b in mechanism.model.bodies if b.shape is not None)
+    """Count freedoms and relations (planar: 3 a body, 2 a particle; space: 3 l + 5 m + 6 n)."""
+    model = mechanism.model
+    liaisons = model.liaisons
+    freedoms = sum(freedoms_of(b, model.planar) for b in model.bodies)
     unilateral = [x for x in liaisons if is_unilateral(x)]
-    relations = {x: x.kind.relations_planar or 0 for x in liaisons}
+    relations = {x: relations_of(x, model.planar) for x in liaisons}
     return Mobility(
         freedoms,
         sum(n for x, n in relations.items() if x not in unilateral),
         sum(n for x, n in relations.items() if x in unilateral),
     )
+
+
+def freedoms_of(body: Body, planar: bool) -> int:
+    """The number of speeds of the body alone."""
+    if body.shape is None:
+        return 0
+    return body.shape.freedoms_planar if planar else body.shape.freedoms_space
+
+
+def relations_of(liaison: Liaison, planar: bool) -> int:
+    """The number of scalar relations of a liaison."""
+    kind = liaison.kind
+    return (kind.relations_planar or 0) if planar else kind.relations_space
 
 
 def point_body(point: Point) -> Body:
@@ -158,6 +201,11 @@ def owner_body(owner: Body | Frame) -> Body:
     while isinstance(owner, Frame):
         owner = owner.owner
     return owner
+
+
+def is_particle(body: Body) -> bool:
+    """Whether the body has no orientation."""
+    return body.shape is not None and not body.shape.turns
 
 
 def turns(body: Body) -> bool:

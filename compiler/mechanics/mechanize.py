@@ -5,16 +5,25 @@ from __future__ import annotations
 from dataclasses import replace
 
 from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
+from frot.compiler.mechanics.joints import JOINTS
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
+    Link,
     Mechanism,
-    Pin,
     Point,
+    Relation,
+    is_particle,
     point_body,
     turns,
 )
-from frot.compiler.mechanics.refuse import REACTION, refuse, refuse_surface, refuse_unknown
+from frot.compiler.mechanics.refuse import (
+    REACTION,
+    refuse,
+    refuse_surface,
+    refuse_unknown,
+    spelled,
+)
 from frot.compiler.mechanics.spanning import span
 from frot.dsl import Log
 from frot.dsl.checked import (
@@ -39,31 +48,42 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     refuse_unknown(model, log)
     if log.failed:
         return None
-    joints = [e for x in model.liaisons if (e := _joint(x, log)) is not None]
-    refuse_surface(model, joints, log)
+    links = [e for x in model.liaisons if (e := _link(x, model.planar, log)) is not None]
+    refuse_surface(model, links, log)
     if log.failed:
         return None
-    tree = span(model, joints)
-    for pin in tree.closing:
+    tree = span(model, links)
+    read = _read_liaisons(model)
+    chosen: list[Link] = []
+    ideal: list[Contact | Joint] = []
+    for link in links:
+        link = replace(link, reduced=link.liaison in tree.kept)
+        silent = link.mu is None and link.delta is None and link.liaison not in read
+        if link.reduced and silent:
+            ideal.append(link)
+        elif isinstance(link, Contact) or link.reduced:
+            chosen.append(link)
+        else:
+            chosen += _relations(link, log)
+    if log.failed:
+        return None
+    kept = {x.liaison: x for x in (*chosen, *ideal) if not isinstance(x, Relation)}
+    coordinates = tuple(
+        h if h.link is None else replace(h, link=kept[h.link.liaison]) for h in tree.coordinates
+    )
+    return Mechanism(model, coordinates, tuple(chosen), tuple(ideal), model.forces)
+
+
+def _relations(joint: Joint, log: Log) -> list[Relation]:
+    """A joint that closes a loop, relation by relation."""
+    if joint.mu is not None:
         refuse(
             log,
-            "a rotoïde that closes a loop",
-            pin.liaison.span,
-            f"other rotoïdes already join '{point_body(pin.a).name}' and "
-            f"'{point_body(pin.b).name}': leave one of them out",
+            f"friction in a {spelled(joint.liaison)} that closes a loop",
+            joint.liaison.span,
+            "all liaisons of a loop cannot have friction: leave it out of one of them",
         )
-    if log.failed:
-        return None
-    read = _read_liaisons(model)
-    chosen: list[Joint] = []
-    ideal: list[Joint] = []
-    for joint in joints:
-        reduced = joint.liaison in tree.kept
-        silent = joint.mu is None and joint.delta is None and joint.liaison not in read
-        if isinstance(joint, Contact):
-            joint = replace(joint, reduced=reduced)
-        (ideal if reduced and silent else chosen).append(joint)
-    return Mechanism(model, tree.coordinates, tuple(chosen), tuple(ideal), model.forces)
+    return [Relation(joint, lock, k == 0) for k, lock in enumerate(joint.locks)]
 
 
 def _law(liaison: Liaison, kind: str) -> Law | None:
@@ -71,17 +91,19 @@ def _law(liaison: Liaison, kind: str) -> Law | None:
     return next((law for law in liaison.laws if law.kind.name == kind), None)
 
 
-def _joint(liaison: Liaison, log: Log) -> Joint | None:
-    return _pin(liaison, log) if liaison.kind.name == "rotoide" else _contact(liaison, log)
+def _link(liaison: Liaison, planar: bool, log: Log) -> Contact | Joint | None:
+    joint = liaison.kind.name in JOINTS
+    return _joint(liaison, planar, log) if joint else _contact(liaison, log)
 
 
-def _pin(liaison: Liaison, log: Log) -> Pin | None:
+def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     a, b, unilateral = liaison.a, liaison.b, liaison.options["unilateral"]
+    name, told = liaison.kind.name, spelled(liaison)
     assert isinstance(a, Point) and isinstance(b, Point)
     if not (isinstance(unilateral, Literal) and unilateral.value is False):
-        refuse(log, "a rotoïde that can part", unilateral.span)
+        refuse(log, f"a {told} that can part", unilateral.span)
         return None
-    if not (turns(point_body(a)) or turns(point_body(b))):
+    if not (turns(point_body(a)) or turns(point_body(b))) and name == "rotoide":
         refuse(
             log,
             "a rotoïde of two bodies that do not turn",
@@ -89,20 +111,36 @@ def _pin(liaison: Liaison, log: Log) -> Pin | None:
             "a particle has no angle: use a rod, a disc or a ring",
         )
         return None
+    pairing = JOINTS[name](liaison.options, planar)
+    locks = pairing.locks
+    if is_particle(point_body(a)) or is_particle(point_body(b)):
+        locks = tuple(lock for lock in locks if not lock.turns)
+    joint = Joint(
+        liaison,
+        a=a,
+        b=b,
+        motions=pairing.motions,
+        locks=locks,
+        reduced=False,
+        unilateral=unilateral,
+        mu=None,
+        mu_s=None,
+        radius=None,
+    )
     law = _law(liaison, "coulomb")
-    if law is not None and "radius" not in law.arguments:
+    if law is None:
+        return joint
+    if "radius" not in law.arguments:
         log.report(
             "E0204",
-            f"'coulomb' of the rotoïde '{liaison.name}' needs radius",
+            f"'coulomb' of the {told} '{liaison.name}' needs radius",
             law.span,
             notes=("radius: radius of the pin; its friction couple is mu*radius*norm(R)",),
             help="write `coulomb(..., radius = 8 mm)`",
         )
         return None
-    if law is None:
-        return Pin(liaison, a, b, unilateral, None, None, None)
-    mu, mu_s, radius = (law.arguments[name] for name in ("mu", "mu_s", "radius"))
-    return Pin(liaison, a, b, unilateral, mu, mu_s, radius)
+    mu, mu_s, radius = (law.arguments[key] for key in ("mu", "mu_s", "radius"))
+    return replace(joint, mu=mu, mu_s=mu_s, radius=radius)
 
 
 def _contact(liaison: Liaison, log: Log) -> Contact | None:

@@ -24,13 +24,13 @@ from frot.compiler.equations.text_symbols import (
     scalars,
 )
 from frot.compiler.lowering.expressions import Conditions, Lowering
-from frot.compiler.lowering.symbols import Rows, Symbols, column, contact_rows, make_symbols
-from frot.compiler.mechanics.contacts import Geometry, gravity, joint_geometry, row_rates
+from frot.compiler.lowering.symbols import Rows, Symbols, column, link_rows, make_symbols
+from frot.compiler.mechanics.contacts import Geometry, gravity, link_geometry, row_rates
+from frot.compiler.mechanics.dynamics import Masses, make_masses
 from frot.compiler.mechanics.forces import load
+from frot.compiler.mechanics.joint_geometry import JointGeometry, RelationGeometry
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.mechanism import Joint, Mechanism, Pin
-from frot.compiler.mechanics.names import coordinate_names
-from frot.compiler.mechanics.pins import PinGeometry
+from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Mechanism, Relation
 from frot.compiler.mechanics.variables import Variables
 from frot.dsl import Log
 from frot.dsl.checked import Call, Liaison, Model, Quantity, Reference, Variable
@@ -105,12 +105,16 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
             symbols_of = scalars(text.values[variable])
             for symbol, start in zip(symbols_of, first(variable), strict=True):
                 text.add_discrete(symbol.name(), symbol, start)
-    rates = _rates(mechanism.contacts, variables, kinematics)
-    speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
-    motion = _masses(mechanism, variables)
+    geometry = _geometry(mechanism, kinematics)
+    rates = column(
+        rate
+        for link, g in zip(mechanism.contacts, geometry, strict=True)
+        for rate in row_rates(link, g, kinematics)
+    )
+    speeds = ca.vertcat(symbols.v, symbols.sw)
+    motion, potential = _masses(mechanism, variables)
     loads = _loads(mechanism, variables, moving)
     coefficients = _coefficients(mechanism.contacts, moving, symbols, log)
-    geometry = [variables.geometry[contact.liaison] for contact in mechanism.contacts]
     equations = gather(mechanism.model.equations, moving, log)
     _add_slip_accelerations(equations, text)
     events = gather_events(mechanism.model, text, conditions, moving, looking, log)
@@ -125,7 +129,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         text=text,
         equations=equations,
         events=events,
-        contact_rows=contact_rows(mechanism.contacts),
+        contact_rows=link_rows(mechanism.contacts),
         variables=variables,
         fixed=fixed,
         conditions=conditions,
@@ -134,28 +138,36 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         force_size=settled(motion.size + loads.size),
         load_sizes=settled(column(loads.sizes)),
         rows=settled(ca.jacobian(rates, speeds)),
-        bias=settled(ca.jtimes(rates, places, speeds)),
+        bias=kinematics.rate(settled(rates)),
         rate=settled(rates),
         gap=settled(column(g.gap for g in geometry)),
         witness=settled(column(g.witness for g in geometry)),
         reach=settled(column(g.reach for g in geometry)),
         coefficients=settled(coefficients),
         power=settled(loads.power),
-        kinetic=settled(motion.kinetic),
-        potential=settled(motion.potential + loads.potential),
+        kinetic=settled(
+            sum((variables.of_body(b, "kinetic_energy") for b in mechanism.model.bodies), ca.SX(0))
+        ),
+        potential=settled(potential + loads.potential),
     )
 
 
 def _text(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
     """Chains of the coordinates, then symbols for the variables of the text."""
     chains = Chains(symbols.t)
-    names = [n for c in mechanism.coordinates for n in coordinate_names(c)]
-    for name, *chain in zip(
-        names,
-        *(ca.vertsplit(x) if names else () for x in (symbols.q, symbols.v, symbols.a)),
-        strict=True,
-    ):
-        chains.add(name, None, symbols=chain, fixed=True)
+    # the coordinate whose rate is a speed stands before it; a quaternion has none for each
+    before = {k: i for i, k in enumerate(symbols.q_speed) if k >= 0}
+    for k in range(symbols.v.numel()):
+        name = symbols.q[before[k]].name() if k in before else symbols.v[k].name()
+        first = symbols.q[before[k]] if k in before else ca.SX.sym(f"integral({name})")
+        chains.add(name, None, symbols=(first, symbols.v[k], symbols.a[k]), fixed=True)
+    for turn in symbols.turns:
+        places = range(turn.coordinate, turn.coordinate + 4)
+        chains.give_rates(
+            [symbols.q[i] for i in places],
+            [symbols.rates[i] for i in places],
+            [k for k in turn.speeds if k >= 0],
+        )
     chains.forbid_rate(symbols.u, "the input")
     chains.forbid_rate(symbols.lam, "the reaction of")
     return make_text_symbols(mechanism.model.variables, chains)
@@ -226,63 +238,55 @@ def _add_slip_accelerations(equations: Residuals, text: TextSymbols) -> None:
         equations.origins.append(Origin(element.span, f"slip of {element.name}", ""))
 
 
+def _geometry(
+    mechanism: Mechanism, kinematics: Kinematics
+) -> list[Geometry | JointGeometry | RelationGeometry]:
+    """That of each of the mechanism's contacts."""
+    world, sides = mechanism.model.world, kinematics.symbols.sides
+    return [
+        link_geometry(link, kinematics, sides[k], world)
+        for k, link in enumerate(mechanism.contacts)
+    ]
+
+
 def _variables(
     mechanism: Mechanism, kinematics: Kinematics, symbols: Symbols, text: TextSymbols
 ) -> Variables:
     world = mechanism.model.world
-    geometry: dict[Liaison, Geometry | PinGeometry] = {}
-    for index, contact in enumerate(mechanism.contacts):
-        side = symbols.sides[index]
-        geometry[contact.liaison] = joint_geometry(contact, kinematics, side, world)
-    for contact in mechanism.ideal:
-        geometry[contact.liaison] = joint_geometry(contact, kinematics, ca.SX(1), world)
-    return Variables(
-        symbols,
-        text.chains,
-        kinematics,
-        geometry,
-        {contact.liaison: contact for contact in mechanism.contacts},
-        {
-            contact.liaison: rows
-            for contact, rows in zip(
-                mechanism.contacts, contact_rows(mechanism.contacts), strict=True
-            )
-        },
+    geometry: dict[Liaison, Geometry | JointGeometry] = {}
+    links: dict[Liaison, Contact | Joint] = {}
+    reactions: dict[Liaison, Rows] = {}
+    for k, (link, rows) in enumerate(
+        zip(mechanism.contacts, link_rows(mechanism.contacts), strict=True)
+    ):
+        if isinstance(link, Relation):
+            before = reactions.get(link.liaison)
+            own = (*(before.reaction if before else ()), *rows.reaction)
+            reactions[link.liaison] = Rows(own, -1, -1)
+            links[link.liaison] = link.joint
+            continue
+        links[link.liaison], reactions[link.liaison] = link, rows
+        found = link_geometry(link, kinematics, symbols.sides[k], world)
+        assert not isinstance(found, RelationGeometry)
+        geometry[link.liaison] = found
+    for link in (*mechanism.ideal, *links.values()):
+        if link.liaison not in geometry:
+            found = link_geometry(link, kinematics, ca.SX(1), world)
+            assert not isinstance(found, RelationGeometry)
+            geometry[link.liaison] = found
+    return Variables(symbols, text.chains, kinematics, geometry, links, reactions)
+
+
+def _masses(mechanism: Mechanism, variables: Variables) -> tuple[Masses, ca.SX]:
+    """The tree's masses, and the potential energy of the weights."""
+    kinematics, bodies = variables.kinematics, mechanism.model.bodies
+    fall = gravity(mechanism.model.world, kinematics)
+    masses = {body: variables.mass(body) for body in bodies}
+    inertias = {body: variables.inertia_in_ground(body) for body in bodies}
+    potential = -sum(
+        (m * ca.dot(fall, kinematics.position(b)) for b, m in masses.items()), ca.SX(0)
     )
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Masses:
-    """Mass matrix, weight less inertial bias with the size of its terms, energies of the bodies."""
-
-    mass: ca.SX
-    force: ca.SX
-    size: ca.SX
-    kinetic: ca.SX
-    potential: ca.SX
-
-
-def _masses(mechanism: Mechanism, variables: Variables) -> _Masses:
-    kinematics, symbols = variables.kinematics, variables.symbols
-    world = mechanism.model.world
-    speeds, places = ca.vertcat(symbols.v, symbols.sw), ca.vertcat(symbols.q, symbols.w)
-    mass, force = ca.SX.zeros(speeds.numel(), speeds.numel()), ca.SX.zeros(speeds.numel())
-    size, kinetic, potential = ca.SX.zeros(speeds.numel()), ca.SX(0), ca.SX(0)
-    for body in mechanism.model.bodies:
-        pose = kinematics.poses[body]
-        weight = variables.mass(body) * gravity(world, kinematics)
-        for velocity, inertia, push in (
-            (kinematics.velocity(pose.origin), variables.mass(body), weight),
-            (kinematics.velocity(pose.angle), variables.inertia(body), ca.SX.zeros(1)),
-        ):
-            jacobian = ca.jacobian(velocity, speeds)
-            mass += inertia * (jacobian.T @ jacobian)
-            bias = jacobian.T @ (inertia * ca.jtimes(velocity, places, speeds))
-            force += jacobian.T @ push - bias
-            size += ca.fabs(jacobian.T) @ ca.fabs(push) + ca.fabs(bias)
-        kinetic += variables.of_body(body, "kinetic_energy")
-        potential -= ca.dot(weight, pose.origin)
-    return _Masses(mass, force, size, kinetic, potential)
+    return make_masses(kinematics, bodies, masses, inertias, fall), potential
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -299,11 +303,14 @@ class _Loads:
 def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> _Loads:
     kinematics, symbols = variables.kinematics, variables.symbols
     speeds = ca.vertcat(symbols.v, symbols.sw)
+    links = (*mechanism.contacts, *mechanism.ideal)
+    joints = {x.liaison: x for x in links if isinstance(x, Joint)}
+    joints |= {x.liaison: x.joint for x in links if isinstance(x, Relation)}
     force, size = ca.SX.zeros(speeds.numel()), ca.SX.zeros(speeds.numel())
     potential, power = ca.SX(0), ca.SX(0)
     sizes: list[ca.SX] = []
     for applied in mechanism.forces:
-        result = load(applied, kinematics, moving, mechanism.model.ground)
+        result = load(applied, kinematics, moving, mechanism.model.ground, joints)
         for action in result.actions:
             along = ca.jacobian(action.velocity, speeds).T
             force += along @ action.force
@@ -316,7 +323,9 @@ def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> _Loa
     for flange in mechanism.model.flanges:
         assert moving.variable is not None
         effort = moving.variable(flange.effort)
-        rate = kinematics.velocity(variables.of_liaison(flange.liaison, flange.coordinate))
+        joint = joints[flange.liaison]
+        names = [m.coordinates[0] for m in joint.motions]
+        rate = kinematics.coordinate(joint, names.index(flange.coordinate))[1]
         push = ca.jacobian(rate, speeds).T * effort
         force, size = force + push, size + ca.fabs(push)
         power += effort * rate
@@ -329,16 +338,8 @@ def _reads_solution(value: ca.SX, symbols: Symbols) -> bool:
     )
 
 
-def _rates(contacts: tuple[Joint, ...], variables: Variables, kinematics: Kinematics) -> ca.SX:
-    return column(
-        rate
-        for contact in contacts
-        for rate in row_rates(contact, variables.geometry[contact.liaison], kinematics)
-    )
-
-
 def _coefficients(
-    contacts: tuple[Joint, ...], moving: Lowering, symbols: Symbols, log: Log
+    contacts: tuple[Link, ...], moving: Lowering, symbols: Symbols, log: Log
 ) -> ca.SX:
     """For each element its coefficient of motion and of rest, times the radius of a pin.
 
@@ -346,8 +347,7 @@ def _coefficients(
     """
     values: list[ca.SX] = []
     for contact in contacts:
-        radius = contact.radius if isinstance(contact, Pin) else None
-        arm = ca.SX(1) if radius is None else moving.lower(radius)
+        arm = ca.SX(1) if contact.radius is None else moving.lower(contact.radius)
         for pair in ((contact.mu, contact.mu_s), (contact.delta, contact.delta)):
             for expression in pair:
                 if expression is None:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
-from frot.compiler.mechanics.mechanism import Joint, Pin, turns
+from frot.compiler.mechanics.joints import JOINTS
+from frot.compiler.mechanics.mechanism import Contact, Joint, turns
 from frot.dsl import Log
 from frot.dsl.checked import BodyPoint, Force, Law, Liaison, Literal, Model, Place, Quantity
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import dimension
 
-SHAPES = ("particle", "ring", "disc", "rod")
-LIAISONS = ("point_courbe", "contact_ponctuel", "rotoide")
+PLANE_LIAISONS = ("point_courbe", "contact_ponctuel")
 LAWS = ("coulomb", "rolling_resistance")
 FORCES = ("attraction", "couple", "damper", "drag", "on", "spring")
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
@@ -20,11 +20,6 @@ REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mod
 
 def refuse_unknown(model: Model, log: Log) -> None:
     """Tell every kind, law, force and option of the model that has no mechanics yet."""
-    if not model.planar and (model.bodies or model.liaisons):
-        refuse(log, "a model in space", model.span, "write `planar model` if the motion is plane")
-    for body in model.bodies:
-        if body.shape is not None and body.shape.name not in SHAPES:
-            refuse(log, f"the shape '{body.shape.name}'", body.span, _one_of("shapes", SHAPES))
     for curve in model.curves:
         if curve.kind != "line":
             refuse(log, f"the curve '{curve.kind}'", curve.span, "a `line` is")
@@ -39,16 +34,18 @@ def refuse_unknown(model: Model, log: Log) -> None:
         for argument in body.arguments.values():
             if not is_fixed(argument):
                 refuse(log, "a body that depends on time or motion", argument.span)
+    known = (*JOINTS, *(PLANE_LIAISONS if model.planar else ()))
     for liaison in model.liaisons:
-        if liaison.kind.name not in LIAISONS:
+        if liaison.kind.name not in known:
+            where = "" if model.planar else " in space"
             refuse(
                 log,
-                f"the liaison '{liaison.kind.name}'",
+                f"the liaison '{liaison.kind.name}'{where}",
                 liaison.span,
-                _one_of("liaisons", LIAISONS),
+                _one_of("liaisons", known),
             )
         for law in liaison.laws:
-            _refuse_law(liaison, law, log)
+            _refuse_law(liaison, law, model.planar, log)
     for force in model.forces:
         if force.kind.name not in FORCES:
             refuse(log, f"the force '{force.kind.name}'", force.span, _one_of("forces", FORCES))
@@ -77,13 +74,18 @@ def refuse_unknown(model: Model, log: Log) -> None:
                 )
 
 
-def _refuse_law(liaison: Liaison, law: Law, log: Log) -> None:
+def _refuse_law(liaison: Liaison, law: Law, planar: bool, log: Log) -> None:
     if law.kind.name not in LAWS:
         refuse(log, f"the law '{law.kind.name}'", law.span, _one_of("laws", LAWS))
         return
+    if not planar:
+        refuse(log, f"the law '{law.kind.name}' in space", law.span, "planar models take it")
+        return
     pin = liaison.kind.name == "rotoide"
-    if pin and law.kind.name != "coulomb":
-        refuse(log, f"the law '{law.kind.name}' of a rotoïde", law.span, "`coulomb` is")
+    if liaison.kind.name in JOINTS and not (pin and law.kind.name == "coulomb"):
+        kind = spelled(liaison)
+        refuse(log, f"the law '{law.kind.name}' of a {kind}", law.span, "`coulomb` of a rotoïde is")
+        return
     for name in ("half_length",) if pin else ("radius", "half_length"):
         if name in law.arguments:
             refuse(log, f"'{name}' of the law '{law.kind.name}'", law.arguments[name].span)
@@ -144,9 +146,9 @@ def _refuse_drag(force: Force, log: Log) -> None:
         )
 
 
-def refuse_surface(model: Model, joints: Iterable[Joint], log: Log) -> None:
+def refuse_surface(model: Model, links: Iterable[Contact | Joint], log: Log) -> None:
     """What happens at the surface of a pin is known with its radius only."""
-    plain = {e.liaison for e in joints if isinstance(e, Pin) and e.radius is None}
+    plain = {e.liaison for e in links if isinstance(e, Joint) and e.radius is None}
     for expression in read_expressions(model):
         for node in subexpressions(expression):
             if (
@@ -160,6 +162,12 @@ def refuse_surface(model: Model, joints: Iterable[Joint], log: Log) -> None:
                     node.span,
                     help="read `speed` or `torque`, or give the law `coulomb(..., radius = ...)`",
                 )
+
+
+def spelled(liaison: Liaison) -> str:
+    """The French name of its type with its accents, for sentences."""
+    accents = {"rotoide": "rotoïde", "spherique": "sphérique", "helicoidale": "hélicoïdale"}
+    return accents.get(liaison.kind.name, liaison.kind.name)
 
 
 def refuse(log: Log, what: str, span: Span | None, help: str = "") -> None:

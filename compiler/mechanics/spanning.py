@@ -3,96 +3,187 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from frot.compiler.mechanics.mechanism import (
     Contact,
-    Coordinates,
-    FreeCoordinates,
+    Hanging,
     Joint,
-    LineCoordinates,
-    Pin,
-    PinCoordinates,
+    Point,
     is_unilateral,
     owner_body,
     point_body,
+    turns,
 )
-from frot.dsl.checked import Body, Liaison, Model
+from frot.compiler.mechanics.motions import (
+    Attitude,
+    Axis,
+    Heading,
+    Motion,
+    Pointing,
+    Screw,
+    Slide,
+    Steady,
+    Turn,
+)
+from frot.dsl.checked import Body, BodyPoint, Curve, Frame, Liaison, Model
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tree:
-    """Coordinates, each body after the one it hangs on; the liaisons they keep; loops of pins."""
+    """Coordinates, each body after the one it hangs on; the liaisons they keep."""
 
-    coordinates: tuple[Coordinates, ...]
+    coordinates: tuple[Hanging, ...]
     kept: frozenset[Liaison]
-    closing: tuple[Pin, ...]
 
 
-def span(model: Model, joints: Iterable[Joint]) -> Tree:
-    """Let pins join bodies to groups, and a point on a line carry a group that has no ground.
+def span(model: Model, links: Iterable[Contact | Joint]) -> Tree:
+    """Let joints join bodies to groups, and a point on a line carry a group that has no ground.
 
-    In the order of the text: a pin within a group closes a loop; a group hangs on the first line
-    that is not on itself or on what it carries; else its first body moves freely.
+    Joints with friction come first, then those that lock most, then the order of the text: what
+    closes a loop costs a row for each lock. A group hangs on the first line that is not on itself
+    or on what it carries; else its first body moves freely.
     """
-    joints = tuple(joints)
-    groups = _Groups((model.ground, *model.bodies))
-    branches: dict[Body, list[tuple[Pin, Body]]] = {b: [] for b in (model.ground, *model.bodies)}
-    closing: list[Pin] = []
-    for pin in joints:
-        if isinstance(pin, Pin):
-            a, b = point_body(pin.a), point_body(pin.b)
-            if groups.join(a, b):
-                branches[a].append((pin, b))
-                branches[b].append((pin, a))
-            else:
-                closing.append(pin)
+    links = tuple(links)
+    bodies = (model.ground, *model.bodies)
+    groups = _Groups(bodies)
+    branches: dict[Body, list[tuple[Joint, Body]]] = {b: [] for b in bodies}
+    joints = [x for x in links if isinstance(x, Joint)]
+    for joint in sorted(joints, key=lambda x: (x.mu is None, -len(x.locks))):
+        a, b = point_body(joint.a), point_body(joint.b)
+        if groups.join(a, b):
+            branches[a].append((joint, b))
+            branches[b].append((joint, a))
     carried: dict[Body, Contact] = {}
-    for contact in joints:
+    for contact in links:
         if isinstance(contact, Contact) and _can_carry(contact):
             group = groups.of(point_body(contact.point))
             chain = _carriers(groups.of(owner_body(contact.line.owner)), carried, groups)
             if group is not groups.of(model.ground) and group not in carried and group not in chain:
                 carried[group] = contact
-    ordered: list[Coordinates] = []
+    builder = _Builder(model, groups, branches, carried)
+    ordered: list[Hanging] = []
     done: set[Body] = set()
     for body in model.bodies:
         for group in reversed(_carriers(groups.of(body), carried, groups)):
             if group not in done:
                 done.add(group)
-                ordered += _coordinates(group, carried.get(group), model, groups, branches)
-    pins = (c.pin.liaison for c in ordered if isinstance(c, PinCoordinates))
-    lines = (contact.liaison for contact in carried.values())
-    return Tree(tuple(ordered), frozenset((*pins, *lines)), tuple(closing))
+                ordered += builder.hang(group)
+    return Tree(tuple(ordered), frozenset(h.link.liaison for h in ordered if h.link is not None))
 
 
 def _can_carry(contact: Contact) -> bool:
     return contact.liaison.kind.name == "point_courbe" and not is_unilateral(contact.liaison)
 
 
-def _coordinates(
-    group: Body,
-    contact: Contact | None,
-    model: Model,
-    groups: _Groups,
-    branches: dict[Body, list[tuple[Pin, Body]]],
-) -> Iterator[Coordinates]:
-    """Those of a group, from its root outwards."""
-    if group is groups.of(model.ground):
-        root = model.ground
-    elif contact is not None:
-        root = point_body(contact.point)
-        yield LineCoordinates(root, contact.point, contact.line, contact.liaison)
-    else:
-        root = next(body for body in model.bodies if groups.of(body) is group)
-        yield FreeCoordinates(root)
-    reached, seen = [root], {root}
-    for body in reached:
-        for pin, other in branches[body]:
-            if other not in seen:
+@dataclass(frozen=True, slots=True, eq=False)
+class _Builder:
+    model: Model
+    groups: _Groups
+    branches: dict[Body, list[tuple[Joint, Body]]]
+    carried: dict[Body, Contact]
+
+    def hang(self, group: Body) -> Iterator[Hanging]:
+        """Coordinates of a group, from its root outwards."""
+        if group is self.groups.of(self.model.ground):
+            root = self.model.ground
+        elif group in self.carried:
+            contact = self.carried[group]
+            root = point_body(contact.point)
+            slide = Slide(Axis(contact.line.arguments["direction"]), coordinates=("u",))
+            yield self._hanging(root, contact, contact.line, contact.point, (slide,))
+        else:
+            root = next(b for b in self.model.bodies if self.groups.of(b) is group)
+            ways = "xy" if self.model.planar else "xyz"
+            slides = tuple(Slide(Axis(k), coordinates=(f"position.{k}",)) for k in ways)
+            yield self._hanging(root, None, None, None, slides)
+        reached, seen = [root], {root}
+        for body in reached:
+            for joint, other in self.branches[body]:
+                if other in seen:
+                    continue
                 seen.add(other)
                 reached.append(other)
-                yield PinCoordinates(other, pin, other is point_body(pin.b))
+                if other is point_body(joint.b):
+                    yield self._jointed(other, joint, joint.a, joint.b, joint.motions)
+                else:
+                    back = tuple(reverse(m) for m in reversed(joint.motions))
+                    yield self._jointed(other, joint, joint.b, joint.a, back)
+
+    def _jointed(
+        self, body: Body, joint: Joint, base: Point, own: Point, motions: tuple[Motion, ...]
+    ) -> Hanging:
+        """Of a body in a joint: a particle has only the ways that the joint leaves."""
+        ends = (point_body(base), body)
+        if all(turns(b) or b.shape is None for b in ends) or (
+            turns(body) and all(isinstance(m, Turn) for m in motions)
+        ):
+            chosen = tuple(self._orient(body) if isinstance(m, Attitude) else m for m in motions)
+            return self._named(body, joint, base, own, chosen)
+        ways = tuple(m for m in motions if not isinstance(m, Turn | Screw | Attitude))
+        return self._hanging(body, joint, base, own, ways)
+
+    def _hanging(
+        self,
+        body: Body,
+        link: Contact | Joint | None,
+        base: Point | Curve | None,
+        own: Point | None,
+        ways: tuple[Motion, ...],
+    ) -> Hanging:
+        """Of a body whose orientation nothing keeps."""
+        return self._named(body, link, base, own, (*ways, self._orient(body)))
+
+    def _orient(self, body: Body) -> Motion:
+        if not turns(body):
+            return Steady()
+        if self.model.planar:
+            return Heading()
+        return Pointing() if self._is_slender(body) else Attitude()
+
+    def _is_slender(self, body: Body) -> bool:
+        """Whether nothing gives inertia to, or sees, a turn about the own x axis."""
+        if body.shape is None or body.shape.name != "rod" or "inertia" in body.arguments:
+            return False
+        own = [
+            x
+            for x in self.model.liaisons
+            for place in (x.a, x.b)
+            if isinstance(place, BodyPoint | Frame) and point_body(place) is body
+        ]
+        return all(x.kind.name in _OF_POINTS for x in own)
+
+    def _named(
+        self,
+        body: Body,
+        link: Contact | Joint | None,
+        base: Point | Curve | None,
+        own: Point | None,
+        motions: tuple[Motion, ...],
+    ) -> Hanging:
+        names: list[str] = []
+        speeds: list[str] = []
+        for motion in motions:
+            of_body = link is None or motion.faces_ground
+            owner = body.name if of_body else link.liaison.name  # type: ignore[union-attr]
+            names += [f"{owner}.{name}" for name in motion.coordinates]
+            rates = [f"der({owner}.{name})" for name in motion.coordinates]
+            speeds += [f"{owner}.{name}" for name in motion.speeds] or rates
+        return Hanging(body, link, base, own, motions, tuple(names), tuple(speeds))
+
+
+# Liaisons that hold a point and leave every orientation.
+_OF_POINTS = (
+    *("spherique", "lineaire_annulaire", "tige", "fil", "point_courbe", "point_surface"),
+    "contact_ponctuel",
+)
+
+
+def reverse(motion: Motion) -> Motion:
+    """The motion of a relative to b."""
+    if isinstance(motion, Turn | Slide | Screw):
+        return replace(motion, sign=-motion.sign)
+    return motion
 
 
 def _carriers(group: Body, carried: dict[Body, Contact], groups: _Groups) -> list[Body]:
@@ -105,7 +196,7 @@ def _carriers(group: Body, carried: dict[Body, Contact], groups: _Groups) -> lis
 
 
 class _Groups:
-    """Bodies joined by pins; a group is known by one of its bodies."""
+    """Bodies joined by joints; a group is known by one of its bodies."""
 
     def __init__(self, bodies: Iterable[Body]) -> None:
         self._above = {body: body for body in bodies}

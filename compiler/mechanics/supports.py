@@ -6,14 +6,9 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.mechanics.mechanism import (
-    Coordinates,
-    FreeCoordinates,
-    LineCoordinates,
-    owner_body,
-    point_body,
-)
-from frot.dsl.checked import Liaison
+from frot.compiler.mechanics.mechanism import Hanging, owner_body, point_body
+from frot.compiler.mechanics.spatial import Pose, nowhere
+from frot.dsl.checked import Curve
 from frot.dsl.messages.source import Span
 
 
@@ -21,7 +16,7 @@ from frot.dsl.messages.source import Span
 class Carried:
     """A body that a change from outside could move: by its liaison, or by the text's equations.
 
-    `value`: x, y and angle of the body, velocity (2) of the place that carries it.
+    `value`: place (3) and turn (3) of the body, velocity (3) of the place that carries it.
     """
 
     body: str
@@ -36,34 +31,30 @@ def carried_bodies(system: Assembled) -> tuple[Carried, ...]:
     outside = ca.vertcat(reduced.symbols.u, reduced.symbols.p, system.y)
     found: list[Carried] = []
     for coordinates in reduced.mechanism.coordinates:
-        pose = reduced.variables.kinematics.poses[coordinates.body]
-        place = ca.vertcat(pose.origin, pose.angle, _carrier_velocity(coordinates, system))
+        pose = reduced.variables.kinematics.pose(coordinates.body)
+        carried = _carrier_velocity(coordinates, system)
+        place = ca.densify(ca.vertcat(pose.origin, _turn(pose), carried))
         value = system.resolve(reduced.variables.settled(place))
         if outside.numel() and ca.depends_on(value, outside):
-            liaison = _carrier(coordinates)
+            liaison = None if coordinates.link is None else coordinates.link.liaison
             span = coordinates.body.span if liaison is None else liaison.span
             name = "" if liaison is None else liaison.name
             found.append(Carried(coordinates.body.name, name, span, value))
     return tuple(found)
 
 
-def _carrier(coordinates: Coordinates) -> Liaison | None:
-    if isinstance(coordinates, FreeCoordinates):
-        return None
-    if isinstance(coordinates, LineCoordinates):
-        return coordinates.liaison
-    return coordinates.pin.liaison
+def _turn(pose: Pose) -> ca.SX:
+    """What changes by how far axes turn, to first order: the angle in the plane, else 2 r."""
+    if pose.axes[2, 2].is_one():
+        return ca.vertcat(0, 0, pose.angle)
+    return 2 * pose.quaternion[1:]
 
 
-def _carrier_velocity(coordinates: Coordinates, system: Assembled) -> ca.SX:
+def _carrier_velocity(hanging: Hanging, system: Assembled) -> ca.SX:
     """Velocity of the material point of the other body where the liaison is."""
     kinematics = system.reduced.variables.kinematics
-    if isinstance(coordinates, FreeCoordinates):
-        return ca.SX.zeros(2)
-    if isinstance(coordinates, LineCoordinates):
-        base, point = owner_body(coordinates.line.owner), coordinates.point
-    else:
-        pin = coordinates.pin
-        point = pin.a if coordinates.carries_b else pin.b
-        base = point_body(point)
-    return kinematics.velocity_at(base, kinematics.position(point))
+    if hanging.base is None or hanging.own is None:
+        return nowhere()
+    base = hanging.base
+    owner = owner_body(base.owner) if isinstance(base, Curve) else point_body(base)
+    return kinematics.velocity_at(owner, kinematics.position(hanging.own))

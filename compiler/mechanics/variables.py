@@ -8,9 +8,10 @@ import casadi as ca
 from frot.compiler.equations.chains import Chains
 from frot.compiler.lowering.symbols import Rows, Symbols
 from frot.compiler.mechanics.contacts import Geometry
+from frot.compiler.mechanics.joint_geometry import JointGeometry, joint_variable
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.mechanism import Joint, Pin, point_body
-from frot.compiler.mechanics.pins import PinGeometry, pin_variable
+from frot.compiler.mechanics.mechanism import Contact, Joint, point_body
+from frot.compiler.mechanics.shapes import inertia_of
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity
 
 
@@ -24,8 +25,8 @@ class Variables:
     symbols: Symbols
     chains: Chains
     kinematics: Kinematics
-    geometry: dict[Liaison, Geometry | PinGeometry]
-    contacts: dict[Liaison, Joint]
+    geometry: dict[Liaison, Geometry | JointGeometry]
+    links: dict[Liaison, Contact | Joint]
     reactions: dict[Liaison, Rows]
 
     def quantity(self, node: Quantity) -> ca.SX:
@@ -39,64 +40,72 @@ class Variables:
         return self.chains.rate(self.settled(value))
 
     def settled(self, value: ca.SX) -> ca.SX:
-        """The value with auxiliary coordinates and speeds at zero."""
-        if not self.symbols.w.numel():
+        """The value with auxiliary speeds at zero."""
+        auxiliary = self.symbols.sw
+        if not auxiliary.numel():
             return value
-        auxiliary = self.symbols.auxiliary
         return ca.substitute(value, auxiliary, ca.SX.zeros(auxiliary.shape))
 
     def of_body(self, owner: Body | Frame | BodyPoint, name: str) -> ca.SX:
-        """A variable of a body, of a named point or of a frame (ground axes, SI)."""
+        """A variable of a body, of a named point or of a frame (ground axes, SI).
+
+        In planar models vectors have two components, and what turns has one, that about z.
+        """
         kinematics = self.kinematics
         body = owner if isinstance(owner, Body) else point_body(owner)
         match name:
             case "position":
-                return kinematics.position(owner)
+                return self._vector(kinematics.position(owner))
             case "velocity":
-                return kinematics.velocity(kinematics.position(owner))
+                return self._vector(kinematics.moving(owner).linear)
             case "acceleration":
                 return self.rate(self.of_body(owner, "velocity"))
             case "angle":
                 return kinematics.angle(owner)
+            case "orientation":
+                return kinematics.pose(owner).quaternion
             case "angular_velocity":
-                return kinematics.velocity(kinematics.angle(owner))
+                return self._turning(kinematics.angular_velocity(owner))
             case "angular_acceleration":
                 return self.rate(self.of_body(owner, "angular_velocity"))
-            case "ex" | "ey":
-                angle = kinematics.angle(owner)
-                c, s = ca.cos(angle), ca.sin(angle)
-                return ca.vertcat(c, s) if name == "ex" else ca.vertcat(-s, c)
+            case "ex" | "ey" | "ez":
+                return self._vector(kinematics.pose(owner).axes[:, "xyz".index(name[1])])
             case "kinetic_energy":
-                m, inertia = self.mass(body), self.inertia(body)
-                turning = inertia * self.of_body(body, "angular_velocity") ** 2
-                return (m * ca.sumsqr(self.of_body(body, "velocity")) + turning) / 2
+                moving = kinematics.bodies[body]
+                turning = ca.dot(moving.angular, self._spin(body))
+                return (self.mass(body) * ca.sumsqr(moving.linear) + turning) / 2
             case "momentum":
                 return self.mass(body) * self.of_body(body, "velocity")
             case "angular_momentum":
-                return self.inertia(body) * self.of_body(body, "angular_velocity")
+                return self._turning(self._spin(body))
         raise KeyError(name)
+
+    def _vector(self, value: ca.SX) -> ca.SX:
+        return ca.densify(value[:2] if self.kinematics.planar else value)
+
+    def _turning(self, value: ca.SX) -> ca.SX:
+        return ca.densify(value[2] if self.kinematics.planar else value)
+
+    def _spin(self, body: Body) -> ca.SX:
+        """Angular momentum (3) about G."""
+        return self.inertia_in_ground(body) @ self.kinematics.bodies[body].angular
 
     def mass(self, body: Body) -> ca.SX:
         """Mass of a body, zero for the ground."""
         return self.kinematics.fixed.lower(body.arguments["mass"]) if body.shape else ca.SX(0)
 
-    def inertia(self, body: Body) -> ca.SX:
-        """Moment of inertia about G, zero for a particle."""
-        lower = self.kinematics.fixed.lower
-        if body.shape is None or not body.shape.turns:
-            return ca.SX(0)
-        if "inertia" in body.arguments:
-            return lower(body.arguments["inertia"])
-        if body.shape.name == "rod":
-            return self.mass(body) * lower(body.arguments["length"]) ** 2 / 12
-        factor = {"ring": 1.0, "disc": 0.5}[body.shape.name]
-        return factor * self.mass(body) * lower(body.arguments["radius"]) ** 2
+    def inertia_in_ground(self, body: Body) -> ca.SX:
+        """Inertia (3 x 3) about G along ground axes; in a planar model only that about z."""
+        own = inertia_of(body, self.kinematics.planar, self.kinematics.fixed.lower)
+        axes = self.kinematics.pose(body).axes
+        return ca.sparsify(axes @ own @ axes.T)
 
     def of_liaison(self, liaison: Liaison, name: str) -> ca.SX:
         """A variable of a liaison; its reaction is that of its first place on its second."""
         geometry = self.geometry[liaison]
-        if isinstance(geometry, PinGeometry):
-            return pin_variable(geometry, name, self.reactions.get(liaison), self.symbols.lam)
+        if isinstance(geometry, JointGeometry):
+            rows, planar = self.reactions.get(liaison), self.kinematics.planar
+            return joint_variable(geometry, name, rows, self.symbols.lam, planar)
         match name:
             case "gap":
                 return geometry.gap
@@ -104,12 +113,12 @@ class Variables:
                 return geometry.slip
             case "u" | "abscissa":
                 return geometry.abscissa
-        rows, contact = self.reactions[liaison], self.contacts[liaison]
+        rows, contact = self.reactions[liaison], self.links[liaison]
         lam = self.symbols.lam
-        normal = lam[rows.normal]
+        normal = lam[rows.reaction[0]]
         tangent = lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
         couple = lam[rows.rolling] if rows.rolling >= 0 else ca.SX(0)
-        assert not isinstance(contact, Pin)
+        assert isinstance(contact, Contact)
         on_second = 1 if contact.line_first else -1
         match name:
             case "normal_force":
@@ -118,7 +127,8 @@ class Variables:
                 return tangent
             case "force":
                 line = geometry.line
-                return on_second * (geometry.side * normal * line.normal + tangent * line.direction)
+                push = geometry.side * normal * line.normal + tangent * line.direction
+                return on_second * push[:2]
             case "torque":
                 return on_second * couple
             case "power":

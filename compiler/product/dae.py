@@ -10,9 +10,9 @@ import numpy as np
 from frot.compiler.lowering.lower import Lowered, lower
 from frot.compiler.lowering.symbols import Rows, column
 from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.mechanism import Joint, Pin
+from frot.compiler.mechanics.locks import Way
+from frot.compiler.mechanics.mechanism import Contact, Joint, Link
 from frot.compiler.mechanics.mechanize import mechanize
-from frot.compiler.mechanics.names import coordinate_names
 from frot.compiler.mechanics.reduce import Reduced, reduce
 from frot.dsl import Log
 from frot.dsl.checked import Model
@@ -108,19 +108,19 @@ def _assemble(lowered: Lowered) -> Dae:
     x, z = ca.vertcat(s.q, s.v), ca.vertcat(s.a, s.lam)
     arguments = [s.t, x, z, s.u, s.p, mode]
     names = ["t", "x", "z", "u", "p", "mode"]
-    auxiliary = ca.SX.zeros(s.w.shape)
+    auxiliary = ca.SX.zeros(s.sw.shape)
     balance = reduced.mass @ ca.vertcat(s.a, auxiliary) - reduced.force - reduced.rows.T @ s.lam
     alg = ca.vertcat(balance, *_laws(reduced, contact_modes))
     values = default_values(reduced.mechanism.model, {})
     guards = ca.vertcat(*_guards(reduced, contact_modes))
-    q_names = [n for c in reduced.mechanism.coordinates for n in coordinate_names(c)]
+    q_names, v_names = ([x.name() for x in _items(part)] for part in (s.q, s.v))
     row_names = [
         n for c, r in zip(contacts, reduced.contact_rows, strict=True) for n in _row_names(c, r)
     ]
     return Dae(
         names=Names(
-            x=(*q_names, *(f"der({n})" for n in q_names)),
-            z=(*(f"der(der({n}))" for n in q_names), *row_names),
+            x=(*q_names, *v_names),
+            z=(*(f"der({n})" for n in v_names), *row_names),
             u=tuple(i.name for i in s.inputs),
             p=tuple(p.name for p in s.parameters),
             mode=(
@@ -141,7 +141,7 @@ def _assemble(lowered: Lowered) -> Dae:
                 *(f"condition_{k + 1}" for k in range(len(reduced.conditions.flags))),
             ),
         ),
-        ode=ca.Function("ode", arguments, [ca.vertcat(s.v, s.a)], names, ["ode"]),
+        ode=ca.Function("ode", arguments, [ca.vertcat(s.rates, s.a)], names, ["ode"]),
         alg=ca.Function("alg", arguments, [alg], names, ["alg"]),
         guards=ca.Function("guards", arguments, [guards], names, ["guards"]),
         solve=_solve(alg, z, [s.t, x, s.u, s.p, mode], any(_bounds_couple(c) for c in contacts)),
@@ -151,11 +151,22 @@ def _assemble(lowered: Lowered) -> Dae:
     )
 
 
-def _row_names(joint: Joint, rows: Rows) -> tuple[str, ...]:
-    name = joint.liaison.name
-    if isinstance(joint, Pin):
+def _items(symbols: ca.SX) -> list[ca.SX]:
+    return list(ca.vertsplit(symbols)) if symbols.numel() else []
+
+
+def _row_names(link: Link, rows: Rows) -> tuple[str, ...]:
+    name = link.liaison.name
+    if not isinstance(link, Contact):
         couple = (f"{name}.torque",) if rows.tangent >= 0 else ()
-        return (f"{name}.force.x", f"{name}.force.y", *couple)
+        ways = [
+            lock.axis
+            for lock in (link.locks if isinstance(link, Joint) else ())
+            if isinstance(lock, Way)
+        ]
+        if len(ways) == len(rows.reaction):
+            return (*(f"{name}.force.{'xyz'[k]}" for k in ways), *couple)
+        return (*(f"{name}.reaction[{k + 1}]" for k in range(len(rows.reaction))), *couple)
     return (
         f"{name}.normal_force",
         *([f"{name}.tangential_force"] if rows.tangent >= 0 else []),
@@ -163,9 +174,9 @@ def _row_names(joint: Joint, rows: Rows) -> tuple[str, ...]:
     )
 
 
-def _bounds_couple(joint: Joint) -> bool:
+def _bounds_couple(link: Link) -> bool:
     """Whether the friction follows the norm of two components, which is not linear in them."""
-    return isinstance(joint, Pin) and joint.mu is not None
+    return isinstance(link, Joint) and link.mu is not None
 
 
 def _solve(alg: ca.SX, z: ca.SX, known: list[ca.SX], curved: bool) -> ca.Function:
@@ -184,15 +195,15 @@ def _solve(alg: ca.SX, z: ca.SX, known: list[ca.SX], curved: bool) -> ca.Functio
     return ca.Function("solve", arguments, [reached], *names)
 
 
-def _normal(reduced: Reduced, joint: Joint, rows: Rows, side: ca.SX) -> ca.SX:
+def _normal(reduced: Reduced, link: Link, rows: Rows, side: ca.SX) -> ca.SX:
     """The normal reaction that bounds friction: not negative; of a pin, the size of its reaction.
 
     Its slope is zero where a pin carries nothing, so that Newton's method can start there.
     """
     lam = reduced.symbols.lam
-    if not isinstance(joint, Pin):
-        return side * lam[rows.normal]
-    square = lam[rows.normal] ** 2 + lam[rows.second] ** 2
+    if not isinstance(link, Joint):
+        return side * lam[rows.reaction[0]]
+    square = sum((lam[r] ** 2 for r in rows.reaction), ca.SX(0))
     return ca.if_else(square > 0, ca.sqrt(ca.if_else(square > 0, square, 1)), 0)
 
 
@@ -204,7 +215,7 @@ def _laws(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:
     """One equation a row that is not balanced by an auxiliary speed, and one for each of these."""
     s = reduced.symbols
     accelerations = (
-        reduced.rows @ ca.vertcat(s.a, ca.SX.zeros(s.w.shape)) + reduced.bias
+        reduced.rows @ ca.vertcat(s.a, ca.SX.zeros(s.sw.shape)) + reduced.bias
         if s.lam.numel()
         else ca.SX.zeros(0)
     )
@@ -215,8 +226,8 @@ def _laws(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:
         mode = modes[4 * i : 4 * i + 4]
         closed, normal = mode[CLOSED], _normal(reduced, contact, rows, mode[SIDE])
         if not contact.reduced:
-            lam_n = s.lam[rows.normal]
-            equations.append(ca.if_else(closed, accelerations[rows.normal], lam_n))
+            lam_n = s.lam[rows.reaction[0]]
+            equations.append(ca.if_else(closed, accelerations[rows.reaction[0]], lam_n))
         for row, kind in ((rows.tangent, mode[FRICTION]), (rows.rolling, mode[ROLLING])):
             if row < 0:
                 continue
@@ -244,7 +255,7 @@ def _guards(reduced: Reduced, modes: ca.SX) -> list[ca.SX]:
         normal = _normal(reduced, contact, rows, mode[SIDE])
         gap = ca.SX(1) if contact.reduced else reduced.gap[i]
         guard = ca.if_else(mode[CLOSED], normal, gap)
-        guards.append(ca.SX(1) if isinstance(contact, Pin) else guard)
+        guards.append(ca.SX(1) if isinstance(contact, Joint) else guard)
         for row, kind in ((rows.tangent, mode[FRICTION]), (rows.rolling, mode[ROLLING])):
             if row < 0:
                 guards += [ca.SX(1), ca.SX(1)]
@@ -276,7 +287,7 @@ def _reset(reduced: Reduced, modes: ca.SX) -> ca.SX:
     ):
         mode = modes[4 * i : 4 * i + 4]
         if not contact.reduced:
-            holds[rows.normal] = mode[CLOSED]
+            holds[rows.reaction[0]] = mode[CLOSED]
         for row, kind in ((rows.tangent, mode[FRICTION]), (rows.rolling, mode[ROLLING])):
             if row >= 0:
                 holds[row] = mode[CLOSED] * (kind == STICK)

@@ -14,8 +14,8 @@ from frot.compiler.lowering.jacobian import alike
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.elements import Bound, Element
-from frot.compiler.mechanics.mechanism import Pin
-from frot.compiler.mechanics.names import turning_coordinates
+from frot.compiler.mechanics.mechanism import Joint, Relation
+from frot.compiler.mechanics.motions import count_speeds
 from frot.compiler.product.split import split_functions
 from frot.dsl.messages.source import Span
 
@@ -41,7 +41,7 @@ _MECHANICAL = (
         "row_local",
         "contact_group",
     ),
-    *("speed_group", "speed_local", "speed_coordinate", "speed_turns"),
+    *("speed_group", "speed_local", "speed_coordinate", "turns", "speed_turns"),
 )
 
 # The tables of frot_pattern, in its order.
@@ -155,6 +155,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_rows": system.lam.numel(),
         "n_contacts": len(contacts) + len(system.elements),
         "n_elements": len(lowered.grouping.elements),
+        "n_turns": len(symbols.turns),
         "n_groups": len(lowered.grouping.groups),
         **_packed_sizes(lowered),
         "n_discrete": system.discrete.numel(),
@@ -228,10 +229,12 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
     sliding = {e.contact: k for k, e in enumerate(grouping.elements) if not e.rolling}
     joints = zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
     contacts = [
-        (x.liaison.name, x.liaison.span, -1 if isinstance(x, Pin) else r.normal, int(x.reduced))
+        (x.liaison.name, x.liaison.span, -1 if isinstance(x, Joint) else r.reaction[0], x.reduced)
         for x, r in joints
     ]
-    contacts += [(e.name, e.span, -1, 1) for e in system.elements]
+    contacts += [(e.name, e.span, -1, True) for e in system.elements]
+    first = [not isinstance(x, Relation) or x.first for x in reduced.mechanism.contacts]
+    first += [True] * len(system.elements)
     places = {v.name: k for k, v in enumerate(lowered.variables)}
     arrays = [
         _array(
@@ -241,7 +244,8 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
                 _record(
                     _text(name),
                     _text(_place(span)),
-                    *(row, kept, sliding.get(i, -1), places.get(f"{name}.power", -1)),
+                    *(row, int(kept), sliding.get(i, -1), places.get(f"{name}.power", -1)),
+                    places[f"{name}.mode"] if first[i] else -1,
                 )
                 for i, (name, span, row, kept) in enumerate(contacts)
             ],
@@ -276,11 +280,9 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
         for e in grouping.elements
         if e.bound is Bound.NORMAL and not e.rolling
     }
-    own = zip(
-        _symbols(reduced.symbols.v),
-        turning_coordinates(reduced.mechanism.coordinates),
-        strict=True,
-    )
+    motions = [m for h in reduced.mechanism.coordinates for m in h.motions]
+    whether = [m.turns for m in motions for _ in range(count_speeds(m))]
+    own = zip(_symbols(reduced.symbols.v), whether, strict=True)
     turning = {speed for speed, turns in own if turns}
     tables = {
         "row_reads": grouping.row_reads,
@@ -299,6 +301,14 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
         ],
         "speed_turns": [int(x in turning) for x in _symbols(system.v)],
     }
+    turns = reduced.symbols.turns
+    arrays.append(
+        _array(
+            "frot_turn",
+            "turns",
+            [_record(t.coordinate, _record(*t.speeds), int(t.own_axes)) for t in turns],
+        )
+    )
     arrays.append(_array("frot_group", "groups", records))
     arrays += [_array("int", name, [str(i) for i in table]) for name, table in tables.items()]
     return arrays

@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from frot.compiler.mechanics.mechanism import Mechanism, Mobility, is_unilateral, mobility
+from frot.compiler.mechanics.mechanism import (
+    Mechanism,
+    Mobility,
+    freedoms_of,
+    is_unilateral,
+    mobility,
+    relations_of,
+)
 from frot.compiler.mechanics.mechanize import mechanize
 from frot.dsl import Log
 from frot.dsl.checked import (
@@ -40,6 +47,7 @@ class Report:
     """
 
     model: str
+    world: str
     unknowns: int
     equations: int
     events: int
@@ -54,7 +62,7 @@ class Report:
             return "\n".join([f"{self.model}: equations only", *self._counts()])
         freedoms = ", ".join(f"{name} {count}" for name, _, count in self.bodies) or "none"
         lines = [
-            f"{self.model}: planar, bodies {len(self.bodies)}, liaisons {len(self.liaisons)}",
+            f"{self.model}: {self.world}, bodies {len(self.bodies)}, liaisons {len(self.liaisons)}",
             f"  freedoms of the bodies  {m.freedoms}  ({freedoms})",
             f"  bilateral relations     {m.bilateral}",
             f"  unilateral relations    {m.unilateral}",
@@ -103,9 +111,10 @@ def make_report(model: Model, log: Log) -> Report | None:
             return None
     return Report(
         mechanism.model.name,
+        "planar" if model.planar else "space",
         *counts,
         tuple(
-            (b.name, b.shape.name, b.shape.freedoms_planar)
+            (b.name, b.shape.name, freedoms_of(b, model.planar))
             for b in mechanism.model.bodies
             if b.shape is not None
         ),
@@ -135,7 +144,7 @@ def _line(liaison: Liaison, mechanism: Mechanism) -> LiaisonLine:
     return LiaisonLine(
         liaison.name,
         f"{text} with {laws}" if laws else f"{text}, without friction",
-        liaison.kind.relations_planar or 0,
+        relations_of(liaison, mechanism.model.planar),
         is_unilateral(liaison),
         kept,
     )

@@ -18,6 +18,7 @@ class Argument:
 
     * `expression`: a scalar of `type` (or of one of `others`, where a liaison decides);
     * `vector`: a vector of `type`, two components in planar models and three in space;
+    * `inertia`: a scalar in planar models; in space three principal moments, or a 3 x 3 array;
     * `boolean`: a condition on parameters;
     * `word`: one of `words`;
     * `place`: a point, curve or surface, see `places`;

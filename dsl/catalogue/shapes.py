@@ -11,6 +11,7 @@ _LENGTH = Argument("length", LENGTH, sign="positive", doc="length")
 _INERTIA = Argument(
     "inertia",
     INERTIA,
+    "inertia",
     required=False,
     sign="positive",
     doc="moment of inertia about G, in place of that of the shape",
@@ -129,7 +130,9 @@ _ROWS = (
         "solid",
         (
             _MASS,
-            Argument("inertia", INERTIA, sign="positive", doc="moment of inertia about G"),
+            Argument(
+                "inertia", INERTIA, "inertia", sign="positive", doc="moment of inertia about G"
+            ),
             Argument("com", LENGTH, "vector", required=False, default=0.0, doc="G from origin"),
         ),
         freedoms_space=6,

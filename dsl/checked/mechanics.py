@@ -39,12 +39,16 @@ class Body:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Frame:
-    """A frame fixed to a body: origin in the owner's axes and a rotation (planar: an angle)."""
+    """A frame fixed to a body: origin in the owner's axes and a rotation about an axis of these.
+
+    `axis` is a vector, or the literal `x`, `y` or `z`, that of planar models.
+    """
 
     name: str
     owner: Body | Frame
     origin: Expression | None
     angle: Expression | None
+    axis: Expression | str
     span: Span
     doc: str = ""
 

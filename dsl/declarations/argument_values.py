@@ -41,6 +41,10 @@ def argument_value(
             return _axis(argument, node, scope)
         case "vertices":
             found = _vertices(argument, node, scope)
+        case "inertia" if not scope.planar:
+            three = vector(argument.type, False)
+            matrix = Type("real", argument.type.dimension, (3, 3))
+            found = expect(node, three, scope, others=(matrix,))
         case "vector":
             found = expect(node, vector(argument.type, scope.planar), scope)
         case _:

@@ -111,6 +111,7 @@ def frame(node: tree.Frame, name: str, scope: Scope) -> checked.Frame | None:
     """The checked frame `name`; None after a message."""
     owner = _owner(node.owner, scope)
     origin = angle = None
+    axis: checked.Expression | str = "z"
     failed = owner is None
     if node.origin is not None:
         origin = expect(node.origin, vector(LENGTH, scope.planar), scope)
@@ -119,9 +120,10 @@ def frame(node: tree.Frame, name: str, scope: Scope) -> checked.Frame | None:
         found = bind(node.rotation, _ROTATION, "rotated", node.span, scope)
         failed = failed or not found.complete
         angle = cast("checked.Expression | None", found.values.get("angle"))
+        axis = cast("checked.Expression", found.values.get("axis", axis))
     if failed or owner is None:
         return None
-    return checked.Frame(name, owner, origin, angle, node.span, node.doc)
+    return checked.Frame(name, owner, origin, angle, axis, node.span, node.doc)
 
 
 def curve(node: tree.Curve, name: str, scope: Scope) -> checked.Curve | None:

@@ -11,6 +11,7 @@
 #include "projection.h"
 #include "reactions.h"
 #include "search.h"
+#include "turns.h"
 #include "tolerances.h"
 
 #define WAY 1e-3  /* how far the mechanism moves, in radians or parts of a coordinate */
@@ -63,10 +64,11 @@ int frot_look_ahead(const frot_instant *in, const frot_group *g) {
   memcpy(q, in->q, sizeof(double) * (size_t)m->nq);
   memcpy(v, in->v, sizeof(double) * (size_t)m->nv);
   for (int k = 0; k < g->n_speeds; k++) {
-    int speed = g->unknowns[k], coordinate = m->speed_coordinate[speed];
-    if (coordinate >= 0) q[coordinate] += dt * (v[speed] + 0.5 * dt * w->core.a[speed]);
+    int speed = g->unknowns[k];
+    w->relations.step[k] = v[speed] + 0.5 * dt * w->core.a[speed];
     v[speed] += dt * w->core.a[speed];
   }
+  frot_displace(m, g, q, w->relations.step, dt);
   int moved;
   keep_certain(in, w->search.guess_ahead);
   int status = frot_project(m, in->s, w, in->t + dt, q, v, d, w->search.guess_ahead, NULL, &moved);

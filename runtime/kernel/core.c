@@ -289,7 +289,10 @@ double frot_gap_size(const frot_model *m, const frot_work *w, int row, const dou
   double sum = 0;
   for (int k = 0; k < g->n_speeds; k++) {
     int coordinate = m->speed_coordinate[g->unknowns[k]];
-    if (coordinate >= 0) sum += fabs(entries[k] * q[coordinate]);
+    if (coordinate >= 0)
+      sum += fabs(entries[k] * q[coordinate]);
+    else if (m->n_turns > 0 && m->speed_turns[g->unknowns[k]])
+      sum += fabs(entries[k]); /* an orientation has the size of a radian */
   }
   return sum;
 }

@@ -105,7 +105,15 @@ typedef struct {
   int reduced;       /* 1: the relation is built into the coordinates: row_n is a reading */
   int sliding;       /* the element that its variable `mode` tells of, or -1 */
   int power;         /* its variable `power`, zero where all its elements hold, or -1 */
+  int mode;          /* its variable `mode`, or -1: one relation of many of a liaison */
 } frot_contact;
+
+/* A unit quaternion r among the coordinates, q[at .. at + 4): 2 r' = (0, w) r, or r (0, w) with
+ * `own_axes`, where w are the speeds v[speed[k]], zero where that is -1 (the first alone may be).
+ */
+typedef struct {
+  int at, speed[3], own_axes;
+} frot_turn;
 
 /* A law of friction on one relative motion: sliding, rolling, turning in a pin, slip of a clutch.
  * FROT_BY_NORMAL: the coefficients times |lam[bounded_by[0]]| bound lam[row]. FROT_BY_PIN: times
@@ -151,7 +159,7 @@ typedef struct {
 
 /* A body whose place depends on parameters, inputs or unknowns of blocks at given states. `by`: the
  * liaison that carries it, or "" where the equations of the text prescribe its motion. */
-#define FROT_PLACE 5 /* x, y and angle of the body, velocity (x, y) of what carries it */
+#define FROT_PLACE 9 /* place and turn of the body, velocity of what carries it: 3 each */
 typedef struct {
   const char *body, *by, *place;
 } frot_carried;
@@ -240,6 +248,7 @@ typedef struct {
   int n_located, n_timed;
   int n_watched; /* equations of `watched` */
   int n_held;    /* the last n_held discrete values are what others were before: see `update` */
+  int n_turns;   /* orientations among the coordinates */
   int n_groups;
   int n_matrix, n_metric, n_entries, n_square; /* items of the packed arrays of all groups */
   int general;                                 /* a group is general */
@@ -248,7 +257,7 @@ typedef struct {
   int method;         /* frot_method of the text */
   int has_jacobian;   /* 1: the implicit method can run: no speeds, no rows, q' not late */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
-  /* variables [0, n_contacts) are the modes of the contacts (frot_mode), the others are real */
+  /* the first variables are the modes of the contacts that have one, the others are real */
 
   /* parameters(p, set, u) -> p complete (np), checks (n_checks), unilateral (n_contacts),
    *   experiment (start stop tolerance interval max_step; NaN where the text is silent), nominal
@@ -321,6 +330,7 @@ typedef struct {
   const double *p_default; /* np */
   const double *u_default; /* nu */
   const frot_contact *contacts;
+  const frot_turn *turns; /* n_turns */
   const frot_element *elements;
   const frot_group *groups;
   const int *row_reads;  /* n_rows: the auxiliary unknown whose place a reading takes, else -1 */

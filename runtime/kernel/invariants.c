@@ -8,6 +8,7 @@
 #include "linear.h"
 #include "projection.h"
 #include "tolerances.h"
+#include "turns.h"
 
 #define PASSES 5
 
@@ -67,10 +68,7 @@ static int list_equations(const frot_model *m, frot_state *s, frot_work *w, doub
     memset(row, 0, sizeof(double) * (size_t)nx);
     const frot_group *group = frot_group_of(m, contact->row_n);
     const double *entries = frot_entries(m, w->core.rows, contact->row_n);
-    for (int k = 0; k < group->n_speeds; k++) {
-      int coordinate = m->speed_coordinate[group->unknowns[k]];
-      if (coordinate >= 0) row[coordinate] = entries[k];
-    }
+    frot_over_coordinates(m, group, entries, q, row);
     off |= add(m, w, n, w->core.gap[i], frot_gap_size(m, w, contact->row_n, q));
   }
   int held = frot_holding_rows(m, w, modes, stuck, 0);

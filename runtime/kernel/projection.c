@@ -7,6 +7,7 @@
 #include "invariants.h"
 #include "linear.h"
 #include "tolerances.h"
+#include "turns.h"
 
 #define PASSES 3 /* of Newton's method: it starts next to the solution */
 
@@ -85,10 +86,7 @@ static int project_positions(const frot_model *m, frot_state *s, frot_work *w, d
       }
       if (!off) continue;
       correction(m, w, g, n, w->relations.residual);
-      for (int i = 0; i < g->n_speeds; i++) {
-        int coordinate = m->speed_coordinate[g->unknowns[i]];
-        if (coordinate >= 0) q[coordinate] -= w->relations.step[i];
-      }
+      frot_displace(m, g, q, w->relations.step, -1);
       any = *moved = 1;
     }
     if (!any) break;
@@ -123,11 +121,14 @@ static int project_speeds(const frot_model *m, frot_state *s, frot_work *w, doub
 int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  const double *d, const frot_contact_mode *modes, const unsigned char *stuck,
                  int *moved) {
-  *moved = 0;
+  *moved = frot_normalise(m, q);
   if (m->n_invariants > 0) {
     frot_layout l = frot_layout_of(m);
-    return frot_project_jointly(m, s, w, t, q, v, d, modes, stuck, s->data + l.scale_x,
-                                s->data + l.frozen, moved);
+    int turned = *moved;
+    int done = frot_project_jointly(m, s, w, t, q, v, d, modes, stuck, s->data + l.scale_x,
+                                    s->data + l.frozen, moved);
+    *moved |= turned;
+    return done;
   }
   if (m->n_rows == 0 || frot_holding_rows(m, w, modes, stuck, 0) == 0) return FROT_OK;
   int status = frot_metric(m, w);

@@ -8,6 +8,7 @@
 #include "projection.h"
 #include "work.h"
 #include "segment.h"
+#include "turns.h"
 
 /* Whether a mode holds anything that coordinates do not. */
 static int holds_anything(const frot_model *m, frot_work *w, const frot_contact_mode *modes) {
@@ -37,6 +38,7 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   double *q = x, *v = x + m->nq;
   long long evaluations = s->statistics.evaluations;
   int status = FROT_OK, moved;
+  frot_normalise(m, q);
   /* relations between the states hold at every instant looked at, not only at the ends of steps */
   if (m->n_invariants > 0)
     status = frot_project_jointly(m, s, w, t, q, v, g->d, g->modes, NULL, NULL, g->frozen, &moved);
@@ -52,7 +54,8 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam, w->call.arg[9] = x + m->nq + m->nv;
   w->call.res[0] = values;
   frot_call(w, &m->variables);
-  for (int i = 0; i < m->n_contacts; i++) values[i] = frot_mode_value(m, g->modes, i);
+  for (int i = 0; i < m->n_contacts; i++)
+    if (m->contacts[i].mode >= 0) values[m->contacts[i].mode] = frot_mode_value(m, g->modes, i);
   rest_exactly(m, g->modes, values);
   return frot_all_finite(values, m->n_variables) ? FROT_OK : FROT_NAN;
 }

@@ -7,6 +7,7 @@
 #include "core.h"
 #include "linear.h"
 #include "tolerances.h"
+#include "turns.h"
 
 /* The statements depend on the unknowns of the blocks too, and these on the states:
  * J <- J - J_y (dr/dy)^-1 dr/dx. */
@@ -80,10 +81,9 @@ int frot_evaluate_statements(frot_opening *p) {
     double *equation = w->relations.jacobian + nx * n;
     w->relations.residual[n] = p->velocity ? w->core.rate[row] : w->core.gap[i];
     memset(equation, 0, sizeof(double) * (size_t)nx);
-    for (int k = 0; k < group->n_speeds; k++) {
-      int speed = group->unknowns[k], at = p->velocity ? speed : m->speed_coordinate[speed];
-      if (at >= 0) equation[at] = entries[k];
-    }
+    for (int k = 0; p->velocity && k < group->n_speeds; k++)
+      equation[group->unknowns[k]] = entries[k];
+    if (!p->velocity) frot_over_coordinates(m, group, entries, p->q, equation);
     w->relations.size[n] =
         p->velocity ? fabs(w->relations.residual[n]) : frot_length_size(m, w, i, p->q);
     double steepest = 0;

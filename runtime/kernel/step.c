@@ -87,13 +87,19 @@ static int is_still(const frot_model *m, const frot_work *w) {
   return 1;
 }
 
+static int reactions_bound(const frot_model *m) {
+  for (int e = 0; e < m->n_elements; e++)
+    if (m->elements[e].bound != FROT_BY_VALUE) return 1;
+  return 0;
+}
+
 /* Change of the step's length that brings its error near the bound. More is kept back where a
- * motion is what limits it: reactions that pass near zero bend it at once, and in a method of high
- * order it costs little length, and saves most of the rejections. */
+ * motion that reactions bound is what limits it: reactions that pass near zero bend it at once, and
+ * in a method of high order it costs little length, and saves most of the rejections. */
 static double change_of_length(const frot_model *m, const frot_state *s, const frot_work *w,
                                double ratio) {
   int j = w->step.worst;
-  int moves = m->nv > 0 && (j < 0 || j >= m->nq || m->q_speed[j] >= 0);
+  int moves = reactions_bound(m) && (j < 0 || j >= m->nq || m->q_speed[j] >= 0);
   if (s->implicit) return SAFETY * pow(ratio, -1.0 / 5);
   return (moves ? SAFETY_OF_MOTION : SAFETY) * pow(ratio, -1.0 / 8);
 }

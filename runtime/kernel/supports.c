@@ -79,21 +79,17 @@ static int refuse(frot_state *s, double t, int contact, int item, int why, doubl
  * measured against the largest of all, so that a place of zero is one like any other. */
 static int check_carried(const frot_model *m, frot_state *s, double t, const double *before,
                          const double *after) {
-  double size[FROT_PLACE] = {0, 0, 1, 0, 0};
+  static const int why[3] = {FROT_CARRIES, FROT_TURNS, FROT_JERKS};
+  double size[3] = {0, 1, 0};
   for (int i = 0; i < FROT_PLACE * m->n_carried; i++) {
-    int k = i % FROT_PLACE;
-    if (k != 2) size[k] = fmax(size[k], fmax(fabs(before[i]), fabs(after[i])));
+    int kind = i % FROT_PLACE / 3;
+    if (kind != 1) size[kind] = fmax(size[kind], fmax(fabs(before[i]), fabs(after[i])));
   }
-  size[0] = size[1] = fmax(size[0], size[1]), size[3] = size[4] = fmax(size[3], size[4]);
   for (int i = 0; i < FROT_PLACE * m->n_carried; i++) {
-    int k = i % FROT_PLACE;
+    int kind = i % FROT_PLACE / 3;
     double change = after[i] - before[i];
-    if (fabs(change) <= FROT_TOUCH * size[k]) continue;
-    return refuse(s, t, -1, i / FROT_PLACE,
-                  k < 2    ? FROT_CARRIES
-                  : k == 2 ? FROT_TURNS
-                           : FROT_JERKS,
-                  change);
+    if (fabs(change) > FROT_TOUCH * size[kind])
+      return refuse(s, t, -1, i / FROT_PLACE, why[kind], change);
   }
   return FROT_OK;
 }

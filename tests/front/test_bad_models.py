@@ -28,9 +28,9 @@ FAULTS = {
     "a zero radius": ("= 0.5 m ", "= 0 m ", "E0401", "radius must be positive; it is 0 m", "7:41"),
     "an unsupported liaison": (
         "contact_ponctuel(ground.line, hoop.rim)",
-        "prismatique(ground, hoop)",
+        "tige(ground, hoop, length = 1 m)",
         "E0701",
-        "the liaison 'prismatique' is not supported yet",
+        "the liaison 'tige' is not supported yet",
         "8:3",
     ),
     "an unsupported law": (

@@ -1,0 +1,115 @@
+"""The table of liaisons that coordinates can keep: the motions they leave, and what they lock.
+
+Motions are those of b relative to a, in the order of the coordinates' names, and take the axes of a
+to those of b; all coordinates are zero where both coincide. What a motion leaves out is locked
+(ISO 3952; P. Painlevé 1895).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from frot.compiler.mechanics.locks import (
+    LEFT,
+    Aligned,
+    Crossed,
+    Lock,
+    Parallel,
+    SameAngle,
+    Thread,
+    Way,
+    WayAlong,
+)
+from frot.compiler.mechanics.motions import Attitude, Axis, Motion, Screw, Slide, Turn
+from frot.dsl.checked import Expression
+
+Options = Mapping[str, Expression]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pairing:
+    """What a liaison leaves and what it locks."""
+
+    motions: tuple[Motion, ...]
+    locks: tuple[Lock, ...]
+
+
+def _ways(planar: bool) -> tuple[Lock, ...]:
+    return tuple(Way(k) for k in range(2 if planar else 3))
+
+
+def _no_turn(planar: bool) -> tuple[Lock, ...]:
+    return (SameAngle(),) if planar else tuple(Aligned(k) for k in range(3))
+
+
+def _about(axis: Axis) -> tuple[Lock, ...]:
+    return Parallel(axis, 0), Parallel(axis, 1)
+
+
+def _along(axis: Axis, planar: bool) -> tuple[Lock, ...]:
+    return (WayAlong(axis, LEFT),) if planar else (WayAlong(axis, 0), WayAlong(axis, 1))
+
+
+def _axis(options: Options, name: str, default: str) -> Axis:
+    return Axis(options.get(name, default))
+
+
+def _weld(options: Options, planar: bool) -> Pairing:
+    return Pairing((), (*_ways(planar), *_no_turn(planar)))
+
+
+def _revolute(options: Options, planar: bool) -> Pairing:
+    axis = _axis(options, "axis", "z")
+    return Pairing((Turn(axis),), (*_ways(planar), *(() if planar else _about(axis))))
+
+
+def _prismatic(options: Options, planar: bool) -> Pairing:
+    axis = _axis(options, "axis", "x")
+    return Pairing((Slide(axis),), (*_along(axis, planar), *_no_turn(planar)))
+
+
+def _cylindrical(options: Options, planar: bool) -> Pairing:
+    axis = _axis(options, "axis", "z")
+    return Pairing((Turn(axis), Slide(axis)), (*_along(axis, False), *_about(axis)))
+
+
+def _screw(options: Options, planar: bool) -> Pairing:
+    axis, pitch = _axis(options, "axis", "z"), options["pitch"]
+    locks = (*_along(axis, False), *_about(axis), Thread(axis, pitch))
+    return Pairing((Screw(axis, pitch),), locks)
+
+
+def _universal(options: Options, planar: bool) -> Pairing:
+    first, second = _axis(options, "axis_a", "z"), _axis(options, "axis_b", "z")
+    motions = (
+        Turn(first, coordinates=("angle_a",)),
+        Turn(second, coordinates=("angle_b",)),
+    )
+    return Pairing(motions, (*_ways(False), Crossed(first, second)))
+
+
+def _spherical(options: Options, planar: bool) -> Pairing:
+    return Pairing((Attitude(),), _ways(False))
+
+
+def _planar(options: Options, planar: bool) -> Pairing:
+    normal = _axis(options, "normal", "z")
+    motions = (
+        Slide(normal, side=0, coordinates=("x",)),
+        Slide(normal, side=1, coordinates=("y",)),
+        Turn(normal),
+    )
+    return Pairing(motions, (WayAlong(normal), *_about(normal)))
+
+
+JOINTS: Mapping[str, Callable[[Options, bool], Pairing]] = {
+    "encastrement": _weld,
+    "rotoide": _revolute,
+    "prismatique": _prismatic,
+    "verrou": _cylindrical,
+    "helicoidale": _screw,
+    "cardan": _universal,
+    "spherique": _spherical,
+    "appui_plan": _planar,
+}

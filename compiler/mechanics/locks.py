@@ -1,0 +1,79 @@
+"""Ways in which a liaison keeps two bodies from moving relative to each other, as plain data.
+
+A lock is one scalar relation between the places a and b. What it means for forces and velocities
+stands in `wrenches.py`. `turns`: it keeps from turning, which a particle cannot feel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from frot.compiler.mechanics.motions import Axis
+from frot.dsl.checked import Expression
+
+LEFT = 2
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Way:
+    """No way along an axis of the ground (0, 1, 2): of a liaison that leaves no way at all."""
+
+    axis: int
+    turns: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WayAlong:
+    """No way along an axis of a, along one of the two beside it, or to its left (`side`)."""
+
+    axis: Axis
+    side: int | None = None
+    turns: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Parallel:
+    """An axis of b stays perpendicular to one of the two beside the same axis of a.
+
+    Two of them keep the axes parallel.
+    """
+
+    axis: Axis
+    side: int
+    turns: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Aligned:
+    """An axis of a stays perpendicular to the next axis of b: three of them allow no turn."""
+
+    axis: int
+    turns: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SameAngle:
+    """No turn in the plane."""
+
+    turns: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Thread:
+    """Advance along an axis only with a turn."""
+
+    axis: Axis
+    pitch: Expression
+    turns: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Crossed:
+    """An axis of a and an axis of b keep their angle: those of a universal joint."""
+
+    axis_a: Axis
+    axis_b: Axis
+    turns: bool = True
+
+
+Lock = Way | WayAlong | Parallel | Aligned | SameAngle | Thread | Crossed

@@ -1,0 +1,139 @@
+"""Elementary motions of which the liaisons kept by coordinates are made, as plain data.
+
+How each moves axes stands in `moves.py`. The fields with defaults are the same for all of a kind:
+`coordinates` and `speeds` are the ends of the names of q and v (`speeds` empty where v is q'),
+`faces_ground` says that q places the axes relative to the ground, whatever carries them, and
+`turns` that the speeds are angular velocities.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from frot.dsl.checked import Expression
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Axis:
+    """A direction: a vector of the text, or the name of an axis."""
+
+    given: Expression | str
+
+
+@dataclass(frozen=True, slots=True)
+class Quaternion:
+    """Four coordinates that turn by an angular velocity.
+
+    `own_axes`: the speeds are its components along the own y and z axes, else along the ground's.
+    """
+
+    own_axes: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Turn:
+    """By an angle about an axis that both bodies keep.
+
+    `mark`: a direction of the other body that shows the angle where that axis is not the only one
+    left (universal joint); None where any direction beside the axis does.
+    """
+
+    axis: Axis
+    sign: int = 1
+    coordinates: tuple[str, ...] = ("angle",)
+    speeds: tuple[str, ...] = ()
+    quaternion: Quaternion | None = None
+    faces_ground: bool = False
+    turns: bool = True
+    mark: Axis | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Slide:
+    """By a length along an axis fixed to the base, or along one of the two beside it (`side`)."""
+
+    axis: Axis
+    side: int | None = None
+    sign: int = 1
+    coordinates: tuple[str, ...] = ("displacement",)
+    speeds: tuple[str, ...] = ()
+    quaternion: Quaternion | None = None
+    faces_ground: bool = False
+    turns: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Screw:
+    """By an angle about an axis and a length along it, `pitch` for each turn."""
+
+    axis: Axis
+    pitch: Expression
+    sign: int = 1
+    coordinates: tuple[str, ...] = ("angle",)
+    speeds: tuple[str, ...] = ()
+    quaternion: Quaternion | None = None
+    faces_ground: bool = False
+    turns: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Heading:
+    """Any orientation in the plane: the angle of the axes from those of the ground."""
+
+    coordinates: tuple[str, ...] = ("angle",)
+    speeds: tuple[str, ...] = ()
+    quaternion: Quaternion | None = None
+    faces_ground: bool = True
+    turns: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Attitude:
+    """Any orientation in space: a unit quaternion, turned by the angular velocity in ground axes.
+
+    What carries the body does not enter, and no orientation is singular.
+    """
+
+    coordinates: tuple[str, ...] = tuple(f"orientation[{k + 1}]" for k in range(4))
+    speeds: tuple[str, ...] = tuple(f"angular_velocity.{k}" for k in "xyz")
+    quaternion: Quaternion | None = Quaternion(own_axes=False)
+    faces_ground: bool = True
+    turns: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pointing:
+    """Any direction of the own x axis: a turn about it alone has no inertia and does not happen.
+
+    P. Painlevé (1895, p. 32) counts five freedoms for a slender rod.
+    """
+
+    coordinates: tuple[str, ...] = tuple(f"orientation[{k + 1}]" for k in range(4))
+    speeds: tuple[str, ...] = ("turning.y", "turning.z")
+    quaternion: Quaternion | None = Quaternion(own_axes=True)
+    faces_ground: bool = True
+    turns: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Steady:
+    """No turning: the axes of a particle are those of the ground."""
+
+    coordinates: tuple[str, ...] = ()
+    speeds: tuple[str, ...] = ()
+    quaternion: Quaternion | None = None
+    faces_ground: bool = True
+    turns: bool = False
+
+
+Motion = Turn | Slide | Screw | Heading | Attitude | Pointing | Steady
+
+
+def count_speeds(motion: Motion) -> int:
+    """The number of speeds of a motion."""
+    return len(motion.speeds or motion.coordinates)
+
+
+def natural(motion: Motion) -> list[float]:
+    """The values of q where axes and places coincide."""
+    return [1.0, 0.0, 0.0, 0.0] if motion.quaternion else [0.0] * len(motion.coordinates)

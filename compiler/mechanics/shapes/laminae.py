@@ -1,0 +1,61 @@
+"""Flat bodies in their x-y plane: disc, ring, ellipse, polygon.
+
+For all of them the moment about z is the sum of those about x and y, for z is zero in the body.
+"""
+
+from __future__ import annotations
+
+import casadi as ca
+from frot.compiler.mechanics.moves import Lower
+from frot.compiler.mechanics.shapes.particle import Particle
+from frot.compiler.mechanics.shapes.shape import principal
+from frot.dsl.checked import Body
+
+
+class Disc(Particle):
+    """A homogeneous disc."""
+
+    def inertia(self, body: Body, lower: Lower) -> ca.SX:
+        """M r^2/2 about z: the integral of s^2 (m/pi r^2) 2 pi s ds."""
+        about_z = 0.5 * lower(body.arguments["mass"]) * lower(body.arguments["radius"]) ** 2
+        return principal(about_z / 2, about_z / 2, about_z)
+
+
+class Ring(Particle):
+    """A thin ring: all mass at the radius."""
+
+    def inertia(self, body: Body, lower: Lower) -> ca.SX:
+        """M r^2 about z."""
+        about_z = lower(body.arguments["mass"]) * lower(body.arguments["radius"]) ** 2
+        return principal(about_z / 2, about_z / 2, about_z)
+
+
+class Ellipse(Particle):
+    """A homogeneous elliptic lamina with semi-axes a along x and b along y."""
+
+    def inertia(self, body: Body, lower: Lower) -> ca.SX:
+        """M b^2/4 about x and m a^2/4 about y: those of a disc, stretched."""
+        mass = lower(body.arguments["mass"])
+        about_x = mass * lower(body.arguments["b"]) ** 2 / 4
+        about_y = mass * lower(body.arguments["a"]) ** 2 / 4
+        return principal(about_x, about_y, about_x + about_y)
+
+
+class Polygon(Particle):
+    """A homogeneous lamina; its corners in order, G is its centroid."""
+
+    def inertia(self, body: Body, lower: Lower) -> ca.SX:
+        """About G: the second moments of the triangles between the origin and the sides, moved."""
+        corners = lower(body.arguments["vertices"])
+        count = corners.size1()
+        area, first_x, first_y, second = ca.SX(0), ca.SX(0), ca.SX(0), ca.SX(0)
+        for k in range(count):
+            p, q = corners[k, :], corners[(k + 1) % count, :]
+            part = p[0] * q[1] - p[1] * q[0]
+            area += part / 2
+            first_x += part * (p[0] + q[0]) / 6
+            first_y += part * (p[1] + q[1]) / 6
+            second += part * (ca.sumsqr(p) + ca.dot(p, q) + ca.sumsqr(q)) / 12
+        mass = lower(body.arguments["mass"])
+        away = (first_x**2 + first_y**2) / area**2
+        return principal(ca.SX(0), ca.SX(0), mass * (second / area - away))

@@ -1,0 +1,25 @@
+"""A slender rod along its x axis, G in the middle."""
+
+from __future__ import annotations
+
+import casadi as ca
+from frot.compiler.mechanics.moves import Lower
+from frot.compiler.mechanics.shapes.shape import principal
+from frot.compiler.mechanics.spatial import X, nowhere
+from frot.dsl.checked import Body
+
+
+class Rod:
+    """Without thickness: no inertia about its own axis."""
+
+    def inertia(self, body: Body, lower: Lower) -> ca.SX:
+        """M l^2/12 across: the integral of x^2 m/l dx from -l/2 to l/2."""
+        across = lower(body.arguments["mass"]) * lower(body.arguments["length"]) ** 2 / 12
+        return principal(ca.SX(0), across, across)
+
+    def point(self, body: Body, name: str, lower: Lower) -> ca.SX:
+        """`start` and `tip` at -l/2 and l/2."""
+        if name not in ("start", "tip"):
+            return nowhere()
+        half = lower(body.arguments["length"]) / 2
+        return ca.sparsify((-half if name == "start" else half) * X)

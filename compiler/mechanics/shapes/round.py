@@ -1,0 +1,41 @@
+"""Balls: sphere, shell, ellipsoid."""
+
+from __future__ import annotations
+
+import casadi as ca
+from frot.compiler.mechanics.moves import Lower
+from frot.compiler.mechanics.shapes.particle import Particle
+from frot.compiler.mechanics.shapes.shape import principal
+from frot.compiler.mechanics.spatial import whole
+from frot.dsl.checked import Body
+
+
+def _of_ball(body: Body, lower: Lower, factor: float) -> ca.SX:
+    moment = factor * lower(body.arguments["mass"]) * lower(body.arguments["radius"]) ** 2
+    return principal(moment, moment, moment)
+
+
+class Sphere(Particle):
+    """A homogeneous ball."""
+
+    def inertia(self, body: Body, lower: Lower) -> ca.SX:
+        """2 m r^2/5: two thirds of the integral of s^2 (3 m/r^3) s^2 ds."""
+        return _of_ball(body, lower, 2 / 5)
+
+
+class Shell(Particle):
+    """A thin spherical shell."""
+
+    def inertia(self, body: Body, lower: Lower) -> ca.SX:
+        """2 m r^2/3: x^2 + y^2 is two thirds of r^2 on average."""
+        return _of_ball(body, lower, 2 / 3)
+
+
+class Ellipsoid(Particle):
+    """A homogeneous ellipsoid with semi-axes along x, y, z."""
+
+    def inertia(self, body: Body, lower: Lower) -> ca.SX:
+        """M (b^2 + c^2)/5 about x, and so on: those of a ball, stretched."""
+        a, b, c = (x**2 for x in ca.vertsplit(whole(lower(body.arguments["semi_axes"]))))
+        mass = lower(body.arguments["mass"])
+        return principal(*(mass * (p + q) / 5 for p, q in ((b, c), (c, a), (a, b))))

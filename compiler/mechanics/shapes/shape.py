@@ -1,0 +1,34 @@
+"""What mechanics asks of a shape."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import casadi as ca
+from frot.compiler.mechanics.moves import Lower
+from frot.dsl.checked import Body
+
+
+class Shape(Protocol):
+    """A shape of body; `lower` makes expressions of its arguments."""
+
+    def inertia(self, body: Body, lower: Lower) -> ca.SX:
+        """Inertia (3 x 3, kg.m^2) about G in the body's axes."""
+
+    def point(self, body: Body, name: str, lower: Lower) -> ca.SX:
+        """A named point (3, m) in the body's axes at G."""
+
+
+def principal(first: ca.SX, second: ca.SX, third: ca.SX) -> ca.SX:
+    """The inertia with these moments about the body's axes; what is zero has no entry."""
+    matrix = ca.SX(3, 3)
+    for k, moment in enumerate((first, second, third)):
+        matrix[k, k] = moment
+    return ca.sparsify(matrix)
+
+
+def given_inertia(value: ca.SX, planar: bool) -> ca.SX:
+    """Inertia (3 x 3) from what the text gives: one moment about z, three, or the matrix."""
+    if planar:
+        return principal(ca.SX(0), ca.SX(0), value)
+    return principal(*ca.vertsplit(value)) if value.numel() == 3 else value

@@ -1,0 +1,167 @@
+"""Vectors, rotations and moving axes in CasADi expressions.
+
+All vectors have three components in ground axes unless a name says otherwise. A planar model is the
+same algebra with structural zeros: what does not exist in the plane is never written.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+
+X, Y, Z = (ca.SX(ca.DM.eye(3)[:, k]) for k in range(3))
+
+
+def nowhere() -> ca.SX:
+    """The zero vector, without entries."""
+    return ca.SX(3, 1)
+
+
+def whole(value: ca.SX) -> ca.SX:
+    """A vector of the text (2 or 3) in three components; `(x, y)` gets no third."""
+    if value.numel() != 2:
+        return ca.sparsify(value)
+    vector = nowhere()
+    vector[0], vector[1] = value[0], value[1]
+    return ca.sparsify(vector)
+
+
+def about_z(value: ca.SX) -> ca.SX:
+    """A vector along z of this size."""
+    vector = nowhere()
+    vector[2] = value
+    return vector
+
+
+def cross(a: ca.SX, b: ca.SX) -> ca.SX:
+    """Vector product without the entries that are zero by structure."""
+    return ca.sparsify(ca.cross(a, b))
+
+
+def size_of_cross(a: ca.SX, b: ca.SX) -> ca.SX:
+    """Sizes of the terms of a vector product of sizes, component by component."""
+    a, b = ca.fabs(a), ca.fabs(b)
+    parts = (a[i] * b[j] + a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1)))
+    return ca.sparsify(ca.vertcat(*parts))
+
+
+def turn_in_plane(angle: ca.SX) -> ca.SX:
+    """R (3 x 3): axes turned about z."""
+    c, s = ca.cos(angle), ca.sin(angle)
+    axes = ca.SX(3, 3)
+    axes[0, 0], axes[0, 1], axes[1, 0], axes[1, 1], axes[2, 2] = c, -s, s, c, 1
+    return axes
+
+
+def turn_about(axis: ca.SX, angle: ca.SX) -> ca.SX:
+    """R (3 x 3): axes turned about a unit vector (O. Rodrigues 1840)."""
+    along = axis @ axis.T
+    across = ca.sparsify(ca.SX.eye(3) - along)
+    return ca.sparsify(along + ca.cos(angle) * across + ca.sin(angle) * ca.skew(axis))
+
+
+def axes_of(quaternion: ca.SX) -> ca.SX:
+    """R (3 x 3) of a unit quaternion (w, x, y, z)."""
+    w, x, y, z = ca.vertsplit(quaternion)
+    return ca.blockcat(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def product(a: ca.SX, b: ca.SX) -> ca.SX:
+    """Product of quaternions: first turned by b, then by a."""
+    vector = a[0] * b[1:] + b[0] * a[1:] + ca.cross(a[1:], b[1:])
+    return ca.vertcat(a[0] * b[0] - ca.dot(a[1:], b[1:]), vector)
+
+
+def turning(axis: ca.SX, angle: ca.SX) -> ca.SX:
+    """The quaternion of a turn about a unit vector."""
+    return ca.vertcat(ca.cos(angle / 2), ca.sin(angle / 2) * axis)
+
+
+def beside(axis: ca.SX) -> tuple[ca.SX, ca.SX]:
+    """Two unit vectors that make a right-handed trihedral with a unit vector, it being the last.
+
+    For z these are x and y. The axis depends on parameters at most, so that no motion meets the
+    places where the choice changes.
+    """
+    for k, pair in enumerate(((Y, Z), (Z, X), (X, Y))):
+        if axis.nnz() == 1 and axis[k].is_one():
+            return pair
+    from_x = ca.fabs(axis[0]) < 0.75 * ca.norm_2(axis)
+    start = ca.if_else(from_x, ca.DM([1, 0, 0]), ca.DM([0, 1, 0]))
+    first = start - ca.dot(start, axis) * axis
+    first = ca.sparsify(ca.simplify(first / ca.norm_2(first)))
+    return first, cross(axis, first)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pose:
+    """Where axes stand: origin (3), unit vectors as columns (3 x 3), the same as a quaternion.
+
+    `angle` counts the turns about z in planar models; it is zero in space.
+    """
+
+    origin: ca.SX
+    axes: ca.SX
+    quaternion: ca.SX
+    angle: ca.SX
+
+    def point(self, local: ca.SX) -> ca.SX:
+        """Ground coordinates of a point given in these axes."""
+        return self.origin + self.direction(local)
+
+    def direction(self, local: ca.SX) -> ca.SX:
+        """Ground components of a vector given in these axes."""
+        return self.axes @ local if local.nnz() else local
+
+
+GROUND = Pose(nowhere(), ca.SX(ca.DM.eye(3)), ca.SX(ca.DM([1, 0, 0, 0])), ca.SX(0))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Moving:
+    """Axes that move: their pose, and what belongs to their origin.
+
+    `angular` and `linear` velocity; `angular_bias` and `linear_bias` are the accelerations while
+    all rates of speeds are zero.
+    """
+
+    pose: Pose
+    angular: ca.SX
+    linear: ca.SX
+    angular_bias: ca.SX
+    linear_bias: ca.SX
+
+    def velocity_of(self, place: ca.SX) -> ca.SX:
+        """Velocity of the material point that is at a place in ground axes."""
+        return self.linear + cross(self.angular, place - self.pose.origin)
+
+    def shifted(self, arm: ca.SX) -> Moving:
+        """The same axes with their origin at another material point, the vector `arm` away.
+
+        The vector is given, for differences of places lose digits far from the origin.
+        """
+        swept = cross(self.angular, arm)
+        return Moving(
+            Pose(self.pose.origin + arm, self.pose.axes, self.pose.quaternion, self.pose.angle),
+            self.angular,
+            self.linear + swept,
+            self.angular_bias,
+            self.linear_bias + cross(self.angular_bias, arm) + cross(self.angular, swept),
+        )
+
+    def facing(self, axes: ca.SX, quaternion: ca.SX, angle: ca.SX) -> Moving:
+        """Other axes fixed to the same body, with the same origin."""
+        return Moving(
+            Pose(self.pose.origin, axes, quaternion, angle),
+            *(self.angular, self.linear, self.angular_bias, self.linear_bias),
+        )
+
+
+AT_REST = Moving(GROUND, nowhere(), nowhere(), nowhere(), nowhere())

@@ -1,0 +1,120 @@
+"""What a lock does: the reaction it makes, the motion it forbids, the gap it keeps at zero.
+
+One unit of the wrench is a force at the place b and a couple, of a on b. On the forbidden motion,
+at the place b, it does one unit of power, and the wrenches of the other locks of the liaison none.
+The rate of the gap is the power of the wrench on the motion of b relative to a.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.mechanics.locks import (
+    LEFT,
+    Aligned,
+    Crossed,
+    Lock,
+    Parallel,
+    SameAngle,
+    Thread,
+    Way,
+    WayAlong,
+)
+from frot.compiler.mechanics.motions import Axis
+from frot.compiler.mechanics.moves import Column, Lower, angle_about, unit_vector
+from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, beside, cross, nowhere
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Action:
+    """A lock between two poses: `force` and `couple` of its wrench, `column`, `gap`."""
+
+    force: ca.SX
+    couple: ca.SX
+    column: Column
+    gap: ca.SX
+
+    def rate(self, a: Moving, b: Moving) -> ca.SX:
+        """Rate of the gap: f . (v_b - v_a at b) + c . (omega_b - omega_a)."""
+        apart = b.linear - a.velocity_of(b.pose.origin)
+        return ca.dot(self.force, apart) + ca.dot(self.couple, b.angular - a.angular)
+
+
+def act(lock: Lock, a: Pose, b: Pose, lower: Lower) -> Action:
+    """The lock between the places a and b."""
+    return _ACTS[type(lock)](lock, a, b, lower)
+
+
+def _push(way: ca.SX, gap: ca.SX) -> Action:
+    return Action(way, nowhere(), Column(nowhere(), way), gap)
+
+
+def _twist(about: ca.SX, gap: ca.SX) -> Action:
+    """A couple; the motion is that about the same line with one unit of power."""
+    square = ca.sumsqr(about)
+    turn = about if square.is_one() else about / square
+    return Action(nowhere(), about, Column(turn, nowhere()), gap)
+
+
+def _along(pose: Pose, axis: Axis, lower: Lower, side: int | None = None) -> ca.SX:
+    """Ground components of an axis, of one of the two beside it, or of its left in the plane."""
+    local = unit_vector(axis.given, lower)
+    if side == LEFT:
+        return pose.direction(cross(Z, local))
+    return pose.direction(local if side is None else beside(local)[side])
+
+
+def _way(lock: Way, a: Pose, b: Pose, lower: Lower) -> Action:
+    return _push((X, Y, Z)[lock.axis], b.origin[lock.axis] - a.origin[lock.axis])
+
+
+def _way_along(lock: WayAlong, a: Pose, b: Pose, lower: Lower) -> Action:
+    """E . (b - a) with e fixed to a, which sweeps the place b along."""
+    way = _along(a, lock.axis, lower, lock.side)
+    return _push(way, ca.dot(way, b.origin - a.origin))
+
+
+def _parallel(lock: Parallel, a: Pose, b: Pose, lower: Lower) -> Action:
+    """e_b . s_a = 0: its rate is (omega_b - omega_a) . (e_b x s_a)."""
+    own, other = _along(b, lock.axis, lower), _along(a, lock.axis, lower, lock.side)
+    return _twist(cross(own, other), ca.dot(own, other))
+
+
+def _aligned(lock: Aligned, a: Pose, b: Pose, lower: Lower) -> Action:
+    """i_a . j_b = 0: its rate is (omega_b - omega_a) . (j_b x i_a)."""
+    first, second = a.axes[:, lock.axis], b.axes[:, (lock.axis + 1) % 3]
+    return _twist(cross(second, first), ca.dot(first, second))
+
+
+def _same_angle(lock: SameAngle, a: Pose, b: Pose, lower: Lower) -> Action:
+    return _twist(Z, b.angle - a.angle)
+
+
+def _thread(lock: Thread, a: Pose, b: Pose, lower: Lower) -> Action:
+    """A force F along e comes with the couple -F pitch/2 pi: no work on the screw's own motion.
+
+    Its gap counts the turn within half a revolution.
+    """
+    along, advance = _along(a, lock.axis, lower), lower(lock.pitch) / (2 * ca.pi)
+    gap = ca.dot(along, b.origin - a.origin) - advance * angle_about(lock.axis, a, b, lower)
+    return Action(along, -advance * along, Column(nowhere(), along), gap)
+
+
+def _crossed(lock: Crossed, a: Pose, b: Pose, lower: Lower) -> Action:
+    """A couple about the normal of both axes, on which neither turn does work."""
+    first, second = _along(a, lock.axis_a, lower), _along(b, lock.axis_b, lower)
+    natural = (unit_vector(axis.given, lower) for axis in (lock.axis_a, lock.axis_b))
+    return _twist(cross(second, first), ca.dot(first, second) - ca.dot(*natural))
+
+
+_ACTS: dict[type, Callable[..., Action]] = {
+    Way: _way,
+    WayAlong: _way_along,
+    Parallel: _parallel,
+    Aligned: _aligned,
+    SameAngle: _same_angle,
+    Thread: _thread,
+    Crossed: _crossed,
+}

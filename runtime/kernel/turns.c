@@ -1,0 +1,85 @@
+#include "turns.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define OFF (8 * DBL_EPSILON) /* in the square of the length: what products and sums leave */
+
+/* c <- a b. */
+static void multiply(const double *a, const double *b, double *c) {
+  c[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
+  c[1] = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
+  c[2] = a[0] * b[2] + a[2] * b[0] + a[3] * b[1] - a[1] * b[3];
+  c[3] = a[0] * b[3] + a[3] * b[0] + a[1] * b[2] - a[2] * b[1];
+}
+
+static void turned(const frot_turn *turn, const double *by, const double *r, double *out) {
+  if (turn->own_axes)
+    multiply(r, by, out);
+  else
+    multiply(by, r, out);
+}
+
+static int is_of_group(const frot_model *m, const frot_turn *turn, const frot_group *g) {
+  return &m->groups[m->speed_group[turn->speed[2]]] == g;
+}
+
+/* The items of a turn's speeds in a vector over the speeds of its group. */
+static void items_of(const frot_model *m, const frot_turn *turn, const double *over, double *w) {
+  for (int k = 0; k < 3; k++) w[k] = turn->speed[k] < 0 ? 0 : over[m->speed_local[turn->speed[k]]];
+}
+
+static double length_of(const double *r) {
+  return sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
+}
+
+void frot_displace(const frot_model *m, const frot_group *g, double *q, const double *step,
+                   double part) {
+  for (int i = 0; i < g->n_speeds; i++) {
+    int coordinate = m->speed_coordinate[g->unknowns[i]];
+    if (coordinate >= 0) q[coordinate] += part * step[i];
+  }
+  for (int i = 0; i < m->n_turns; i++) {
+    const frot_turn *turn = &m->turns[i];
+    double w[3], by[4], *r = q + turn->at, out[4];
+    if (!is_of_group(m, turn, g)) continue;
+    items_of(m, turn, step, w);
+    for (int k = 0; k < 3; k++) w[k] *= part;
+    double angle = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    double half = angle > 0 ? sin(angle / 2) / angle : 0.5;
+    by[0] = cos(angle / 2);
+    for (int k = 0; k < 3; k++) by[k + 1] = half * w[k];
+    turned(turn, by, r, out);
+    double length = length_of(out);
+    for (int k = 0; k < 4; k++) r[k] = out[k] / length;
+  }
+}
+
+void frot_over_coordinates(const frot_model *m, const frot_group *g, const double *entries,
+                           const double *q, double *row) {
+  memset(row, 0, sizeof(double) * (size_t)m->nq);
+  for (int i = 0; i < g->n_speeds; i++) {
+    int coordinate = m->speed_coordinate[g->unknowns[i]];
+    if (coordinate >= 0) row[coordinate] = entries[i];
+  }
+  for (int i = 0; i < m->n_turns; i++) {
+    const frot_turn *turn = &m->turns[i];
+    if (!is_of_group(m, turn, g)) continue;
+    double by[4] = {0, 0, 0, 0}, out[4];
+    items_of(m, turn, entries, by + 1);
+    turned(turn, by, q + turn->at, out);
+    for (int k = 0; k < 4; k++) row[turn->at + k] = 2 * out[k];
+  }
+}
+
+int frot_normalise(const frot_model *m, double *q) {
+  int moved = 0;
+  for (int i = 0; i < m->n_turns; i++) {
+    double *r = q + m->turns[i].at, length = length_of(r);
+    if (fabs(length * length - 1) <= OFF || !(length > 0)) continue;
+    for (int k = 0; k < 4; k++) r[k] /= length;
+    moved = 1;
+  }
+  return moved;
+}

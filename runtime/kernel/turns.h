@@ -1,0 +1,21 @@
+/* Orientations in space: unit quaternions among the coordinates, which turn by angular velocities
+ * and are no sums of anything. Whoever moves coordinates along speeds does it here. */
+#ifndef FROT_TURNS_H
+#define FROT_TURNS_H
+
+#include "frot.h"
+
+/* Move q by `part` of the displacement `step` (one item a speed of the group): coordinates by
+ * addition, orientations by turning them. */
+void frot_displace(const frot_model *m, const frot_group *g, double *q, const double *step,
+                   double part);
+
+/* row (nq) <- the row over coordinates, zero elsewhere, that gives every displacement of the group
+ * what `entries`, over its speeds, give it. It is orthogonal to each quaternion itself. */
+void frot_over_coordinates(const frot_model *m, const frot_group *g, const double *entries,
+                           const double *q, double *row);
+
+/* Give all quaternions the length 1 again. Returns whether one was off by more than rounding. */
+int frot_normalise(const frot_model *m, double *q);
+
+#endif
