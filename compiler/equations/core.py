@@ -9,7 +9,7 @@ from frot.compiler.equations.chains import Chains, replace_known
 from frot.compiler.equations.differentiate import Differentiated
 from frot.compiler.equations.eliminate import Eliminated, Pivot, Residuals, eliminate, resolve_all
 from frot.compiler.equations.given import Given
-from frot.compiler.lowering.symbols import column
+from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl import Log
 from frot.dsl.messages.source import Span
@@ -111,7 +111,7 @@ def make_core(
         v=column(states.v),
         z=z,
         lam=lam,
-        names=tuple(str(x.name()) for x in (*_items(s.q), *states.q, *states.v)),
+        names=tuple(str(x.name()) for x in (*scalars_of(s.q), *states.q, *states.v)),
         q_speed=_speeds(s.q_speed, states),
         rates=ca.vertcat(s.rates, column(states.rates)),
         nc=nc,
@@ -206,10 +206,6 @@ def _sort_states(found: Differentiated, core: set[int]) -> _States:
                 states.q.append(symbols[k])
                 states.rates.append(symbols[k + 1])
     return states
-
-
-def _items(symbols: ca.SX) -> tuple[ca.SX, ...]:
-    return tuple(ca.vertsplit(symbols)) if symbols.numel() else ()
 
 
 def _speeds(own_speeds: tuple[int, ...], states: _States) -> tuple[int, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import casadi as ca
 from frot.compiler.equations.solve_equations import solve_equations
 from frot.compiler.lowering.assembled import Assembled, Invariants
+from frot.compiler.lowering.symbols import scalars_of
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl import Log
 
@@ -40,7 +41,7 @@ def _plain(reduced: Reduced) -> Assembled:
         z=ca.vertcat(s.a, ca.SX.sym("auxiliary", na)),
         lam=s.lam,
         discrete=nothing,
-        names=tuple(x.name() for x in (*_items(s.q), *_items(s.v))),
+        names=tuple(x.name() for x in (*scalars_of(s.q), *scalars_of(s.v))),
         q_speed=s.q_speed,
         na=na,
         nc=0,
@@ -62,7 +63,3 @@ def _plain(reduced: Reduced) -> Assembled:
         pivots=(),
         resolve=lambda value: value,
     )
-
-
-def _items(symbols: ca.SX) -> tuple[ca.SX, ...]:
-    return tuple(ca.vertsplit(symbols)) if symbols.numel() else ()

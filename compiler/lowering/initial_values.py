@@ -10,7 +10,7 @@ from frot.compiler.equations.chains import replace_known
 from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
-from frot.compiler.lowering.symbols import column
+from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import is_fixed
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation, Reference, Variable
@@ -62,18 +62,14 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
     known = direct | _values(system.q, q)
     v = _with(system.v, ca.SX.zeros(system.v.shape), direct)
     v = _guess(system, looking, system.v, v, known)
-    guess = {"q": q, "v": v}
     turns = system.reduced.symbols.turns
-    if (
-        complete
-        and not turns
-        and not (system.reduced.mechanism.contacts or system.invariants.origins)
-    ):
+    relations = turns or system.reduced.mechanism.contacts or system.invariants.origins
+    if complete and not relations:
         found = []
-    for turn in system.reduced.symbols.turns:
-        q = system.q[turn.coordinate : turn.coordinate + 4]
-        found.append(_Residual(ca.sumsqr(q) - 1, ca.sumsqr(q) + 1, len(statements)))
-        text = f"{q[0].name().removesuffix('[1]')} is a unit quaternion"
+    for turn in turns:
+        unit = system.q[turn.coordinate : turn.coordinate + 4]
+        found.append(_Residual(ca.sumsqr(unit) - 1, ca.sumsqr(unit) + 1, len(statements)))
+        text = f"{unit[0].name().removesuffix('[1]')} is a unit quaternion"
         statements.append(Statement(text, model.span, "1"))
     for value, origin in zip(
         ca.vertsplit(system.invariants.values) if system.invariants.origins else (),
@@ -89,7 +85,7 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
     y_start = _guess(system, looking, system.y, ca.SX.zeros(system.y.shape), known)
     discrete = column(d.start for d in system.reduced.text.memory)
     return Initial(
-        [guess["q"], guess["v"], y_start, discrete],
+        [q, v, y_start, discrete],
         _outputs(position, system.q, system.y),
         _outputs(velocity, system.v, system.y),
         tuple(statements),
@@ -161,10 +157,10 @@ def _residuals(
 
 def _direct(found: list[_Residual], system: Assembled) -> tuple[dict[int, ca.SX], bool]:
     """The values of states that statements give one by one, and whether all statements do that."""
-    states = {s.element_hash() for s in (*_items(system.q), *_items(system.v))}
-    moving = states | {s.element_hash() for s in _items(system.y)}
+    states = {s.element_hash() for s in (*scalars_of(system.q), *scalars_of(system.v))}
+    moving = states | {s.element_hash() for s in scalars_of(system.y)}
     known = system.reduced.symbols
-    given = {s.element_hash() for part in (known.t, known.u, known.p) for s in _items(part)}
+    given = {s.element_hash() for part in (known.t, known.u, known.p) for s in scalars_of(part)}
     values: dict[int, ca.SX] = {}
     complete = True
     for residual in found:
@@ -183,13 +179,9 @@ def _direct(found: list[_Residual], system: Assembled) -> tuple[dict[int, ca.SX]
     return values, complete
 
 
-def _items(symbols: ca.SX) -> list[ca.SX]:
-    return list(ca.vertsplit(symbols)) if symbols.numel() else []
-
-
 def _with(symbols: ca.SX, guess: ca.SX, direct: dict[int, ca.SX]) -> ca.SX:
     """The guess, replaced where a value is given."""
-    pairs = zip(_items(symbols), _items(guess), strict=True)
+    pairs = zip(scalars_of(symbols), scalars_of(guess), strict=True)
     return column(direct.get(s.element_hash(), g) for s, g in pairs)
 
 
@@ -223,7 +215,9 @@ def _outputs(residuals: list[_Residual], unknown: ca.SX, y: ca.SX) -> list[ca.SX
 
 
 def _values(symbols: ca.SX, values: ca.SX) -> dict[int, ca.SX]:
-    return {s.element_hash(): x for s, x in zip(_items(symbols), _items(values), strict=True)}
+    return {
+        s.element_hash(): x for s, x in zip(scalars_of(symbols), scalars_of(values), strict=True)
+    }
 
 
 def _guess(
@@ -239,13 +233,15 @@ def _guess(
     """
     if not unknown.numel():
         return value
-    here = {s.element_hash(): ca.SX(0) for x in (system.q, system.v, system.y) for s in _items(x)}
+    here = {
+        s.element_hash(): ca.SX(0) for x in (system.q, system.v, system.y) for s in scalars_of(x)
+    }
     here |= {**_values(unknown, value), **known}
-    free = [s for s in _items(unknown) if s.element_hash() not in known]
+    free = [s for s in scalars_of(unknown) if s.element_hash() not in known]
     taken: list[ca.SX] = []
     for left, right in reversed(_guesses(system, looking)):
         inside = {s.element_hash() for s in ca.symvar(left)} & here.keys()
-        own = {s.element_hash() for s in _items(unknown)} | known.keys()
+        own = {s.element_hash() for s in scalars_of(unknown)} | known.keys()
         if not free or (unknown is system.q and inside - own):
             continue
         slope = replace_known(ca.jacobian(left, column(free)).T, here)
@@ -261,7 +257,7 @@ def _guess(
         taken.append(ca.if_else(usable, slope / ca.sqrt(length), ca.SX.zeros(slope.shape)))
         for s, change in zip(free, ca.vertsplit(move), strict=True):
             here[s.element_hash()] = here[s.element_hash()] + change
-    return column(here[s.element_hash()] for s in _items(unknown))
+    return column(here[s.element_hash()] for s in scalars_of(unknown))
 
 
 def _guesses(system: Assembled, looking: Lowering) -> list[tuple[ca.SX, ca.SX]]:

@@ -82,6 +82,11 @@ def column(values: Iterable[ca.SX]) -> ca.SX:
     return ca.vertcat(*items) if items else ca.SX.zeros(0)
 
 
+def scalars_of(symbols: ca.SX) -> list[ca.SX]:
+    """The items of a column; none of an empty one."""
+    return list(ca.vertsplit(symbols)) if symbols.numel() else []
+
+
 def reading_places(mechanism: Mechanism) -> tuple[dict[Liaison, int], int]:
     """First auxiliary speed of each liaison that has some, and the number of all."""
     places: dict[Liaison, int] = {}

@@ -132,8 +132,3 @@ Motion = Turn | Slide | Screw | Heading | Attitude | Pointing | Steady
 def count_speeds(motion: Motion) -> int:
     """The number of speeds of a motion."""
     return len(motion.speeds or motion.coordinates)
-
-
-def natural(motion: Motion) -> list[float]:
-    """The values of q where axes and places coincide."""
-    return [1.0, 0.0, 0.0, 0.0] if motion.quaternion else [0.0] * len(motion.coordinates)

@@ -83,7 +83,8 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     fixed = Lowering(symbols, nothing, lambda value: value * 0, log)
     kinematics = Kinematics(mechanism, symbols, fixed)
     text = _text(mechanism, symbols)
-    variables = _variables(mechanism, kinematics, symbols, text)
+    geometry = _geometry(mechanism, kinematics)
+    variables = _variables(mechanism, kinematics, text, geometry)
     conditions = Conditions()
     moving, looking = (
         Lowering(
@@ -105,7 +106,6 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
             symbols_of = scalars(text.values[variable])
             for symbol, start in zip(symbols_of, first(variable), strict=True):
                 text.add_discrete(symbol.name(), symbol, start)
-    geometry = _geometry(mechanism, kinematics)
     rates = column(
         rate
         for link, g in zip(mechanism.contacts, geometry, strict=True)
@@ -250,30 +250,33 @@ def _geometry(
 
 
 def _variables(
-    mechanism: Mechanism, kinematics: Kinematics, symbols: Symbols, text: TextSymbols
+    mechanism: Mechanism,
+    kinematics: Kinematics,
+    text: TextSymbols,
+    found: list[Geometry | JointGeometry | RelationGeometry],
 ) -> Variables:
-    world = mechanism.model.world
+    """`found` is the geometry of the mechanism's contacts."""
+    world, symbols = mechanism.model.world, kinematics.symbols
     geometry: dict[Liaison, Geometry | JointGeometry] = {}
     links: dict[Liaison, Contact | Joint] = {}
     reactions: dict[Liaison, Rows] = {}
-    for k, (link, rows) in enumerate(
-        zip(mechanism.contacts, link_rows(mechanism.contacts), strict=True)
+    for link, rows, own in zip(
+        mechanism.contacts, link_rows(mechanism.contacts), found, strict=True
     ):
         if isinstance(link, Relation):
             before = reactions.get(link.liaison)
-            own = (*(before.reaction if before else ()), *rows.reaction)
-            reactions[link.liaison] = Rows(own, -1, -1)
+            all_rows = (*(before.reaction if before else ()), *rows.reaction)
+            reactions[link.liaison] = Rows(all_rows, -1, -1)
             links[link.liaison] = link.joint
             continue
+        assert not isinstance(own, RelationGeometry)
         links[link.liaison], reactions[link.liaison] = link, rows
-        found = link_geometry(link, kinematics, symbols.sides[k], world)
-        assert not isinstance(found, RelationGeometry)
-        geometry[link.liaison] = found
+        geometry[link.liaison] = own
     for link in (*mechanism.ideal, *links.values()):
         if link.liaison not in geometry:
-            found = link_geometry(link, kinematics, ca.SX(1), world)
-            assert not isinstance(found, RelationGeometry)
-            geometry[link.liaison] = found
+            other = link_geometry(link, kinematics, ca.SX(1), world)
+            assert not isinstance(other, RelationGeometry)
+            geometry[link.liaison] = other
     return Variables(symbols, text.chains, kinematics, geometry, links, reactions)
 
 

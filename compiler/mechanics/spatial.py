@@ -156,12 +156,5 @@ class Moving:
             self.linear_bias + cross(self.angular_bias, arm) + cross(self.angular, swept),
         )
 
-    def facing(self, axes: ca.SX, quaternion: ca.SX, angle: ca.SX) -> Moving:
-        """Other axes fixed to the same body, with the same origin."""
-        return Moving(
-            Pose(self.pose.origin, axes, quaternion, angle),
-            *(self.angular, self.linear, self.angular_bias, self.linear_bias),
-        )
-
 
 AT_REST = Moving(GROUND, nowhere(), nowhere(), nowhere(), nowhere())

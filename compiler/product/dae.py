@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.lower import Lowered, lower
-from frot.compiler.lowering.symbols import Rows, column
+from frot.compiler.lowering.symbols import Rows, column, scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.locks import Way
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link
@@ -113,7 +113,7 @@ def _assemble(lowered: Lowered) -> Dae:
     alg = ca.vertcat(balance, *_laws(reduced, contact_modes))
     values = default_values(reduced.mechanism.model, {})
     guards = ca.vertcat(*_guards(reduced, contact_modes))
-    q_names, v_names = ([x.name() for x in _items(part)] for part in (s.q, s.v))
+    q_names, v_names = ([x.name() for x in scalars_of(part)] for part in (s.q, s.v))
     row_names = [
         n for c, r in zip(contacts, reduced.contact_rows, strict=True) for n in _row_names(c, r)
     ]
@@ -149,10 +149,6 @@ def _assemble(lowered: Lowered) -> Dae:
         u0=_column(as_number(evaluate(i.start, values)) for i in s.inputs),
         p0=_column(as_number(evaluate(p.value, values)) for p in s.parameters),
     )
-
-
-def _items(symbols: ca.SX) -> list[ca.SX]:
-    return list(ca.vertsplit(symbols)) if symbols.numel() else []
 
 
 def _row_names(link: Link, rows: Rows) -> tuple[str, ...]:
