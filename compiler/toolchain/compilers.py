@@ -126,15 +126,15 @@ def compile_objects(
     options = [*flags, *(f"-I{path}" for path in include), "-c"]
     objects = [folder / f"{source.stem}.o" for source in sources]
     with Keeper() as keeper, ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        calls = [
-            pool.submit(run_compiler, toolchain, [*options, source], target, keeper)
-            for source, target in zip(sources, objects, strict=True)
-        ]
         try:
+            calls = [
+                pool.submit(run_compiler, toolchain, [*options, source], target, keeper)
+                for source, target in zip(sources, objects, strict=True)
+            ]
             for call in calls:
                 call.result()
         except BaseException:
-            # Ctrl-C too: the pool would wait for those that run and for those in line.
+            # Ctrl-C too, at any point: the pool would wait for those that run and those in line.
             pool.shutdown(wait=False, cancel_futures=True)
             keeper.stop()
             raise

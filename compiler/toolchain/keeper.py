@@ -6,6 +6,7 @@ import contextlib
 import os
 import signal
 import subprocess
+import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -33,6 +34,8 @@ class Keeper:
     def __init__(self, doomed: Path | None = None) -> None:
         """Start the shell."""
         self._shell: subprocess.Popen[bytes] | None = None
+        self._starting = threading.Lock()
+        self._stopped = False
         if os.name != "posix":
             return
         words = [_SHELL, "-c", _WAIT, "frot", "" if doomed is None else str(doomed)]
@@ -49,20 +52,32 @@ class Keeper:
         self, command: Sequence[str], timeout: float, environment: Mapping[str, str]
     ) -> subprocess.CompletedProcess[str]:
         """Run a command to its end; OSError and subprocess.TimeoutExpired as subprocess.run."""
-        return subprocess.run(
-            command,
-            capture_output=True,
-            text=True,
-            errors="replace",
-            timeout=timeout,
-            check=False,
-            stdin=subprocess.DEVNULL,
-            env={**os.environ, **environment},
-            process_group=None if self._shell is None else self._shell.pid,
-        )
+        # A command starts before `stop`, and ends with it, or not at all.
+        with self._starting:
+            if self._stopped:
+                raise ChildProcessError("stopped before it began")
+            process = subprocess.Popen(
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+                errors="replace",
+                env={**os.environ, **environment},
+                process_group=None if self._shell is None else self._shell.pid,
+            )
+        with process:
+            try:
+                out, err = process.communicate(timeout=timeout)
+            except BaseException:
+                process.kill()
+                raise
+        return subprocess.CompletedProcess(command, process.returncode, out, err)
 
     def stop(self) -> None:
-        """End every command that still runs."""
+        """End every command that still runs; none starts any more."""
+        with self._starting:
+            self._stopped = True
         if self._shell is not None and self._shell.poll() is None:
             with contextlib.suppress(OSError):
                 os.killpg(self._shell.pid, signal.SIGKILL)

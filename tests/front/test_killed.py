@@ -6,10 +6,12 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 from front_door import HOOP, Shell, script
+from frot.compiler.toolchain.compilers import Toolchain, compile_objects
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 
@@ -127,3 +129,25 @@ def test_a_run_in_another_thread_compiles_as_well(warm_cache: Path, tmp_path: Pa
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_an_interrupt_while_compilers_are_being_started_ends_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It may come between the start of one compiler and that of the next."""
+    notes = tmp_path / "pids"
+    slow = script(tmp_path / "slow-cc", f'echo $$ >> "{notes}"\nexec sleep 300')
+    submit = ThreadPoolExecutor.submit
+
+    def interrupted(pool: ThreadPoolExecutor, *call: object) -> object:
+        if notes.exists():
+            raise KeyboardInterrupt
+        future = submit(pool, *call)  # type: ignore[arg-type]
+        assert wait_until(lambda: notes.exists() and notes.read_text().endswith("\n"))
+        return future
+
+    monkeypatch.setattr(ThreadPoolExecutor, "submit", interrupted)
+    sources = [tmp_path / "a.c", tmp_path / "b.c"]
+    with pytest.raises(KeyboardInterrupt):
+        compile_objects(Toolchain((str(slow),), "slow"), sources, [], tmp_path)
+    assert not any(alive(int(word)) for word in notes.read_text().split())
