@@ -4,10 +4,9 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from frot.compiler.driver import build
-    from frot.compiler.product.dae import Dae, make_dae
-    from frot.compiler.product.printing import print_stage
-    from frot.compiler.product.report import Report, make_report
+    from frot.compiler.driver import build, make_dae, make_report, print_stage
+    from frot.compiler.product.dae import Dae
+    from frot.compiler.product.report import Report
     from frot.compiler.toolchain.cache import find_program, program_key
     from frot.compiler.toolchain.compilers import Toolchain, find_toolchain
     from frot.compiler.toolchain.objects import compile_library
@@ -20,9 +19,9 @@ _HOMES = {
     "compile_library": "toolchain.objects",
     "find_program": "toolchain.cache",
     "find_toolchain": "toolchain.compilers",
-    "make_dae": "product.dae",
-    "make_report": "product.report",
-    "print_stage": "product.printing",
+    "make_dae": "driver",
+    "make_report": "driver",
+    "print_stage": "driver",
     "program_key": "toolchain.cache",
 }
 __all__ = [

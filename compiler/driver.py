@@ -1,37 +1,139 @@
-"""Checked model to compiled program: the one place that knows the order of the passes."""
+"""The passes and their order, from checked model to compiled program: nothing else calls one.
+
+    Model -- mechanize --> Mechanism -- reduce --> Reduced -- assemble --> Assembled
+          -- group --> Grouping -- lower --> Lowered -- generate --> C -- compile --> Program
+
+Every product is made from one of these stages: what `frot check` prints from the first, the DAE and
+the program from the last. A pass gives None for what the text is to blame for, told in the log.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from pathlib import Path
 
-from frot.compiler.lowering.walk import as_number
+from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.mechanize import mechanize
-from frot.compiler.product.units import unit_of
-from frot.compiler.toolchain.cache import store, write_manifest
-from frot.compiler.toolchain.compilers import FLAGS, Toolchain, compile_objects, link_library
-from frot.compiler.toolchain.objects import kept_objects
-from frot.dsl import Log, default_values, evaluate
-from frot.dsl.checked import Expression, Input, Model, Parameter
-from frot.dsl.quantities.dimensions import dimension
-from frot.runtime.program import (
-    LIBRARY,
-    MODEL_SOURCE,
-    ExperimentInfo,
-    ParameterInfo,
-    Program,
-    Unit,
-    VariableInfo,
-    read_program,
-)
+from frot.dsl import Log, dump
+from frot.dsl.checked import Model
+from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, read_program
 
-# An older installation has no metadata while it is being built.
-try:
-    VERSION = version("frot")
-except PackageNotFoundError:
-    VERSION = "0"
+# What reads a report must not wait for CasADi: it is loaded where equations are formed.
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from frot.compiler.lowering.assembled import Assembled
+    from frot.compiler.lowering.lower import Lowered
+    from frot.compiler.mechanics.reduce import Reduced
+    from frot.compiler.product.dae import Dae
+    from frot.compiler.product.report import Report
+    from frot.compiler.toolchain.compilers import Toolchain
+
+
+def reduced_of(model: Model, log: Log) -> Reduced | None:
+    """Mechanics and residuals of the text, in CasADi expressions."""
+    from frot.compiler.mechanics.reduce import reduce
+
+    mechanism = mechanize(model, log)
+    return None if mechanism is None else reduce(mechanism, log)
+
+
+def assembled_of(model: Model, log: Log) -> Assembled | None:
+    """The one system that the kernel solves."""
+    from frot.compiler.lowering.assemble import assemble
+
+    reduced = reduced_of(model, log)
+    return None if reduced is None else assemble(reduced, log)
+
+
+def lowered_of(model: Model, log: Log) -> Lowered | None:
+    """The functions of the kernel's contract and their tables."""
+    from frot.compiler.lowering.groups import make_groups
+    from frot.compiler.lowering.lower import lower
+
+    system = assembled_of(model, log)
+    return None if system is None else lower(system, make_groups(system), log)
+
+
+def text_of(lowered: Lowered, key: str) -> str:
+    """The C text of a model; `key` identifies it to the kernel."""
+    from frot.compiler.product.describe import inputs_of, parameters_of
+    from frot.compiler.product.generate import generate
+
+    defaults = ([one.default for one in of(lowered)] for of in (parameters_of, inputs_of))
+    return generate(lowered, key, *defaults)
+
+
+def build(model: Model, file: str, key: str, toolchain: Toolchain, log: Log) -> Program | None:
+    """The compiled program, kept in the cache.
+
+    `file` is the name of the text in the places of its equations.
+    """
+    from frot.compiler.product.describe import describe
+    from frot.compiler.toolchain.cache import store, write_manifest
+    from frot.compiler.toolchain.compilers import FLAGS, compile_objects, link_library
+    from frot.compiler.toolchain.objects import kept_objects
+
+    lowered = lowered_of(model, log)
+    if lowered is None:
+        return None
+    text = text_of(lowered, key)
+    kernel = kept_objects(toolchain, kernel_sources(), [kernel_folder()], FLAGS)
+
+    def fill(folder: Path) -> None:
+        source = folder / MODEL_SOURCE
+        source.write_text(text, encoding="utf-8")
+        made = compile_objects(toolchain, [source], [kernel_folder()], folder)
+        link_library(toolchain, [*made, *sorted(kernel.folder.glob("*.o"))], folder / LIBRARY)
+        made[0].unlink()
+        write_manifest(describe(lowered, file, key, toolchain, folder), folder)
+
+    kept = store("programs", key, fill)
+    return replace(read_program(kept.folder), hold=kept.hold)
+
+
+def make_dae(model: Model, log: Log) -> Dae | None:
+    """The DAE with its switching, from the same functions as the program."""
+    from frot.compiler.product.dae import dae_of
+
+    lowered = lowered_of(model, log)
+    return None if lowered is None else dae_of(lowered)
+
+
+def make_report(model: Model, log: Log) -> Report | None:
+    """What `frot check` says; needs no CasADi."""
+    from frot.compiler.product.report import report_of
+
+    mechanism = _balanced(model, log)
+    return None if mechanism is None else report_of(mechanism)
+
+
+def _balanced(model: Model, log: Log) -> Mechanism | None:
+    """The mechanism, if the text has as many equations as unknowns."""
+    mechanism = mechanize(model, log)
+    if mechanism is None or not (model.variables or model.equations):
+        return mechanism
+    from frot.compiler.equations.check_balance import check_balance
+
+    return mechanism if check_balance(model, mechanism, log) else None
+
+
+def print_stage(model: Model, stage: str, log: Log) -> str | None:
+    """The text of `mechanism`, `reduced`, `equations`, `cost` or `c`."""
+    if stage == "mechanism":
+        mechanism = mechanize(model, log)
+        return None if mechanism is None else dump(mechanism)
+    from frot.compiler.product.printing import print_cost, print_equations, print_reduced
+
+    if stage == "reduced":
+        reduced = reduced_of(model, log)
+        return None if reduced is None else print_reduced(reduced)
+    lowered = lowered_of(model, log)
+    if lowered is None:
+        return None
+    if stage == "c":
+        return text_of(lowered, "")
+    return print_cost(lowered) if stage == "cost" else print_equations(lowered)
 
 
 def kernel_folder() -> Path:
@@ -42,100 +144,3 @@ def kernel_folder() -> Path:
 def kernel_sources() -> list[Path]:
     """The kernel's C files."""
     return sorted(kernel_folder().glob("*.c"))
-
-
-def build(model: Model, file: str, key: str, toolchain: Toolchain, log: Log) -> Program | None:
-    """Run every pass and the C compiler; what the text is to blame for goes to the log.
-
-    `file` is the name of the text in the places of its equations.
-    """
-    from frot.compiler.lowering.lower import lower
-    from frot.compiler.mechanics.reduce import reduce
-    from frot.compiler.product.generate import generate
-
-    mechanism = mechanize(model, log)
-    if mechanism is None:
-        return None
-    reduced = reduce(mechanism, log)
-    lowered = lower(reduced, log) if reduced is not None else None
-    if reduced is None or lowered is None:
-        return None
-    values = default_values(model, {})
-    parameters = tuple(
-        ParameterInfo(
-            p.name, p.type.base, _unit(p), as_number(evaluate(p.value, values)), p.doc, dependent
-        )
-        for p, dependent in zip(reduced.symbols.parameters, lowered.dependent, strict=True)
-    )
-    inputs = tuple(
-        ParameterInfo(i.name, i.type.base, _unit(i), as_number(evaluate(i.start, values)), i.doc)
-        for i in reduced.symbols.inputs
-    )
-    text = generate(lowered, key, [p.default for p in parameters], [i.default for i in inputs])
-    kernel = kept_objects(toolchain, kernel_sources(), [kernel_folder()], FLAGS)
-
-    def fill(folder: Path) -> None:
-        source = folder / MODEL_SOURCE
-        source.write_text(text, encoding="utf-8")
-        made = compile_objects(toolchain, [source], [kernel_folder()], folder)
-        link_library(toolchain, [*made, *sorted(kernel.folder.glob("*.o"))], folder / LIBRARY)
-        made[0].unlink()
-        write_manifest(
-            Program(
-                name=model.name,
-                doc=model.doc,
-                key=key,
-                version=VERSION,
-                planar=model.planar,
-                parameters=parameters,
-                inputs=inputs,
-                variables=tuple(
-                    VariableInfo(
-                        v.name,
-                        "mode" if v.mode else "real",
-                        unit_of(v.dimension, v.quantity, v.unit),
-                        "output" if v.output else "local",
-                        v.doc,
-                    )
-                    for v in lowered.variables
-                ),
-                contacts=(
-                    *(c.liaison.name for c in mechanism.contacts),
-                    *(e.name for e in lowered.system.elements),
-                ),
-                experiment=_experiment(model),
-                compiler=toolchain.command,
-                flags=FLAGS,
-                folder=folder,
-                balanced=bool(model.bodies) and not lowered.system.elements,
-                conditions=tuple(reduced.conditions.texts),
-                fixed=tuple((p.name, p.structural) for p in model.parameters if p.structural),
-                file=file,
-            ),
-            folder,
-        )
-
-    kept = store("programs", key, fill)
-    return replace(read_program(kept.folder), hold=kept.hold)
-
-
-def _unit(declared: Parameter | Input) -> Unit:
-    if declared.type.base != "real":
-        return unit_of(dimension())
-    return unit_of(declared.type.dimension, declared.quantity, declared.unit)
-
-
-def _experiment(model: Model) -> ExperimentInfo:
-    values = default_values(model, {})
-
-    def number(expression: Expression | None) -> float | None:
-        return None if expression is None else as_number(evaluate(expression, values))
-
-    experiment = model.experiment
-    return ExperimentInfo(
-        number(experiment.start),
-        number(experiment.stop),
-        number(experiment.tolerance),
-        number(experiment.interval),
-        experiment.on_indeterminate,
-    )

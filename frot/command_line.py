@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from frot.runtime.result import Result
 
 EXIT_ERROR, EXIT_INTERRUPTED = 1, 130
-STAGES = ("tree", "instance", "mechanism", "equations", "cost")
+STAGES = ("tree", "instance", "mechanism", "reduced", "equations", "cost", "c")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -58,7 +58,7 @@ def _report_data(report: Report) -> dict[str, object]:
 
 
 def emit_stage(path: str, name: str | None, stage: str) -> str:
-    """The text of one stage: `tree instance mechanism equations cost`."""
+    """The text of one stage: `tree instance mechanism reduced equations cost c`."""
     log = Log()
     text = read_text(path, log)
     printed: str | None = None

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.origins import Origin
-from frot.compiler.lowering.assemble import assemble
 from frot.compiler.lowering.assembled import Assembled, Block
 from frot.compiler.lowering.checks import Check, parameter_checks
 from frot.compiler.lowering.explicit import make_explicit
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.finite import watch_numbers
-from frot.compiler.lowering.groups import Grouping, make_groups
+from frot.compiler.lowering.groups import Grouping
 from frot.compiler.lowering.initial_values import Statement, lower_initial
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, why_explicit
 from frot.compiler.lowering.listing import Listed, list_variables
@@ -52,11 +51,9 @@ class Lowered:
     watched: tuple[Origin, ...]
 
 
-def lower(reduced: Reduced, log: Log) -> Lowered | None:
+def lower(system: Assembled, grouping: Grouping, log: Log) -> Lowered | None:
     """Build every function; what cannot be built is reported."""
-    system = assemble(reduced, log)
-    if system is None:
-        return None
+    reduced = system.reduced
     s, resolve = reduced.symbols, system.resolve
     explicit, chains = make_explicit(system), reduced.text.chains
     settled = reduced.variables.settled
@@ -84,7 +81,6 @@ def lower(reduced: Reduced, log: Log) -> Lowered | None:
     given, is_set = ca.SX.sym("given", s.p.numel()), ca.SX.sym("set", s.p.numel())
     state = state_arguments(system)
     solution = [*state, system.z, system.lam]
-    grouping = make_groups(system)
     no_rates = ca.SX.zeros(system.rates.shape)
     outputs: dict[str, tuple[list[ca.SX], list[ca.SX]]] = {
         "parameters": (

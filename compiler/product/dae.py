@@ -8,15 +8,12 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.lower import Lowered, lower
+from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.symbols import Rows, column, scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.locks import Way
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Relation
-from frot.compiler.mechanics.mechanize import mechanize
-from frot.compiler.mechanics.reduce import reduce
-from frot.dsl import Log, default_values, evaluate
-from frot.dsl.checked import Model
+from frot.dsl import default_values, evaluate
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)
 STICK, FORWARD, BACKWARD = range(1, 4)
@@ -102,14 +99,6 @@ class Dae:
         }
 
 
-def make_dae(model: Model, log: Log) -> Dae | None:
-    """The DAE of a model; None where it is refused (reported to `log`)."""
-    mechanism = mechanize(model, log)
-    reduced = reduce(mechanism, log) if mechanism is not None else None
-    lowered = lower(reduced, log) if reduced is not None else None
-    return None if lowered is None else _assemble(lowered)
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class _Switch:
     """What four numbers of the mode rule: a contact, a pin, a relation, a `friction` of the text.
@@ -135,7 +124,8 @@ class _Switch:
                 yield row, self.mode[kind]
 
 
-def _assemble(lowered: Lowered) -> Dae:
+def dae_of(lowered: Lowered) -> Dae:
+    """The DAE of a model's functions."""
     system = lowered.system
     reduced, s = system.reduced, system.reduced.symbols
     switches = _switches(system)

@@ -2,35 +2,42 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from frot.compiler.mechanics.mechanize import mechanize
-from frot.dsl import Log, dump
-from frot.dsl.checked import Model
-
-if TYPE_CHECKING:
-    import casadi as ca
-    from frot.compiler.lowering.lower import Lowered
+from frot.compiler.lowering.lower import Lowered
+from frot.compiler.lowering.symbols import scalars_of
+from frot.compiler.mechanics.reduce import Reduced
 
 
-def print_stage(model: Model, stage: str, log: Log) -> str | None:
-    """The text of `mechanism`, `equations` or `cost`; None where the model is refused."""
-    mechanism = mechanize(model, log)
-    if mechanism is None:
-        return None
-    if stage == "mechanism":
-        return dump(mechanism)
-    from frot.compiler.lowering.lower import lower
-    from frot.compiler.mechanics.reduce import reduce
+def print_reduced(reduced: Reduced) -> str:
+    """The mechanism's own equations, and the residuals of the text."""
+    s = reduced.symbols
+    lines = [f"{reduced.mechanism.model.name}: M a = h + J' lam, rows accelerate by J a + c"]
+    parts = {
+        "q": s.q,
+        "v": s.v,
+        "der(q)": s.rates,
+        "M": reduced.mass,
+        "h": reduced.force,
+        "J": reduced.rows,
+        "c": reduced.bias,
+        "rate": reduced.rate,
+        "gap": reduced.gap,
+        "coefficients": reduced.coefficients,
+        "kinetic": reduced.kinetic,
+        "potential": reduced.potential,
+    }
+    lines += [f"  {name} = {value}" for name, value in parts.items()]
+    for value, origin in zip(reduced.equations.values, reduced.equations.origins, strict=True):
+        lines.append(f"  0 = {value}  from `{origin.text}`")
+    conditions = reduced.conditions
+    for flag, value, text in zip(
+        conditions.flags, conditions.values, conditions.texts, strict=True
+    ):
+        lines.append(f"  {flag} while {value} > 0  from `{text}`")
+    return "\n".join(lines)
 
-    reduced = reduce(mechanism, log)
-    lowered = lower(reduced, log) if reduced is not None else None
-    if reduced is None or lowered is None:
-        return None
-    return _cost(lowered) if stage == "cost" else _equations(lowered)
 
-
-def _cost(lowered: Lowered) -> str:
+def print_cost(lowered: Lowered) -> str:
+    """The operations of each generated function, and the sizes of the system."""
     system = lowered.system
     lines = [f"{lowered.reduced.mechanism.model.name}: operations of the generated functions"]
     counted = [*lowered.functions.items(), *((f.name(), f) for f in lowered.blocks)]
@@ -48,20 +55,18 @@ def _cost(lowered: Lowered) -> str:
     return "\n".join(lines)
 
 
-def _equations(lowered: Lowered) -> str:
+def print_equations(lowered: Lowered) -> str:
     """Rates of the states, blocks, invariants, and the core system with its rows."""
-    from frot.compiler.lowering.groups import make_groups
-
     reduced, system = lowered.reduced, lowered.system
     lines = [f"{reduced.mechanism.model.name}: states {', '.join(system.names) or 'none'}"]
-    for symbol, rate in zip(_items(system.q), _items(system.rates), strict=True):
+    for symbol, rate in zip(scalars_of(system.q), scalars_of(system.rates), strict=True):
         lines.append(f"  der({symbol.name()}) = {rate}")
     for block in system.blocks:
         kind = "linear" if block.linear else "iterated"
         lines.append(f"  block of {block.name} ({kind}{', late' if block.late else ''}):")
-        lines += [f"    0 = {value}" for value in _items(block.residual)]
+        lines += [f"    0 = {value}" for value in scalars_of(block.residual)]
     for value, origin in zip(
-        _items(system.invariants.values), system.invariants.origins, strict=True
+        scalars_of(system.invariants.values), system.invariants.origins, strict=True
     ):
         lines.append(f"  kept: 0 = {value}  from `{origin.text}`")
     if system.z.numel() or system.lam.numel():
@@ -76,7 +81,7 @@ def _equations(lowered: Lowered) -> str:
             "gap": system.gap,
             "coefficients": system.coefficients,
         }
-        if not make_groups(system).is_mass_matrix:
+        if not lowered.grouping.is_mass_matrix:
             parts["in place of J'"] = system.spread
         lines += [f"    {name} = {value}" for name, value in parts.items()]
     for variable in reduced.mechanism.model.variables:
@@ -84,9 +89,3 @@ def _equations(lowered: Lowered) -> str:
             value = system.resolve(reduced.text.values[variable])
             lines.append(f"  {variable.name} = {value}")
     return "\n".join(lines)
-
-
-def _items(values: ca.SX) -> list[ca.SX]:
-    import casadi as ca
-
-    return list(ca.vertsplit(values)) if values.numel() else []

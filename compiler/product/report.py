@@ -13,8 +13,6 @@ from frot.compiler.mechanics.mechanism import (
     mobility,
     relations_of,
 )
-from frot.compiler.mechanics.mechanize import mechanize
-from frot.dsl import Log
 from frot.dsl.checked import (
     BodyGeometry,
     BodyPoint,
@@ -97,28 +95,21 @@ class Report:
         return lines
 
 
-def make_report(model: Model, log: Log) -> Report | None:
-    """The report of a model; None where its mechanics is refused."""
+def report_of(mechanism: Mechanism) -> Report:
+    """The report of a mechanism and the equations of its text."""
+    model = mechanism.model
     unknowns = sum(v.type.count for v in model.variables if not v.discrete)
     counts = unknowns, sum(count(e) for e in model.equations), len(model.whens)
-    mechanism = mechanize(model, log)
-    if mechanism is None:
-        return None
-    if model.variables or model.equations:
-        from frot.compiler.equations.check_balance import check_balance
-
-        if not check_balance(model, mechanism, log):
-            return None
     return Report(
-        mechanism.model.name,
+        model.name,
         "planar" if model.planar else "space",
         *counts,
         tuple(
             (b.name, b.shape.name, freedoms_of(b, model.planar))
-            for b in mechanism.model.bodies
+            for b in model.bodies
             if b.shape is not None
         ),
-        tuple(_line(liaison, mechanism) for liaison in mechanism.model.liaisons),
+        tuple(_line(liaison, mechanism) for liaison in model.liaisons),
         mobility(mechanism),
         tuple(dict.fromkeys(_unconnected(model))),
     )

@@ -9,9 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from frot.compiler.lowering.lower import Lowered, lower
-from frot.compiler.mechanics.mechanize import mechanize
-from frot.compiler.mechanics.reduce import reduce
+from frot.compiler.driver import lowered_of
+from frot.compiler.lowering.lower import Lowered
 from frot.compiler.product import split
 from frot.compiler.product.generate import generate
 from frot.compiler.product.split import LONGEST
@@ -78,11 +77,7 @@ def lowered(text: str) -> Lowered:
     log = Log()
     model = compile_text(text, log)
     assert model is not None
-    mechanism = mechanize(model, log)
-    assert mechanism is not None
-    reduced = reduce(mechanism, log)
-    assert reduced is not None
-    found = lower(reduced, log)
+    found = lowered_of(model, log)
     assert found is not None
     return found
 

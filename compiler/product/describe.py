@@ -1,0 +1,100 @@
+"""What a compiled program says of itself: parameters, inputs, variables, experiment."""
+
+from __future__ import annotations
+
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from frot.compiler.lowering.lower import Lowered
+from frot.compiler.lowering.walk import as_number
+from frot.compiler.product.units import unit_of
+from frot.compiler.toolchain.compilers import FLAGS, Toolchain
+from frot.dsl import default_values, evaluate
+from frot.dsl.checked import Expression, Input, Model, Parameter
+from frot.dsl.quantities.dimensions import dimension
+from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo
+
+# An older installation has no metadata while it is being built.
+try:
+    VERSION = version("frot")
+except PackageNotFoundError:
+    VERSION = "0"
+
+
+def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder: Path) -> Program:
+    """The program of these functions, compiled in `folder` from the text `file`."""
+    reduced = lowered.reduced
+    mechanism, model = reduced.mechanism, reduced.mechanism.model
+    return Program(
+        name=model.name,
+        doc=model.doc,
+        key=key,
+        version=VERSION,
+        planar=model.planar,
+        parameters=parameters_of(lowered),
+        inputs=inputs_of(lowered),
+        variables=tuple(
+            VariableInfo(
+                v.name,
+                "mode" if v.mode else "real",
+                unit_of(v.dimension, v.quantity, v.unit),
+                "output" if v.output else "local",
+                v.doc,
+            )
+            for v in lowered.variables
+        ),
+        contacts=(
+            *(c.liaison.name for c in mechanism.contacts),
+            *(e.name for e in lowered.system.elements),
+        ),
+        experiment=_experiment(model),
+        compiler=toolchain.command,
+        flags=FLAGS,
+        folder=folder,
+        balanced=bool(model.bodies) and not lowered.system.elements,
+        conditions=tuple(reduced.conditions.texts),
+        fixed=tuple((p.name, p.structural) for p in model.parameters if p.structural),
+        file=file,
+    )
+
+
+def parameters_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
+    """The parameters with their defaults in SI, in the order of p."""
+    values = default_values(lowered.reduced.mechanism.model, {})
+    return tuple(
+        ParameterInfo(
+            p.name, p.type.base, _unit(p), as_number(evaluate(p.value, values)), p.doc, dependent
+        )
+        for p, dependent in zip(lowered.reduced.symbols.parameters, lowered.dependent, strict=True)
+    )
+
+
+def inputs_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
+    """The inputs with their start values in SI, in the order of u."""
+    values = default_values(lowered.reduced.mechanism.model, {})
+    return tuple(
+        ParameterInfo(i.name, i.type.base, _unit(i), as_number(evaluate(i.start, values)), i.doc)
+        for i in lowered.reduced.symbols.inputs
+    )
+
+
+def _unit(declared: Parameter | Input) -> Unit:
+    if declared.type.base != "real":
+        return unit_of(dimension())
+    return unit_of(declared.type.dimension, declared.quantity, declared.unit)
+
+
+def _experiment(model: Model) -> ExperimentInfo:
+    values = default_values(model, {})
+
+    def number(expression: Expression | None) -> float | None:
+        return None if expression is None else as_number(evaluate(expression, values))
+
+    experiment = model.experiment
+    return ExperimentInfo(
+        number(experiment.start),
+        number(experiment.stop),
+        number(experiment.tolerance),
+        number(experiment.interval),
+        experiment.on_indeterminate,
+    )
