@@ -218,7 +218,7 @@ def _fault(engine: Engine, result: Result | None) -> SimulationError:
 
 _HELP = {
     10: "give the parameter it comes from another value",
-    11: "leave one of the statements out, or make them agree",
+    11: "make statements, lengths and places agree, or leave a statement out",
     13: "stop before that time, or write `unilateral = false` if the liaison cannot part",
     14: "a smaller coefficient of friction avoids it; the result holds the motion up to there",
     15: "write `on_indeterminate = rest` or `continue` to go on with one of them",

@@ -65,14 +65,17 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
             owner = f"body '{body.name}'"
             yield from _arguments(owner, body.shape.arguments, body.arguments)
     for curve in model.curves:
-        direction = curve.arguments["direction"]
-        length = Call("norm", (direction,), REAL, direction.span)
-        yield Check(
-            POSITIVE, f"length of the direction of curve '{curve.name}'", length, direction.span
-        )
+        yield _length(f"the direction of curve '{curve.name}'", curve.arguments["direction"])
+    for frame in model.frames:
+        if not isinstance(frame.axis, str) and frame.axis.type.shape:
+            yield _length(f"the axis of frame '{frame.name}'", frame.axis)
     for force in model.forces:
         yield from _arguments(f"force '{force.name}'", force.kind.arguments, force.arguments)
     for liaison in model.liaisons:
+        for argument in liaison.kind.arguments:
+            axis = liaison.options.get(argument.name) if argument.kind == "axis" else None
+            if axis is not None and axis.type.shape:
+                yield _length(f"the {argument.name} of liaison '{liaison.name}'", axis)
         for law in liaison.laws:
             owner = f"liaison '{liaison.name}'"
             yield from _arguments(owner, law.kind.arguments, law.arguments)
@@ -82,6 +85,11 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
                 yield Check(
                     NOT_BELOW_PREVIOUS, f"mu_s of liaison '{liaison.name}'", mu_s, mu_s.span
                 )
+
+
+def _length(subject: str, direction: Expression) -> Check:
+    length = Call("norm", (direction,), REAL, direction.span)
+    return Check(POSITIVE, f"length of {subject}", length, direction.span)
 
 
 def _arguments(

@@ -69,8 +69,11 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
     for turn in turns:
         unit = system.q[turn.coordinate : turn.coordinate + 4]
         found.append(_Residual(ca.sumsqr(unit) - 1, ca.sumsqr(unit) + 1, len(statements)))
-        text = f"{unit[0].name().removesuffix('[1]')} is a unit quaternion"
-        statements.append(Statement(text, model.span, "1"))
+        name = unit[0].name().removesuffix("[1]")
+        bodies = (b.span for b in model.bodies if name == f"{b.name}.orientation")
+        span = next(bodies, None) or model.span
+        text = f"{name} is a unit quaternion (cos(f/2), sin(f/2)*n)"
+        statements.append(Statement(text, span, "1"))
     for value, origin in zip(
         ca.vertsplit(system.invariants.values) if system.invariants.origins else (),
         system.invariants.origins,

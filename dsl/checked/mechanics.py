@@ -97,6 +97,13 @@ class BodyGeometry:
     name: str
     span: Span
 
+    @property
+    def centre(self) -> BodyPoint | None:
+        """The frame of the same name, where there is one: the centre of a face."""
+        shape = self.body.shape
+        named = shape is not None and self.name in shape.frames
+        return BodyPoint(self.body, self.name, self.span) if named else None
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CurvePlace:

@@ -86,6 +86,9 @@ def _place(
         return None
     nature = _nature(found)
     allowed = argument.places
+    if isinstance(found, checked.BodyGeometry) and nature not in allowed and "point" in allowed:
+        found = found.centre or found
+        nature = _nature(found)
     if nature not in allowed and nature.removesuffix("s") not in allowed:
         scope.log.report(
             "E0205",

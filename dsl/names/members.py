@@ -24,6 +24,8 @@ _AXES = "xyz"
 
 def member(owner: Thing, node: tree.Member, scope: Scope, want: str) -> Thing | None:
     """What `owner.name` stands for."""
+    if isinstance(owner, checked.BodyGeometry):
+        owner = owner.centre or owner
     match owner:
         case checked.Body():
             return _of_body(owner, node, scope, want)

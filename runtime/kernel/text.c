@@ -63,22 +63,30 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
 }
 
 static void initial_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
-  const char *one = f->item >= 0 ? m->statements[f->item].text : "the statements";
+  const char *one = f->item >= 0 ? m->statements[f->item].text : "";
   const char *unit = f->item >= 0 ? m->statements[f->item].unit : "in SI";
+  char by[64];
+  snprintf(by, sizeof by, strcmp(unit, "1") == 0 ? "by %.3g" : "by %.3g %s", f->value, unit);
   if (f->value != f->value)
     snprintf(text, size, "the initial statement `%s` gives no finite number", one);
+  else if (f->contact >= 0 && f->item < 0)
+    snprintf(text, size,
+             "no positions were found at which liaison '%s' holds together with the others: in the "
+             "last ones that were tried %.3g %s are left",
+             contact_name(m, f->contact), f->value, unit);
   else if (f->contact >= 0)
     snprintf(text, size,
              "the initial values contradict liaison '%s': `%s` puts the bodies into each other or "
-             "off the liaison (by %.3g %s)",
-             contact_name(m, f->contact), one, f->value, unit);
+             "off the liaison (%s)",
+             contact_name(m, f->contact), one, by);
   else if (f->other >= 0)
-    snprintf(text, size, "the initial values contradict each other: `%s` and `%s` (by %.3g %s)",
-             one, m->statements[f->other].text, f->value, unit);
+    snprintf(text, size, "the initial values contradict each other: `%s` and `%s` (%s)", one,
+             m->statements[f->other].text, by);
   else
     snprintf(text, size,
-             "the initial statement `%s` cannot hold together with the liaisons (by %.3g %s)", one,
-             f->value, unit);
+             "the initial statement `%s` cannot hold together with the liaisons and the other "
+             "statements (%s)",
+             one, by);
 }
 
 /* A block of equations without a solution. */

@@ -228,3 +228,57 @@ def test_options_of_the_run_out_of_range_are_told(
     words: tuple[str, str], cause: str, door: Door
 ) -> None:
     door("simulate", OSCILLATOR, *words, "-o", "out.csv").refuses("E0806", cause)
+
+
+@pytest.mark.parametrize(
+    ("text", "told", "place"),
+    [
+        (
+            "model M\n  body b: rod(mass = 1 kg, length = 1 m);\n"
+            "  liaison pin: rotoide(ground, b.start, axis = (0, 0, 0));\n",
+            ("E0401", "the length of the axis of liaison 'pin' is 0"),
+            "3:48",
+        ),
+        (
+            "model M\n  parameter Real k = 0;\n  body b: rod(mass = 1 kg, length = 1 m);\n"
+            "  frame f on ground at (0, 0, 0) m rotated(axis = (0, k, 0), angle = 1 rad);\n"
+            "  liaison pin: cardan(f, b.start, axis_b = (1, 0, 0));\n",
+            ("E0401", "the length of the axis of frame 'f' is 0"),
+            "4:51",
+        ),
+        (
+            "model M\n  body b: box(mass = 1 kg, size = (1, 2, 3) m);\n"
+            "initial\n  b.orientation = (0, 0, 0, 0);\n",
+            ("E0601", "b.orientation is a unit quaternion (cos(f/2), sin(f/2)*n)"),
+            "2:3",
+        ),
+        (
+            "planar model M\n  body a: rod(mass = 1 kg, length = 1 m);\n"
+            "  body b: rod(mass = 1 kg, length = 1 m);\n  frame far on ground at (0, 5) m;\n"
+            "  liaison A: rotoide(ground, a.start);\n  liaison B: rotoide(a.tip, b.start);\n"
+            "  liaison C: rotoide(b.tip, far);\n",
+            ("E0601", "positions were found at which liaison 'C' holds", "in SI are left"),
+            "7:3",
+        ),
+    ],
+    ids=["axis", "frame", "quaternion", "loop"],
+)
+def test_what_has_no_direction_and_what_cannot_close_is_named(
+    text: str, told: tuple[str, ...], place: str, door: Door
+) -> None:
+    door.write(f"{text}  experiment(stop = 1 s);\nend M;\n", "bad.frot")
+    door("simulate", "bad.frot").refuses(*told, place=f"bad.frot:{place}")
+
+
+def test_the_centre_of_a_face_is_a_frame_where_a_point_is_meant(door: Door) -> None:
+    text = (
+        "model M\n  body b: box(mass = 1 kg, size = (1, 2, 3) m);\n"
+        "  liaison l: rotoide(ground, b.top, axis = y);\n"
+        "  output Length z = b.top.position.z;\n  output Length down = b.position.z;\n"
+        "  experiment(stop = 0.1 s);\nend M;\n"
+    )
+    door.write(text, "face.frot")
+    door("simulate", "face.frot", "-o", "face.csv").succeeds()
+    head, first = (door.folder / "face.csv").read_text(encoding="utf-8").splitlines()[:2]
+    values = dict(zip(head.split(","), first.split(","), strict=True))
+    assert float(values["z"]) == 0.0 and float(values["down"]) == -1.5
