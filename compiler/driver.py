@@ -9,6 +9,7 @@ the program from the last. A pass gives None for what the text is to blame for, 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
@@ -30,29 +31,46 @@ if TYPE_CHECKING:
     from frot.compiler.toolchain.compilers import Toolchain
 
 
-def reduced_of(model: Model, log: Log) -> Reduced | None:
-    """Mechanics and residuals of the text, in CasADi expressions."""
+def _silent(_: str) -> None:
+    """Nobody waits to be told what is being done."""
+
+
+def reduced_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) -> Reduced | None:
+    """Mechanics and residuals of the text, in CasADi expressions.
+
+    `tell` takes what is being done, in words, here and below.
+    """
+    tell("the mechanism")
+    mechanism = mechanize(model, log)
+    if mechanism is None:
+        return None
     from frot.compiler.mechanics.reduce import reduce
 
-    mechanism = mechanize(model, log)
-    return None if mechanism is None else reduce(mechanism, log)
+    tell("the equations of motion")
+    return reduce(mechanism, log)
 
 
-def assembled_of(model: Model, log: Log) -> Assembled | None:
+def assembled_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) -> Assembled | None:
     """The one system that the kernel solves."""
+    reduced = reduced_of(model, log, tell)
+    if reduced is None:
+        return None
     from frot.compiler.lowering.assemble import assemble
 
-    reduced = reduced_of(model, log)
-    return None if reduced is None else assemble(reduced, log)
+    tell("the order of the equations")
+    return assemble(reduced, log)
 
 
-def lowered_of(model: Model, log: Log) -> Lowered | None:
+def lowered_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) -> Lowered | None:
     """The functions of the kernel's contract and their tables."""
+    system = assembled_of(model, log, tell)
+    if system is None:
+        return None
     from frot.compiler.lowering.groups import make_groups
     from frot.compiler.lowering.lower import lower
 
-    system = assembled_of(model, log)
-    return None if system is None else lower(system, make_groups(system), log)
+    tell("the functions")
+    return lower(system, make_groups(system), log)
 
 
 def text_of(lowered: Lowered, key: str) -> str:
@@ -64,7 +82,14 @@ def text_of(lowered: Lowered, key: str) -> str:
     return generate(lowered, key, *defaults)
 
 
-def build(model: Model, file: str, key: str, toolchain: Toolchain, log: Log) -> Program | None:
+def build(
+    model: Model,
+    file: str,
+    key: str,
+    toolchain: Toolchain,
+    log: Log,
+    tell: Callable[[str], None] = _silent,
+) -> Program | None:
     """The compiled program, kept in the cache.
 
     `file` is the name of the text in the places of its equations.
@@ -74,10 +99,12 @@ def build(model: Model, file: str, key: str, toolchain: Toolchain, log: Log) -> 
     from frot.compiler.toolchain.compilers import FLAGS, compile_objects, link_library
     from frot.compiler.toolchain.objects import kept_objects
 
-    lowered = lowered_of(model, log)
+    lowered = lowered_of(model, log, tell)
     if lowered is None:
         return None
+    tell("its C text")
     text = text_of(lowered, key)
+    tell(f"the C compiler, {len(text) // 1000} kB")
     kernel = kept_objects(toolchain, kernel_sources(), [kernel_folder()], FLAGS)
 
     def fill(folder: Path) -> None:

@@ -212,9 +212,9 @@ def _compiled(options: argparse.Namespace) -> Model:
     from frot.progress import Busy
 
     model = load(options.file, options.model)
-    with Busy(f"compiling {model.name}"):
+    with Busy(f"compiling {model.name}") as busy:
         try:
-            model.program()
+            model.program(busy.tell)
         except KeyboardInterrupt:
             words = f"interrupted while compiling '{model.name}'; nothing half made is left"
             raise KeyboardInterrupt(words) from None

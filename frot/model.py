@@ -56,13 +56,17 @@ class Model:
             self.warnings = tuple(log)
         return self._checked
 
-    def program(self) -> Program:
-        """The compiled program, from the cache if it is there."""
+    def program(self, tell: Callable[[str], None] | None = None) -> Program:
+        """The compiled program, from the cache if it is there.
+
+        `tell` is called with what is being done, in words.
+        """
         if self._program is None:
             from frot.compiler import build
 
             log = Log()
-            built = build(self.checked(), self._file, self._key, self._toolchain, log)
+            told = () if tell is None else (tell,)
+            built = build(self.checked(), self._file, self._key, self._toolchain, log, *told)
             self._program = self._named(built)
             if self._program is None:
                 raise FrotError(log)

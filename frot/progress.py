@@ -61,8 +61,9 @@ class Busy:
 
     def __init__(self, title: str) -> None:
         """`title` says what is done."""
-        self._title = title
+        self._title = self._words = title
         self._shown: Any = None
+        self._task: Any = None
         self._over = False
         self._lock = threading.Lock()
         self._timer = threading.Timer(PATIENCE, self._show)
@@ -85,6 +86,13 @@ class Busy:
             if self._shown is not None:
                 self._shown.stop()
 
+    def tell(self, part: str) -> None:
+        """Say what part of it is being done."""
+        with self._lock:
+            self._words = f"{self._title}: {part}"
+            if self._shown is not None:
+                self._shown.update(self._task, description=self._words)
+
     def _show(self) -> None:
         from rich.console import Console
         from rich.progress import Progress as Bar
@@ -92,8 +100,8 @@ class Busy:
 
         columns = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
         shown = Bar(*columns, console=Console(stderr=True), transient=True)
-        shown.add_task(self._title)
         with self._lock:
+            self._task = shown.add_task(self._words)
             if not self._over:
                 self._shown = shown
                 shown.start()

@@ -18,9 +18,15 @@ MODE_COLOURS = {"open": "#e8eef4", "stick": "#3a5a78", "slip": "#e9b44c"}
 MOST_CURVES = 7
 MOST_PANELS = 6
 FINE = 2000
+# More events than this are not marked: their lines would hide the curves.
+MOST_MARKS = 60
+# A curve that varies by less than this part of its size is drawn as the constant it is.
+LEVEL = 1e-5
 PANELS = (
-    ("position", (".position.x", ".position.y", ".angle", ".u")),
-    ("velocity", (".velocity.x", ".velocity.y", ".angular_velocity", ".slip")),
+    ("position", (".position.x", ".position.y", ".position.z", ".u", ".displacement")),
+    ("angle", (".angle",)),
+    ("velocity", (".velocity.x", ".velocity.y", ".velocity.z", ".slip")),
+    ("angular velocity", (".angular_velocity", *(f".angular_velocity.{k}" for k in "xyz"))),
     ("reaction", (".normal_force", ".tangential_force")),
 )
 
@@ -64,7 +70,7 @@ def draw(result: Result) -> Any:
         for colour, name in zip(COLOURS, names[:MOST_CURVES], strict=False):
             unit = "" if units[name] == "1" else f" ({units[name]})"
             axis.plot(times, values[name], color=colour, lw=1.4, label=f"{name}{unit}")
-        for event in events:
+        for event in events if len(events) <= MOST_MARKS else ():
             axis.axvline(event, color="#999999", lw=0.6, ls=":")
         hidden = len(names) - MOST_CURVES
         axis.set_ylabel(title if hidden <= 0 else f"{title} ({hidden} not shown)", fontsize=9)
@@ -73,11 +79,22 @@ def draw(result: Result) -> Any:
         axis.tick_params(labelsize=8)
         axis.grid(color="#eeeeee", lw=0.6)
         axis.margins(x=0)
+        _level(axis, [values[name] for name in names[:MOST_CURVES]])
     if modes:
         _draw_modes(axes[-1], result, modes, times)
     axes[-1].set_xlabel("time (s)", fontsize=9)
     axes[-1].set_xlim(first, last)
     return figure
+
+
+def _level(axis: Any, curves: list[Floats]) -> None:
+    """See that rounding and errors within the tolerance are not drawn as a motion."""
+    finite = [curve[np.isfinite(curve)] for curve in curves]
+    low = min((float(c.min()) for c in finite if c.size), default=0.0)
+    high = max((float(c.max()) for c in finite if c.size), default=0.0)
+    size = max(abs(low), abs(high))
+    if size > 0 and high - low < LEVEL * size:
+        axis.set_ylim((low + high) / 2 - 0.05 * size, (low + high) / 2 + 0.05 * size)
 
 
 def _curves(result: Result, values: Any, suffixes: tuple[str, ...]) -> list[str]:

@@ -191,3 +191,19 @@ def test_energy_is_an_alarm_only_where_something_moves(
     ).simulate()
     result.balance = Balance(residual, 2 * residual, residual, 0.0, 0.0)
     assert ("do not trust" in result.summary()) == told
+
+
+def test_what_is_constant_but_for_rounding_is_drawn_level() -> None:
+    from frot.runtime.plotting import draw
+
+    text = (
+        "model M\n  body b: sphere(mass = 1 kg, radius = 1 m);\n  output Length far = "
+        "norm(b.position);\n  liaison pin: rotoide(ground, b, axis = (1, 2, 2));\n"
+        "  frame f on b at (3, 1, 2) m;\n  output Length arm = norm(f.position);\n"
+        "initial\n  pin.speed = 3 rad/s;\n  experiment(stop = 2 s);\nend M;\n"
+    )
+    result = frot.compile(text).simulate()
+    panel = draw(result).axes[0]
+    low, high = panel.get_ylim()
+    assert high - low > 0.3
+    assert panel.get_ylabel() == "output"

@@ -40,5 +40,5 @@ def told(compiler: Path, cache: Path, on_terminal: bool) -> str:
 def test_a_long_compilation_is_shown_on_a_terminal_only(on_terminal: bool, tmp_path: Path) -> None:
     compiler = script(tmp_path / "slow-cc", "sleep 2; exit 1")
     text = told(compiler, tmp_path / "cache", on_terminal)
-    assert ("compiling BackspinHoop" in text) is on_terminal
+    assert ("compiling BackspinHoop: the C compiler" in text) is on_terminal
     assert "E0802" in text
