@@ -78,7 +78,8 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
     yield from _rates(system)
     for body in mechanism.model.bodies:
         yield from _of_body(reduced, body)
-    for liaison in dict.fromkeys(x.liaison for x in (*mechanism.contacts, *mechanism.ideal)):
+    known = dict.fromkeys(x.liaison for x in (*mechanism.contacts, *mechanism.ideal))
+    for liaison in (x for x in known if x in mechanism.model.liaisons):
         yield from _of_liaison(reduced, liaison)
     if not mechanism.model.bodies:
         return

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from frot.compiler.mechanics.locks import Lock
@@ -132,7 +133,8 @@ class Mechanism:
 
     `coordinates` has one entry a body, each after the bodies it hangs on. `contacts` are the
     liaisons whose reactions are computed, because a law or an expression reads them or because they
-    close a loop, these relation by relation; `ideal` are those kept by coordinates alone.
+    close a loop, these relation by relation; `ideal` are those kept by coordinates alone. `halves`
+    are the bodies added to the model's, each with the one it is a part of (halves.py).
     """
 
     model: Model
@@ -140,6 +142,7 @@ class Mechanism:
     contacts: tuple[Link, ...]
     ideal: tuple[Contact | Joint, ...]
     forces: tuple[Force, ...]
+    halves: Mapping[Body, Body]
 
 
 @dataclass(frozen=True, slots=True)

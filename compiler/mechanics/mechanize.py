@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
+from frot.compiler.mechanics.halves import halve
 from frot.compiler.mechanics.joints import JOINTS
 from frot.compiler.mechanics.mechanism import (
     Contact,
@@ -52,11 +53,12 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     refuse_surface(model, links, log)
     if log.failed:
         return None
-    tree = span(model, links)
+    halved = halve(model, links)
+    tree = span(replace(model, bodies=(*model.bodies, *halved.halves)), halved.links)
     read = _read_liaisons(model)
     chosen: list[Link] = []
     ideal: list[Contact | Joint] = []
-    for link in links:
+    for link in halved.links:
         link = replace(link, reduced=link.liaison in tree.kept)
         silent = link.mu is None and link.delta is None and link.liaison not in read
         if link.reduced and silent:
@@ -64,18 +66,18 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
         elif isinstance(link, Contact) or link.reduced:
             chosen.append(link)
         else:
-            chosen += _relations(link, log)
+            chosen += _relations(link, link.liaison in model.liaisons, log)
     if log.failed:
         return None
     kept = {x.liaison: x for x in (*chosen, *ideal) if not isinstance(x, Relation)}
     coordinates = tuple(
         h if h.link is None else replace(h, link=kept[h.link.liaison]) for h in tree.coordinates
     )
-    return Mechanism(model, coordinates, tuple(chosen), tuple(ideal), model.forces)
+    return Mechanism(model, coordinates, tuple(chosen), tuple(ideal), model.forces, halved.halves)
 
 
-def _relations(joint: Joint, log: Log) -> list[Relation]:
-    """A joint that closes a loop, relation by relation."""
+def _relations(joint: Joint, told: bool, log: Log) -> list[Relation]:
+    """A joint that closes a loop, relation by relation; `told` if the text has it."""
     if joint.mu is not None:
         refuse(
             log,
@@ -83,7 +85,7 @@ def _relations(joint: Joint, log: Log) -> list[Relation]:
             joint.liaison.span,
             "all liaisons of a loop cannot have friction: leave it out of one of them",
         )
-    return [Relation(joint, lock, k == 0) for k, lock in enumerate(joint.locks)]
+    return [Relation(joint, lock, told and k == 0) for k, lock in enumerate(joint.locks)]
 
 
 def _law(liaison: Liaison, kind: str) -> Law | None:

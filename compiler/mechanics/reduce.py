@@ -7,6 +7,7 @@ zero, and so are their accelerations, in every motion.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -282,12 +283,16 @@ def _variables(
 
 def _masses(mechanism: Mechanism, variables: Variables) -> tuple[Masses, ca.SX]:
     """The tree's masses, and the potential energy of the weights."""
-    kinematics, bodies = variables.kinematics, mechanism.model.bodies
+    kinematics, own = variables.kinematics, mechanism.model.bodies
     fall = gravity(mechanism.model.world, kinematics)
-    masses = {body: variables.mass(body) for body in bodies}
-    inertias = {body: variables.inertia_in_ground(body) for body in bodies}
+    bodies = (*own, *mechanism.halves)
+    whole = {body: mechanism.halves.get(body, body) for body in bodies}
+    count = Counter(whole.values())
+    share = {body: 1.0 / count[whole[body]] for body in bodies}
+    masses = {body: share[body] * variables.mass(body) for body in bodies}
+    inertias = {body: share[body] * variables.inertia_in_ground(body) for body in bodies}
     potential = -sum(
-        (m * ca.dot(fall, kinematics.position(b)) for b, m in masses.items()), ca.SX(0)
+        (variables.mass(b) * ca.dot(fall, kinematics.position(b)) for b in own), ca.SX(0)
     )
     return make_masses(kinematics, bodies, masses, inertias, fall), potential
 

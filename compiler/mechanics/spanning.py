@@ -46,10 +46,9 @@ def span(model: Model, links: Iterable[Contact | Joint]) -> Tree:
     """
     links = tuple(links)
     bodies = (model.ground, *model.bodies)
-    groups = _Groups(bodies)
+    groups = Groups(bodies)
     branches: dict[Body, list[tuple[Joint, Body]]] = {b: [] for b in bodies}
-    joints = [x for x in links if isinstance(x, Joint)]
-    for joint in sorted(joints, key=lambda x: (x.mu is None, -len(x.locks))):
+    for joint in in_order(links):
         a, b = point_body(joint.a), point_body(joint.b)
         if groups.join(a, b):
             branches[a].append((joint, b))
@@ -72,6 +71,12 @@ def span(model: Model, links: Iterable[Contact | Joint]) -> Tree:
     return Tree(tuple(ordered), frozenset(h.link.liaison for h in ordered if h.link is not None))
 
 
+def in_order(links: Iterable[Contact | Joint]) -> list[Joint]:
+    """The joints in the order in which they join bodies."""
+    joints = (x for x in links if isinstance(x, Joint))
+    return sorted(joints, key=lambda x: (x.mu is None, -len(x.locks)))
+
+
 def _can_carry(contact: Contact) -> bool:
     return contact.liaison.kind.name == "point_courbe" and not is_unilateral(contact.liaison)
 
@@ -79,7 +84,7 @@ def _can_carry(contact: Contact) -> bool:
 @dataclass(frozen=True, slots=True, eq=False)
 class _Builder:
     model: Model
-    groups: _Groups
+    groups: Groups
     branches: dict[Body, list[tuple[Joint, Body]]]
     carried: dict[Body, Contact]
 
@@ -186,7 +191,7 @@ def reverse(motion: Motion) -> Motion:
     return motion
 
 
-def _carriers(group: Body, carried: dict[Body, Contact], groups: _Groups) -> list[Body]:
+def _carriers(group: Body, carried: dict[Body, Contact], groups: Groups) -> list[Body]:
     """The group and those its coordinates hang on, one after another."""
     chain = [group]
     while group in carried:
@@ -195,13 +200,14 @@ def _carriers(group: Body, carried: dict[Body, Contact], groups: _Groups) -> lis
     return chain
 
 
-class _Groups:
+class Groups:
     """Bodies joined by joints; a group is known by one of its bodies."""
 
     def __init__(self, bodies: Iterable[Body]) -> None:
         self._above = {body: body for body in bodies}
 
     def of(self, body: Body) -> Body:
+        """The body a group is known by."""
         while self._above[body] is not body:
             self._above[body] = self._above[self._above[body]]
             body = self._above[body]

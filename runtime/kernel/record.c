@@ -52,11 +52,14 @@ void frot_note_changes(const frot_model *m, frot_state *s, double t,
       frot_note(recorder, s, t, kind, i, from, to, 1);
     }
     if (!before[i].closed || !after[i].closed) continue;
+    int bounds = 0; /* a side that bounds nothing makes no difference, and is not followed */
     for (int e = 0; e < m->n_elements; e++)
-      if (m->elements[e].contact == i)
+      if (m->elements[e].contact == i) {
+        bounds = 1;
         note_element(m, s, t, e, frot_element_mode(m, before, e)->friction,
                      frot_element_mode(m, after, e)->friction, recorder);
-    if (before[i].side != after[i].side && unilateral[i] == 0)
+      }
+    if (bounds && before[i].side != after[i].side && unilateral[i] == 0)
       frot_note(recorder, s, t, FROT_EVENT_REACTION, i, from, to, 1);
   }
 }
