@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked import (
     Assertion,
     Assign,
+    Binary,
+    Call,
     Derivative,
     Equation,
     Expression,
+    If,
     IfEquations,
     Model,
     Output,
@@ -50,6 +54,27 @@ def is_fixed(expression: Expression) -> bool:
     )
 
 
+def follows_time(expression: Expression) -> bool:
+    """Whether the value depends on time and parameters alone, and nothing switches in it."""
+    for node in subexpressions(expression):
+        if isinstance(node, (Quantity, Derivative)):
+            return False
+        if isinstance(node, Reference) and not isinstance(node.target, Parameter):
+            return False
+        if _switches(node) and not is_fixed(node):
+            return False
+    return True
+
+
+def _switches(node: Expression) -> bool:
+    if isinstance(node, Call):
+        return bool(FUNCTIONS[node.function].switch or FUNCTIONS[node.function].place)
+    return isinstance(node, If) or (isinstance(node, Binary) and node.op in _ORDERS)
+
+
+_ORDERS = ("<", "<=", ">", ">=", "==", "<>")
+
+
 def as_number(value: object) -> float:
     """A value of `evaluate` as the kernel holds it: truth values are 0 and 1."""
     if not isinstance(value, (bool, int, float)):
@@ -70,6 +95,7 @@ def read_expressions(model: Model) -> Iterator[Expression]:
             if isinstance(argument, Expression):
                 yield argument
     for liaison in model.liaisons:
+        yield from liaison.driven.values()
         for law in liaison.laws:
             yield from law.arguments.values()
 

@@ -131,7 +131,7 @@ def contact_geometry(
     contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
 ) -> Geometry:
     """Geometry and relative velocities of a point or rim on a line."""
-    body, base = point_body(contact.point), owner_body(contact.line.owner)
+    body, base = kinematics.moving(contact.point), kinematics.moving(contact.line.owner)
     line = kinematics.line(contact.line)
     if _keeps_left(contact):
         side = ca.SX(1)
@@ -143,9 +143,9 @@ def contact_geometry(
     )
     height = ca.dot(line.normal, centre - line.through)
     touching = centre - side * radius * line.normal
-    apart = kinematics.velocity_at(body, touching) - kinematics.velocity_at(base, touching)
-    nearing = kinematics.velocity_at(body, centre) - kinematics.velocity_at(base, centre)
-    turning = kinematics.angular_velocity(body) - kinematics.angular_velocity(base)
+    apart = body.velocity_of(touching) - base.velocity_of(touching)
+    nearing = body.velocity_of(centre) - base.velocity_of(centre)
+    turning = body.angular - base.angular
     return Geometry(
         line=line,
         side=side,

@@ -9,9 +9,10 @@ import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.mechanism import Joint, Point, point_body
-from frot.compiler.mechanics.spatial import whole
-from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Liaison, Literal, Place
+from frot.compiler.mechanics.mechanism import Joint
+from frot.compiler.mechanics.motions import name_of
+from frot.compiler.mechanics.spatial import nowhere, whole
+from frot.dsl.checked import BodyPoint, Expression, Force, Frame, Liaison, Literal, Place
 
 Argument = Expression | Place | Liaison
 
@@ -35,37 +36,35 @@ class Load:
     potential: ca.SX | None
 
 
-def _point(
-    argument: Argument, kinematics: Kinematics, lowering: Lowering, ground: Body
-) -> tuple[Body, ca.SX]:
+def _point(argument: Argument, kinematics: Kinematics, lowering: Lowering) -> tuple[ca.SX, ca.SX]:
+    """Where a point is, and its velocity."""
     if isinstance(argument, (BodyPoint, Frame)):
-        point: Point = argument
-        return point_body(point), kinematics.position(point)
-    return ground, whole(lowering.lower(_value(argument)))
+        moving = kinematics.moving(argument)
+        return moving.pose.origin, moving.linear
+    return whole(lowering.lower(_value(argument))), nowhere()
 
 
 def load(
     force: Force,
     kinematics: Kinematics,
     lowering: Lowering,
-    ground: Body,
     joints: Mapping[Liaison, Joint],
 ) -> Load:
     """Lower one force. `lowering` is that of the motion, so that its switches are located."""
     arguments = force.arguments
     if force.kind.name == "on":
-        body, place = _point(arguments["frame"], kinematics, lowering, ground)
+        _, velocity = _point(arguments["frame"], kinematics, lowering)
         push = whole(lowering.lower(_value(arguments["value"])))
-        return Load((Action(kinematics.velocity_at(body, place), push),), None)
+        return Load((Action(velocity, push),), None)
     if force.kind.name == "couple":
         turning = _turning(arguments["holder"], kinematics, joints)
         return Load((Action(turning, lowering.lower(_value(arguments["value"]))),), None)
     if force.kind.name == "drag":
-        return _drag(arguments, kinematics, lowering, ground)
+        return _drag(arguments, kinematics, lowering)
     ends = ("centre", "point") if force.kind.name == "attraction" else ("a", "b")
-    first, start = _point(arguments[ends[0]], kinematics, lowering, ground)
-    second, end = _point(arguments[ends[1]], kinematics, lowering, ground)
-    speeds = (kinematics.velocity_at(second, end), kinematics.velocity_at(first, start))
+    start, first = _point(arguments[ends[0]], kinematics, lowering)
+    end, second = _point(arguments[ends[1]], kinematics, lowering)
+    speeds = (second, first)
     if force.kind.name == "damper":
         damping = lowering.lower(_value(arguments["c"]))
         along = _unit(end - start)
@@ -94,19 +93,16 @@ def _turning(holder: Argument, kinematics: Kinematics, joints: Mapping[Liaison, 
     """What a couple drives: the angle of a liaison, or a body (about z in the plane)."""
     if isinstance(holder, Liaison):
         joint = joints[holder]
-        index = next(k for k, m in enumerate(joint.motions) if "angle" in m.coordinates)
+        index = next(k for k, m in enumerate(joint.motions) if name_of(m) == "angle")
         return kinematics.coordinate(joint, index)[1]
     assert isinstance(holder, BodyPoint)
     turning = kinematics.angular_velocity(holder.body)
     return turning[2] if kinematics.planar else turning
 
 
-def _drag(
-    arguments: Mapping[str, Argument], kinematics: Kinematics, lowering: Lowering, ground: Body
-) -> Load:
+def _drag(arguments: Mapping[str, Argument], kinematics: Kinematics, lowering: Lowering) -> Load:
     """A force c |v|^exponent against v; the exponent is 1 or 2."""
-    body, place = _point(arguments["body"], kinematics, lowering, ground)
-    velocity = kinematics.velocity_at(body, place)
+    _, velocity = _point(arguments["body"], kinematics, lowering)
     factor = lowering.lower(_value(arguments["c"]))
     if _literal(arguments["exponent"]) == 2:
         factor *= ca.sqrt(ca.sumsqr(velocity))

@@ -8,6 +8,7 @@ import casadi as ca
 from frot.compiler.lowering.symbols import Rows
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.mechanism import Joint, Relation, point_body
+from frot.compiler.mechanics.motions import name_of
 from frot.compiler.mechanics.wrenches import Action, act
 
 
@@ -53,8 +54,8 @@ def joint_geometry(joint: Joint, kinematics: Kinematics) -> JointGeometry:
     coordinates: dict[str, ca.SX] = {}
     rates: dict[str, ca.SX] = {}
     for k, motion in enumerate(joint.motions):
-        if not motion.faces_ground:
-            name = motion.coordinates[0]
+        name = name_of(motion)
+        if name:
             coordinates[name], rates[name] = kinematics.coordinate(joint, k)
     at = kinematics.readings.get(joint.liaison)
     sw = kinematics.symbols.sw

@@ -14,6 +14,7 @@ from frot.compiler.mechanics.locks import (
     LEFT,
     Aligned,
     Crossed,
+    Drive,
     Lock,
     Parallel,
     SameAngle,
@@ -21,7 +22,16 @@ from frot.compiler.mechanics.locks import (
     Way,
     WayAlong,
 )
-from frot.compiler.mechanics.motions import Attitude, Axis, Motion, Screw, Slide, Turn
+from frot.compiler.mechanics.motions import (
+    Attitude,
+    Axis,
+    Driven,
+    Motion,
+    Screw,
+    Slide,
+    Turn,
+    name_of,
+)
 from frot.dsl.checked import Expression
 
 Options = Mapping[str, Expression]
@@ -83,8 +93,8 @@ def _screw(options: Options, planar: bool) -> Pairing:
 def _universal(options: Options, planar: bool) -> Pairing:
     first, second = _axis(options, "axis_a", "z"), _axis(options, "axis_b", "z")
     motions = (
-        Turn(first, coordinates=("angle_a",)),
-        Turn(second, coordinates=("angle_b",)),
+        Turn(first, coordinates=("angle_a",), mark=second),
+        Turn(second, coordinates=("angle_b",), mark=first, on_b=True),
     )
     return Pairing(motions, (*_ways(False), Crossed(first, second)))
 
@@ -101,6 +111,21 @@ def _planar(options: Options, planar: bool) -> Pairing:
         Turn(normal),
     )
     return Pairing(motions, (WayAlong(normal), *_about(normal)))
+
+
+def drive(pairing: Pairing, values: Mapping[str, Expression]) -> Pairing:
+    """The same liaison with coordinates that are values of time: they lock what they move."""
+    motions: list[Motion] = []
+    locks = list(pairing.locks)
+    for motion in pairing.motions:
+        name = name_of(motion)
+        if name in values and isinstance(motion, Turn | Slide | Screw):
+            driven = Driven(motion, values[name])
+            motions.append(driven)
+            locks.append(Drive(driven))
+        else:
+            motions.append(motion)
+    return Pairing(tuple(motions), tuple(locks))
 
 
 JOINTS: Mapping[str, Callable[[Options, bool], Pairing]] = {

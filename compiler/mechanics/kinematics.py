@@ -23,7 +23,16 @@ from frot.compiler.mechanics.mechanism import (
     turns,
 )
 from frot.compiler.mechanics.motions import count_speeds
-from frot.compiler.mechanics.moves import Column, Lower, move, seen, turned_pose, unit_vector
+from frot.compiler.mechanics.moves import (
+    Column,
+    Lower,
+    carried,
+    move,
+    seen,
+    turned_by_time,
+    turned_pose,
+    unit_vector,
+)
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.spatial import (
     AT_REST,
@@ -103,13 +112,13 @@ class Kinematics:
         for motion in hanging.motions:
             m, n = len(motion.coordinates), count_speeds(motion)
             q = symbols.q[nq : nq + m]
-            moving, columns = move(motion, moving, q, symbols.v[nv : nv + n], self.fixed.lower)
-            if columns or motion.faces_ground:
+            moved = move(motion, moving, q, symbols.v[nv : nv + n], self.fixed.lower)
+            moving = moved.moving
+            if moved.columns or motion.faces_ground:
                 places = tuple(range(nv, nv + n))
-                self.nodes.append(Node(node, arm, motion.faces_ground, places, columns))
-                node = len(self.nodes) - 1
-                # only what slides or screws moves the origin, and has one coordinate
-                arm = columns[0].linear * q if columns and columns[0].linear.nnz() else nowhere()
+                self.nodes.append(Node(node, arm, motion.faces_ground, places, moved.columns))
+                node, arm = len(self.nodes) - 1, nowhere()
+            arm = arm + moved.way
             nq, nv = nq + m, nv + n
         moving, node, arm = self._read(hanging, at, moving, node, arm)
         self.bodies[body], back = self._to_centre(hanging, moving)
@@ -203,11 +212,11 @@ class Kinematics:
             return own.shifted(own.pose.direction(local)) if local.nnz() else own
         base = self.moving(owner.owner)
         if owner.origin is not None:
-            base = base.shifted(base.pose.direction(whole(self.fixed.lower(owner.origin))))
+            base = carried(whole(self.fixed.lower(owner.origin)), base, self.fixed.lower)
         if owner.angle is None:
             return base
         angle = self.fixed.lower(owner.angle)
-        return replace(base, pose=_turned(base.pose, owner.axis, angle, self.fixed.lower))
+        return turned_by_time(owner.axis, angle, base, self.fixed.lower)
 
     def pose(self, owner: Body | Frame | BodyPoint) -> Pose:
         """Pose of a body (at G), frame or point."""
@@ -277,9 +286,9 @@ class Kinematics:
     # ------------------------------------------------------------------ rates
 
     def rate(self, value: ca.SX) -> ca.SX:
-        """Rate of a function of the coordinates, without auxiliary speeds."""
+        """Rate of a function of the coordinates and of time, without auxiliary speeds."""
         s = self.symbols
-        return ca.jtimes(value, s.q, s.rates) if s.q.numel() else ca.SX.zeros(value.shape)
+        return ca.jtimes(value, ca.vertcat(s.t, s.q), ca.vertcat(1, s.rates))
 
     def velocity_at(self, body: Body, place: ca.SX) -> ca.SX:
         """Velocity (3) of the material point of a body that is at `place`."""
@@ -300,7 +309,7 @@ class Kinematics:
             nq, nv = self.places[hanging.body]
             nq += sum(len(m.coordinates) for m in hanging.motions[:k])
             nv += sum(count_speeds(m) for m in hanging.motions[:k])
-            if hanging.motions[k].coordinates == motion.coordinates:
+            if motion.coordinates and hanging.motions[k].coordinates == motion.coordinates:
                 return self.symbols.q[nq], self.symbols.v[nv]
         a, b = self.moving(joint.a), self.moving(joint.b)
         return seen(motion, a, b, self.fixed.lower)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from frot.compiler.mechanics.motions import Axis
+from frot.compiler.mechanics.motions import Axis, Driven
 from frot.dsl.checked import Expression
 
 LEFT = 2
@@ -76,4 +76,16 @@ class Crossed:
     turns: bool = True
 
 
-Lock = Way | WayAlong | Parallel | Aligned | SameAngle | Thread | Crossed
+@dataclass(frozen=True, slots=True, eq=False)
+class Drive:
+    """The coordinate of a motion is a value of time."""
+
+    driven: Driven
+
+    @property
+    def turns(self) -> bool:
+        """Whether it keeps from turning."""
+        return self.driven.motion.turns
+
+
+Lock = Drive | Way | WayAlong | Parallel | Aligned | SameAngle | Thread | Crossed

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.locks import Lock
 from frot.compiler.mechanics.motions import Motion
 from frot.dsl.checked import Body, BodyPoint, Curve, Expression, Force, Frame, Liaison, Model
@@ -143,6 +144,16 @@ class Mechanism:
     ideal: tuple[Contact | Joint, ...]
     forces: tuple[Force, ...]
     halves: Mapping[Body, Body]
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether liaisons that depend on time do work, which nobody counts."""
+        moved = any(
+            value is not None and not is_fixed(value)
+            for frame in self.model.frames
+            for value in (frame.origin, frame.angle)
+        )
+        return moved or any(liaison.driven for liaison in self.model.liaisons)
 
 
 @dataclass(frozen=True, slots=True)

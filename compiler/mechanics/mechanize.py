@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
 from frot.compiler.mechanics.halves import halve
-from frot.compiler.mechanics.joints import JOINTS
+from frot.compiler.mechanics.joints import JOINTS, drive
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
@@ -113,7 +113,7 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
             "a particle has no angle: use a rod, a disc or a ring",
         )
         return None
-    pairing = JOINTS[name](liaison.options, planar)
+    pairing = drive(JOINTS[name](liaison.options, planar), liaison.driven)
     locks = pairing.locks
     if is_particle(point_body(a)) or is_particle(point_body(b)):
         locks = tuple(lock for lock in locks if not lock.turns)

@@ -34,8 +34,8 @@ class Quaternion:
 class Turn:
     """By an angle about an axis that both bodies keep.
 
-    `mark`: a direction of the other body that shows the angle where that axis is not the only one
-    left (universal joint); None where any direction beside the axis does.
+    `mark`: the other axis of a universal joint, which shows the angle; None where any direction
+    beside the axis does. `on_b`: then the axis is fixed to b, else to a.
     """
 
     axis: Axis
@@ -46,6 +46,7 @@ class Turn:
     faces_ground: bool = False
     turns: bool = True
     mark: Axis | None = None
+    on_b: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,7 +127,31 @@ class Steady:
     turns: bool = False
 
 
-Motion = Turn | Slide | Screw | Heading | Attitude | Pointing | Steady
+@dataclass(frozen=True, slots=True, eq=False)
+class Driven:
+    """A motion whose coordinate is a value of time: it has none of its own."""
+
+    motion: Turn | Slide | Screw
+    value: Expression
+    coordinates: tuple[str, ...] = ()
+    speeds: tuple[str, ...] = ()
+    quaternion: Quaternion | None = None
+    faces_ground: bool = False
+    turns: bool = False
+
+
+Motion = Driven | Turn | Slide | Screw | Heading | Attitude | Pointing | Steady
+
+
+def bare(motion: Motion) -> Motion:
+    """The motion itself, whether it is driven or not."""
+    return motion.motion if isinstance(motion, Driven) else motion
+
+
+def name_of(motion: Motion) -> str:
+    """The name of the coordinate of a motion that can be counted, "" of any other."""
+    own = bare(motion)
+    return "" if own.faces_ground or not own.coordinates else own.coordinates[0]
 
 
 def count_speeds(motion: Motion) -> int:

@@ -7,13 +7,14 @@ to their origin before the motion. What does not move has no entry.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import casadi as ca
 from frot.compiler.mechanics.motions import (
     Attitude,
     Axis,
+    Driven,
     Heading,
     Motion,
     Pointing,
@@ -40,9 +41,11 @@ from frot.compiler.mechanics.spatial import (
     turning,
     whole,
 )
-from frot.dsl.checked import Expression, Literal
+from frot.dsl.catalogue import TYPES
+from frot.dsl.checked import Expression, Literal, Time
 
 Lower = Callable[[Expression], ca.SX]
+NOW = Time(TYPES["Time"], None)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,7 +56,16 @@ class Column:
     linear: ca.SX
 
 
-Moved = tuple[Moving, tuple[Column, ...]]
+@dataclass(frozen=True, slots=True, eq=False)
+class Moved:
+    """Axes after a motion, the columns of its speeds, and the way (3) that their origin went."""
+
+    moving: Moving
+    columns: tuple[Column, ...]
+    way: ca.SX
+
+
+Seen = tuple[ca.SX, ca.SX]
 
 
 def unit_vector(given: Expression | str, lower: Lower) -> ca.SX:
@@ -67,16 +79,47 @@ def unit_vector(given: Expression | str, lower: Lower) -> ca.SX:
 
 
 def move(motion: Motion, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
-    """The axes after the motion, and the columns of its speeds."""
+    """The axes after the motion, the columns of its speeds, the way of their origin."""
     return _MOVES[type(motion)](motion, base, q, v, lower)
 
 
-def seen(motion: Motion, a: Moving, b: Moving, lower: Lower) -> tuple[ca.SX, ca.SX]:
+def rate_by_time(value: ca.SX, lower: Lower) -> ca.SX:
+    """The rate of what time alone changes."""
+    return ca.sparsify(ca.jacobian(value, lower(NOW)).reshape(value.shape))
+
+
+def seen(motion: Motion, a: Moving, b: Moving, lower: Lower) -> Seen:
     """The coordinate of a motion and its rate from the postures of a and b alone.
 
     Angles count the turns in the plane; in space they are within half a revolution.
     """
     return _SEEN[type(motion)](motion, a, b, lower)
+
+
+def carried(local: ca.SX, base: Moving, lower: Lower) -> Moving:
+    """The same axes at a place given in them, which time may move."""
+    there = base.shifted(base.pose.direction(local))
+    speed = rate_by_time(local, lower)
+    if not speed.nnz():
+        return there
+    moves = base.pose.direction(speed)
+    push = base.pose.direction(rate_by_time(speed, lower))
+    return replace(
+        there,
+        linear=there.linear + moves,
+        linear_bias=there.linear_bias + push + 2 * cross(base.angular, moves),
+    )
+
+
+def turned_by_time(axis: Expression | str, angle: ca.SX, base: Moving, lower: Lower) -> Moving:
+    """Axes turned about one of their own by an angle that time may change."""
+    local, rate = unit_vector(axis, lower), rate_by_time(angle, lower)
+    if not rate.nnz():
+        return replace(base, pose=turned_pose(base.pose, local, angle))
+    along = base.pose.direction(local)
+    turned = _turned(base, local, angle, rate, along)
+    push = along * rate_by_time(rate, lower)
+    return replace(turned, angular_bias=turned.angular_bias + push)
 
 
 def rates(motion: Motion, q: ca.SX, v: ca.SX) -> ca.SX:
@@ -103,9 +146,8 @@ def angle_about(axis: Axis, a: Pose, b: Pose, lower: Lower) -> ca.SX:
     local = unit_vector(axis.given, lower)
     if local is Z and a.axes[2, 2].is_one() and b.axes[2, 2].is_one():
         return b.angle - a.angle
-    first, second = (a.direction(e) for e in beside(local))
-    turned = b.direction(beside(local)[0])
-    return ca.atan2(ca.dot(turned, second), ca.dot(turned, first))
+    found = arc(Turn(axis), a, b, lower)
+    return ca.atan2(found.sine, found.cosine)
 
 
 def _turned(base: Moving, local: ca.SX, angle: ca.SX, rate: ca.SX, along: ca.SX) -> Moving:
@@ -139,12 +181,13 @@ def _placed(base: Moving, pose: Pose, angular: ca.SX) -> Moving:
 def _move_turn(motion: Turn, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     local = unit_vector(motion.axis.given, lower)
     along = motion.sign * base.pose.direction(local)
-    return _turned(base, local, motion.sign * q, v, along), (Column(along, nowhere()),)
+    turned = _turned(base, local, motion.sign * q, v, along)
+    return Moved(turned, (Column(along, nowhere()),), nowhere())
 
 
 def _move_slide(motion: Slide, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
-    along = motion.sign * base.pose.direction(_way(motion, lower))
-    return _slid(base, along, q, v), (Column(nowhere(), along),)
+    along = motion.sign * base.pose.direction(way_of(motion, lower))
+    return Moved(_slid(base, along, q, v), (Column(nowhere(), along),), along * q)
 
 
 def _move_screw(motion: Screw, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
@@ -154,17 +197,33 @@ def _move_screw(motion: Screw, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -
     along = motion.sign * base.pose.direction(local)
     slid = _slid(base, along, advance * q, advance * v)
     turned = _turned(slid, local, motion.sign * q, v, along)
-    return turned, (Column(along, advance * along),)
+    return Moved(turned, (Column(along, advance * along),), along * (advance * q))
+
+
+def _move_driven(motion: Driven, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
+    """As its motion goes by itself, with the acceleration that its value has."""
+    value = lower(motion.value)
+    speed = rate_by_time(value, lower)
+    moved = move(motion.motion, base, value, speed, lower)
+    (column,), push = moved.columns, rate_by_time(speed, lower)
+    there = moved.moving
+    there = replace(
+        there,
+        angular_bias=there.angular_bias + column.angular * push,
+        linear_bias=there.linear_bias + column.linear * push,
+    )
+    return Moved(there, (), moved.way)
 
 
 def _move_heading(motion: Heading, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     pose = Pose(base.pose.origin, turn_in_plane(q), turning(Z, q), q)
-    return _placed(base, pose, about_z(v)), (Column(Z, nowhere()),)
+    return Moved(_placed(base, pose, about_z(v)), (Column(Z, nowhere()),), nowhere())
 
 
 def _move_attitude(motion: Attitude, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     pose = Pose(base.pose.origin, axes_of(q), q, ca.SX(0))
-    return _placed(base, pose, v), tuple(Column(e, nowhere()) for e in (X, Y, Z))
+    columns = tuple(Column(e, nowhere()) for e in (X, Y, Z))
+    return Moved(_placed(base, pose, v), columns, nowhere())
 
 
 def _move_pointing(motion: Pointing, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
@@ -172,26 +231,67 @@ def _move_pointing(motion: Pointing, base: Moving, q: ca.SX, v: ca.SX, lower: Lo
     axes = axes_of(q)
     pose = Pose(base.pose.origin, axes, q, ca.SX(0))
     columns = tuple(Column(axes[:, k], nowhere()) for k in (1, 2))
-    return _placed(base, pose, axes[:, 1:] @ v), columns
+    return Moved(_placed(base, pose, axes[:, 1:] @ v), columns, nowhere())
 
 
 def _move_steady(motion: Steady, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     pose = Pose(base.pose.origin, GROUND.axes, GROUND.quaternion, GROUND.angle)
-    return _placed(base, pose, nowhere()), ()
+    return Moved(_placed(base, pose, nowhere()), (), nowhere())
 
 
-def _way(motion: Slide, lower: Lower) -> ca.SX:
+def way_of(motion: Slide, lower: Lower) -> ca.SX:
+    """The unit vector of a slide in the axes of its base."""
     local = unit_vector(motion.axis.given, lower)
     return local if motion.side is None else beside(local)[motion.side]
 
 
-def _see_turn(motion: Turn, a: Moving, b: Moving, lower: Lower) -> tuple[ca.SX, ca.SX]:
+@dataclass(frozen=True, slots=True, eq=False)
+class Arc:
+    """The angle of a turn: its sine and cosine, and the vector whose part of omega is its rate."""
+
+    about: ca.SX
+    sine: ca.SX
+    cosine: ca.SX
+
+
+def arc(motion: Turn | Screw, a: Pose, b: Pose, lower: Lower) -> Arc:
+    """The angle by which b is turned from a.
+
+    Of a universal joint with the axes e and f, the part of omega along e beside f is wanted: it is
+    omega . (x x f)/|x|^2 with x = f x e.
+    """
+    local = unit_vector(motion.axis.given, lower)
+    if isinstance(motion, Screw) or motion.mark is None:
+        first, second = (a.direction(e) for e in beside(local))
+        turned = b.direction(beside(local)[0])
+        return Arc(a.direction(local), ca.dot(turned, second), ca.dot(turned, first))
+    mark = unit_vector(motion.mark.given, lower)
+    own = (b if motion.on_b else a).direction(local)
+    other = (a if motion.on_b else b).direction(mark)
+    start, end, normal = a.direction(mark), b.direction(mark), cross(other, own)
+    return Arc(
+        cross(normal, other) / ca.sumsqr(normal),
+        ca.dot(own, cross(start, end)),
+        ca.dot(start, end) - ca.dot(own, start) * ca.dot(own, end),
+    )
+
+
+def _see_turn(motion: Turn | Screw, a: Moving, b: Moving, lower: Lower) -> Seen:
+    if isinstance(motion, Turn) and motion.mark is not None:
+        found = arc(motion, a.pose, b.pose, lower)
+        rate = ca.dot(found.about, b.angular - a.angular)
+        return ca.atan2(found.sine, found.cosine), rate
     along = a.pose.direction(unit_vector(motion.axis.given, lower))
     return angle_about(motion.axis, a.pose, b.pose, lower), ca.dot(along, b.angular - a.angular)
 
 
-def _see_slide(motion: Slide, a: Moving, b: Moving, lower: Lower) -> tuple[ca.SX, ca.SX]:
-    along, there = a.pose.direction(_way(motion, lower)), b.pose.origin
+def _see_driven(motion: Driven, a: Moving, b: Moving, lower: Lower) -> Seen:
+    value = lower(motion.value)
+    return value, rate_by_time(value, lower)
+
+
+def _see_slide(motion: Slide, a: Moving, b: Moving, lower: Lower) -> Seen:
+    along, there = a.pose.direction(way_of(motion, lower)), b.pose.origin
     rate = ca.dot(along, b.linear - a.velocity_of(there))
     return ca.dot(along, there - a.pose.origin), rate
 
@@ -200,6 +300,7 @@ _MOVES: dict[type, Callable[..., Moved]] = {
     Turn: _move_turn,
     Slide: _move_slide,
     Screw: _move_screw,
+    Driven: _move_driven,
     Heading: _move_heading,
     Attitude: _move_attitude,
     Pointing: _move_pointing,
@@ -209,4 +310,5 @@ _SEEN: dict[type, Callable[..., tuple[Any, Any]]] = {
     Turn: _see_turn,
     Slide: _see_slide,
     Screw: _see_turn,
+    Driven: _see_driven,
 }

@@ -32,6 +32,7 @@ from frot.compiler.mechanics.forces import load
 from frot.compiler.mechanics.joint_geometry import JointGeometry, RelationGeometry
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Mechanism, Relation
+from frot.compiler.mechanics.motions import name_of
 from frot.compiler.mechanics.variables import Variables
 from frot.dsl import Log
 from frot.dsl.checked import Call, Liaison, Model, Quantity, Reference, Variable
@@ -318,7 +319,7 @@ def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> _Loa
     potential, power = ca.SX(0), ca.SX(0)
     sizes: list[ca.SX] = []
     for applied in mechanism.forces:
-        result = load(applied, kinematics, moving, mechanism.model.ground, joints)
+        result = load(applied, kinematics, moving, joints)
         for action in result.actions:
             along = ca.jacobian(action.velocity, speeds).T
             force += along @ action.force
@@ -332,7 +333,7 @@ def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> _Loa
         assert moving.variable is not None
         effort = moving.variable(flange.effort)
         joint = joints[flange.liaison]
-        names = [m.coordinates[0] for m in joint.motions]
+        names = [name_of(m) for m in joint.motions]
         rate = kinematics.coordinate(joint, names.index(flange.coordinate))[1]
         push = ca.jacobian(rate, speeds).T * effort
         force, size = force + push, size + ca.fabs(push)

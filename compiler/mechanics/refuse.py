@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
+from frot.compiler.lowering.walk import follows_time, is_fixed, read_expressions, subexpressions
 from frot.compiler.mechanics.joints import JOINTS
-from frot.compiler.mechanics.mechanism import Contact, Joint, turns
+from frot.compiler.mechanics.mechanism import Contact, Joint, owner_body, turns
 from frot.dsl import Log
 from frot.dsl.checked import BodyPoint, Force, Law, Liaison, Literal, Model, Place, Quantity
 from frot.dsl.messages.source import Span
@@ -28,8 +28,12 @@ def refuse_unknown(model: Model, log: Log) -> None:
                 refuse(log, "a curve that depends on time or motion", argument.span)
     for frame in model.frames:
         for value in (frame.origin, frame.angle):
-            if value is not None and not is_fixed(value):
-                refuse(log, "a frame that depends on time or motion", value.span)
+            if value is None or is_fixed(value):
+                continue
+            if owner_body(frame).shape is not None:
+                refuse(log, "a frame of a body that depends on time or motion", value.span)
+            elif not follows_time(value):
+                refuse(log, "a frame that depends on other than time", value.span)
     for body in model.bodies:
         for argument in body.arguments.values():
             if not is_fixed(argument):
@@ -44,6 +48,7 @@ def refuse_unknown(model: Model, log: Log) -> None:
                 liaison.span,
                 _one_of("liaisons", known),
             )
+        _refuse_drive(liaison, log)
         for law in liaison.laws:
             _refuse_law(liaison, law, model.planar, log)
     for force in model.forces:
@@ -72,6 +77,20 @@ def refuse_unknown(model: Model, log: Log) -> None:
                     node.span,
                     "every result holds the mode of each liaison by its name",
                 )
+
+
+def _refuse_drive(liaison: Liaison, log: Log) -> None:
+    for name, value in liaison.driven.items():
+        if name.startswith("speed"):
+            coordinate = "displacement" if "displacement" in liaison.kind.coordinates else "angle"
+            refuse(log, f"a driven '{name}'", value.span, f"drive '{coordinate}'")
+        elif not follows_time(value):
+            refuse(
+                log,
+                "a drive that follows other than time",
+                value.span,
+                "write a value of time and parameters without switches",
+            )
 
 
 def _refuse_law(liaison: Liaison, law: Law, planar: bool, log: Log) -> None:

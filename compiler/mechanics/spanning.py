@@ -18,6 +18,7 @@ from frot.compiler.mechanics.mechanism import (
 from frot.compiler.mechanics.motions import (
     Attitude,
     Axis,
+    Driven,
     Heading,
     Motion,
     Pointing,
@@ -25,6 +26,7 @@ from frot.compiler.mechanics.motions import (
     Slide,
     Steady,
     Turn,
+    bare,
 )
 from frot.dsl.checked import Body, BodyPoint, Curve, Frame, Liaison, Model
 
@@ -121,11 +123,11 @@ class _Builder:
         """Of a body in a joint: a particle has only the ways that the joint leaves."""
         ends = (point_body(base), body)
         if all(turns(b) or b.shape is None for b in ends) or (
-            turns(body) and all(isinstance(m, Turn) for m in motions)
+            turns(body) and all(isinstance(bare(m), Turn) for m in motions)
         ):
             chosen = tuple(self._orient(body) if isinstance(m, Attitude) else m for m in motions)
             return self._named(body, joint, base, own, chosen)
-        ways = tuple(m for m in motions if not isinstance(m, Turn | Screw | Attitude))
+        ways = tuple(m for m in motions if not isinstance(bare(m), Turn | Screw | Attitude))
         return self._hanging(body, joint, base, own, ways)
 
     def _hanging(
@@ -186,6 +188,9 @@ _OF_POINTS = (
 
 def reverse(motion: Motion) -> Motion:
     """The motion of a relative to b."""
+    if isinstance(motion, Driven):
+        own = motion.motion
+        return replace(motion, motion=replace(own, sign=-own.sign))
     if isinstance(motion, Turn | Slide | Screw):
         return replace(motion, sign=-motion.sign)
     return motion

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.mechanics.mechanism import Hanging, owner_body, point_body
+from frot.compiler.mechanics.mechanism import Hanging
 from frot.compiler.mechanics.spatial import Pose, nowhere
 from frot.dsl.checked import Curve
 from frot.dsl.messages.source import Span
@@ -55,6 +55,5 @@ def _carrier_velocity(hanging: Hanging, system: Assembled) -> ca.SX:
     kinematics = system.reduced.variables.kinematics
     if hanging.base is None or hanging.own is None:
         return nowhere()
-    base = hanging.base
-    owner = owner_body(base.owner) if isinstance(base, Curve) else point_body(base)
-    return kinematics.velocity_at(owner, kinematics.position(hanging.own))
+    base = hanging.base.owner if isinstance(hanging.base, Curve) else hanging.base
+    return kinematics.moving(base).velocity_of(kinematics.position(hanging.own))

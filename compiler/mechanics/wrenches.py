@@ -8,13 +8,14 @@ The rate of the gap is the power of the wrench on the motion of b relative to a.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import casadi as ca
 from frot.compiler.mechanics.locks import (
     LEFT,
     Aligned,
     Crossed,
+    Drive,
     Lock,
     Parallel,
     SameAngle,
@@ -22,24 +23,36 @@ from frot.compiler.mechanics.locks import (
     Way,
     WayAlong,
 )
-from frot.compiler.mechanics.motions import Axis
-from frot.compiler.mechanics.moves import Column, Lower, angle_about, unit_vector
+from frot.compiler.mechanics.motions import Axis, Screw, Slide, Turn
+from frot.compiler.mechanics.moves import (
+    Column,
+    Lower,
+    angle_about,
+    arc,
+    rate_by_time,
+    unit_vector,
+    way_of,
+)
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, beside, cross, nowhere
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Action:
-    """A lock between two poses: `force` and `couple` of its wrench, `column`, `gap`."""
+    """A lock between two poses: `force` and `couple` of its wrench, `column`, `gap`.
+
+    `own` is the rate of the gap while neither moves.
+    """
 
     force: ca.SX
     couple: ca.SX
     column: Column
     gap: ca.SX
+    own: ca.SX = field(default_factory=lambda: ca.SX(0))
 
     def rate(self, a: Moving, b: Moving) -> ca.SX:
-        """Rate of the gap: f . (v_b - v_a at b) + c . (omega_b - omega_a)."""
+        """Rate of the gap: f . (v_b - v_a at b) + c . (omega_b - omega_a) + its own."""
         apart = b.linear - a.velocity_of(b.pose.origin)
-        return ca.dot(self.force, apart) + ca.dot(self.couple, b.angular - a.angular)
+        return ca.dot(self.force, apart) + ca.dot(self.couple, b.angular - a.angular) + self.own
 
 
 def act(lock: Lock, a: Pose, b: Pose, lower: Lower) -> Action:
@@ -109,6 +122,27 @@ def _crossed(lock: Crossed, a: Pose, b: Pose, lower: Lower) -> Action:
     return _twist(cross(second, first), ca.dot(first, second) - ca.dot(*natural))
 
 
+def _drive(lock: Drive, a: Pose, b: Pose, lower: Lower) -> Action:
+    """A force or couple along the motion, which does no work on the others that are left.
+
+    The gap of an angle is within half a revolution.
+    """
+    motion, value = lock.driven.motion, lower(lock.driven.value)
+    own = -rate_by_time(value, lower)
+    if isinstance(motion, Slide):
+        way = a.direction(way_of(motion, lower))
+        return replace(_push(way, ca.dot(way, b.origin - a.origin) - value), own=own)
+    found = arc(motion, a, b, lower)
+    c, s = ca.cos(value), ca.sin(value)
+    apart = ca.atan2(found.sine * c - found.cosine * s, found.cosine * c + found.sine * s)
+    axis = unit_vector(motion.axis.given, lower)
+    turn = b.direction(axis) if isinstance(motion, Turn) and motion.on_b else a.direction(axis)
+    linear = nowhere()
+    if isinstance(motion, Screw):
+        linear = lower(motion.pitch) / (2 * ca.pi) * turn
+    return Action(nowhere(), found.about, Column(turn, linear), apart, own)
+
+
 _ACTS: dict[type, Callable[..., Action]] = {
     Way: _way,
     WayAlong: _way_along,
@@ -117,4 +151,5 @@ _ACTS: dict[type, Callable[..., Action]] = {
     SameAngle: _same_angle,
     Thread: _thread,
     Crossed: _crossed,
+    Drive: _drive,
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -140,7 +140,10 @@ class Law:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Liaison:
-    """A liaison between the places `a` and `b`; its reaction is that of `a` on `b`."""
+    """A liaison between the places `a` and `b`; its reaction is that of `a` on `b`.
+
+    `driven` are the coordinates that are prescribed, by name.
+    """
 
     name: str
     kind: LiaisonKind
@@ -150,6 +153,7 @@ class Liaison:
     laws: tuple[Law, ...]
     span: Span
     doc: str = ""
+    driven: Mapping[str, Expression] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -181,7 +181,9 @@ def _body(body: checked.Body) -> str:
 def _liaison(liaison: checked.Liaison) -> str:
     laws = ", ".join(f"{w.kind.name}({_arguments(w.arguments)})" for w in liaison.laws)
     places = f"{_place(liaison.a)}, {_place(liaison.b)}"
-    return f"{liaison.name}: {liaison.kind.name}({places})" + (f" with {laws}" if laws else "")
+    driven = f" driven({_arguments(liaison.driven)})" if liaison.driven else ""
+    text = f"{liaison.name}: {liaison.kind.name}({places}){driven}"
+    return text + (f" with {laws}" if laws else "")
 
 
 def _place(place: object) -> str:

@@ -49,14 +49,20 @@ def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison
     if not _parts_agree(node, kind.name, a, b, scope):
         return None
     options = cast("dict[str, checked.Expression]", found.values)
-    made = checked.Liaison(full_name, kind, a, b, options, (), node.span, node.doc)
+    driven: dict[str, checked.Expression] = {}
+    made = checked.Liaison(full_name, kind, a, b, options, (), node.span, node.doc, driven)
     if node.driven is not None:
-        _driven(node, made, scope)
+        _driven(node, made, driven, scope)
     return made
 
 
-def _driven(node: tree.Liaison, made: checked.Liaison, scope: Scope) -> None:
-    """Check `driven(angle = ...)`, then refuse it."""
+def _driven(
+    node: tree.Liaison,
+    made: checked.Liaison,
+    driven: dict[str, checked.Expression],
+    scope: Scope,
+) -> None:
+    """Check `driven(angle = ...)`; `driven` learns the values by their coordinates."""
     known_coordinates = coordinates(made, scope.planar)
     own = [c for c in made.kind.coordinates if c in known_coordinates]
     for argument in node.driven or ():
@@ -71,9 +77,14 @@ def _driven(node: tree.Liaison, made: checked.Liaison, scope: Scope) -> None:
                 help=did_you_mean(name, own),
             )
             return
-        if expect(argument.value, known_coordinates[name], scope) is None:
+        if name in driven:
+            message = f"{name!r} of liaison {made.name!r} is driven twice"
+            scope.log.report("E0204", message, argument.span)
             return
-    scope.log.report("E0701", "'driven' is not supported yet", node.driven_span)
+        value = expect(argument.value, known_coordinates[name], scope)
+        if value is None:
+            return
+        driven[name] = value
 
 
 def _parts_agree(
