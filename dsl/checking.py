@@ -86,7 +86,6 @@ def _model(
     equations = _equations(made, build)
     experiments = [experiment(call, scope) for call, scope in statements.experiments]
     found = [*_constants(build), *entities(root)]
-    _refuse_surfaces(found, build)
 
     def of_kind(kind: type) -> tuple[Entity, ...]:
         return tuple(e for e in found if isinstance(e, kind))
@@ -103,6 +102,7 @@ def _model(
         bodies=of_kind(checked.Body),  # type: ignore[arg-type]
         frames=of_kind(checked.Frame),  # type: ignore[arg-type]
         curves=of_kind(checked.Curve),  # type: ignore[arg-type]
+        surfaces=of_kind(checked.Surface),  # type: ignore[arg-type]
         liaisons=of_kind(checked.Liaison),  # type: ignore[arg-type]
         forces=of_kind(checked.Force),  # type: ignore[arg-type]
         initial=tuple(build.initial),
@@ -215,15 +215,3 @@ def _constants(build: Build) -> list[Entity]:
         for entity in package.names.values()
         if isinstance(entity, checked.Parameter)
     ]
-
-
-def _refuse_surfaces(found: list[Entity], build: Build) -> None:
-    """Surfaces are refused once all of the text has been checked."""
-    for surface in found:
-        if isinstance(surface, checked.Surface):
-            build.log.report(
-                "E0701",
-                f"the surface '{surface.name}' is not supported yet",
-                surface.span,
-                help="liaisons between points, with axes, are",
-            )

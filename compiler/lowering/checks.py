@@ -65,7 +65,9 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
             owner = f"body '{body.name}'"
             yield from _arguments(owner, body.shape.arguments, body.arguments)
     for curve in model.curves:
-        yield _length(f"the direction of curve '{curve.name}'", curve.arguments["direction"])
+        yield from _sizes(f"curve '{curve.name}'", curve.arguments)
+    for surface in model.surfaces:
+        yield from _sizes(f"surface '{surface.name}'", surface.arguments)
     for frame in model.frames:
         if not isinstance(frame.axis, str) and frame.axis.type.shape:
             yield _length(f"the axis of frame '{frame.name}'", frame.axis)
@@ -90,6 +92,15 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
 def _length(subject: str, direction: Expression) -> Check:
     length = Call("norm", (direction,), REAL, direction.span)
     return Check(POSITIVE, f"length of {subject}", length, direction.span)
+
+
+def _sizes(owner: str, given: Mapping[str, Expression]) -> Iterator[Check]:
+    """No direction is zero, and sizes are positive."""
+    for name, value in given.items():
+        if name in ("direction", "normal", "axis") and value.type.shape:
+            yield _length(f"the {name} of {owner}", value)
+        elif name in ("radius", "a", "b"):
+            yield Check(POSITIVE, f"{name} of {owner}", value, value.span)
 
 
 def _arguments(

@@ -13,7 +13,8 @@ from frot.compiler.mechanics.joint_geometry import JointGeometry
 from frot.compiler.mechanics.mechanism import Relation
 from frot.compiler.mechanics.names import component_names
 from frot.compiler.mechanics.reduce import Reduced
-from frot.dsl.checked import Body, Liaison, Variable
+from frot.dsl.checked import Body, CurvePlace, Liaison, Variable
+from frot.dsl.names.members import parameter_type
 from frot.dsl.quantities.dimensions import Dimension, dimension
 
 AXES = ("x", "y", "z")
@@ -161,6 +162,7 @@ _COORDINATES = {
     "displacement": (LENGTH, "way of b along the axis", ""),
     "x": (LENGTH, "way of b in the plane", ""),
     "y": (LENGTH, "way of b in the plane", ""),
+    "length": (LENGTH, "distance of the points", ""),
 }
 
 
@@ -176,24 +178,29 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
         for name in liaison.kind.coordinates:
             if name in _COORDINATES:
                 yield from one(name, *_COORDINATES[name])
+            elif name in ("gap", "u", "abscissa"):
+                continue
             elif name == "speed" and "displacement" in geometry.coordinates:
                 yield from one(name, VELOCITY, "speed of b along the axis")
             else:
                 yield from one(name, RATE, "angular velocity of b from a", "AngularVelocity")
+        yield from _of_curve(reduced, liaison)
         yield from one("gap", LENGTH, "distance of the places")
+        if geometry.touch is not None:
+            yield from one("slip", VELOCITY, "relative velocity where they touch")
         if geometry.radius is not None:
             yield from one("slip", VELOCITY, "relative velocity at the surface of the pin")
         if reacts:
             yield from one("normal_force", FORCE, "size of the reaction")
+            if geometry.touch is not None:
+                yield from one("tangential_force", FORCE, "reaction along the contact")
             if geometry.radius is not None:
                 yield from one("tangential_force", FORCE, "friction at the surface of the pin")
             yield from one("force", FORCE, "reaction of the first place on the second")
             yield from one("torque", ENERGY, "couple of the first place on the second", "Torque")
             yield from one("power", POWER, "power of the reaction")
         return
-    if liaison.kind.name == "point_courbe":
-        yield from one("u", LENGTH, "abscissa along the line")
-        yield from one("abscissa", LENGTH, "abscissa along the line")
+    yield from _of_curve(reduced, liaison)
     yield from one("gap", LENGTH, "distance of the places")
     yield from one("slip", VELOCITY, "velocity of the body's point along the line")
     if not reacts:
@@ -203,3 +210,14 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
     yield from one("force", FORCE, "reaction of the first place on the second")
     yield from one("torque", ENERGY, "couple of the first place on the second", "Torque")
     yield from one("power", POWER, "power of the reaction")
+
+
+def _of_curve(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
+    """The parameter of a point on a curve; on a line it is the abscissa."""
+    if liaison.kind.name != "point_courbe" or not isinstance(liaison.b, CurvePlace):
+        return
+    kind = parameter_type(liaison.b.curve)
+    value = reduced.variables.of_liaison(liaison, "u")
+    yield Listed(f"{liaison.name}.u", value, kind.dimension, "parameter of the curve")
+    if liaison.b.curve.kind == "line":
+        yield Listed(f"{liaison.name}.abscissa", value, LENGTH, "abscissa along the line")

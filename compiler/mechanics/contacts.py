@@ -105,8 +105,8 @@ def link_geometry(
     if isinstance(link, Contact):
         return contact_geometry(link, kinematics, side, world)
     if isinstance(link, Joint):
-        return joint_geometry(link, kinematics)
-    return relation_geometry(link, kinematics)
+        return joint_geometry(link, kinematics, side)
+    return relation_geometry(link, kinematics, side)
 
 
 def row_rates(

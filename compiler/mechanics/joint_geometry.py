@@ -9,6 +9,8 @@ from frot.compiler.lowering.symbols import Rows
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.mechanism import Joint, Relation, point_body
 from frot.compiler.mechanics.motions import name_of
+from frot.compiler.mechanics.spatial import Z, cross
+from frot.compiler.mechanics.touches import Touch
 from frot.compiler.mechanics.wrenches import Action, act
 
 
@@ -16,12 +18,17 @@ from frot.compiler.mechanics.wrenches import Action, act
 class JointGeometry:
     """A joint between its places.
 
-    `actions` of its locks; `coordinates` and their rates by name; `relative` angular velocity (3)
-    of b from a; `apart` the velocities along the locks where coordinates keep them, of auxiliary
-    speeds alone (empty where no reaction is computed); `radius` of the pin or None.
+    `actions` of its locks; `turned` is -1 where its a is the liaison's second place; `touch` of
+    figures that touch, with the relative velocity `moves` there; `coordinates` and their rates by
+    name; `relative` angular velocity (3) of b from a; `apart` the velocities along the locks where
+    coordinates keep them, of auxiliary speeds alone (empty where no reaction is computed); `radius`
+    of the pin or None.
     """
 
     actions: tuple[Action, ...]
+    turned: int
+    touch: Touch | None
+    moves: ca.SX
     coordinates: dict[str, ca.SX]
     rates: dict[str, ca.SX]
     relative: ca.SX
@@ -47,7 +54,7 @@ class RelationGeometry:
     reach: ca.SX
 
 
-def joint_geometry(joint: Joint, kinematics: Kinematics) -> JointGeometry:
+def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGeometry:
     """A joint, whether coordinates keep it or not."""
     a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
     lower = kinematics.fixed.lower
@@ -57,32 +64,52 @@ def joint_geometry(joint: Joint, kinematics: Kinematics) -> JointGeometry:
         name = name_of(motion)
         if name:
             coordinates[name], rates[name] = kinematics.coordinate(joint, k)
+    actions = tuple(act(lock, a.pose, b.pose, lower, side) for lock in joint.locks)
+    measured = [x.measure for x in actions if x.measure is not None]
+    if measured:
+        coordinates["length"] = measured[0]
+    touch = next((x.touch for x in actions if x.touch is not None), None)
+    place = b.pose.origin if touch is None else touch.place
+    moves = b.velocity_of(place) - a.velocity_of(place)
     at = kinematics.readings.get(joint.liaison)
     sw = kinematics.symbols.sw
     return JointGeometry(
-        actions=tuple(act(lock, a.pose, b.pose, lower) for lock in joint.locks),
+        actions=actions,
+        turned=-1 if joint.swapped else 1,
+        touch=touch,
+        moves=moves,
         coordinates=coordinates,
         rates=rates,
         relative=b.angular - a.angular,
         apart=ca.SX.zeros(0) if at is None else sw[at : at + len(joint.locks)],
         radius=None if joint.radius is None else lower(joint.radius),
-        gap=ca.SX(0),
+        gap=ca.SX(0) if touch is None else touch.gap,
         witness=ca.SX.ones(3),
         reach=ca.SX(0),
     )
 
 
-def relation_geometry(relation: Relation, kinematics: Kinematics) -> RelationGeometry:
+def relation_geometry(relation: Relation, kinematics: Kinematics, side: ca.SX) -> RelationGeometry:
     """A lock between bodies that coordinates do not keep together."""
     joint = relation.joint
     a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
-    action = act(relation.lock, a.pose, b.pose, kinematics.fixed.lower)
+    action = act(relation.lock, a.pose, b.pose, kinematics.fixed.lower, side)
     sizes = kinematics.lengths_between(
         (point_body(joint.a), kinematics.local_point(joint.a)),
         (point_body(joint.b), kinematics.local_point(joint.b)),
     )
     reach = ca.SX(1) if relation.lock.turns else ca.dot(ca.fabs(action.force), sizes)
-    return RelationGeometry(action.gap, action.rate(a, b), ca.SX.ones(3), reach)
+    witness = ca.SX.ones(3)
+    if action.touch is not None:
+        reach, witness[0] = reach + action.touch.size, action.touch.witness
+    return RelationGeometry(action.gap, action.rate(a, b), witness, reach)
+
+
+def _beside(found: Touch, vector: ca.SX, planar: bool) -> ca.SX:
+    """The part of a vector along a contact: in the plane a signed scalar."""
+    if planar:
+        return ca.dot(vector, cross(found.normal, Z))
+    return ca.densify(vector - ca.dot(vector, found.normal) * found.normal)
 
 
 def joint_variable(
@@ -106,6 +133,8 @@ def joint_variable(
             return geometry.gap
         case "slip" if geometry.radius is not None:
             return geometry.radius * geometry.speed
+        case "slip" if geometry.touch is not None:
+            return _beside(geometry.touch, geometry.moves, planar)
     if rows is None:
         raise KeyError(name)
     force, couple = ca.SX.zeros(3), ca.SX.zeros(3)
@@ -113,12 +142,17 @@ def joint_variable(
         force += lam[row] * action.force
         couple += lam[row] * action.couple
     friction = lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
+    force, couple = geometry.turned * force, geometry.turned * couple
     match name:
         case "force":
             return force[:2] if planar else force
         case "torque":
             couple[2] += friction
             return couple[2] if planar else couple
+        case "normal_force" if geometry.touch is not None:
+            return geometry.turned * ca.dot(force, geometry.touch.normal)
+        case "tangential_force" if geometry.touch is not None:
+            return _beside(geometry.touch, force, planar)
         case "normal_force":
             return ca.sqrt(ca.sumsqr(force[:2] if planar else force))
         case "tangential_force" if geometry.radius is not None:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from frot.compiler.mechanics.locks import (
     LEFT,
     Aligned,
+    Apart,
     Crossed,
     Drive,
     Lock,
@@ -26,6 +27,7 @@ from frot.compiler.mechanics.motions import (
     Attitude,
     Axis,
     Driven,
+    Follow,
     Motion,
     Screw,
     Slide,
@@ -39,10 +41,11 @@ Options = Mapping[str, Expression]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pairing:
-    """What a liaison leaves and what it locks."""
+    """What a liaison leaves and what it locks; `carries`: whether coordinates can keep it."""
 
     motions: tuple[Motion, ...]
     locks: tuple[Lock, ...]
+    carries: bool = True
 
 
 def _ways(planar: bool) -> tuple[Lock, ...]:
@@ -119,13 +122,15 @@ def drive(pairing: Pairing, values: Mapping[str, Expression]) -> Pairing:
     locks = list(pairing.locks)
     for motion in pairing.motions:
         name = name_of(motion)
-        if name in values and isinstance(motion, Turn | Slide | Screw):
+        if name in values and isinstance(motion, Turn | Slide | Screw | Follow):
             driven = Driven(motion, values[name])
             motions.append(driven)
             locks.append(Drive(driven))
         else:
             motions.append(motion)
-    return Pairing(tuple(motions), tuple(locks))
+    if "length" in values:
+        locks = [Apart(values["length"]) if isinstance(x, Apart) else x for x in locks]
+    return Pairing(tuple(motions), tuple(locks), pairing.carries)
 
 
 JOINTS: Mapping[str, Callable[[Options, bool], Pairing]] = {

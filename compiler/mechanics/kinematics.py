@@ -119,6 +119,8 @@ class Kinematics:
                 self.nodes.append(Node(node, arm, motion.faces_ground, places, moved.columns))
                 node, arm = len(self.nodes) - 1, nowhere()
             arm = arm + moved.way
+            if motion.faces_ground and motion is not hanging.motions[-1] and hanging.own:
+                moving = self._to_axes_of_place(hanging.own, moving)
             nq, nv = nq + m, nv + n
         moving, node, arm = self._read(hanging, at, moving, node, arm)
         self.bodies[body], back = self._to_centre(hanging, moving)
@@ -171,10 +173,13 @@ class Kinematics:
         return moving.shifted(back), len(self.nodes) - 1, back
 
     def _to_centre(self, hanging: Hanging, moving: Moving) -> tuple[Moving, ca.SX]:
-        """From the place of the body that is carried to the axes at its G, and the way there."""
+        """From the place of the body that is carried to the axes at its G, and the way there.
+
+        What faces the ground places the body's own axes.
+        """
         if hanging.own is None:
             return moving, nowhere()
-        if not any(m.faces_ground for m in hanging.motions):  # else they place the body's own axes
+        if not hanging.motions or not hanging.motions[-1].faces_ground:
             moving = self._to_axes_of_body(hanging.own, moving)
         back = -moving.pose.direction(self.local_point(hanging.own))
         return moving.shifted(back), back
@@ -185,6 +190,14 @@ class Kinematics:
         for frame in _frames(own):
             if frame.angle is not None:
                 pose = _turned(pose, frame.axis, -self.fixed.lower(frame.angle), self.fixed.lower)
+        return replace(moving, pose=pose)
+
+    def _to_axes_of_place(self, own: Point, moving: Moving) -> Moving:
+        """The axes at a point of a body whose own axes are known."""
+        pose = moving.pose
+        for frame in reversed(list(_frames(own))):
+            if frame.angle is not None:
+                pose = _turned(pose, frame.axis, self.fixed.lower(frame.angle), self.fixed.lower)
         return replace(moving, pose=pose)
 
     def _measure(self, hanging: Hanging, base: Body) -> None:

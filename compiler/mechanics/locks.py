@@ -1,13 +1,15 @@
 """Ways in which a liaison keeps two bodies from moving relative to each other, as plain data.
 
 A lock is one scalar relation between the places a and b. What it means for forces and velocities
-stands in `wrenches.py`. `turns`: it keeps from turning, which a particle cannot feel.
+stands in `wrenches.py`. `turns`: it keeps from turning, which a particle cannot feel. `kinematic`:
+it is a relation between velocities, of which no places are the integral.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from frot.compiler.mechanics.figures import Figure
 from frot.compiler.mechanics.motions import Axis, Driven
 from frot.dsl.checked import Expression
 
@@ -20,6 +22,7 @@ class Way:
 
     axis: int
     turns: bool = False
+    kinematic: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,6 +32,7 @@ class WayAlong:
     axis: Axis
     side: int | None = None
     turns: bool = False
+    kinematic: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,6 +45,7 @@ class Parallel:
     axis: Axis
     side: int
     turns: bool = True
+    kinematic: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,6 +54,7 @@ class Aligned:
 
     axis: int
     turns: bool = True
+    kinematic: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,6 +62,7 @@ class SameAngle:
     """No turn in the plane."""
 
     turns: bool = True
+    kinematic: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,6 +72,7 @@ class Thread:
     axis: Axis
     pitch: Expression
     turns: bool = False
+    kinematic: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,6 +82,7 @@ class Crossed:
     axis_a: Axis
     axis_b: Axis
     turns: bool = True
+    kinematic: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,6 +90,7 @@ class Drive:
     """The coordinate of a motion is a value of time."""
 
     driven: Driven
+    kinematic: bool = False
 
     @property
     def turns(self) -> bool:
@@ -88,4 +98,61 @@ class Drive:
         return self.driven.motion.turns
 
 
-Lock = Drive | Way | WayAlong | Parallel | Aligned | SameAngle | Thread | Crossed
+@dataclass(frozen=True, slots=True, eq=False)
+class Apart:
+    """The places keep a distance, which time may change."""
+
+    length: Expression
+    turns: bool = False
+    kinematic: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Touching:
+    """A figure at a and one at b touch."""
+
+    a: Figure
+    b: Figure
+    turns: bool = False
+    kinematic: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NoSlip:
+    """Where two figures touch they do not slip along one of the two directions beside the normal.
+
+    In the plane there is one direction.
+    """
+
+    a: Figure
+    b: Figure
+    side: int
+    planar: bool
+    turns: bool = False
+    kinematic: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Level:
+    """A line at b stays parallel to a plane at a."""
+
+    normal: Axis
+    along: Axis
+    turns: bool = True
+    kinematic: bool = False
+
+
+Lock = (
+    Aligned
+    | Apart
+    | Crossed
+    | Drive
+    | Level
+    | NoSlip
+    | Parallel
+    | SameAngle
+    | Thread
+    | Touching
+    | Way
+    | WayAlong
+)

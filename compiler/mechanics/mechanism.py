@@ -50,8 +50,9 @@ class Contact:
 class Joint:
     """A liaison of the points `a` and `b` that leaves `motions` and locks the rest.
 
-    `reduced`: it is built into the coordinates. `mu` and `mu_s` with the `radius` of the pin bound
-    its couple; all three are None without friction.
+    `carries`: coordinates can keep it, else only rows. `swapped`: `a` is the second place of the
+    liaison. `reduced`: it is built into the coordinates. `mu` and `mu_s` with the `radius` of the
+    pin bound its couple; all three are None without friction.
     """
 
     liaison: Liaison
@@ -64,6 +65,8 @@ class Joint:
     mu: Expression | None
     mu_s: Expression | None
     radius: Expression | None
+    carries: bool = True
+    swapped: bool = False
 
     @property
     def delta(self) -> None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
+from frot.compiler.mechanics.figures import figure_of
 from frot.compiler.mechanics.halves import halve
-from frot.compiler.mechanics.joints import JOINTS, drive
+from frot.compiler.mechanics.joints import JOINTS, Pairing, drive
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
@@ -18,6 +19,7 @@ from frot.compiler.mechanics.mechanism import (
     point_body,
     turns,
 )
+from frot.compiler.mechanics.placed import IN_PLANE, IN_SPACE, pair
 from frot.compiler.mechanics.refuse import (
     REACTION,
     refuse,
@@ -94,8 +96,11 @@ def _law(liaison: Liaison, kind: str) -> Law | None:
 
 
 def _link(liaison: Liaison, planar: bool, log: Log) -> Contact | Joint | None:
-    joint = liaison.kind.name in JOINTS
-    return _joint(liaison, planar, log) if joint else _contact(liaison, log)
+    if liaison.kind.name in JOINTS:
+        return _joint(liaison, planar, log)
+    if liaison.kind.name in (IN_PLANE if planar else IN_SPACE):
+        return _placed(liaison, planar, log)
+    return _contact(liaison, log)
 
 
 def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
@@ -113,22 +118,7 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
             "a particle has no angle: use a rod, a disc or a ring",
         )
         return None
-    pairing = drive(JOINTS[name](liaison.options, planar), liaison.driven)
-    locks = pairing.locks
-    if is_particle(point_body(a)) or is_particle(point_body(b)):
-        locks = tuple(lock for lock in locks if not lock.turns)
-    joint = Joint(
-        liaison,
-        a=a,
-        b=b,
-        motions=pairing.motions,
-        locks=locks,
-        reduced=False,
-        unilateral=unilateral,
-        mu=None,
-        mu_s=None,
-        radius=None,
-    )
+    joint = _paired(liaison, a, b, JOINTS[name](liaison.options, planar), False)
     law = _law(liaison, "coulomb")
     if law is None:
         return joint
@@ -143,6 +133,51 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
         return None
     mu, mu_s, radius = (law.arguments[key] for key in ("mu", "mu_s", "radius"))
     return replace(joint, mu=mu, mu_s=mu_s, radius=radius)
+
+
+def _paired(liaison: Liaison, a: Point, b: Point, free: Pairing, swapped: bool) -> Joint:
+    """A joint without friction; what keeps a particle from turning is left out."""
+    pairing = drive(free, liaison.driven)
+    locks = pairing.locks
+    if is_particle(point_body(a)) or is_particle(point_body(b)):
+        locks = tuple(lock for lock in locks if not lock.turns)
+    return Joint(
+        liaison,
+        a=a,
+        b=b,
+        motions=pairing.motions,
+        locks=locks,
+        carries=pairing.carries,
+        swapped=swapped,
+        reduced=False,
+        unilateral=liaison.options["unilateral"],
+        mu=None,
+        mu_s=None,
+        radius=None,
+    )
+
+
+def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
+    """A liaison between figures."""
+    unilateral = liaison.options["unilateral"]
+    if not (isinstance(unilateral, Literal) and unilateral.value is False):
+        refuse(
+            log,
+            f"a {spelled(liaison)} that can part" + ("" if planar else " in space"),
+            unilateral.span if isinstance(unilateral, Literal) else liaison.span,
+            "write `unilateral = false` where it keeps what it joins",
+        )
+        return None
+    a, b = figure_of(liaison.a, planar), figure_of(liaison.b, planar)
+    found = None
+    if a is not None and b is not None:
+        found = pair(liaison.kind.name, a, b, liaison.options, planar)
+    if a is None or b is None or found is None:
+        refuse(log, f"the liaison '{liaison.kind.name}' between these two places", liaison.span)
+        return None
+    pairing, swapped = found
+    first, second = (b.point, a.point) if swapped else (a.point, b.point)
+    return _paired(liaison, first, second, pairing, swapped)
 
 
 def _contact(liaison: Liaison, log: Log) -> Contact | None:

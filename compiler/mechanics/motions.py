@@ -9,8 +9,12 @@ How each moves axes stands in `moves.py`. The fields with defaults are the same 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from frot.dsl.checked import Expression
+
+if TYPE_CHECKING:
+    from frot.compiler.mechanics.figures import Figure
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -128,10 +132,23 @@ class Steady:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Follow:
+    """Along a curve fixed to the base, by its parameter."""
+
+    curve: Figure
+    sign: int = 1
+    coordinates: tuple[str, ...] = ("u",)
+    speeds: tuple[str, ...] = ()
+    quaternion: Quaternion | None = None
+    faces_ground: bool = False
+    turns: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Driven:
     """A motion whose coordinate is a value of time: it has none of its own."""
 
-    motion: Turn | Slide | Screw
+    motion: Turn | Slide | Screw | Follow
     value: Expression
     coordinates: tuple[str, ...] = ()
     speeds: tuple[str, ...] = ()
@@ -140,7 +157,7 @@ class Driven:
     turns: bool = False
 
 
-Motion = Driven | Turn | Slide | Screw | Heading | Attitude | Pointing | Steady
+Motion = Driven | Follow | Turn | Slide | Screw | Heading | Attitude | Pointing | Steady
 
 
 def bare(motion: Motion) -> Motion:

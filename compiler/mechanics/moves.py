@@ -15,6 +15,7 @@ from frot.compiler.mechanics.motions import (
     Attitude,
     Axis,
     Driven,
+    Follow,
     Heading,
     Motion,
     Pointing,
@@ -43,9 +44,10 @@ from frot.compiler.mechanics.spatial import (
 )
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Expression, Literal, Time
+from frot.dsl.messages.source import Source, Span
 
 Lower = Callable[[Expression], ca.SX]
-NOW = Time(TYPES["Time"], None)
+NOW = Time(TYPES["Time"], Span(Source("", ""), 0, 0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,10 +71,11 @@ Seen = tuple[ca.SX, ca.SX]
 
 
 def unit_vector(given: Expression | str, lower: Lower) -> ca.SX:
-    """The unit vector of `x`, `y`, `z` or of a vector of the text."""
+    """The unit vector of `x`, `-x`, `y`, ... or of a vector of the text."""
     name = given.value if isinstance(given, Literal) else given
     if isinstance(name, str):
-        return {"x": X, "y": Y, "z": Z}[name]
+        along = {"x": X, "y": Y, "z": Z}[name[-1]]
+        return -along if name[0] == "-" else along
     assert not isinstance(given, str)
     vector = whole(lower(given))
     return ca.sparsify(vector / ca.norm_2(vector))
@@ -215,6 +218,26 @@ def _move_driven(motion: Driven, base: Moving, q: ca.SX, v: ca.SX, lower: Lower)
     return Moved(there, (), moved.way)
 
 
+def _move_follow(motion: Follow, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
+    """The material element of the curve may move too: its parameter stays with it."""
+    from frot.compiler.mechanics.paths import point_of
+
+    u = ca.SX.sym("u")
+    point = motion.sign * point_of(motion.curve, u, lower)
+    along, drift = ca.jacobian(point, u), rate_by_time(point, lower)
+    bends = ca.jacobian(along, u) * v**2 + 2 * rate_by_time(along, lower) * v
+    bends += rate_by_time(drift, lower)
+    local = [ca.SX(x) for x in ca.substitute([point, along, drift, bends], [u], [q])]
+    way, along, drift, bends = (base.pose.direction(ca.sparsify(x)) for x in local)
+    there, moves = base.shifted(way), along * v + drift
+    moving = replace(
+        there,
+        linear=there.linear + moves,
+        linear_bias=there.linear_bias + bends + 2 * cross(base.angular, moves),
+    )
+    return Moved(moving, (Column(nowhere(), along),), way)
+
+
 def _move_heading(motion: Heading, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     pose = Pose(base.pose.origin, turn_in_plane(q), turning(Z, q), q)
     return Moved(_placed(base, pose, about_z(v)), (Column(Z, nowhere()),), nowhere())
@@ -285,6 +308,19 @@ def _see_turn(motion: Turn | Screw, a: Moving, b: Moving, lower: Lower) -> Seen:
     return angle_about(motion.axis, a.pose, b.pose, lower), ca.dot(along, b.angular - a.angular)
 
 
+def _see_follow(motion: Follow, a: Moving, b: Moving, lower: Lower) -> Seen:
+    """By the place of b, whose way along the curve has the rate v . c_u/|c_u|^2."""
+    from frot.compiler.mechanics.paths import parameter_of, point_of
+
+    there = b.pose.origin
+    at = parameter_of(motion.curve, there - a.pose.origin, a.pose, lower)
+    u = ca.SX.sym("u")
+    slope = ca.substitute(ca.jacobian(point_of(motion.curve, u, lower), u), u, at)
+    along = a.pose.direction(slope)
+    moves = b.linear - a.velocity_of(there)
+    return at, ca.dot(moves, along) / ca.sumsqr(along)
+
+
 def _see_driven(motion: Driven, a: Moving, b: Moving, lower: Lower) -> Seen:
     value = lower(motion.value)
     return value, rate_by_time(value, lower)
@@ -301,6 +337,7 @@ _MOVES: dict[type, Callable[..., Moved]] = {
     Slide: _move_slide,
     Screw: _move_screw,
     Driven: _move_driven,
+    Follow: _move_follow,
     Heading: _move_heading,
     Attitude: _move_attitude,
     Pointing: _move_pointing,
@@ -311,4 +348,5 @@ _SEEN: dict[type, Callable[..., tuple[Any, Any]]] = {
     Slide: _see_slide,
     Screw: _see_turn,
     Driven: _see_driven,
+    Follow: _see_follow,
 }

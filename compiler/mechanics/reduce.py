@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.equations.before import Before
@@ -82,7 +82,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     def nothing(node: Quantity) -> ca.SX:
         raise TypeError(f"{node.name} in an expression of parameters")
 
-    fixed = Lowering(symbols, nothing, lambda value: value * 0, log)
+    fixed = Lowering(symbols, nothing, lambda value: value * 0, log, variable=_Locals().symbol)
     kinematics = Kinematics(mechanism, symbols, fixed)
     text = _text(mechanism, symbols)
     geometry = _geometry(mechanism, kinematics)
@@ -152,6 +152,17 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         ),
         potential=settled(potential + loads.potential),
     )
+
+
+@dataclass(slots=True)
+class _Locals:
+    """Symbols for what a curve or surface is given by: `u`, or x, y and z."""
+
+    known: dict[Variable, ca.SX] = field(default_factory=dict)
+
+    def symbol(self, variable: Variable) -> ca.SX:
+        """Its own symbol, which whoever lowers the expression replaces."""
+        return self.known.setdefault(variable, ca.SX.sym(variable.name))
 
 
 def _text(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
@@ -260,11 +271,13 @@ def _variables(
     """`found` is the geometry of the mechanism's contacts."""
     world, symbols = mechanism.model.world, kinematics.symbols
     geometry: dict[Liaison, Geometry | JointGeometry] = {}
+    sides: dict[Liaison, ca.SX] = {}
     links: dict[Liaison, Contact | Joint] = {}
     reactions: dict[Liaison, Rows] = {}
-    for link, rows, own in zip(
-        mechanism.contacts, link_rows(mechanism.contacts), found, strict=True
+    for k, (link, rows, own) in enumerate(
+        zip(mechanism.contacts, link_rows(mechanism.contacts), found, strict=True)
     ):
+        sides.setdefault(link.liaison, symbols.sides[k])
         if isinstance(link, Relation):
             before = reactions.get(link.liaison)
             all_rows = (*(before.reaction if before else ()), *rows.reaction)
@@ -276,7 +289,8 @@ def _variables(
         geometry[link.liaison] = own
     for link in (*mechanism.ideal, *links.values()):
         if link.liaison not in geometry:
-            other = link_geometry(link, kinematics, ca.SX(1), world)
+            side = sides.get(link.liaison, ca.SX(1))
+            other = link_geometry(link, kinematics, side, world)
             assert not isinstance(other, RelationGeometry)
             geometry[link.liaison] = other
     return Variables(symbols, text.chains, kinematics, geometry, links, reactions)

@@ -7,8 +7,20 @@ from collections.abc import Iterable
 from frot.compiler.lowering.walk import follows_time, is_fixed, read_expressions, subexpressions
 from frot.compiler.mechanics.joints import JOINTS
 from frot.compiler.mechanics.mechanism import Contact, Joint, owner_body, turns
+from frot.compiler.mechanics.placed import IN_PLANE, IN_SPACE
 from frot.dsl import Log
-from frot.dsl.checked import BodyPoint, Force, Law, Liaison, Literal, Model, Place, Quantity
+from frot.dsl.checked import (
+    BodyPoint,
+    Curve,
+    Force,
+    Law,
+    Liaison,
+    Literal,
+    Model,
+    Place,
+    Quantity,
+    Surface,
+)
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import dimension
 
@@ -20,12 +32,16 @@ REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mod
 
 def refuse_unknown(model: Model, log: Log) -> None:
     """Tell every kind, law, force and option of the model that has no mechanics yet."""
-    for curve in model.curves:
-        if curve.kind != "line":
-            refuse(log, f"the curve '{curve.kind}'", curve.span, "a `line` is")
-        for argument in curve.arguments.values():
-            if not is_fixed(argument):
-                refuse(log, "a curve that depends on time or motion", argument.span)
+    shapes: tuple[Curve | Surface, ...] = (*model.curves, *model.surfaces)
+    for shaped in shapes:
+        for name, argument in shaped.arguments.items():
+            moved = (
+                name in ("through", "centre", "point") and owner_body(shaped.owner).shape is None
+            )
+            if is_fixed(argument) or name in ("point", "value"):
+                continue
+            if not (moved and follows_time(argument)):
+                refuse(log, f"'{name}' of a curve or surface that depends on time", argument.span)
     for frame in model.frames:
         for value in (frame.origin, frame.angle):
             if value is None or is_fixed(value):
@@ -38,7 +54,7 @@ def refuse_unknown(model: Model, log: Log) -> None:
         for argument in body.arguments.values():
             if not is_fixed(argument):
                 refuse(log, "a body that depends on time or motion", argument.span)
-    known = (*JOINTS, *(PLANE_LIAISONS if model.planar else ()))
+    known = (*JOINTS, *((*PLANE_LIAISONS, *IN_PLANE) if model.planar else IN_SPACE))
     for liaison in model.liaisons:
         if liaison.kind.name not in known:
             where = "" if model.planar else " in space"

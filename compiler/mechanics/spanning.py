@@ -19,6 +19,7 @@ from frot.compiler.mechanics.motions import (
     Attitude,
     Axis,
     Driven,
+    Follow,
     Heading,
     Motion,
     Pointing,
@@ -191,7 +192,7 @@ def reverse(motion: Motion) -> Motion:
     if isinstance(motion, Driven):
         own = motion.motion
         return replace(motion, motion=replace(own, sign=-own.sign))
-    if isinstance(motion, Turn | Slide | Screw):
+    if isinstance(motion, Turn | Slide | Screw | Follow):
         return replace(motion, sign=-motion.sign)
     return motion
 

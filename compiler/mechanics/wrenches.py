@@ -11,19 +11,24 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import casadi as ca
+from frot.compiler.mechanics.figures import Flat
 from frot.compiler.mechanics.locks import (
     LEFT,
     Aligned,
+    Apart,
     Crossed,
     Drive,
+    Level,
     Lock,
+    NoSlip,
     Parallel,
     SameAngle,
     Thread,
+    Touching,
     Way,
     WayAlong,
 )
-from frot.compiler.mechanics.motions import Axis, Screw, Slide, Turn
+from frot.compiler.mechanics.motions import Axis, Follow, Screw, Slide, Turn
 from frot.compiler.mechanics.moves import (
     Column,
     Lower,
@@ -33,14 +38,17 @@ from frot.compiler.mechanics.moves import (
     unit_vector,
     way_of,
 )
+from frot.compiler.mechanics.paths import point_of
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, beside, cross, nowhere
+from frot.compiler.mechanics.touches import Touch, touch
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Action:
     """A lock between two poses: `force` and `couple` of its wrench, `column`, `gap`.
 
-    `own` is the rate of the gap while neither moves.
+    `own` is the rate of the gap while neither moves. `at`: where the force acts, None for the place
+    b. `touch`: how the figures stand that touch. `measure`: a distance that the lock keeps.
     """
 
     force: ca.SX
@@ -48,15 +56,24 @@ class Action:
     column: Column
     gap: ca.SX
     own: ca.SX = field(default_factory=lambda: ca.SX(0))
+    at: ca.SX | None = None
+    touch: Touch | None = None
+    measure: ca.SX | None = None
 
     def rate(self, a: Moving, b: Moving) -> ca.SX:
-        """Rate of the gap: f . (v_b - v_a at b) + c . (omega_b - omega_a) + its own."""
-        apart = b.linear - a.velocity_of(b.pose.origin)
+        """Rate of the gap: f . (v_b - v_a where f acts) + c . (omega_b - omega_a) + its own."""
+        place = b.pose.origin if self.at is None else self.at
+        moves = b.linear if self.at is None else b.velocity_of(place)
+        apart = moves - a.velocity_of(place)
         return ca.dot(self.force, apart) + ca.dot(self.couple, b.angular - a.angular) + self.own
 
 
-def act(lock: Lock, a: Pose, b: Pose, lower: Lower) -> Action:
-    """The lock between the places a and b."""
+def act(lock: Lock, a: Pose, b: Pose, lower: Lower, side: ca.SX | None = None) -> Action:
+    """The lock between the places a and b; `side` is that of figures which touch, see there."""
+    if isinstance(lock, Touching | NoSlip):
+        outside = ca.SX(1) if side is None else side
+        found = touch(lock.a, lock.b, (a, b), lower, outside)
+        return _touching(found) if isinstance(lock, Touching) else _no_slip(lock, found, a, lower)
     return _ACTS[type(lock)](lock, a, b, lower)
 
 
@@ -122,6 +139,36 @@ def _crossed(lock: Crossed, a: Pose, b: Pose, lower: Lower) -> Action:
     return _twist(cross(second, first), ca.dot(first, second) - ca.dot(*natural))
 
 
+def _touching(found: Touch) -> Action:
+    push = Column(nowhere(), found.normal)
+    return Action(found.normal, nowhere(), push, found.gap, at=found.place, touch=found)
+
+
+def _no_slip(lock: NoSlip, found: Touch, a: Pose, lower: Lower) -> Action:
+    """Along directions fixed to a plane; beside another normal, any two."""
+    if lock.planar:
+        way = cross(found.normal, Z)
+    elif isinstance(lock.a, Flat):
+        way = a.direction(beside(unit_vector(lock.a.axis.given, lower))[lock.side])
+    else:
+        way = beside(found.normal)[lock.side]
+    column = Column(nowhere(), way)
+    return Action(way, nowhere(), column, ca.SX(0), at=found.place, touch=found)
+
+
+def _apart(lock: Apart, a: Pose, b: Pose, lower: Lower) -> Action:
+    way, size = b.origin - a.origin, lower(lock.length)
+    long = ca.sqrt(ca.sumsqr(way))
+    push = _push(way / long, long - size)
+    return replace(push, own=-rate_by_time(size, lower), measure=long)
+
+
+def _level(lock: Level, a: Pose, b: Pose, lower: Lower) -> Action:
+    """n_a . d_b = 0."""
+    normal, along = _along(a, lock.normal, lower), _along(b, lock.along, lower)
+    return _twist(cross(along, normal), ca.dot(normal, along))
+
+
 def _drive(lock: Drive, a: Pose, b: Pose, lower: Lower) -> Action:
     """A force or couple along the motion, which does no work on the others that are left.
 
@@ -132,6 +179,8 @@ def _drive(lock: Drive, a: Pose, b: Pose, lower: Lower) -> Action:
     if isinstance(motion, Slide):
         way = a.direction(way_of(motion, lower))
         return replace(_push(way, ca.dot(way, b.origin - a.origin) - value), own=own)
+    if isinstance(motion, Follow):
+        return _led(motion, value, own, a, b, lower)
     found = arc(motion, a, b, lower)
     c, s = ca.cos(value), ca.sin(value)
     apart = ca.atan2(found.sine * c - found.cosine * s, found.cosine * c + found.sine * s)
@@ -143,6 +192,17 @@ def _drive(lock: Drive, a: Pose, b: Pose, lower: Lower) -> Action:
     return Action(nowhere(), found.about, Column(turn, linear), apart, own)
 
 
+def _led(motion: Follow, value: ca.SX, own: ca.SX, a: Pose, b: Pose, lower: Lower) -> Action:
+    """Along a curve: to first order, and exact where the place is the one of the value."""
+    u = ca.SX.sym("u")
+    point = point_of(motion.curve, u, lower)
+    here, slope = ca.substitute([point, ca.jacobian(point, u)], [u], [value])
+    along, there = a.direction(slope), a.point(here)
+    force = along / ca.sumsqr(along)
+    gap = ca.dot(force, b.origin - there)
+    return Action(force, nowhere(), Column(nowhere(), along), gap, own)
+
+
 _ACTS: dict[type, Callable[..., Action]] = {
     Way: _way,
     WayAlong: _way_along,
@@ -152,4 +212,6 @@ _ACTS: dict[type, Callable[..., Action]] = {
     Thread: _thread,
     Crossed: _crossed,
     Drive: _drive,
+    Apart: _apart,
+    Level: _level,
 }

@@ -235,6 +235,8 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
     contacts += [(e.name, e.span, -1, True) for e in system.elements]
     first = [not isinstance(x, Relation) or x.first for x in reduced.mechanism.contacts]
     first += [True] * len(system.elements)
+    kinematic = [isinstance(x, Relation) and x.lock.kinematic for x in reduced.mechanism.contacts]
+    kinematic += [False] * len(system.elements)
     places = {v.name: k for k, v in enumerate(lowered.variables)}
     arrays = [
         _array(
@@ -246,6 +248,7 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
                     _text(_place(span)),
                     *(row, int(kept), sliding.get(i, -1), places.get(f"{name}.power", -1)),
                     places[f"{name}.mode"] if first[i] else -1,
+                    int(kinematic[i]),
                 )
                 for i, (name, span, row, kept) in enumerate(contacts)
             ],

@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from frot.dsl.checked.declared import Input, Output, Parameter, Variable
     from frot.dsl.checked.expressions import Expression
-    from frot.dsl.checked.mechanics import Body, Curve, Flange, Force, Frame, Liaison, World
+    from frot.dsl.checked.mechanics import (
+        Body,
+        Curve,
+        Flange,
+        Force,
+        Frame,
+        Liaison,
+        Surface,
+        World,
+    )
     from frot.dsl.checked.statements import Assertion, Equation, IfEquations, InitialEquation, When
     from frot.dsl.messages.source import Source, Span
 
@@ -54,3 +63,4 @@ class Model:
     flanges: tuple[Flange, ...] = ()
     whens: tuple[When, ...] = ()
     assertions: tuple[Assertion, ...] = ()
+    surfaces: tuple[Surface, ...] = ()

@@ -129,6 +129,8 @@ def show_model(model: checked.Model) -> str:
     lines += _section("bodies", (_body(b) for b in model.bodies))
     lines += _section("frames", (f"{f.name} on {f.owner.name}" for f in model.frames))
     lines += _section("curves", (f"{c.name} on {c.owner.name}: {c.kind}" for c in model.curves))
+    surfaces = (f"{s.name} on {s.owner.name}: {s.kind}" for s in model.surfaces)
+    lines += _section("surfaces", surfaces)
     lines += _section("liaisons", (_liaison(one) for one in model.liaisons))
     lines += _section(
         "forces", (f"{f.name}: {f.kind.name}({_arguments(f.arguments)})" for f in model.forces)

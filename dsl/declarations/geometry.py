@@ -127,7 +127,7 @@ def frame(node: tree.Frame, name: str, scope: Scope) -> checked.Frame | None:
 
 
 def curve(node: tree.Curve, name: str, scope: Scope) -> checked.Curve | None:
-    """The checked curve `name`; None after a message. What is no line is refused once checked."""
+    """The checked curve `name`; None after a message."""
     owner = _owner(node.owner, scope)
     call = called(node.kind, "curve", scope)
     if owner is None or call is None:
@@ -145,8 +145,8 @@ def curve(node: tree.Curve, name: str, scope: Scope) -> checked.Curve | None:
         values = cast("dict[str, checked.Expression]", found.values) if found.complete else None
     if values is None:
         return None
-    if kind not in ("line", "droite"):
-        scope.log.report("E0701", f"{kind!r} curves are not supported yet", callee.span)
+    kind = {"droite": "line", "cercle": "circle"}.get(kind, kind)
+    if kind != "line":
         return checked.Curve(name, owner, kind, values, node.span, node.doc)
     direction = values["direction"]
     value = known(direction, scope)
@@ -156,7 +156,7 @@ def curve(node: tree.Curve, name: str, scope: Scope) -> checked.Curve | None:
 
 
 def surface(node: tree.Surface, name: str, scope: Scope) -> checked.Surface | None:
-    """The checked surface `name`, refused once checked; None after another message."""
+    """The checked surface `name`; None after a message."""
     owner = _owner(node.owner, scope)
     call = called(node.kind, "surface", scope)
     if owner is None or call is None:
@@ -178,6 +178,7 @@ def surface(node: tree.Surface, name: str, scope: Scope) -> checked.Surface | No
     else:
         found = bind(arguments, _SURFACES[kind], kind, node.kind.span, scope)
         values = cast("dict[str, checked.Expression]", found.values) if found.complete else None
+    kind = {"plan": "plane"}.get(kind, kind)
     return None if values is None else checked.Surface(name, owner, kind, values, node.span)
 
 

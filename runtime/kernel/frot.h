@@ -106,6 +106,7 @@ typedef struct {
   int sliding;       /* the element that its variable `mode` tells of, or -1 */
   int power;         /* its variable `power`, zero where all its elements hold, or -1 */
   int mode;          /* its variable `mode`, or -1: one relation of many of a liaison */
+  int kinematic;     /* 1: a relation between velocities alone, which has no gap */
 } frot_contact;
 
 /* A unit quaternion r among the coordinates, q[at .. at + 4): 2 r' = (0, w) r, or r (0, w) with

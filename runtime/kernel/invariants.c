@@ -63,7 +63,7 @@ static int list_equations(const frot_model *m, frot_state *s, frot_work *w, doub
   }
   for (int i = 0; i < m->n_contacts; i++) {
     const frot_contact *contact = &m->contacts[i];
-    if (!modes[i].closed || contact->reduced || contact->row_n < 0) continue;
+    if (!modes[i].closed || contact->reduced || contact->row_n < 0 || contact->kinematic) continue;
     double *row = w->relations.jacobian + nx * *n;
     memset(row, 0, sizeof(double) * (size_t)nx);
     const frot_group *group = frot_group_of(m, contact->row_n);

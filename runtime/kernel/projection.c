@@ -18,6 +18,10 @@ static int is_kept(const frot_model *m, const frot_contact_mode *modes, int cont
   return modes[contact].closed && c->row_n >= 0 && !c->reduced;
 }
 
+static int keeps_place(const frot_model *m, const frot_contact_mode *modes, int contact) {
+  return is_kept(m, modes, contact) && !m->contacts[contact].kinematic;
+}
+
 static int is_stuck(const frot_model *m, const frot_contact_mode *modes, const unsigned char *stuck,
                     int element) {
   if (!modes[m->elements[element].contact].closed) return 0;
@@ -28,8 +32,11 @@ static int is_stuck(const frot_model *m, const frot_contact_mode *modes, const u
 static int rows_of_group(const frot_model *m, const frot_group *g, const frot_contact_mode *modes,
                          const unsigned char *stuck, int normals_only, int *rows) {
   int n = 0;
-  for (int i = 0; i < g->n_contacts; i++)
-    if (is_kept(m, modes, g->contacts[i])) rows[n++] = m->contacts[g->contacts[i]].row_n;
+  for (int i = 0; i < g->n_contacts; i++) {
+    int c = g->contacts[i];
+    if (normals_only ? keeps_place(m, modes, c) : is_kept(m, modes, c))
+      rows[n++] = m->contacts[c].row_n;
+  }
   for (int i = 0; i < g->n_elements && !normals_only; i++)
     if (is_stuck(m, modes, stuck, g->elements[i])) rows[n++] = m->elements[g->elements[i]].row;
   return n;
@@ -80,7 +87,7 @@ static int project_positions(const frot_model *m, frot_state *s, frot_work *w, d
       int n = rows_of_group(m, g, modes, NULL, 1, w->relations.rows), off = 0, at = 0;
       for (int i = 0; i < g->n_contacts; i++) {
         int c = g->contacts[i];
-        if (!is_kept(m, modes, c)) continue;
+        if (!keeps_place(m, modes, c)) continue;
         w->relations.residual[at++] = w->core.gap[c];
         off |= fabs(w->core.gap[c]) > FROT_ROUNDING * frot_gap_size(m, w, m->contacts[c].row_n, q);
       }

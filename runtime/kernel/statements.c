@@ -74,7 +74,7 @@ int frot_evaluate_statements(frot_opening *p) {
         memset(w->relations.jacobian + nx * i, 0, sizeof(double) * (size_t)nx);
   }
   for (int i = 0; i < m->n_contacts; i++) {
-    if (!p->use[i]) continue;
+    if (!p->use[i] || (m->contacts[i].kinematic && !p->velocity)) continue;
     int row = m->contacts[i].row_n;
     const frot_group *group = frot_group_of(m, row);
     const double *entries = frot_entries(m, w->core.rows, row);
@@ -136,7 +136,7 @@ int frot_contradiction(const frot_opening *p) {
     }
     int at = own;
     for (int i = 0; i < m->n_contacts; i++)
-      if (p->use[i] && at++ == rows[k]) contact = i;
+      if (p->use[i] && !(m->contacts[i].kinematic && !p->velocity) && at++ == rows[k]) contact = i;
   }
   if (items[0] < 0) items[0] = items[1], items[1] = -1;
   /* the least-squares solution shares the contradiction out among the equations */

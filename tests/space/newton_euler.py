@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,11 +30,12 @@ class Place:
 
 @dataclass(frozen=True)
 class Link:
-    """A liaison whose reaction acts at the place b."""
+    """A liaison whose reaction acts at the place b, or where `at` tells for an instant."""
 
     name: str
     a: Place
     b: Place
+    at: Callable[[object], np.ndarray] | None = None
 
 
 def box(name: str, mass: float, size: Sequence[float]) -> Body:
@@ -95,7 +96,8 @@ def residual(
                         continue
                     reaction = sign * vector(at, f"{link.name}.force")
                     force = force + reaction
-                    arm = place_of(at, link.b) - centre
+                    there = place_of(at, link.b) if link.at is None else link.at(at)
+                    arm = there - centre
                     couple = couple + np.cross(arm, reaction)
                     couple = couple + sign * vector(at, f"{link.name}.torque")
                     size += np.abs(reaction).max()

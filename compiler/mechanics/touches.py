@@ -1,0 +1,205 @@
+"""Where two figures are nearest to each other, in closed form.
+
+The normal points from a to b. For what a figure bends, the side of it on which b is counts: +1
+outside, -1 inside; the gap grows away from it on that side.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.mechanics.figures import (
+    Ball,
+    Dot,
+    Egg,
+    Figure,
+    Flat,
+    Implicit,
+    Oval,
+    Ring,
+    Straight,
+)
+from frot.compiler.mechanics.moves import Lower, unit_vector
+from frot.compiler.mechanics.spatial import Pose, Z, beside, cross
+from frot.dsl.checked import Expression
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Touch:
+    """A gap, its unit normal, and the place on b that is nearest to a.
+
+    `witness` has the sign of the side, `size` that of the lengths beside the way between the
+    figures' points.
+    """
+
+    gap: ca.SX
+    normal: ca.SX
+    place: ca.SX
+    witness: ca.SX
+    size: ca.SX
+
+
+_Rule = Callable[..., Touch]
+
+
+def touch(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, side: ca.SX) -> Touch:
+    """How the figure b stands to the figure a, at the poses of their points."""
+    return _TOUCHES[type(a), type(b)](a, b, *at, lower, side)
+
+
+def can_touch(a: Figure, b: Figure) -> bool:
+    """Whether there is a closed form, in this order, and one relation says that they touch."""
+    return (type(a), type(b)) in _TOUCHES and not (_is_thin(a) and _is_thin(b))
+
+
+def _is_thin(figure: Figure) -> bool:
+    """A point or a line: two of them meet by more than one relation."""
+    thin = isinstance(figure, Dot | Ring | Oval)
+    return thin or (isinstance(figure, Straight) and figure.radius is None)
+
+
+def length(value: Expression | None, lower: Lower) -> ca.SX:
+    """A radius, zero where there is none."""
+    return ca.SX(0) if value is None else lower(value)
+
+
+def normal_of(figure: Flat, pose: Pose, lower: Lower) -> ca.SX:
+    """The normal of a plane, or the left of a line of the plane."""
+    local = unit_vector(figure.axis.given, lower)
+    return pose.direction(cross(Z, local) if figure.in_plane else local)
+
+
+def spread_of(figure: Ring | Oval | Egg, pose: Pose, lower: Lower) -> ca.SX:
+    """The matrix S of an ellipsoid, flat or not: it reaches sqrt(n . S n) in the direction n."""
+    if isinstance(figure, Egg):
+        semi = lower(figure.semi_axes)
+        local = ca.diag(ca.vertcat(*(semi[k] ** 2 for k in range(3))))
+    elif isinstance(figure, Ring):
+        axis = unit_vector(figure.axis.given, lower)
+        local = lower(figure.radius) ** 2 * (ca.SX.eye(3) - axis @ axis.T)
+    else:
+        first, second = oval_axes(figure, lower)
+        a, b = lower(figure.a), lower(figure.b)
+        local = a**2 * first @ first.T + b**2 * second @ second.T
+    return ca.sparsify(pose.axes @ ca.sparsify(local) @ pose.axes.T)
+
+
+def oval_axes(figure: Oval, lower: Lower) -> tuple[ca.SX, ca.SX]:
+    """The directions of the semi-axes in the axes of the figure's point."""
+    return beside(unit_vector(figure.axis.given, lower))
+
+
+def _flat_ball(a: Flat, b: Ball | Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) -> Touch:
+    normal = side * normal_of(a, pa, lower)
+    radius = length(b.radius, lower) if isinstance(b, Ball) else ca.SX(0)
+    height = ca.dot(normal, pb.origin - pa.origin)
+    place = pb.origin - radius * normal
+    return Touch(height - radius, normal, place, side * height, radius)
+
+
+def _flat_egg(
+    a: Flat, b: Ring | Oval | Egg, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
+) -> Touch:
+    """The lowest point is S n/sqrt(n . S n) below the centre."""
+    normal = side * normal_of(a, pa, lower)
+    below = spread_of(b, pb, lower) @ normal
+    reach = ca.sqrt(ca.dot(normal, below))
+    height = ca.dot(normal, pb.origin - pa.origin)
+    return Touch(height - reach, normal, pb.origin - below / reach, side * height, reach)
+
+
+def _ball_ball(
+    a: Ball | Dot, b: Ball | Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
+) -> Touch:
+    first, second = (length(x.radius, lower) if isinstance(x, Ball) else ca.SX(0) for x in (a, b))
+    return _round(pb.origin - pa.origin, pb, first, second, side)
+
+
+def _round(apart: ca.SX, pb: Pose, first: ca.SX, second: ca.SX, side: ca.SX) -> Touch:
+    """Round things whose centres, or the nearest points of whose axes, are `apart`."""
+    far = ca.sqrt(ca.sumsqr(apart))
+    normal = side * apart / far
+    gap = side * (far - first) - second
+    return Touch(gap, normal, pb.origin - second * normal, far - first, first + second)
+
+
+def _straight_ball(
+    a: Straight, b: Ball | Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
+) -> Touch:
+    along = pa.direction(unit_vector(a.axis.given, lower))
+    apart = pb.origin - pa.origin
+    radius = length(b.radius, lower) if isinstance(b, Ball) else ca.SX(0)
+    across = apart - ca.dot(along, apart) * along
+    return _round(across, pb, length(a.radius, lower), radius, side)
+
+
+def _straight_straight(
+    a: Straight, b: Straight, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
+) -> Touch:
+    """Along the common normal of two axes that cross."""
+    first = pa.direction(unit_vector(a.axis.given, lower))
+    second = pb.direction(unit_vector(b.axis.given, lower))
+    apart, both = pb.origin - pa.origin, cross(first, second)
+    across = both / ca.sqrt(ca.sumsqr(both))
+    # where the axes become parallel, and go on, their product turns about
+    normal = ca.sign(ca.dot(across, apart)) * across
+    height = ca.dot(normal, apart)
+    along = ca.dot(cross(first, both), apart) / ca.sumsqr(both)
+    ra, rb = length(a.radius, lower), length(b.radius, lower)
+    place = pb.origin + along * second - rb * normal
+    return Touch(height - ra - rb, normal, place, ca.SX(1), ra + rb)
+
+
+def _ring_ball(a: Ring, b: Ball, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) -> Touch:
+    """The nearest point of the circle lies in the plane of its axis and the centre."""
+    axis = pa.direction(unit_vector(a.axis.given, lower))
+    apart = pb.origin - pa.origin
+    across = apart - ca.dot(axis, apart) * axis
+    wide = ca.sqrt(ca.sumsqr(across))
+    touching = apart - lower(a.radius) * across / wide
+    found = _round(touching, pb, ca.SX(0), lower(b.radius), ca.SX(1))
+    return Touch(found.gap, found.normal, found.place, ca.SX(1), found.size + lower(a.radius))
+
+
+def _implicit_dot(a: Implicit, b: Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) -> Touch:
+    """F/|grad F| is the distance to first order, and exact where it is zero."""
+    local = ca.densify(pa.axes.T @ (pb.origin - pa.origin))
+    x = ca.vertcat(*(ca.SX.sym("x") if u is None else lower(u) for u in a.unknowns))
+    value = lower(a.value)
+    value, slope = ca.substitute([value, ca.gradient(value, x)], [x], [local])
+    steep = ca.sqrt(ca.sumsqr(slope))
+    normal = side * pa.direction(slope / steep)
+    size = ca.dot(ca.fabs(slope), ca.fabs(local)) / steep
+    return Touch(side * value / steep, normal, pb.origin, value, size)
+
+
+def _oval_dot(a: Oval, b: Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) -> Touch:
+    """In the plane of the ellipse, or on the cylinder over it: x^2/a^2 + y^2/b^2 = 1."""
+    first, second = (pa.direction(e) for e in oval_axes(a, lower))
+    apart = pb.origin - pa.origin
+    x, y = ca.dot(first, apart), ca.dot(second, apart)
+    p, q = lower(a.a), lower(a.b)
+    slope = x / p**2 * first + y / q**2 * second
+    steep = ca.sqrt(ca.sumsqr(slope))
+    value = (x**2 / p**2 + y**2 / q**2 - 1) / 2
+    normal = side * slope / steep
+    return Touch(side * value / steep, normal, pb.origin, value, p + q)
+
+
+_TOUCHES: Mapping[tuple[type, type], _Rule] = {
+    (Flat, Dot): _flat_ball,
+    (Flat, Ball): _flat_ball,
+    (Flat, Ring): _flat_egg,
+    (Flat, Oval): _flat_egg,
+    (Flat, Egg): _flat_egg,
+    (Ball, Dot): _ball_ball,
+    (Ball, Ball): _ball_ball,
+    (Straight, Dot): _straight_ball,
+    (Straight, Ball): _straight_ball,
+    (Straight, Straight): _straight_straight,
+    (Ring, Ball): _ring_ball,
+    (Implicit, Dot): _implicit_dot,
+    (Oval, Dot): _oval_dot,
+}
