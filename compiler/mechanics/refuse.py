@@ -117,7 +117,7 @@ def _refuse_law(liaison: Liaison, law: Law, planar: bool, log: Log) -> None:
         refuse(log, f"the law '{law.kind.name}' in space", law.span, "planar models take it")
         return
     pin = liaison.kind.name == "rotoide"
-    if liaison.kind.name in JOINTS and not (pin and law.kind.name == "coulomb"):
+    if liaison.kind.name in (*JOINTS, *IN_PLANE) and not (pin and law.kind.name == "coulomb"):
         kind = spelled(liaison)
         refuse(log, f"the law '{law.kind.name}' of a {kind}", law.span, "`coulomb` of a rotoïde is")
         return

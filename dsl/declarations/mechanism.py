@@ -50,7 +50,7 @@ def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison
         return None
     options = cast("dict[str, checked.Expression]", found.values)
     driven: dict[str, checked.Expression] = {}
-    made = checked.Liaison(full_name, kind, a, b, options, (), node.span, node.doc, driven)
+    made = checked.Liaison(full_name, kind, a, b, options, (), node.span, node.doc, driven=driven)
     if node.driven is not None:
         _driven(node, made, driven, scope)
     return made

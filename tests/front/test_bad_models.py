@@ -28,9 +28,9 @@ FAULTS = {
     "a zero radius": ("= 0.5 m ", "= 0 m ", "E0401", "radius must be positive; it is 0 m", "7:41"),
     "an unsupported liaison": (
         "contact_ponctuel(ground.line, hoop.rim)",
-        "tige(ground, hoop, length = 1 m)",
+        "appui_faces(ground.line, hoop.rim)",
         "E0701",
-        "the liaison 'tige' is not supported yet",
+        "the liaison 'appui_faces' is not supported yet",
         "8:3",
     ),
     "an unsupported law": (
