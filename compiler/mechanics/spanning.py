@@ -76,7 +76,7 @@ def span(model: Model, links: Iterable[Contact | Joint]) -> Tree:
 
 def in_order(links: Iterable[Contact | Joint]) -> list[Joint]:
     """The joints in the order in which they join bodies."""
-    joints = (x for x in links if isinstance(x, Joint))
+    joints = (x for x in links if isinstance(x, Joint) and x.carries)
     return sorted(joints, key=lambda x: (x.mu is None, -len(x.locks)))
 
 

@@ -51,9 +51,7 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
         compiler=toolchain.command,
         flags=FLAGS,
         folder=folder,
-        balanced=bool(model.bodies)
-        and not lowered.system.elements
-        and not mechanism.is_driven,
+        balanced=bool(model.bodies) and not lowered.system.elements and not mechanism.is_driven,
         conditions=tuple(reduced.conditions.texts),
         fixed=tuple((p.name, p.structural) for p in model.parameters if p.structural),
         file=file,
