@@ -156,9 +156,10 @@ def _give_laws(instance: Instance) -> None:
     for node, scope in instance.statements.liaisons:
         declared = scope.find(node.name.text)
         if isinstance(declared, Array):
-            for k, one in enumerate(declared.items):
+            of_items = scope.items(len(declared.items))
+            for one, own in zip(declared.items, of_items, strict=True):
                 if isinstance(one, checked.Liaison):
-                    give_laws(node, one, scope.at(k, len(declared.items)))
+                    give_laws(node, one, own)
         else:
             give_laws(node, declared if isinstance(declared, checked.Liaison) else None, scope)
 

@@ -12,19 +12,7 @@ from frot.dsl import Log
 
 def assemble(reduced: Reduced, log: Log) -> Assembled | None:
     """The kernel's system; what cannot be solved is reported."""
-    model = reduced.mechanism.model
-    has_text = bool(model.variables or model.equations or reduced.text.memory)
-    if has_text or _reads_solution(reduced):
-        return solve_equations(reduced, log)
-    return _plain(reduced)
-
-
-def _reads_solution(reduced: Reduced) -> bool:
-    s = reduced.symbols
-    return any(
-        x.numel() and reduced.force.numel() and ca.depends_on(reduced.force, x)
-        for x in (s.a, s.lam)
-    )
+    return _plain(reduced) if reduced.plain else solve_equations(reduced, log)
 
 
 def _plain(reduced: Reduced) -> Assembled:

@@ -41,7 +41,8 @@ class Assembled:
     accelerate by `rows` z + `bias`, and have the speeds `rate`; those of the mechanism's contacts
     come first, then one for each friction element. `rates` are those of q; with `late` they, or
     `power`, depend on z, lam or the y of late blocks. `resolve` turns an expression of the text's
-    symbols into one of t, q, v, u, p, d, y, z and lam.
+    symbols into one of t, q, v, u, p, d, y, z and lam. Of large trees of bodies `matrix` and
+    `force` have what `Reduced` says: where both are looked at, `in_full`.
     """
 
     reduced: Reduced
@@ -73,6 +74,10 @@ class Assembled:
     invariants: Invariants
     pivots: tuple[Pivot, ...]
     resolve: Callable[[ca.SX], ca.SX]
+
+    def in_full(self) -> tuple[ca.SX, ca.SX]:
+        """Matrix and force with those of large trees of bodies written out."""
+        return self.reduced.in_full() if self.reduced.tree.large else (self.matrix, self.force)
 
     @property
     def nv(self) -> int:

@@ -49,5 +49,6 @@ def _always_holds(joint: Link) -> bool:
 
 def _solution(system: Assembled) -> ca.SX:
     rows = system.lam.numel()
-    matrix = ca.blockcat([[system.matrix, -system.spread], [system.rows, ca.SX(rows, rows)]])
-    return ca.solve(matrix, ca.vertcat(system.force, -system.bias))
+    core, force = system.in_full()
+    matrix = ca.blockcat([[core, -system.spread], [system.rows, ca.SX(rows, rows)]])
+    return ca.solve(matrix, ca.vertcat(force, -system.bias))

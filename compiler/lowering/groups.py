@@ -13,14 +13,17 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.lowering.trees import TreeTable, make_tree
+from frot.compiler.mechanics.dynamics import speeds_by_tree
 from frot.compiler.mechanics.elements import Element, link_elements, text_element
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Group:
     """One group: places in z (speeds, auxiliary, algebraic), rows, contacts, elements.
 
-    `general`: its part of the matrix is no mass matrix, or E is not J'.
+    `general`: its part of the matrix is no mass matrix, or E is not J'. `tree`: its mass matrix is
+    given by the steps of large trees.
     """
 
     unknowns: tuple[int, ...]
@@ -30,6 +33,7 @@ class Group:
     contacts: tuple[int, ...]
     elements: tuple[int, ...]
     general: bool
+    tree: TreeTable | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,6 +79,7 @@ def make_groups(system: Assembled) -> Grouping:
     """Divide the core into its groups."""
     reduced = system.reduced
     joints, n_rows = reduced.mechanism.contacts, int(system.lam.numel())
+    planar = reduced.mechanism.model.planar
     nw, nv, na = int(system.z.numel()), system.nv, system.na
     elements = [
         e
@@ -87,6 +92,10 @@ def make_groups(system: Assembled) -> Grouping:
     sets = _Sets(nw + n_rows)
     for i, j in _entries(matrix):
         sets.join(i, j)
+    tree = reduced.tree
+    for places in speeds_by_tree([step.node for step in tree.steps]):
+        for place in places[1:]:
+            sets.join(places[0], place)
     moved = set()
     for r, k in _entries(rows):
         sets.join(nw + r, k)
@@ -106,6 +115,7 @@ def make_groups(system: Assembled) -> Grouping:
     for items in members.values():
         unknowns = tuple(i for i in items if i < nw)
         own = tuple(i - nw for i in items if i >= nw)
+        steps = not tree.large.isdisjoint(unknowns)
         groups.append(
             Group(
                 unknowns,
@@ -114,7 +124,8 @@ def make_groups(system: Assembled) -> Grouping:
                 own,
                 tuple(sorted({owners[r] for r in own})),
                 tuple(k for k, e in enumerate(elements) if e.row in own),
-                _is_general(system, unknowns, own),
+                not steps and _is_general(system, unknowns, own),
+                make_tree(tree.steps, unknowns, nv, planar) if steps else None,
             )
         )
     return Grouping(
@@ -122,14 +133,21 @@ def make_groups(system: Assembled) -> Grouping:
         tuple(elements),
         _readings(system, groups),
         frozenset(range(n_rows)) - moved,
-        _pack(system.matrix[list(g.unknowns), list(g.unknowns)] for g in groups),
-        _pack(
-            system.metric[list(g.unknowns[: g.n_speeds]), list(g.unknowns[: g.n_speeds])]
-            for g in groups
-        ),
+        _pack(_matrix(system, g) for g in groups),
+        _pack(_metric(system, g) for g in groups),
         _pack(system.rows[r, list(g.unknowns)] for g in groups for r in g.rows),
         _pack(system.spread[list(g.unknowns), r] for g in groups for r in g.rows),
     )
+
+
+def _matrix(system: Assembled, g: Group) -> ca.SX:
+    return g.tree.data if g.tree else system.matrix[list(g.unknowns), list(g.unknowns)]
+
+
+def _metric(system: Assembled, g: Group) -> ca.SX:
+    """That of the speeds; nobody reads it where the kernel goes along a tree."""
+    speeds = list(g.unknowns[: g.n_speeds])
+    return ca.SX.zeros(g.tree.factor) if g.tree else system.metric[speeds, speeds]
 
 
 def _entries(matrix: ca.SX) -> Iterable[tuple[int, int]]:

@@ -53,9 +53,11 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
     model = system.reduced.mechanism.model
     statements = [_statement(e) for e in model.initial]
     found: list[_Residual] = []
+    solved = (system.z, system.lam, system.y[system.early :])
+    later = {x.element_hash() for part in solved for x in scalars_of(part)}
     for index, equation in enumerate(model.initial):
         if not equation.guess and not _sets_memory(equation, system):
-            found += _residuals(index, equation, system, looking, log)
+            found += _residuals(index, equation, system, looking, later, log)
     direct, complete = _direct(found, system)
     # values that are stated one by one are where the search begins, or all there is to find
     q = _guess(system, looking, system.q, _with(system.q, _natural(system), direct), direct)
@@ -123,8 +125,14 @@ def _sets_memory(equation: InitialEquation, system: Assembled) -> bool:
 
 
 def _residuals(
-    index: int, equation: InitialEquation, system: Assembled, looking: Lowering, log: Log
+    index: int,
+    equation: InitialEquation,
+    system: Assembled,
+    looking: Lowering,
+    later: set[int],
+    log: Log,
 ) -> list[_Residual]:
+    """`later`: symbols of what is solved with the core or after it."""
     fixed = is_fixed(equation.left) and is_fixed(equation.right)
     if fixed or equation.left.type.base == "boolean":
         log.report(
@@ -140,8 +148,7 @@ def _residuals(
     left = system.resolve(settled(looking.lower(equation.left)))
     right = system.resolve(settled(looking.lower(equation.right)))
     difference = left - right
-    later = ca.vertcat(system.z, system.lam, system.y[system.early :])
-    if difference.numel() and later.numel() and ca.depends_on(difference, later):
+    if any(x.element_hash() in later for x in ca.symvar(difference)):
         log.report(
             "E0701",
             "an initial statement on an acceleration or a reaction is not supported yet",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -9,6 +10,7 @@ import casadi as ca
 from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.joint_geometry import JointGeometry
 from frot.compiler.mechanics.mechanism import Relation
 from frot.compiler.mechanics.names import component_names
@@ -77,10 +79,12 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
     for variable in mechanism.model.variables:
         yield from _of_text(reduced, variable)
     yield from _rates(system)
+    accelerations = _accelerations(reduced)
     for body in mechanism.model.bodies:
-        yield from _of_body(reduced, body)
+        yield from _of_body(reduced, body, accelerations)
     known = dict.fromkeys(x.liaison for x in (*mechanism.contacts, *mechanism.ideal))
-    for liaison in (x for x in known if x in mechanism.model.liaisons):
+    own = set(mechanism.model.liaisons)
+    for liaison in (x for x in known if x in own):
         yield from _of_liaison(reduced, liaison)
     if not mechanism.model.bodies:
         return
@@ -128,11 +132,32 @@ def _rates(system: Assembled) -> Iterator[Listed]:
             yield Listed(f"der({name})", symbol, rate, f"rate of {name}")
 
 
-def _of_body(reduced: Reduced, body: Body) -> Iterator[Listed]:
+def _accelerations(reduced: Reduced) -> dict[tuple[Body, str], ca.SX]:
+    """Rates of the velocities of all bodies, found in one go: each hangs on those before it."""
+    of_body, found = reduced.variables.of_body, {}
+    for body in reduced.mechanism.model.bodies:
+        found[body, "acceleration"] = of_body(body, "velocity")
+        if body.shape is not None and body.shape.turns:
+            found[body, "angular_acceleration"] = of_body(body, "angular_velocity")
+    rates = reduced.variables.rate(column(found.values()))
+    ends = itertools.accumulate((x.numel() for x in found.values()), initial=0)
+    return {
+        key: rates[first : first + value.numel()]
+        for (key, value), first in zip(found.items(), ends, strict=False)
+    }
+
+
+def _of_body(
+    reduced: Reduced, body: Body, accelerations: dict[tuple[Body, str], ca.SX]
+) -> Iterator[Listed]:
     def vector(name: str, of: Dimension, doc: str) -> Iterator[Listed]:
-        value = reduced.variables.of_body(body, name)
+        value = own(name)
         for suffix, part in _components(f"{body.name}.{name}", value):
             yield Listed(suffix, part, of, doc)
+
+    def own(name: str) -> ca.SX:
+        known = accelerations.get((body, name))
+        return reduced.variables.of_body(body, name) if known is None else known
 
     yield from vector("position", LENGTH, "position of G")
     yield from vector("velocity", VELOCITY, "velocity of G")
@@ -147,8 +172,7 @@ def _of_body(reduced: Reduced, body: Body) -> Iterator[Listed]:
             ("angular_velocity", RATE, "angular velocity", "AngularVelocity"),
             ("angular_acceleration", RATE_OF_RATE, "angular acceleration", "AngularAcceleration"),
         ):
-            value = reduced.variables.of_body(body, name)
-            for suffix, part in _components(f"{body.name}.{name}", value):
+            for suffix, part in _components(f"{body.name}.{name}", own(name)):
                 yield Listed(suffix, part, of, doc, quantity)
     value = reduced.variables.of_body(body, "kinetic_energy")
     yield Listed(f"{body.name}.kinetic_energy", value, ENERGY, "kinetic energy")

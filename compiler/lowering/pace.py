@@ -12,6 +12,7 @@ def make_pace(system: Assembled, conditions: ca.SX) -> tuple[ca.SX, ca.SX] | Non
     t = system.reduced.symbols.t
     parts = [
         system.force,
+        *(x for step in system.reduced.tree.steps for x in (step.force, step.couple)),
         system.bias,
         system.coefficients,
         system.gap,
@@ -20,13 +21,16 @@ def make_pace(system: Assembled, conditions: ca.SX) -> tuple[ca.SX, ca.SX] | Non
         *(b.residual for b in system.blocks if not b.late),
     ]
     known = ca.vertcat(system.z, system.lam, system.y[system.early :])
-    found = [
-        value
-        for part in parts
-        for value in (ca.vertsplit(part) if part.numel() else ())
-        if ca.depends_on(value, t) and not (known.numel() and ca.depends_on(value, known))
-    ]
+    values = column(ca.vec(ca.densify(part)) for part in parts)
+    found = sorted(_rows_with(values, t) - _rows_with(values, known))
     if not found:
         return None
-    values = column(found)
+    values = values[found]
     return values, ca.jtimes(values, t, ca.SX(1))
+
+
+def _rows_with(values: ca.SX, symbols: ca.SX) -> set[int]:
+    """The items that depend on one of the symbols."""
+    if not (values.numel() and symbols.numel()):
+        return set()
+    return set(ca.jacobian_sparsity(values, symbols).row())

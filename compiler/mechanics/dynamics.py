@@ -1,19 +1,47 @@
-"""Mass matrix and inertial forces in two passes over the tree.
+"""Inertia and inertial forces of the tree.
 
 Every quantity of a step is taken about its own origin, in ground axes. Towards the ground, what is
 beyond a step is one rigid body to the speeds before it (composite bodies: M. Walker, D. Orin, J.
 Dyn. Syst. Meas. Control 104, 1982); where it keeps its orientation whatever carries it, only its
 mass counts, at the place that carries it.
+
+A small tree has its mass matrix written out. Of a large one, whose matrix would cost the square of
+its speeds and its factor the cube, what each step adds by itself is given to the kernel, which goes
+from step to step (runtime/kernel/tree.h).
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import casadi as ca
-from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.lowering.symbols import column as stacked
+from frot.compiler.mechanics.kinematics import Kinematics, Node
 from frot.compiler.mechanics.spatial import cross, nowhere, size_of_cross
 from frot.dsl.checked import Body
+
+# Speeds of a tree from which on the recursion costs less than the mass matrix. Measured.
+LARGE = 10
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Step:
+    """What a step of the tree has by itself, before what is beyond it.
+
+    `mass`, `moment` (mass times arm) and `inertia` of its bodies about its origin; `force` and
+    `couple` there that keep their motion while no speed changes, less their weight, with the sizes
+    of their terms.
+    """
+
+    node: Node
+    mass: ca.SX
+    moment: ca.SX
+    inertia: ca.SX
+    force: ca.SX
+    couple: ca.SX
+    force_size: ca.SX
+    couple_size: ca.SX
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,6 +51,16 @@ class Masses:
     mass: ca.SX
     force: ca.SX
     size: ca.SX
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Push:
+    """A force (3) and a couple (3) on a body at the vector `arm` from its G, in ground axes."""
+
+    body: Body
+    arm: ca.SX
+    force: ca.SX
+    couple: ca.SX
 
 
 @dataclass(slots=True, eq=False)
@@ -43,6 +81,26 @@ class _Carried:
     couple_size: ca.SX = field(default_factory=nowhere)
     momenta: dict[int, tuple[ca.SX, ca.SX]] = field(default_factory=dict)
 
+    @staticmethod
+    def of(step: Step) -> _Carried:
+        """What a step has by itself."""
+        return _Carried(
+            step.mass,
+            step.moment,
+            step.inertia,
+            step.force,
+            step.couple,
+            step.force_size,
+            step.couple_size,
+        )
+
+    def add_push(self, push: Push, arm: ca.SX) -> None:
+        """A force that acts on the bodies of the step at `arm`."""
+        self.force -= push.force
+        self.couple -= push.couple + cross(arm, push.force)
+        self.force_size += ca.fabs(push.force)
+        self.couple_size += ca.fabs(push.couple) + size_of_cross(arm, push.force)
+
     def add_body(
         self, mass: ca.SX, inertia: ca.SX, arm: ca.SX, acceleration: ca.SX, couple: ca.SX
     ) -> None:
@@ -61,19 +119,24 @@ class _Carried:
         self.mass += other.mass
         self.moment += other.mass * arm
         self.inertia -= other.mass * _square(arm)
+        self.add_force(other, arm, as_point=as_point)
+        if not as_point:
+            self.moment += other.moment
+            product = ca.skew(arm) @ ca.skew(other.moment)
+            self.inertia += other.inertia - product - product.T
+        for place, (linear, angular) in other.momenta.items():
+            own = nowhere() if as_point else angular
+            self.momenta[place] = (linear, own + cross(arm, linear))
+
+    def add_force(self, other: _Carried, arm: ca.SX, *, as_point: bool) -> None:
+        """The forces alone."""
         self.force += other.force
         self.couple += cross(arm, other.force)
         self.force_size += other.force_size
         self.couple_size += size_of_cross(arm, other.force_size)
         if not as_point:
-            self.moment += other.moment
-            product = ca.skew(arm) @ ca.skew(other.moment)
-            self.inertia += other.inertia - product - product.T
             self.couple += other.couple
             self.couple_size += other.couple_size
-        for place, (linear, angular) in other.momenta.items():
-            own = nowhere() if as_point else angular
-            self.momenta[place] = (linear, own + cross(arm, linear))
 
 
 def _square(arm: ca.SX) -> ca.SX:
@@ -81,21 +144,45 @@ def _square(arm: ca.SX) -> ca.SX:
     return ca.sparsify(ca.skew(arm) @ ca.skew(arm))
 
 
-def make_masses(
+def trees_of(nodes: Sequence[Node]) -> list[int]:
+    """For each node the first of its tree."""
+    first: list[int] = []
+    for k, node in enumerate(nodes):
+        first.append(k if node.above < 0 else first[node.above])
+    return first
+
+
+def speeds_by_tree(nodes: Sequence[Node]) -> list[list[int]]:
+    """The places of the speeds of each tree."""
+    speeds: dict[int, list[int]] = {}
+    for node, tree in zip(nodes, trees_of(nodes), strict=True):
+        speeds.setdefault(tree, []).extend(node.places)
+    return list(speeds.values())
+
+
+def large_speeds(nodes: Sequence[Node], nv: int) -> frozenset[int]:
+    """The speeds of trees that have at least so many, auxiliary ones not counted."""
+    trees = speeds_by_tree(nodes)
+    return frozenset(p for own in trees if sum(k < nv for k in own) >= LARGE for p in own)
+
+
+def in_trees(nodes: Sequence[Node], speeds: frozenset[int]) -> list[bool]:
+    """Whether the tree of each node has one of the speeds."""
+    trees = trees_of(nodes)
+    found = {t for n, t in zip(nodes, trees, strict=True) if not speeds.isdisjoint(n.places)}
+    return [tree in found for tree in trees]
+
+
+def make_steps(
     kinematics: Kinematics,
     bodies: tuple[Body, ...],
-    mass: dict[Body, ca.SX],
-    inertia: dict[Body, ca.SX],
+    mass: Mapping[Body, ca.SX],
+    inertia: Mapping[Body, ca.SX],
     fall: ca.SX,
-) -> Masses:
-    """All bodies; `inertia` (3 x 3) about G along ground axes, `fall` the acceleration of gravity.
-
-    With auxiliary speeds after the others.
-    """
-    nodes = kinematics.nodes
-    nw = kinematics.symbols.v.numel() + kinematics.symbols.sw.numel()
-    matrix, force, size = ca.SX(nw, nw), ca.SX(nw, 1), ca.SX(nw, 1)
-    carried = [_Carried() for _ in nodes]
+    pushes: Iterable[Push],
+) -> tuple[Step, ...]:
+    """One for each node; `inertia` (3 x 3) about G along ground axes, `fall` that of gravity."""
+    carried = [_Carried() for _ in kinematics.nodes]
     for body in bodies:
         moving, place = kinematics.bodies[body], kinematics.node_of[body]
         if place < 0:
@@ -106,9 +193,34 @@ def make_masses(
         carried[place].add_body(
             mass[body], own, arm, moving.linear_bias - fall, ca.sparsify(couple)
         )
-    for k in reversed(range(len(nodes))):
+    for push in pushes:
+        place = kinematics.node_of[push.body]
+        if place >= 0:
+            carried[place].add_push(push, kinematics.beyond[push.body] + push.arm)
+    return tuple(
+        Step(n, c.mass, c.moment, c.inertia, c.force, c.couple, c.force_size, c.couple_size)
+        for n, c in zip(kinematics.nodes, carried, strict=True)
+    )
+
+
+def write_out(
+    steps: Sequence[Step], nv: int, nw: int, left_out: frozenset[int] = frozenset()
+) -> Masses:
+    """The masses of `nv` speeds, and auxiliary speeds up to `nw`.
+
+    What is left out has no entries, and of the force only those of auxiliary speeds.
+    """
+    force, size = [ca.SX(0)] * nw, [ca.SX(0)] * nw
+    entries: dict[tuple[int, int], ca.SX] = {}
+    carried = [_Carried.of(step) for step in steps]
+    nodes = [step.node for step in steps]
+    without = in_trees(nodes, left_out)
+    for k in reversed(range(len(steps))):
         node, beyond = nodes[k], carried[k]
+        inside = not without[k]
         for place, column in zip(node.places, node.columns, strict=True):
+            if not inside:
+                break
             linear = beyond.mass * column.linear + cross(column.angular, beyond.moment)
             angular = cross(beyond.moment, column.linear) + beyond.inertia @ column.angular
             beyond.momenta[place] = (ca.sparsify(linear), ca.sparsify(angular))
@@ -117,13 +229,23 @@ def make_masses(
                 if other in node.places and other > place:
                     continue
                 entry = ca.dot(column.linear, linear) + ca.dot(column.angular, angular)
-                matrix[place, other] = matrix[other, place] = entry
-            force[place] = -(
-                ca.dot(column.linear, beyond.force) + ca.dot(column.angular, beyond.couple)
-            )
+                entries[place, other] = entries[other, place] = entry
+            if inside or place >= nv:
+                force[place] = -(
+                    ca.dot(column.linear, beyond.force) + ca.dot(column.angular, beyond.couple)
+                )
             size[place] = ca.dot(ca.fabs(column.linear), beyond.force_size) + ca.dot(
                 ca.fabs(column.angular), beyond.couple_size
             )
         if node.above >= 0:
-            carried[node.above].add(beyond, node.arm, as_point=node.faces_ground)
-    return Masses(matrix, force, size)
+            beside = carried[node.above]
+            add = beside.add if inside else beside.add_force
+            add(beyond, node.arm, as_point=node.faces_ground)
+    return Masses(_matrix(entries, nw), stacked(force), stacked(size))
+
+
+def _matrix(entries: Mapping[tuple[int, int], ca.SX], n: int) -> ca.SX:
+    """The sparse matrix (n x n) of its entries, made at once."""
+    found = sorted((j, i, x) for (i, j), x in entries.items() if x.nnz())
+    pattern = ca.Sparsity.triplet(n, n, [i for _, i, _ in found], [j for j, _, _ in found])
+    return ca.SX(pattern, ca.vertcat(*(x for _, _, x in found)) if found else ca.SX(0, 1))

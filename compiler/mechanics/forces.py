@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.mechanics.dynamics import Push
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.mechanism import Joint
+from frot.compiler.mechanics.mechanism import Joint, point_body
 from frot.compiler.mechanics.motions import name_of
-from frot.compiler.mechanics.spatial import nowhere, whole
-from frot.dsl.checked import BodyPoint, Expression, Force, Frame, Liaison, Literal, Place
+from frot.compiler.mechanics.spatial import about_z, nowhere, whole
+from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Liaison, Literal, Place
 
 Argument = Expression | Place | Liaison
 
@@ -21,11 +22,13 @@ Argument = Expression | Place | Liaison
 class Action:
     """A force (3) and the velocity of its point, or a couple and the angular velocity it drives.
 
-    `velocity` is linear in the speeds and `force` times it is the power.
+    `velocity` is linear in the speeds and `force` times it is the power. `push`: the same as it
+    acts on one body, where it does.
     """
 
     velocity: ca.SX
     force: ca.SX
+    push: Push | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,12 +39,27 @@ class Load:
     potential: ca.SX | None
 
 
-def _point(argument: Argument, kinematics: Kinematics, lowering: Lowering) -> tuple[ca.SX, ca.SX]:
-    """Where a point is, and its velocity."""
+@dataclass(frozen=True, slots=True, eq=False)
+class _End:
+    """Where a point is, its velocity, and its body with the way there from G (None: the ground)."""
+
+    place: ca.SX
+    velocity: ca.SX
+    body: Body | None
+    arm: ca.SX
+
+    def under(self, force: ca.SX) -> Action:
+        """A force that acts there."""
+        push = None if self.body is None else Push(self.body, self.arm, force, nowhere())
+        return Action(self.velocity, force, push)
+
+
+def _point(argument: Argument, kinematics: Kinematics, lowering: Lowering) -> _End:
     if isinstance(argument, (BodyPoint, Frame)):
-        moving = kinematics.moving(argument)
-        return moving.pose.origin, moving.linear
-    return whole(lowering.lower(_value(argument))), nowhere()
+        moving, body = kinematics.moving(argument), point_body(argument)
+        arm = kinematics.pose(body).direction(kinematics.local_point(argument))
+        return _End(moving.pose.origin, moving.linear, body, arm)
+    return _End(whole(lowering.lower(_value(argument))), nowhere(), None, nowhere())
 
 
 def load(
@@ -53,25 +71,28 @@ def load(
     """Lower one force. `lowering` is that of the motion, so that its switches are located."""
     arguments = force.arguments
     if force.kind.name == "on":
-        _, velocity = _point(arguments["frame"], kinematics, lowering)
+        end = _point(arguments["frame"], kinematics, lowering)
         push = whole(lowering.lower(_value(arguments["value"])))
-        return Load((Action(velocity, push),), None)
+        return Load((end.under(push),), None)
     if force.kind.name == "couple":
-        turning = _turning(arguments["holder"], kinematics, joints)
-        return Load((Action(turning, lowering.lower(_value(arguments["value"]))),), None)
+        value = lowering.lower(_value(arguments["value"]))
+        return Load((_couple(arguments["holder"], kinematics, joints, value),), None)
     if force.kind.name == "drag":
         return _drag(arguments, kinematics, lowering)
     ends = ("centre", "point") if force.kind.name == "attraction" else ("a", "b")
-    start, first = _point(arguments[ends[0]], kinematics, lowering)
-    end, second = _point(arguments[ends[1]], kinematics, lowering)
-    speeds = (second, first)
+    start = _point(arguments[ends[0]], kinematics, lowering)
+    end = _point(arguments[ends[1]], kinematics, lowering)
+
+    def pulls(pull: ca.SX) -> tuple[Action, Action]:
+        return end.under(pull), start.under(-pull)
+
+    apart = end.place - start.place
     if force.kind.name == "damper":
         damping = lowering.lower(_value(arguments["c"]))
-        along = _unit(end - start)
-        pull = -damping * ca.dot(speeds[0] - speeds[1], along) * along
-        return Load((Action(speeds[0], pull), Action(speeds[1], -pull)), None)
+        along = _unit(apart)
+        rate = ca.dot(end.velocity - start.velocity, along)
+        return Load(pulls(-damping * rate * along), None)
     stiffness = lowering.lower(_value(arguments["k"]))
-    apart = end - start
     if force.kind.name == "attraction":
         pull, energy = -stiffness * apart, stiffness * ca.sumsqr(apart) / 2
     else:
@@ -84,29 +105,33 @@ def load(
             else ca.if_else(length > 0, rest / length, ca.SX(0))
         )
         pull, energy = -stiffness * (1 - slack) * apart, stiffness * (length - rest) ** 2 / 2
-    actions = (Action(speeds[0], pull), Action(speeds[1], -pull))
     constant = all(is_fixed(a) for a in arguments.values() if isinstance(a, Expression))
-    return Load(actions, energy if constant else None)
+    return Load(pulls(pull), energy if constant else None)
 
 
-def _turning(holder: Argument, kinematics: Kinematics, joints: Mapping[Liaison, Joint]) -> ca.SX:
-    """What a couple drives: the angle of a liaison, or a body (about z in the plane)."""
+def _couple(
+    holder: Argument, kinematics: Kinematics, joints: Mapping[Liaison, Joint], value: ca.SX
+) -> Action:
+    """A couple drives the angle of a liaison, or a body (about z in the plane)."""
     if isinstance(holder, Liaison):
         joint = joints[holder]
         index = next(k for k, m in enumerate(joint.motions) if name_of(m) == "angle")
-        return kinematics.coordinate(joint, index)[1]
+        return Action(kinematics.coordinate(joint, index)[1], value)
     assert isinstance(holder, BodyPoint)
     turning = kinematics.angular_velocity(holder.body)
-    return turning[2] if kinematics.planar else turning
+    if not kinematics.planar:
+        return Action(turning, value)
+    return Action(turning[2], value, Push(holder.body, nowhere(), nowhere(), about_z(value)))
 
 
 def _drag(arguments: Mapping[str, Argument], kinematics: Kinematics, lowering: Lowering) -> Load:
     """A force c |v|^exponent against v; the exponent is 1 or 2."""
-    _, velocity = _point(arguments["body"], kinematics, lowering)
+    end = _point(arguments["body"], kinematics, lowering)
+    velocity = end.velocity
     factor = lowering.lower(_value(arguments["c"]))
     if _literal(arguments["exponent"]) == 2:
         factor *= ca.sqrt(ca.sumsqr(velocity))
-    return Load((Action(velocity, -factor * velocity),), None)
+    return Load((end.under(-factor * velocity),), None)
 
 
 def _unit(vector: ca.SX) -> ca.SX:

@@ -8,8 +8,8 @@ zero, and so are their accelerations, in every motion.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
 
 import casadi as ca
 from frot.compiler.equations.before import Before
@@ -27,8 +27,15 @@ from frot.compiler.equations.text_symbols import (
 from frot.compiler.lowering.expressions import Conditions, Lowering
 from frot.compiler.lowering.symbols import Rows, Symbols, column, link_rows, make_symbols
 from frot.compiler.mechanics.contacts import Geometry, gravity, link_geometry, row_rates
-from frot.compiler.mechanics.dynamics import Masses, make_masses
-from frot.compiler.mechanics.forces import load
+from frot.compiler.mechanics.dynamics import (
+    Push,
+    Step,
+    in_trees,
+    large_speeds,
+    make_steps,
+    write_out,
+)
+from frot.compiler.mechanics.forces import Action, Load, load
 from frot.compiler.mechanics.joint_geometry import JointGeometry, RelationGeometry
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Mechanism, Relation
@@ -39,6 +46,14 @@ from frot.dsl.checked import Call, Liaison, Model, Quantity, Reference, Variable
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Tree:
+    """The steps of the tree, none where no tree is large; the speeds of large trees."""
+
+    steps: tuple[Step, ...]
+    large: frozenset[int]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Reduced:
     """Equations of the motion in CasADi expressions, auxiliary speeds at zero.
 
@@ -46,7 +61,9 @@ class Reduced:
     the others may hold too. `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes
     of its terms, `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a +
     bias is the rows' acceleration), `rate` (n_rows), `gap` (n_contacts), `witness` (3
-    each) and `reach` (see contacts.py), `coefficients` (of motion and of rest, of each element),
+    each) and `reach` (see contacts.py), `tree`: the speeds of large trees have no
+    entries in `mass`, nor what their bodies weigh in `force`; `plain`: the text adds nothing to the
+    equations of motion, `coefficients` (of motion and of rest, of each element),
     `power` of the loads without potential, `kinetic`, `potential`.
     """
 
@@ -69,10 +86,23 @@ class Reduced:
     gap: ca.SX
     witness: ca.SX
     reach: ca.SX
+    tree: Tree
+    plain: bool
     coefficients: ca.SX
     power: ca.SX
     kinetic: ca.SX
     potential: ca.SX
+
+    def in_full(self) -> tuple[ca.SX, ca.SX]:
+        """Mass matrix and force with those of large trees written out."""
+        if not self.tree.large:
+            return self.mass, self.force
+        nv = self.symbols.v.numel()
+        whole, force = write_out(self.tree.steps, nv, self.mass.size1()), ca.SX(self.force)
+        for place in self.tree.large:
+            if place < nv:
+                force[place] += whole.force[place]
+        return whole.mass, force
 
 
 def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
@@ -114,14 +144,20 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         for rate in row_rates(link, g, kinematics)
     )
     speeds = ca.vertcat(symbols.v, symbols.sw)
-    motion, potential = _masses(mechanism, variables)
-    loads = _loads(mechanism, variables, moving)
+    applied = _applied(mechanism, variables, moving)
     coefficients = _coefficients(mechanism.contacts, moving, symbols, log)
     equations = gather(mechanism.model.equations, moving, log)
     _add_slip_accelerations(equations, text)
     events = gather_events(mechanism.model, text, conditions, moving, looking, log)
     if log.failed:
         return None
+    has_text = bool(mechanism.model.variables or mechanism.model.equations or text.memory)
+    forces = column(ca.vec(action.force) for x in applied for action in x.actions)
+    plain = not has_text and not _reads_solution(forces, symbols)
+    large = large_speeds(kinematics.nodes, symbols.v.numel()) if plain else frozenset[int]()
+    loads = _loads(mechanism, variables, applied, large)
+    steps, potential = _masses(mechanism, variables, loads.pushes)
+    motion = write_out(steps, symbols.v.numel(), speeds.numel(), large)
     settled = variables.settled
     conditions.values = [settled(value) for value in conditions.values]
     equations.values[:] = [settled(value) for value in equations.values]
@@ -145,6 +181,8 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         gap=settled(column(g.gap for g in geometry)),
         witness=settled(column(g.witness for g in geometry)),
         reach=settled(column(g.reach for g in geometry)),
+        tree=Tree(_settled_steps(steps, large, settled), large),
+        plain=plain,
         coefficients=settled(coefficients),
         power=settled(loads.power),
         kinetic=settled(
@@ -296,8 +334,10 @@ def _variables(
     return Variables(symbols, text.chains, kinematics, geometry, links, reactions)
 
 
-def _masses(mechanism: Mechanism, variables: Variables) -> tuple[Masses, ca.SX]:
-    """The tree's masses, and the potential energy of the weights."""
+def _masses(
+    mechanism: Mechanism, variables: Variables, pushes: Iterable[Push]
+) -> tuple[tuple[Step, ...], ca.SX]:
+    """The tree's masses with what pushes its bodies, and the potential energy of the weights."""
     kinematics, own = variables.kinematics, mechanism.model.bodies
     fall = gravity(mechanism.model.world, kinematics)
     bodies = (*own, *mechanism.halves)
@@ -309,50 +349,77 @@ def _masses(mechanism: Mechanism, variables: Variables) -> tuple[Masses, ca.SX]:
     potential = -sum(
         (variables.mass(b) * ca.dot(fall, kinematics.position(b)) for b in own), ca.SX(0)
     )
-    return make_masses(kinematics, bodies, masses, inertias, fall), potential
+    return make_steps(kinematics, bodies, masses, inertias, fall, pushes), potential
+
+
+def _settled_steps(
+    steps: tuple[Step, ...], large: frozenset[int], settled: Callable[[ca.SX], ca.SX]
+) -> tuple[Step, ...]:
+    """Those of large trees with auxiliary speeds at zero; only forces hold speeds."""
+    if not large:
+        return ()
+    return tuple(
+        replace(step, force=settled(step.force), couple=settled(step.couple)) for step in steps
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Loads:
-    """Generalized applied forces, the sizes of their terms and of each, potential and power."""
+    """Generalized applied forces, the sizes of their terms and of each, potential and power.
+
+    `pushes` act on bodies of large trees, and are in none of the first two.
+    """
 
     force: ca.SX
     size: ca.SX
+    pushes: tuple[Push, ...]
     sizes: list[ca.SX]
     potential: ca.SX
     power: ca.SX
 
 
-def _loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> _Loads:
-    kinematics, symbols = variables.kinematics, variables.symbols
-    speeds = ca.vertcat(symbols.v, symbols.sw)
+def _applied(mechanism: Mechanism, variables: Variables, moving: Lowering) -> list[Load]:
+    """The forces of the text and the efforts of its flanges."""
+    kinematics = variables.kinematics
     links = (*mechanism.contacts, *mechanism.ideal)
     joints = {x.liaison: x for x in links if isinstance(x, Joint)}
     joints |= {x.liaison: x.joint for x in links if isinstance(x, Relation)}
-    force, size = ca.SX.zeros(speeds.numel()), ca.SX.zeros(speeds.numel())
-    potential, power = ca.SX(0), ca.SX(0)
-    sizes: list[ca.SX] = []
-    for applied in mechanism.forces:
-        result = load(applied, kinematics, moving, joints)
-        for action in result.actions:
-            along = ca.jacobian(action.velocity, speeds).T
-            force += along @ action.force
-            size += ca.fabs(along) @ ca.fabs(action.force)
-            if result.potential is None:
-                power += ca.dot(action.velocity, action.force)
-        sizes.append(sum((ca.sum1(ca.fabs(a.force)) for a in result.actions), ca.SX(0)))
-        if result.potential is not None:
-            potential += result.potential
+    applied = [load(force, kinematics, moving, joints) for force in mechanism.forces]
     for flange in mechanism.model.flanges:
         assert moving.variable is not None
         effort = moving.variable(flange.effort)
         joint = joints[flange.liaison]
         names = [name_of(m) for m in joint.motions]
         rate = kinematics.coordinate(joint, names.index(flange.coordinate))[1]
-        push = ca.jacobian(rate, speeds).T * effort
-        force, size = force + push, size + ca.fabs(push)
-        power += effort * rate
-    return _Loads(force, size, sizes, potential, power)
+        applied.append(Load((Action(rate, effort),), None))
+    return applied
+
+
+def _loads(
+    mechanism: Mechanism, variables: Variables, applied: list[Load], large: frozenset[int]
+) -> _Loads:
+    kinematics, symbols = variables.kinematics, variables.symbols
+    speeds = ca.vertcat(symbols.v, symbols.sw)
+    force, size = ca.SX.zeros(speeds.numel()), ca.SX.zeros(speeds.numel())
+    potential, power = ca.SX(0), ca.SX(0)
+    sizes: list[ca.SX] = []
+    pushes: list[Push] = []
+    inside = in_trees(kinematics.nodes, large)
+    held = {body for body, k in kinematics.node_of.items() if k >= 0 and inside[k]}
+    for result in applied:
+        for action in result.actions:
+            if action.push is not None and action.push.body in held:
+                pushes.append(action.push)
+            else:
+                along = ca.jacobian(action.velocity, speeds).T
+                force += along @ action.force
+                size += ca.fabs(along) @ ca.fabs(action.force)
+            if result.potential is None:
+                power += ca.dot(action.velocity, action.force)
+        sizes.append(sum((ca.sum1(ca.fabs(a.force)) for a in result.actions), ca.SX(0)))
+        if result.potential is not None:
+            potential += result.potential
+    return _Loads(force, size, tuple(pushes), sizes[: len(mechanism.forces)], potential, power)
 
 
 def _reads_solution(value: ca.SX, symbols: Symbols) -> bool:

@@ -160,7 +160,8 @@ def dae_of(lowered: Lowered) -> Dae:
             [k for k, _ in results],
         )
 
-    balance = system.matrix @ system.z - system.force - system.spread @ system.lam
+    matrix, force = system.in_full()
+    balance = matrix @ system.z - force - system.spread @ system.lam
     blocks = (block.residual for block in system.blocks)
     alg = function("alg", ("alg", ca.vertcat(balance, *_laws(system, switches), *blocks)))
     update = None
@@ -382,7 +383,9 @@ def _reset(system: Assembled, switches: list[_Switch]) -> ca.SX:
         for row, kind in w.laws():
             holds[row] = w.mode[CLOSED] * (kind == STICK)
     active = ca.diag(holds) @ system.rows[:, :nv]
-    spread = ca.solve(system.metric[:nv, :nv], active.T)
+    large = system.reduced.tree.large
+    metric = system.in_full()[0] if large else system.metric
+    spread = ca.solve(metric[:nv, :nv], active.T)
     matrix = active @ spread + ca.diag(1 - holds)
     moved = system.v - spread @ ca.solve(matrix, holds * system.rate)
     return ca.vertcat(system.q, moved)

@@ -275,7 +275,18 @@ def _mechanical_arrays(lowered: Lowered) -> list[str]:
         for name, items in zip(names, lists, strict=True):
             arrays.append(_array("int", name, [str(i) for i in items]))
         counts = (int(g.general), len(g.unknowns), g.n_speeds, g.n_auxiliary, *map(len, lists[1:]))
-        records.append(_record(*counts, *names, *at))
+        steps = f"group_{k}_steps"
+        if g.tree is not None:
+            links = [
+                _record(
+                    *(x.above, x.first, x.count, int(x.auxiliary), int(x.faces_ground)),
+                    *(x.data, x.factor),
+                )
+                for x in g.tree.steps
+            ]
+            arrays.append(_array("frot_link", steps, links))
+        along = (g.tree.width, len(g.tree.steps), steps) if g.tree else (0, 0, "0")
+        records.append(_record(*counts, *names, *at, *along))
         at = [a + size for a, size in zip(at, _group_sizes(g), strict=True)]
     groups = grouping.groups
     beside = {
@@ -335,6 +346,8 @@ def _places(values: dict[int, int]) -> list[int]:
 def _group_sizes(g: Group) -> tuple[int, ...]:
     """Items of a group in the arrays of `_PACKED`."""
     n, rows = len(g.unknowns), len(g.rows)
+    if g.tree is not None:
+        return n, int(g.tree.data.numel()), g.tree.factor, rows * n, rows**2
     return n, n * n, g.n_speeds**2, rows * n, rows**2
 
 
@@ -381,7 +394,15 @@ def _depends_on_time(lowered: Lowered) -> bool:
     time = reduced.symbols.t
     located = reduced.conditions.values[: reduced.conditions.located]
     moved = (
-        *(system.force, system.matrix, system.rows, system.bias, system.coefficients, system.gap),
+        *(
+            system.force,
+            system.matrix,
+            lowered.grouping.matrix,
+            system.rows,
+            system.bias,
+            system.coefficients,
+            system.gap,
+        ),
         *(system.rates, system.resolve(column(located))),
         *(b.residual for b in system.blocks),
     )

@@ -9,14 +9,14 @@ from frot.compiler.mechanics.reduce import Reduced
 
 def print_reduced(reduced: Reduced) -> str:
     """The mechanism's own equations, and the residuals of the text."""
-    s = reduced.symbols
+    s, (mass, force) = reduced.symbols, reduced.in_full()
     lines = [f"{reduced.mechanism.model.name}: M a = h + J' lam, rows accelerate by J a + c"]
     parts = {
         "q": s.q,
         "v": s.v,
         "der(q)": s.rates,
-        "M": reduced.mass,
-        "h": reduced.force,
+        "M": mass,
+        "h": force,
         "J": reduced.rows,
         "c": reduced.bias,
         "rate": reduced.rate,
@@ -71,10 +71,11 @@ def print_equations(lowered: Lowered) -> str:
         lines.append(f"  kept: 0 = {value}  from `{origin.text}`")
     if system.z.numel() or system.lam.numel():
         lines.append("  core: M z = h + J' lam, rows accelerate by J z + c")
+        matrix, force = system.in_full()
         parts = {
             "z": system.z,
-            "M": system.matrix,
-            "h": system.force,
+            "M": matrix,
+            "h": force,
             "J": system.rows,
             "c": system.bias,
             "rate": system.rate,

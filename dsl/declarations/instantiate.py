@@ -338,7 +338,7 @@ def _mechanical(
             return None
         scope.build.grow(counts[0], element.span)
         items = [
-            check(element, f"{name}[{k + 1}]", scope.at(k, counts[0])) for k in range(counts[0])
+            check(element, f"{name}[{k + 1}]", one) for k, one in enumerate(scope.items(counts[0]))
         ]
         return None if None in items else Array(name, tuple(items))  # type: ignore[arg-type]
 

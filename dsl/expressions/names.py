@@ -90,8 +90,9 @@ def place(node: tree.Expression, scope: Scope) -> checked.Place | checked.Surfac
     if not isinstance(node, tree.Name | tree.Member | tree.Index):
         scope.log.report("E0205", "expected a body, frame, point or curve", node.span)
         return None
-    thing = resolve(node, scope, "place")
+    thing = scope.arrays.get(id(node)) or resolve(node, scope, "place")
     if isinstance(thing, Array) and scope.element is not None:
+        scope.arrays[id(node)] = thing
         index, size = scope.element
         if len(thing.items) != size:
             message = f"{kind_of(thing)} stands in a declaration of {size}"

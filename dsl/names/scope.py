@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from frot.dsl import checked
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.names.build import Build, settled
-from frot.dsl.names.entities import Entity, Instance, Pending, Refused
+from frot.dsl.names.entities import Array, Entity, Instance, Pending, Refused
 
 if TYPE_CHECKING:
     from frot.dsl.names.classes import Namespace
@@ -27,7 +27,8 @@ class Scope:
 
     `local` holds names of a loop or a function, looked up first. `element` is the index (from 0)
     and the size of the array declaration that is being expanded: arrays of that size then stand for
-    one item each.
+    one item each. `arrays` are those that its arguments name, looked up once for all items: by the
+    place in the text.
     """
 
     build: Build
@@ -36,6 +37,7 @@ class Scope:
     local: dict[str, Entity] = field(default_factory=dict)
     element: tuple[int, int] | None = None
     in_when: bool = False
+    arrays: dict[int, Array] = field(default_factory=dict)
 
     @property
     def log(self) -> Log:
@@ -87,6 +89,10 @@ class Scope:
             self.in_when,
         )
 
-    def at(self, index: int, size: int) -> Scope:
-        """The same scope for one item of an array declaration."""
-        return Scope(self.build, self.instance, self.space, self.local, (index, size))
+    def items(self, size: int) -> list[Scope]:
+        """The same scope for each item of an array declaration."""
+        shared: dict[int, Array] = {}
+        return [
+            Scope(self.build, self.instance, self.space, self.local, (k, size), arrays=shared)
+            for k in range(size)
+        ]

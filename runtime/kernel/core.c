@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "blocks.h"
+#include "inertia.h"
 #include "linear.h"
 #include "tolerances.h"
 
@@ -47,6 +48,7 @@ static void want_rows(const frot_model *m, frot_work *w, const frot_contact_mode
 static void size_biases(const frot_model *m, const frot_state *s, frot_work *w, const double *v) {
   for (int k = 0; k < m->n_groups; k++) {
     const frot_group *g = &m->groups[k];
+    if (g->n_rows == 0) continue;
     double turning = 0, moving = 0;
     for (int i = 0; i < g->n_speeds; i++) {
       int speed = g->unknowns[i];
@@ -95,23 +97,20 @@ static void clean_rows(const frot_model *m, const frot_state *s, frot_work *w, c
 /* A is a mass matrix. */
 static int symmetric_group(const frot_model *m, frot_work *w, const frot_group *g) {
   int n = g->n, ns = g->n_speeds;
-  const double *mass = w->core.mass + g->matrix;
-  double *factor = w->core.factor + g->metric, *force = w->core.force + g->vector;
-  for (int k = 0; k < ns; k++) memcpy(factor + k * ns, mass + k * n, sizeof(double) * (size_t)ns);
-  if (frot_cholesky(factor, ns)) return FROT_SINGULAR;
-  for (int k = 0; k < ns; k++) force[k] = w->core.h[g->unknowns[k]];
-  frot_forward(factor, ns, ns, force);
+  const double *force = w->core.force + g->vector;
+  int status = frot_factor(w, g);
+  if (status != FROT_OK) return status;
   for (int i = 0; i < g->n_rows; i++) {
     int r = g->rows[i];
     if (!w->core.wanted[r]) continue;
     double *half = w->core.half + g->entries + i * n;
     if (frot_is_reading(m, r)) {
-      for (int k = 0; k < ns; k++) half[k] = mass[k * n + m->row_reads[r]];
-      frot_forward(factor, ns, ns, half);
+      frot_mass_column(w, g, m->row_reads[r], half);
+      frot_inwards(w, g, half);
       w->core.free[r] = frot_dot(half, force, ns) - w->core.h[g->unknowns[m->row_reads[r]]];
     } else {
       memcpy(half, w->core.rows + g->entries + i * n, sizeof(double) * (size_t)ns);
-      frot_forward(factor, ns, ns, half);
+      frot_inwards(w, g, half);
       w->core.free[r] = frot_dot(half, force, ns) + w->core.c[r];
     }
   }
@@ -267,7 +266,7 @@ void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen)
       const double *response = w->core.half + g->entries + i * n;
       for (int j = 0; j < active; j++) z[j] += lam * response[j];
     }
-    if (!g->general) frot_backward(w->core.factor + g->metric, ns, ns, z);
+    if (!g->general) frot_outwards(w, g, z);
     for (int j = 0; j < n; j++) {
       int at = g->unknowns[j], auxiliary = j >= ns && j < ns + g->n_auxiliary;
       w->core.a[at] = auxiliary || (j < ns && frozen[at] != 0) ? 0 : z[j];
@@ -297,22 +296,10 @@ double frot_gap_size(const frot_model *m, const frot_work *w, int row, const dou
   return sum;
 }
 
-double frot_metric_entry(const frot_model *m, const frot_work *w, int a, int b) {
+double frot_metric_entry(const frot_model *m, frot_work *w, int a, int b) {
   const frot_group *g = &m->groups[m->speed_group[a]];
   if (m->speed_group[b] != m->speed_group[a]) return 0;
-  int i = m->speed_local[a], k = m->speed_local[b];
-  return g->general ? w->core.metric[g->metric + k * g->n_speeds + i]
-                    : w->core.mass[g->matrix + k * g->n + i];
-}
-
-double frot_square_of(const frot_work *w, const frot_group *g, const double *v) {
-  int ns = g->n_speeds, order = g->general ? ns : g->n;
-  const double *metric = g->general ? w->core.metric + g->metric : w->core.mass + g->matrix;
-  double sum = 0;
-  for (int i = 0; i < ns; i++)
-    for (int k = 0; k < ns; k++)
-      sum += v[g->unknowns[i]] * metric[k * order + i] * v[g->unknowns[k]];
-  return sum > 0 ? sum : 0;
+  return frot_group_metric(w, g, m->speed_local[a], m->speed_local[b]);
 }
 
 double frot_kinetic(const frot_model *m, const frot_work *w, const double *v) {
@@ -326,7 +313,7 @@ double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *
   int ns = g->n_speeds;
   double *half = w->core.rest;
   memcpy(half, frot_entries(m, w->core.rows, row), sizeof(double) * (size_t)ns);
-  frot_forward(w->core.factor + g->metric, ns, ns, half);
+  frot_inwards(w, g, half);
   return sqrt(frot_square_of(w, g, v) * frot_dot(half, half, ns));
 }
 
@@ -338,13 +325,12 @@ double frot_least_length(const frot_model *m, frot_work *w, int row, double own)
   double *half = w->core.rest, beside;
   if (at < 0) {
     memcpy(half, frot_entries(m, w->core.rows, normal), sizeof(double) * (size_t)ns);
-    frot_forward(w->core.factor + g->metric, ns, ns, half);
+    frot_inwards(w, g, half);
     beside = sqrt(frot_dot(half, half, ns));
   } else if (!g->general) {
-    const double *mass = w->core.mass + g->matrix;
-    for (int k = 0; k < ns; k++) half[k] = mass[k * g->n + at];
-    frot_forward(w->core.factor + g->metric, ns, ns, half);
-    double inertia = mass[at * g->n + at] - frot_dot(half, half, ns);
+    double inertia = frot_mass_column(w, g, at, half);
+    frot_inwards(w, g, half);
+    inertia -= frot_dot(half, half, ns);
     beside = inertia > 0 ? 1 / sqrt(inertia) : 0;
   } else {
     beside = own;
@@ -352,11 +338,28 @@ double frot_least_length(const frot_model *m, frot_work *w, int row, double own)
   return FROT_DEPENDENT * fmax(own, beside);
 }
 
-/* size <- |L^-1| load (n_speeds). */
-static void spread_in_factor(const frot_work *w, const frot_group *g, const double *load,
-                             double *size) {
+/* size <- |L^-1| load (n_speeds), column after column of the inverse. */
+static void spread_along_tree(frot_work *w, const frot_group *g, const double *load, double *size) {
+  int ns = g->n_speeds;
+  double *column = w->core.rest;
+  memset(size, 0, sizeof(double) * (size_t)ns);
+  for (int k = 0; k < ns; k++) {
+    memset(column, 0, sizeof(double) * (size_t)ns);
+    column[k] = load[g->unknowns[k]];
+    if (column[k] == 0) continue;
+    frot_inwards(w, g, column);
+    for (int i = 0; i < ns; i++) size[i] += fabs(column[i]);
+  }
+}
+
+/* size <- |L^-1| load (n_speeds), or a bound of it. */
+static void spread_in_factor(frot_work *w, const frot_group *g, const double *load, double *size) {
   const double *factor = w->core.factor + g->metric;
   int ns = g->n_speeds;
+  if (g->n_links > 0) {
+    spread_along_tree(w, g, load, size);
+    return;
+  }
   for (int i = 0; i < ns; i++) {
     double sum = load[g->unknowns[i]];
     for (int k = 0; k < i; k++) sum += fabs(factor[k * ns + i]) * size[k];
@@ -377,8 +380,8 @@ static void spread_in_inverse(frot_work *w, const frot_group *g, const double *l
       frot_lu_apply(w->core.lu + g->matrix, n, w->core.lu_pivot + g->vector,
                     w->core.lu_scale + 2 * g->vector, column);
     } else {
-      frot_forward(w->core.factor + g->metric, n, n, column);
-      frot_backward(w->core.factor + g->metric, n, n, column);
+      frot_inwards(w, g, column);
+      frot_outwards(w, g, column);
     }
     for (int i = 0; i < n; i++) size[i] += fabs(column[i]);
   }
@@ -405,7 +408,7 @@ void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, d
       double lam = w->core.lam[g->rows[i]];
       if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
       memcpy(response, w->core.half + g->entries + i * g->n, sizeof(double) * (size_t)n);
-      if (!g->general) frot_backward(w->core.factor + g->metric, ns, ns, response);
+      if (!g->general) frot_outwards(w, g, response);
       for (int j = 0; j < ns; j++) sum[j] += fabs(lam * response[j]);
     }
     for (int j = 0; j < ns; j++) size[g->unknowns[j]] = sum[j];

@@ -3,6 +3,7 @@
 #define FROT_CORE_H
 
 #include "groups.h"
+#include "inertia.h"
 #include "work.h"
 
 /* Kinetic and potential energy at (t, q, v, d); zero where the model has none. */
@@ -41,7 +42,7 @@ void frot_note_reaches(const frot_model *m, frot_state *s, frot_work *w, double 
 int frot_metric(const frot_model *m, frot_work *w);
 
 /* Entry of the metric for two speeds, after frot_dynamics. */
-double frot_metric_entry(const frot_model *m, const frot_work *w, int a, int b);
+double frot_metric_entry(const frot_model *m, frot_work *w, int a, int b);
 
 /* The solution w->core.a of the core from w->core.lam; accelerations of frozen speeds are exactly
  * zero. */
@@ -72,20 +73,19 @@ void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, 
 void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
                              const double *q, const double *v, const double *d, double *size);
 
-/* Square of speeds or accelerations (nv) of a group in the metric, after frot_dynamics. */
-double frot_square_of(const frot_work *w, const frot_group *g, const double *v);
-
 /* Half the square of the speeds in the metric, after frot_dynamics. */
 double frot_kinetic(const frot_model *m, const frot_work *w, const double *v);
 
 /* Whether all numbers are finite. */
 static inline int frot_all_finite(const double *x, int n) {
-  double sum[4] = {0, 0, 0, 0}; /* so that no addition waits for the one before */
+  double a = 0, b = 0, c = 0, d = 0; /* so that no addition waits for the one before */
   int i = 0;
-  for (; i + 4 <= n; i += 4)
-    for (int k = 0; k < 4; k++) sum[k] += x[i + k] - x[i + k];
-  for (; i < n; i++) sum[0] += x[i] - x[i];
-  return sum[0] + sum[1] + sum[2] + sum[3] == 0;
+  for (; i + 4 <= n; i += 4) {
+    a += x[i] - x[i], b += x[i + 1] - x[i + 1];
+    c += x[i + 2] - x[i + 2], d += x[i + 3] - x[i + 3];
+  }
+  for (; i < n; i++) a += x[i] - x[i];
+  return a + b + c + d == 0;
 }
 
 #endif

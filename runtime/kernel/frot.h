@@ -131,17 +131,28 @@ typedef struct {
   int shown[2];      /* variables that are its motion: zero while it holds; else -1 */
 } frot_element;
 
+/* A step of a large tree of bodies: the step before it or -1, its speeds among the unknowns of its
+ * group. `auxiliary`: they are zero in the motion. `faces_ground`: what is beyond keeps its
+ * orientation whatever carries it. Its parts of the group's matrix, which are what tree.h says, and
+ * of its factor begin at `data` and `factor`. Steps stand after those before them. */
+typedef struct {
+  int above, first, count, auxiliary, faces_ground, data, factor;
+} frot_link;
+
 /* Unknowns of the core and rows that act on each other, in no posture on others: they share no
  * matrix. The unknowns are places in z: speeds first, then auxiliary ones, then algebraic ones.
  * `general`: the matrix is any matrix and `spread` gives E; else it is a mass matrix and E = J'.
  * Its parts of packed arrays begin at: vector (n items), matrix (n x n, by columns), metric
- * (n_speeds x n_speeds), entries (n_rows x n), square (n_rows x n_rows). */
+ * (n_speeds x n_speeds), entries (n_rows x n), square (n_rows x n_rows). Of a mass matrix given by
+ * `links`, those of `width` components, the matrix and the metric are as long as these need. */
 typedef struct {
   int general;
   int n, n_speeds, n_auxiliary;
   int n_rows, n_contacts, n_elements;
   const int *unknowns, *rows, *contacts, *elements;
   int vector, matrix, metric, entries, square;
+  int width, n_links;
+  const frot_link *links;
 } frot_group;
 
 enum frot_rule {

@@ -56,13 +56,12 @@ int frot_holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode
 static void correction(const frot_model *m, frot_work *w, const frot_group *g, int n,
                        const double *error) {
   int ns = g->n_speeds, rank = 0;
-  const double *factor = w->core.factor + g->metric;
   double *step = w->relations.step;
   memset(step, 0, sizeof(double) * (size_t)ns);
   for (int i = 0; i < n; i++) {
     double *x = w->span.basis + ns * rank, *parts = w->span.parts;
     memcpy(x, frot_entries(m, w->core.rows, w->relations.rows[i]), sizeof(double) * (size_t)ns);
-    frot_forward(factor, ns, ns, x);
+    frot_inwards(w, g, x);
     double length = sqrt(frot_dot(x, x, ns)), part = error[i];
     double rest = frot_reject(x, w->span.basis, rank, ns, parts);
     if (!(rest > frot_least_length(m, w, w->relations.rows[i], length))) continue;
@@ -72,7 +71,7 @@ static void correction(const frot_model *m, frot_work *w, const frot_group *g, i
     for (int k = 0; k < ns; k++) step[k] += w->span.bias[rank] * x[k];
     rank++;
   }
-  frot_backward(factor, ns, ns, step);
+  frot_outwards(w, g, step);
 }
 
 /* Coordinates onto the gaps that are closed. */

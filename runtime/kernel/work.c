@@ -3,6 +3,7 @@
 
 #include "implicit.h"
 #include "tolerances.h"
+#include "tree.h"
 
 /* Hands out pieces of the scratch block; with a NULL base it only counts. */
 typedef struct {
@@ -97,6 +98,10 @@ static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work 
   TAKE(w->load, l->nw), TAKE(w->load_size, l->nw), TAKE(w->row_load, nr);
   TAKE(w->bias_size, nr);
   TAKE(w->lam, nr), TAKE(w->a, l->nw), TAKE(w->rest, l->nw), TAKE(w->column, l->nw);
+  int steps = 0;
+  for (int k = 0; k < m->n_groups; k++) steps = larger(steps, m->groups[k].n_links);
+  TAKE(w->inertia, FROT_STEP_INERTIA * steps), TAKE(w->twist, FROT_STEP_TWIST * steps);
+  TAKE(w->momenta, steps > 0 ? l->nw : 0);
 }
 
 static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, arena *a) {

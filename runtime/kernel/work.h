@@ -29,7 +29,8 @@ typedef struct {
  * a mass matrix the Cholesky factor L of the metric, L^-1 h, L^-1 J'; of a general core LU of A,
  * A^-1 h, A^-1 E); what it does to the rows wanted; sizes of all loads and of what they do, and
  * of the terms of c (bias_size, n_rows);
- * reactions lam (n_rows) and the solution a (nw). Scratch: rest and column (nw). */
+ * reactions lam (n_rows) and the solution a (nw). Scratch: rest and column (nw); of large trees
+ * inertia, twist and momenta (inertia.h). */
 typedef struct {
   double t;
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
@@ -41,6 +42,7 @@ typedef struct {
   double *load, *load_size, *row_load, *bias_size;
   double *lam, *a;
   double *rest, *column;
+  double *inertia, *twist, *momenta;
 } frot_core_work;
 
 /* reactions.h: the unknowns and what goes with them; whether reactions are not unique; held rows

@@ -1,0 +1,70 @@
+#include "inertia.h"
+
+#include <string.h>
+
+#include "linear.h"
+#include "tree.h"
+
+int frot_factor(frot_work *w, const frot_group *g) {
+  int n = g->n, ns = g->n_speeds;
+  const double *mass = w->core.mass + g->matrix;
+  double *factor = w->core.factor + g->metric, *force = w->core.force + g->vector;
+  for (int k = 0; k < ns; k++) force[k] = w->core.h[g->unknowns[k]];
+  if (g->n_links > 0) {
+    int failed = frot_tree_factor(g, mass, factor, w->core.inertia, w->core.twist, force);
+    return failed ? FROT_SINGULAR : FROT_OK;
+  }
+  for (int k = 0; k < ns; k++) memcpy(factor + k * ns, mass + k * n, sizeof(double) * (size_t)ns);
+  if (frot_cholesky(factor, ns)) return FROT_SINGULAR;
+  frot_forward(factor, ns, ns, force);
+  return FROT_OK;
+}
+
+void frot_inwards(const frot_work *w, const frot_group *g, double *x) {
+  const double *factor = w->core.factor + g->metric;
+  if (g->n_links > 0)
+    frot_tree_forward(g, w->core.mass + g->matrix, factor, w->core.twist, x);
+  else
+    frot_forward(factor, g->n_speeds, g->n_speeds, x);
+}
+
+void frot_outwards(const frot_work *w, const frot_group *g, double *x) {
+  const double *factor = w->core.factor + g->metric;
+  if (g->n_links > 0)
+    frot_tree_backward(g, w->core.mass + g->matrix, factor, w->core.twist, x);
+  else
+    frot_backward(factor, g->n_speeds, g->n_speeds, x);
+}
+
+double frot_mass_column(const frot_work *w, const frot_group *g, int k, double *column) {
+  const double *mass = w->core.mass + g->matrix;
+  if (g->n_links > 0) {
+    double *whole = w->core.momenta;
+    frot_tree_column(g, mass, w->core.twist, k, whole);
+    memcpy(column, whole, sizeof(double) * (size_t)g->n_speeds);
+    return whole[k];
+  }
+  for (int i = 0; i < g->n_speeds; i++) column[i] = mass[i * g->n + k];
+  return mass[k * g->n + k];
+}
+
+double frot_group_metric(frot_work *w, const frot_group *g, int i, int k) {
+  if (g->general) return w->core.metric[g->metric + k * g->n_speeds + i];
+  if (g->n_links == 0) return w->core.mass[g->matrix + k * g->n + i];
+  frot_tree_column(g, w->core.mass + g->matrix, w->core.twist, k, w->core.momenta);
+  return w->core.momenta[i];
+}
+
+double frot_square_of(const frot_work *w, const frot_group *g, const double *v) {
+  if (g->n_links > 0) {
+    double whole = frot_tree_square(g, w->core.mass + g->matrix, w->core.twist, v);
+    return whole > 0 ? whole : 0;
+  }
+  int ns = g->n_speeds, order = g->general ? ns : g->n;
+  const double *metric = g->general ? w->core.metric + g->metric : w->core.mass + g->matrix;
+  double sum = 0;
+  for (int i = 0; i < ns; i++)
+    for (int k = 0; k < ns; k++)
+      sum += v[g->unknowns[i]] * metric[k * order + i] * v[g->unknowns[k]];
+  return sum > 0 ? sum : 0;
+}

@@ -1,0 +1,24 @@
+/* The mass matrix of a group, and its factor A = L L': dense, or along the steps of a tree. */
+#ifndef FROT_INERTIA_H
+#define FROT_INERTIA_H
+
+#include "work.h"
+
+/* Factor the matrix in w->core.mass of a group that is not general; w->core.force gets L^-1 h.
+ * FROT_OK or FROT_SINGULAR. */
+int frot_factor(frot_work *w, const frot_group *g);
+
+/* x <- L^-1 x and x <- L'^-1 x (n_speeds), with the factor of the metric. */
+void frot_inwards(const frot_work *w, const frot_group *g, double *x);
+void frot_outwards(const frot_work *w, const frot_group *g, double *x);
+
+/* column (n_speeds) <- entries of the speeds in the column of the unknown k; returns that of k. */
+double frot_mass_column(const frot_work *w, const frot_group *g, int k, double *column);
+
+/* Entry of the metric for two unknowns of a group. */
+double frot_group_metric(frot_work *w, const frot_group *g, int i, int k);
+
+/* Square of speeds or accelerations (nv) of a group in the metric. */
+double frot_square_of(const frot_work *w, const frot_group *g, const double *v);
+
+#endif

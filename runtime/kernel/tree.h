@@ -1,0 +1,42 @@
+/* The mass matrix of a large tree of bodies, which is never formed: A = L L' along its steps.
+ *
+ * Towards the ground each step keeps the inertia P that what is beyond it shows while its speeds
+ * are free (articulated bodies: R. Featherstone, Rigid Body Dynamics Algorithms, 2008, sect. 7.2).
+ * With the column S of a speed, D = S' P S and Y = P S / sqrt(D), its freedom leaves P - Y Y'. That
+ * is the factor L (innovations: G. Rodriguez, K. Kreutz-Delgado, IEEE Trans. Robot. Autom. 8, 1992,
+ * 65-75): L^-1 goes inwards and carries forces, L'^-1 goes outwards and carries motions, each in
+ * time proportional to the number of steps. Of P only one triangle is kept, so that it stays
+ * symmetric: from some twenty links on rounding would grow without bound else.
+ *
+ * Twists and wrenches are about the origin of their step, along ground axes: what turns, then what
+ * moves; three components in the plane (g->width = 3: about z, x, y), six in space. Data of a step:
+ * columns (width each), the vector from the step before (2 or 3), mass, moment (2 or 3), inertia
+ * (1, or xx xy xz yy yz zz), the wrench that keeps its motion (width). */
+#ifndef FROT_TREE_H
+#define FROT_TREE_H
+
+#include "frot.h"
+
+/* Numbers of scratch that a step takes: `inertia` (packed by triangle) and `twist`. */
+#define FROT_STEP_INERTIA 21
+#define FROT_STEP_TWIST 6
+
+/* The factor, and in place of the generalized forces `force` (n_speeds): L^-1 (force - what the
+ * wrenches do). Returns 0, or 1 when the inertia of a speed is nothing but rounding. */
+int frot_tree_factor(const frot_group *g, const double *data, double *factor, double *inertia,
+                     double *twist, double *force);
+
+/* x <- L^-1 x and x <- L'^-1 x (n_speeds). */
+void frot_tree_forward(const frot_group *g, const double *data, const double *factor, double *twist,
+                       double *x);
+void frot_tree_backward(const frot_group *g, const double *data, const double *factor,
+                        double *twist, double *x);
+
+/* column (n) <- what a unit of the unknown k, which may be auxiliary, makes of momenta: M e_k. */
+void frot_tree_column(const frot_group *g, const double *data, double *twist, int k,
+                      double *column);
+
+/* v' M v of speeds (nv, at their places in the model). */
+double frot_tree_square(const frot_group *g, const double *data, double *twist, const double *v);
+
+#endif

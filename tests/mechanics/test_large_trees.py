@@ -1,0 +1,124 @@
+"""Large trees of bodies: the recursion along them, and the mass matrix written out, agree."""
+
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+from frot.compiler.mechanics import dynamics
+
+import frot
+
+CHAIN = """
+planar model Chain "Rods pinned to one another"
+  parameter Integer n = {n};
+  body b[n]: rod(mass = 1 kg, length = 1 m);
+  liaison o: rotoide(ground, b[1].start);
+  liaison j[n - 1]: rotoide(b[1:n - 1].tip, b[2:n].start);
+initial
+  o.angle = {first} rad;
+  o.speed = 0.5 rad/s;
+  for i in 1:n - 1 loop
+    j[i].angle = 0.4*sin(1.7*i);
+    j[i].speed = cos(0.9*i)*(1 rad/s);
+  end for;
+  experiment(stop = 1 s, tolerance = {tolerance});
+end Chain;
+"""
+
+
+def chain_accelerations(angle: np.ndarray, rate: np.ndarray) -> np.ndarray:
+    """Of n equal rods (1 kg, 1 m) by Lagrange's equations in angles to the ground."""
+    n = len(angle)
+    beyond = n - np.arange(n) - 0.5  # masses that a rod carries at its tip, and half its own
+    turned = np.subtract.outer(angle, angle)
+    coupling = np.minimum.outer(beyond, beyond)
+    mass = coupling * np.cos(turned)
+    mass[np.diag_indices(n)] = beyond - 0.5 + 1 / 3
+    return np.linalg.solve(
+        mass, -(coupling * np.sin(turned)) @ rate**2 - 9.81 * np.cos(angle) * beyond
+    )
+
+
+@pytest.mark.parametrize("n", [30, 100])
+def test_accelerations_of_a_chain(n: int) -> None:
+    joints = np.arange(1, n)
+    angle = 0.3 + np.concatenate(([0], np.cumsum(0.4 * np.sin(1.7 * joints))))
+    rate = 0.5 + np.concatenate(([0], np.cumsum(np.cos(0.9 * joints))))
+    result = frot.compile(CHAIN.format(n=n, first=0.3, tolerance=1e-9)).simulate(stop=1e-3)
+    found = [result[f"b[{k + 1}].angular_acceleration"][0] for k in range(n)]
+    exact = chain_accelerations(angle, rate)
+    assert found == pytest.approx(exact, abs=1e-12 * np.abs(exact).max())
+
+
+def plane(rng: random.Random, count: int) -> str:
+    """A random tree in the plane: rods on pins and slides, some with friction, forces on them."""
+    lines, starts = [], []
+    for k in range(1, count + 1):
+        mass = rng.choice([1e-3, 1, 50])
+        lines.append(f"body b{k}: rod(mass = {mass} kg, length = {rng.uniform(0.2, 2):.3f} m);")
+        base = "ground" if k == 1 else f"b{rng.randint(max(1, k - 3), k - 1)}.tip"
+        ends = [base, f"b{k}.start"]
+        rng.shuffle(ends)
+        kind = rng.choice(["rotoide"] * 3 + ["prismatique"])
+        options = ", axis = (0.6, 0.8)" if kind == "prismatique" else ""
+        law = " with coulomb(mu = 0.2, radius = 1 cm)" if k == 3 and kind == "rotoide" else ""
+        lines.append(f"liaison l{k}: {kind}({ends[0]}, {ends[1]}{options}){law};")
+        unit, name = ("rad", "angle") if kind == "rotoide" else ("m", "displacement")
+        starts.append(f"l{k}.{name} = {rng.uniform(-1, 1):.3f} {unit};")
+        starts.append(f"l{k}.speed = {rng.uniform(-1, 1):.3f} {unit}/s;")
+    lines.append(f"force s: spring((1, 1) m, b{count}.tip, k = 30 N/m, length = 0.3 m);")
+    lines.append("force d: damper(b1.tip, b4.tip, c = 2 N.s/m);")
+    lines.append("force w: drag(b5.tip, c = 0.3 N.s/m);")
+    lines.append("force t: couple(b2, value = 3 N.m);")
+    return _text("planar model", lines, starts)
+
+
+def space(rng: random.Random, count: int) -> str:
+    """A random tree in space: boxes on joints of every kind that coordinates keep."""
+    lines, starts = [], []
+
+    def three(size: float) -> str:
+        return ", ".join(f"{rng.uniform(-size, size):.3f}" for _ in range(3))
+
+    for k in range(1, count + 1):
+        lines.append(f"body b{k}: box(mass = {rng.choice([0.01, 1, 7])} kg, size = (1, 2, 3) dm);")
+        lines += [f"frame {e}{k} on b{k} at ({three(0.5)}) m;" for e in "se"]
+        ends = ["ground" if k == 1 else f"e{rng.randint(max(1, k - 3), k - 1)}", f"s{k}"]
+        rng.shuffle(ends)
+        kind = rng.choice(["rotoide", "prismatique", "spherique", "cardan", "verrou"])
+        options = ", axis_a = x, axis_b = y" if kind == "cardan" else f", axis = ({three(1)})"
+        options = "" if kind == "spherique" else options
+        lines.append(f"liaison l{k}: {kind}({ends[0]}, {ends[1]}{options});")
+        starts.append(f"guess(b{k}.angular_velocity = ({three(1)}) rad/s);")
+    lines.append(f"force s: spring((1, 1, 1) m, e{count}, k = 30 N/m, length = 0.3 m);")
+    lines.append("output Force read = norm(l4.force);")
+    return _text("model", lines, starts)
+
+
+def _text(kind: str, lines: list[str], starts: list[str]) -> str:
+    return (
+        f"{kind} Tree\n  "
+        + "\n  ".join(lines)
+        + "\ninitial\n  "
+        + "\n  ".join(starts)
+        + "\n  experiment(stop = 1 s, tolerance = 1e-10);\nend Tree;\n"
+    )
+
+
+@pytest.mark.parametrize("make", [plane, space])
+def test_recursion_and_mass_matrix_agree(
+    make: object, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    text = make(random.Random(5), 9)  # type: ignore[operator]
+    results = []
+    for large in (1, 10**6):
+        monkeypatch.setattr(dynamics, "LARGE", large)
+        results.append(frot.compile(f"// {large}\n{text}").simulate(stop=0.05))
+    recursion, matrix = results
+    of_motion = ("acceleration", "velocity", "force", "torque", "energy", "read")
+    names = [n for n in matrix if any(word in n for word in of_motion)]
+    for at, allowed in ((0, 1e-12), (-1, 1e-8)):
+        found = np.array([recursion[n][at] for n in names])
+        expected = np.array([matrix[n][at] for n in names])
+        assert found == pytest.approx(expected, abs=allowed * np.abs(expected).max())
