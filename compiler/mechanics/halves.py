@@ -51,10 +51,12 @@ def halve(model: Model, links: Sequence[Contact | Joint]) -> Halved:
 
 def _on(place: Point, half: Body) -> Point:
     """The same place on the other half."""
-    if isinstance(place, BodyPoint):
-        return replace(place, body=half)
-    owner = place.owner
-    return replace(place, owner=_on(owner, half) if isinstance(owner, Frame) else half)
+    return replace(place, body=half) if isinstance(place, BodyPoint) else _frame_on(place, half)
+
+
+def _frame_on(frame: Frame, half: Body) -> Frame:
+    owner = frame.owner
+    return replace(frame, owner=_frame_on(owner, half) if isinstance(owner, Frame) else half)
 
 
 def _weld(body: Body, half: Body, planar: bool) -> Joint:

@@ -6,6 +6,7 @@
 #include "core.h"
 #include "guards.h"
 #include "mechanics.h"
+#include "spare.h"
 #include "stages.h"
 
 static const frot_contact_mode *modes_of(const frot_state *s, const frot_work *w) {
@@ -44,8 +45,10 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
   }
   memcpy(w->step.z1, w->step.z0, sizeof(double) * (size_t)l->nx);
   memcpy(w->blocks.y, s->data + l->y, sizeof(double) * (size_t)m->ny);
+  memset(w->reactions.carried, 0, (size_t)m->n_rows);
   int status = frot_slope(m, s, w, t, w->step.z0, frot_stage(w, 0));
   if (status == FROT_OK) {
+    frot_note_spare(m, s, w);
     memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
     frot_turn_references(m, s, w);
     frot_measure_end(m, s, w, t, w->step.z0);

@@ -6,6 +6,7 @@
 #include "core.h"
 #include "invariants.h"
 #include "linear.h"
+#include "spare.h"
 #include "tolerances.h"
 #include "turns.h"
 
@@ -60,6 +61,7 @@ static void correction(const frot_model *m, frot_work *w, const frot_group *g, i
   memset(step, 0, sizeof(double) * (size_t)ns);
   for (int i = 0; i < n; i++) {
     double *x = w->span.basis + ns * rank, *parts = w->span.parts;
+    if (frot_is_spare(w, w->relations.rows[i])) continue;
     memcpy(x, frot_entries(m, w->core.rows, w->relations.rows[i]), sizeof(double) * (size_t)ns);
     frot_inwards(w, g, x);
     double length = sqrt(frot_dot(x, x, ns)), part = error[i];

@@ -17,6 +17,7 @@
 
 #include "core.h"
 #include "linear.h"
+#include "spare.h"
 #include "tolerances.h"
 
 /* The unknown reactions are w->reactions.unknown[0 .. unknowns): first those of held rows, then
@@ -228,6 +229,10 @@ static int orthonormalize(problem *p) {
   int ns = p->g->n_speeds, rank = 0;
   for (int k = 0; k < p->held; k++) {
     int row = w->reactions.unknown[k];
+    if (frot_is_spare(w, row)) {
+      w->reactions.dependent = w->reactions.carried[row] = 1;
+      continue;
+    }
     double *x = w->span.basis + ns * rank, *parts = w->span.parts;
     memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
     w->reactions.carried[row] = 0;
@@ -403,6 +408,7 @@ static int is_solution(const problem *p) {
   frot_work *w = p->w;
   for (int k = 0; k < p->unknowns; k++) {
     double size, value, rounding = 0;
+    if (k < p->held && frot_is_spare(w, w->reactions.unknown[k])) continue;
     if (k < p->held) {
       value = frot_acceleration(m, w, w->reactions.unknown[k], &size);
       size += frot_free_size(m, w, w->reactions.unknown[k]);
@@ -412,10 +418,17 @@ static int is_solution(const problem *p) {
       double along[2] = {1, 0}, bounding = 0;
       if (element->bound == FROT_BY_PIN)
         memcpy(along, w->reactions.along + 2 * w->reactions.owner[k], sizeof along);
-      for (int i = 0; i < 2; i++)
-        if (along[i] != 0) bounding += along[i] * w->core.lam[element->bounded_by[i]];
-      value = w->core.lam[element->row] - w->reactions.ratio[w->reactions.owner[k]] * bounding;
-      size = fabs(w->core.lam[element->row]) + fabs(value);
+      double ratio = w->reactions.ratio[w->reactions.owner[k]], terms = 0;
+      for (int i = 0; i < 2; i++) {
+        int reading = element->bounded_by[i];
+        if (reading < 0) continue;
+        bounding += along[i] * w->core.lam[reading];
+        if (!frot_is_reading(m, reading)) continue;
+        frot_acceleration(m, w, reading, &size);
+        terms += size + frot_free_size(m, w, reading);
+      }
+      value = w->core.lam[element->row] - ratio * bounding;
+      size = fabs(w->core.lam[element->row]) + fabs(value) + fabs(ratio) * terms;
     }
     if (!(fabs(value) <= FROT_AGREES * size + rounding)) return 0;
   }

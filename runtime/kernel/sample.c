@@ -8,6 +8,7 @@
 #include "projection.h"
 #include "work.h"
 #include "segment.h"
+#include "spare.h"
 #include "turns.h"
 
 /* Whether a mode holds anything that coordinates do not. */
@@ -44,10 +45,12 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
     status = frot_project_jointly(m, s, w, t, q, v, g->d, g->modes, NULL, NULL, g->frozen, &moved);
   else if (holds_anything(m, w, g->modes)) {
     status = frot_dynamics(m, s, w, t, q, v, g->d, g->modes, FROT_MOTION);
+    frot_follow_spare(m, s, w);
     if (status == FROT_OK) status = frot_project(m, s, w, t, q, v, g->d, g->modes, NULL, &moved);
   }
   if (status == FROT_OK)
     status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, g->along, 1);
+  frot_see_anew(w);
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
   if (status != FROT_OK) return status;
   frot_inputs(m, s, w, &t, q, v, g->d);

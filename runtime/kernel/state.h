@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 5
+#define FROT_LAYOUT_VERSION 6
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -32,7 +32,8 @@ typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, experiment, nominal, unilateral, x, y, slope, scale_x, scale_g, worth,
-      noise, along, reach, fired, several, due, left, asked, fresh, modes, d, frozen, segment, size;
+      noise, along, reach, fired, several, due, left, spare, asked, fresh, modes, d, frozen,
+      segment, size;
 } frot_layout;
 
 struct frot_state {

@@ -16,6 +16,7 @@
 #include "projection.h"
 #include "segment.h"
 #include "sizes.h"
+#include "spare.h"
 #include "stages.h"
 #include "stiffness.h"
 #include "tolerances.h"
@@ -141,6 +142,12 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a
   if (a->ratio <= 1) {
     a->stiff = frot_is_stiff(m, s, w, h);
     a->stable = frot_stable_step(m, s, w);
+    memcpy(w->step.z, w->step.z1, sizeof(double) * (size_t)(m->nq + m->nv));
+    if (!frot_spare_rows_hold(m, s, w, t + h, w->step.z)) {
+      frot_spare_nothing(m, s, w);
+      s->statistics.rejected++;
+      return FROT_DIVERGE;
+    }
     frot_measure_end(m, s, w, t + h, w->step.z1);
     status = frot_make_dense(m, s, w, t, h);
     if (status == FROT_OK && s->implicit && !frot_implicit_follows_guards(m, s, w))
@@ -266,18 +273,25 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
   return FROT_OK;
 }
 
+/* Find the step's length and its end, and take it. */
+static int take(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
+  int guard, status = find_length(m, s, w, a);
+  if (status != FROT_OK || s->pending) return status;
+  status = cut_at_event(m, s, w, a, &guard);
+  if (status != FROT_OK) return frot_fail_step(m, s, w, status, a->t, a->h);
+  return s->pending ? FROT_OK : keep(m, s, w, a, guard);
+}
+
 int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   attempt a = {.t = *frot_segment_at(m, s->data + w->layout.segment).t1, .passed = -1, .guard = -1};
-  int guard;
   if (s->due <= a.t) {
     frot_fire_due(m, s);
     return FROT_OK;
   }
   int status = begin(m, s, w, &a);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, a.t, 0);
-  status = find_length(m, s, w, &a);
-  if (status != FROT_OK || s->pending) return status;
-  status = cut_at_event(m, s, w, &a, &guard);
-  if (status != FROT_OK) return frot_fail_step(m, s, w, status, a.t, a.h);
-  return s->pending ? FROT_OK : keep(m, s, w, &a, guard);
+  frot_follow_spare(m, s, w);
+  status = take(m, s, w, &a);
+  frot_see_anew(w);
+  return status;
 }

@@ -61,7 +61,8 @@ typedef struct {
 /* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:
  * reactions.c, projection.c. */
 typedef struct {
-  int rank;
+  int rank, follow; /* whether `spare` (n_rows) says what depends on others: spare.h */
+  unsigned char *spare;
   double *basis, *parts, *bias, *bias_size;
 } frot_span_work;
 

@@ -1,0 +1,44 @@
+#include "spare.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "projection.h"
+#include "tolerances.h"
+
+void frot_note_spare(const frot_model *m, frot_state *s, const frot_work *w) {
+  for (int r = 0; r < m->n_rows; r++) s->data[w->layout.spare + r] = w->reactions.carried[r];
+}
+
+void frot_follow_spare(const frot_model *m, const frot_state *s, frot_work *w) {
+  w->span.follow = 0;
+  for (int r = 0; r < m->n_rows; r++) {
+    w->span.spare[r] = s->data[w->layout.spare + r] != 0;
+    w->span.follow |= w->span.spare[r];
+  }
+}
+
+void frot_see_anew(frot_work *w) { w->span.follow = 0; }
+
+int frot_is_spare(const frot_work *w, int row) { return w->span.follow && w->span.spare[row]; }
+
+int frot_spare_rows_hold(const frot_model *m, frot_state *s, frot_work *w, double t, double *z) {
+  if (!w->span.follow) return 1;
+  const double *d = s->data + w->layout.d;
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  int moved;
+  if (frot_project(m, s, w, t, z, z + m->nq, d, modes, NULL, &moved) != FROT_OK) return 1;
+  if (frot_kinematics(m, s, w, t, z, z + m->nq, d) != FROT_OK) return 1;
+  for (int c = 0; c < m->n_contacts; c++) {
+    int row = m->contacts[c].row_n;
+    if (row < 0 || m->contacts[c].reduced || !frot_is_spare(w, row)) continue;
+    if (fabs(w->core.gap[c]) > FROT_DEPENDENT * frot_gap_size(m, w, row, z)) return 0;
+  }
+  return 1;
+}
+
+void frot_spare_nothing(const frot_model *m, frot_state *s, frot_work *w) {
+  memset(s->data + w->layout.spare, 0, sizeof(double) * (size_t)m->n_rows);
+  frot_see_anew(w);
+}
