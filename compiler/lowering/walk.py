@@ -22,6 +22,7 @@ from frot.dsl.checked import (
     Reference,
     Reinit,
     Time,
+    Variable,
 )
 from frot.dsl.checked.walk import nodes, parts
 
@@ -54,13 +55,23 @@ def is_fixed(expression: Expression) -> bool:
     )
 
 
-def follows_time(expression: Expression) -> bool:
-    """Whether the value depends on time and parameters alone, and nothing switches in it."""
+def has_time(expression: Expression) -> bool:
+    """Whether the value changes with time."""
+    return any(isinstance(node, Time) for node in subexpressions(expression))
+
+
+def follows_time(expression: Expression, but_for: str = "") -> bool:
+    """Whether the value depends on time and parameters alone, and nothing switches in it.
+
+    `but_for` are the letters of variables that a curve or surface is given by.
+    """
     for node in subexpressions(expression):
         if isinstance(node, (Quantity, Derivative)):
             return False
         if isinstance(node, Reference) and not isinstance(node.target, Parameter):
-            return False
+            own = isinstance(node.target, Variable) and node.target.name in tuple(but_for)
+            if not own:
+                return False
         if _switches(node) and not is_fixed(node):
             return False
     return True

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
+from frot.compiler.mechanics.figures import Ball, Flat, Oval
 from frot.compiler.mechanics.joint_geometry import (
     JointGeometry,
     RelationGeometry,
@@ -20,7 +21,9 @@ from frot.compiler.mechanics.mechanism import (
     owner_body,
     point_body,
 )
-from frot.compiler.mechanics.spatial import X, Y, Z
+from frot.compiler.mechanics.paths import parameter_of
+from frot.compiler.mechanics.spatial import X, Y, Z, cross, nowhere
+from frot.compiler.mechanics.touches import spread_of, touch
 from frot.dsl.checked import World
 
 STANDARD_GRAVITY = 9.81
@@ -78,7 +81,7 @@ def _reach(contact: Contact, line: Line, kinematics: Kinematics) -> ca.SX:
     )
     # along a line its given point counts for nothing, wherever its body turns
     turn = kinematics.pose(base).axes.T
-    through = kinematics.local_through(contact.line)
+    through = kinematics.local_point(contact.track.point)
     return ca.dot(ca.fabs(line.normal), sizes) + ca.dot(
         ca.fabs(turn @ line.normal), ca.fabs(through)
     )
@@ -130,22 +133,42 @@ def row_rates(
 def contact_geometry(
     contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
 ) -> Geometry:
-    """Geometry and relative velocities of a point or rim on a line."""
-    body, base = kinematics.moving(contact.point), kinematics.moving(contact.line.owner)
-    line = kinematics.line(contact.line)
+    """Geometry and relative velocities of a point or rim on a curve."""
     if _keeps_left(contact):
         side = ca.SX(1)
-    centre = kinematics.position(contact.point)
-    radius = (
-        kinematics.fixed.lower(contact.round.arguments["radius"])
-        if contact.round is not None
-        else ca.SX(0)
-    )
+    if contact.liaison in kinematics.tangents:
+        return _carried(contact, kinematics)
+    if isinstance(contact.track.figure, Flat):
+        return _on_line(contact, kinematics, side, world)
+    return _on_round(contact, kinematics, side, world)
+
+
+def _apart(
+    contact: Contact, kinematics: Kinematics, place: ca.SX, at: ca.SX
+) -> tuple[ca.SX, ca.SX, ca.SX]:
+    """Velocities of the body from the curve at two places, and the angular one."""
+    body, base = kinematics.moving(contact.point), kinematics.moving(contact.track.point)
+    apart, nearing = (body.velocity_of(x) - base.velocity_of(x) for x in (place, at))
+    return apart, nearing, body.angular - base.angular
+
+
+def _on_line(contact: Contact, kinematics: Kinematics, side: ca.SX, world: World) -> Geometry:
+    """A round thing comes nearer as its centre does, for it has no slope."""
+    line = kinematics.line(contact.track)
+    centre, lower = kinematics.position(contact.point), kinematics.fixed.lower
     height = ca.dot(line.normal, centre - line.through)
-    touching = centre - side * radius * line.normal
-    apart = body.velocity_of(touching) - base.velocity_of(touching)
-    nearing = body.velocity_of(centre) - base.velocity_of(centre)
-    turning = body.angular - base.angular
+    radius, below = ca.SX(0), nowhere()
+    if isinstance(contact.figure, Ball):
+        radius = lower(contact.figure.radius)
+        below = radius * line.normal
+    elif isinstance(contact.figure, Oval):
+        pose = kinematics.pose(contact.point)
+        spread = spread_of(contact.figure, pose, lower) @ line.normal
+        radius = ca.sqrt(ca.dot(line.normal, spread))
+        below = spread / radius
+    touching = centre - side * below
+    at = touching if isinstance(contact.figure, Oval) else centre
+    apart, nearing, turning = _apart(contact, kinematics, touching, at)
     return Geometry(
         line=line,
         side=side,
@@ -156,4 +179,49 @@ def contact_geometry(
         slip=ca.dot(line.direction, apart),
         roll=ca.dot(Z, turning),
         abscissa=ca.dot(line.direction, centre - line.through),
+    )
+
+
+def _carried(contact: Contact, kinematics: Kinematics) -> Geometry:
+    """A point that its coordinate keeps on a curve; its slip is against the curve's elements."""
+    line, liaison = kinematics.curve_at(contact), contact.liaison
+    value, rate = kinematics.parameter(liaison)
+    _, _, turning = _apart(contact, kinematics, line.through, line.through)
+    return Geometry(
+        line=line,
+        side=ca.SX(1),
+        gap=ca.SX(0),
+        approach=ca.SX(0),
+        witness=ca.SX.ones(3),
+        reach=ca.SX(0),
+        slip=ca.norm_2(kinematics.tangents[liaison]) * rate,
+        roll=ca.dot(Z, turning),
+        abscissa=value,
+    )
+
+
+def _on_round(contact: Contact, kinematics: Kinematics, side: ca.SX, world: World) -> Geometry:
+    """On a circle or an ellipse, whose left is its inside."""
+    lower = kinematics.fixed.lower
+    base, own = kinematics.pose(contact.track.point), kinematics.pose(contact.point)
+    found = touch(contact.track.figure, contact.figure, (base, own), lower, -side)
+    normal = side * found.normal
+    line = Line(found.place, cross(normal, Z), normal)
+    apart, nearing, turning = _apart(contact, kinematics, found.place, found.place)
+    up = ca.dot(normal, _upward(world, kinematics))
+    kept = _keeps_left(contact)
+    sizes = kinematics.lengths_between(
+        (point_body(contact.track.point), kinematics.local_point(contact.track.point)),
+        (point_body(contact.point), kinematics.local_point(contact.point)),
+    )
+    return Geometry(
+        line=line,
+        side=side,
+        gap=found.gap,
+        approach=ca.dot(found.normal, nearing),
+        witness=ca.SX.ones(3) if kept else ca.vertcat(-found.witness, up, -found.witness),
+        reach=found.size + ca.dot(ca.fabs(normal), sizes),
+        slip=ca.dot(line.direction, apart),
+        roll=ca.dot(Z, turning),
+        abscissa=parameter_of(contact.track.figure, own.origin - base.origin, base, lower),
     )

@@ -13,12 +13,13 @@ from dataclasses import dataclass, replace
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.symbols import Symbols, reading_places
+from frot.compiler.mechanics.figures import Flat, Placed
 from frot.compiler.mechanics.mechanism import (
+    Contact,
     Hanging,
     Joint,
     Mechanism,
     Point,
-    owner_body,
     point_body,
     turns,
 )
@@ -45,7 +46,7 @@ from frot.compiler.mechanics.spatial import (
     whole,
 )
 from frot.compiler.mechanics.wrenches import act
-from frot.dsl.checked import Body, BodyPoint, Curve, Expression, Frame
+from frot.dsl.checked import Body, BodyPoint, Expression, Frame, Liaison
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,6 +80,7 @@ class Kinematics:
 
     `nodes` are the steps of the tree, each after those above it, `node_of` the last of each body
     and `beyond` the vector (3) from its origin to the body's G.
+    `tangents` are those of the curves that carry bodies, by the length of their parameter.
     `arms` are the bodies that one hangs on, itself last, each with the sizes in ground axes (3) of
     the vectors from the body before to its own G.
     """
@@ -96,6 +98,7 @@ class Kinematics:
         self.arms: dict[Body, tuple[tuple[Body, ca.SX], ...]] = {mechanism.model.ground: ()}
         self.hangs: dict[Body, Hanging] = {}
         self.places: dict[Body, tuple[int, int]] = {}
+        self.tangents: dict[Liaison, ca.SX] = {}
         nq = nv = 0
         for hanging in mechanism.coordinates:
             self.hangs[hanging.body] = hanging
@@ -114,6 +117,8 @@ class Kinematics:
             q = symbols.q[nq : nq + m]
             moved = move(motion, moving, q, symbols.v[nv : nv + n], self.fixed.lower)
             moving = moved.moving
+            if moved.tangent is not None and hanging.link is not None:
+                self.tangents[hanging.link.liaison] = moved.tangent
             if moved.columns or motion.faces_ground:
                 places = tuple(range(nv, nv + n))
                 self.nodes.append(Node(node, arm, motion.faces_ground, places, moved.columns))
@@ -131,12 +136,6 @@ class Kinematics:
         """The body that carries, the axes at its place, and the vector there from its G."""
         if hanging.base is None:
             return ground, AT_REST, nowhere()
-        if isinstance(hanging.base, Curve):
-            owner = self.moving(hanging.base.owner)
-            through = whole(self.fixed.lower(hanging.base.arguments["through"]))
-            body = owner_body(hanging.base.owner)
-            out = self.bodies[body].pose.direction(self.local_through(hanging.base))
-            return body, owner.shifted(owner.pose.direction(through)), out
         body = point_body(hanging.base)
         out = self.bodies[body].pose.direction(self.local_point(hanging.base))
         return body, self.moving(hanging.base), out
@@ -155,7 +154,7 @@ class Kinematics:
             a, b = (at.pose, moving.pose) if hanging.carries_b else (moving.pose, at.pose)
             columns = [act(lock, a, b, self.fixed.lower).column for lock in link.locks]
         else:
-            columns = [Column(nowhere(), self.line(link.line).normal)]
+            columns = [Column(nowhere(), self._normal(link))]
         nv, back = self.symbols.v.numel(), nowhere()
         if sign < 0:  # a reaction acts at the place b
             back = ca.sparsify(moving.pose.origin - at.pose.origin)
@@ -205,11 +204,7 @@ class Kinematics:
         if hanging.base is None or hanging.own is None:
             self.arms[body] = ((body, ca.SX.zeros(3)),)
             return
-        there = (
-            self.local_through(hanging.base)
-            if isinstance(hanging.base, Curve)
-            else self.local_point(hanging.base)
-        )
+        there = self.local_point(hanging.base)
         arm = self.arm(base, there) + self.arm(body, self.local_point(hanging.own))
         self.arms[body] = (*self.arms[base], (body, arm))
 
@@ -242,10 +237,6 @@ class Kinematics:
         if point.body.shape is None:
             return nowhere()
         return shape_of(point.body).point(point.body, point.name, self.fixed.lower)
-
-    def local_through(self, curve: Curve) -> ca.SX:
-        """The given point of a line in the body's own axes at G."""
-        return self._in_body(curve.owner, whole(self.fixed.lower(curve.arguments["through"])))
 
     def _in_body(self, frame: Body | Frame, local: ca.SX) -> ca.SX:
         """What is given in the axes of a frame, in those of its body at G."""
@@ -288,13 +279,24 @@ class Kinematics:
         """Angle of the axes in a planar model."""
         return self.pose(owner).angle
 
-    def line(self, curve: Curve) -> Line:
+    def line(self, track: Placed) -> Line:
         """A line of a planar model in ground axes."""
-        pose = self.pose(curve.owner)
-        along = whole(self.fixed.lower(curve.arguments["direction"]))
-        direction = pose.direction(along / ca.sqrt(ca.sumsqr(along)))
-        through = pose.point(whole(self.fixed.lower(curve.arguments["through"])))
-        return Line(through, direction, cross(Z, direction))
+        assert isinstance(track.figure, Flat)
+        pose = self.pose(track.point)
+        direction = pose.direction(unit_vector(track.figure.axis.given, self.fixed.lower))
+        return Line(pose.origin, direction, cross(Z, direction))
+
+    def curve_at(self, contact: Contact) -> Line:
+        """The tangent of the curve that carries a point, there."""
+        tangent = self.tangents[contact.liaison]
+        direction = tangent / ca.norm_2(tangent)
+        return Line(self.position(contact.point), direction, cross(Z, direction))
+
+    def _normal(self, contact: Contact) -> ca.SX:
+        if isinstance(contact.track.figure, Flat):
+            return self.line(contact.track).normal
+        tangent = self.tangents[contact.liaison]
+        return cross(Z, tangent / ca.norm_2(tangent))
 
     # ------------------------------------------------------------------ rates
 
@@ -326,6 +328,12 @@ class Kinematics:
                 return self.symbols.q[nq], self.symbols.v[nv]
         a, b = self.moving(joint.a), self.moving(joint.b)
         return seen(motion, a, b, self.fixed.lower)
+
+    def parameter(self, liaison: Liaison) -> tuple[ca.SX, ca.SX]:
+        """The parameter of the curve by which a liaison carries a body, and its rate."""
+        hanging = next(h for h in self.hangs.values() if h.link and h.link.liaison is liaison)
+        nq, nv = self.places[hanging.body]
+        return self.symbols.q[nq], self.symbols.v[nv]
 
     def _hanging_by(self, joint: Joint) -> Hanging | None:
         for place in (joint.a, joint.b):

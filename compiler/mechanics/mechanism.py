@@ -7,27 +7,40 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.lowering.walk import has_time, is_fixed
+from frot.compiler.mechanics.figures import Figure, Placed
 from frot.compiler.mechanics.locks import Lock
 from frot.compiler.mechanics.motions import Motion
-from frot.dsl.checked import Body, BodyPoint, Curve, Expression, Force, Frame, Liaison, Model
+from frot.dsl.checked import (
+    Body,
+    BodyPoint,
+    Curve,
+    Expression,
+    Force,
+    Frame,
+    Liaison,
+    Model,
+    Surface,
+)
 
 Point = BodyPoint | Frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contact:
-    """A point, or the rim of a disc or ring, on a line, with the laws that bound its reaction.
+    """A point or a rim on a curve of the plane, with the laws that bound its reaction.
 
-    `round` is the body whose rim touches, or None for a point. `point` is that point or the rim's
-    centre. `reduced`: the coordinates of the body already keep the liaison. `line_first`: the line
-    is `a`, the first place of the liaison. Laws are None where there is none.
+    `figure` is what touches: a point, or a rim with its centre at `point`; `track` the curve's
+    figure with a point of the curve, or its centre. `reduced`: the coordinates of the body already
+    keep the liaison. `line_first`: the curve is `a`, the first place of the liaison. Laws are None
+    where there is none.
     """
 
     liaison: Liaison
     point: Point
-    round: Body | None
+    figure: Figure
     line: Curve
+    track: Placed
     line_first: bool
     reduced: bool
     unilateral: Expression
@@ -112,14 +125,14 @@ class Hanging:
     """How a body hangs on another, or on the ground: its coordinates.
 
     `motions` take the axes at the place `base` of the other to those at the place `own` of the
-    body: points, or a line on which the point slides; a body that moves freely has no `link` and
+    body; a body that moves freely has no `link` and
     hangs on the ground by its G. `names` are those of the coordinates, `speeds` those of the
     speeds.
     """
 
     body: Body
     link: Contact | Joint | None
-    base: Point | Curve | None
+    base: Point | None
     own: Point | None
     motions: tuple[Motion, ...]
     names: tuple[str, ...]
@@ -156,6 +169,8 @@ class Mechanism:
             for frame in self.model.frames
             for value in (frame.origin, frame.angle)
         )
+        shapes: tuple[Curve | Surface, ...] = (*self.model.curves, *self.model.surfaces)
+        moved |= any(has_time(value) for x in shapes for value in x.arguments.values())
         return moved or any(liaison.driven for liaison in self.model.liaisons)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
-from frot.compiler.mechanics.figures import figure_of
+from frot.compiler.mechanics.figures import Ball, Dot, Figure, Flat, Oval, Path, figure_of
 from frot.compiler.mechanics.halves import halve
 from frot.compiler.mechanics.joints import JOINTS, Pairing, drive
 from frot.compiler.mechanics.mechanism import (
@@ -16,6 +16,7 @@ from frot.compiler.mechanics.mechanism import (
     Point,
     Relation,
     is_particle,
+    is_unilateral,
     point_body,
     turns,
 )
@@ -28,11 +29,9 @@ from frot.compiler.mechanics.refuse import (
     spelled,
 )
 from frot.compiler.mechanics.spanning import span
+from frot.compiler.mechanics.touches import can_touch
 from frot.dsl import Log
 from frot.dsl.checked import (
-    Body,
-    BodyGeometry,
-    BodyPoint,
     Curve,
     CurvePlace,
     Expression,
@@ -188,19 +187,23 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
             log,
             f"the liaison '{liaison.kind.name}' between these two places",
             liaison.span,
-            "a point, or the rim of a disc or ring, on a line is supported",
+            "a point, or a rim, on a curve is supported",
         )
         return None
     line: Curve = line_place.curve
-    round_body: Body | None = None
-    if isinstance(other, BodyGeometry):
-        if other.name != "rim" or other.body.shape is None or other.body.shape.name not in ROUND:
-            refuse(log, f"'{other.body.name}.{other.name}' in a contact", other.span)
-            return None
-        round_body = other.body
-        point: Point = BodyPoint(other.body, "G", other.span)
-    else:
-        point = other
+    track, rim = figure_of(line_place, True), figure_of(other, True)
+    if track is None or rim is None or not _is_contact(liaison, track.figure, rim.figure):
+        refuse(
+            log,
+            f"the liaison '{liaison.kind.name}' between these two places",
+            liaison.span,
+            "a point or a rim on a line or circle is supported, and a point that stays on a curve",
+        )
+        return None
+    if liaison.driven:
+        refuse(log, f"a driven {spelled(liaison)} in the plane", liaison.span)
+        return None
+    point = rim.point
     if not is_fixed(liaison.options["unilateral"]):
         refuse(log, "an option `unilateral` that changes", liaison.options["unilateral"].span)
         return None
@@ -217,8 +220,9 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
     return Contact(
         liaison=liaison,
         point=point,
-        round=round_body,
+        figure=rim.figure,
         line=line,
+        track=track,
         line_first=line_first,
         reduced=False,
         unilateral=liaison.options["unilateral"],
@@ -226,6 +230,14 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
         mu_s=coulomb.arguments["mu_s"] if coulomb else None,
         delta=rolling.arguments["delta"] if rolling else None,
     )
+
+
+def _is_contact(liaison: Liaison, track: Figure, rim: Figure) -> bool:
+    """Whether a figure can touch a curve; what follows a curve is a point that cannot leave it."""
+    if liaison.kind.name == "contact_ponctuel":
+        return can_touch(track, rim) and isinstance(track, Flat | Ball)
+    stays = isinstance(track, Flat) or not is_unilateral(liaison)
+    return isinstance(rim, Dot) and stays and isinstance(track, Flat | Ball | Oval | Path)
 
 
 def _read_liaisons(model: Model) -> set[Liaison]:

@@ -60,11 +60,15 @@ class Column:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Moved:
-    """Axes after a motion, the columns of its speeds, and the way (3) that their origin went."""
+    """Axes after a motion, the columns of its speeds, and the way (3) that their origin went.
+
+    `tangent`: of a motion along a curve, the derivative of its point by the parameter.
+    """
 
     moving: Moving
     columns: tuple[Column, ...]
     way: ca.SX
+    tangent: ca.SX | None = None
 
 
 Seen = tuple[ca.SX, ca.SX]
@@ -215,7 +219,7 @@ def _move_driven(motion: Driven, base: Moving, q: ca.SX, v: ca.SX, lower: Lower)
         angular_bias=there.angular_bias + column.angular * push,
         linear_bias=there.linear_bias + column.linear * push,
     )
-    return Moved(there, (), moved.way)
+    return Moved(there, (), moved.way, moved.tangent)
 
 
 def _move_follow(motion: Follow, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
@@ -235,7 +239,7 @@ def _move_follow(motion: Follow, base: Moving, q: ca.SX, v: ca.SX, lower: Lower)
         linear=there.linear + moves,
         linear_bias=there.linear_bias + bends + 2 * cross(base.angular, moves),
     )
-    return Moved(moving, (Column(nowhere(), along),), way)
+    return Moved(moving, (Column(nowhere(), along),), way, along)
 
 
 def _move_heading(motion: Heading, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:

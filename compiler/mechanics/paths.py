@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.figures import Figure, Oval, Path, Ring
+from frot.compiler.mechanics.figures import Ball, Figure, Oval, Path, Ring
 from frot.compiler.mechanics.moves import Lower, unit_vector
-from frot.compiler.mechanics.spatial import Pose, beside, whole
+from frot.compiler.mechanics.spatial import Pose, X, Y, beside, whole
 
 
 def point_of(figure: Figure, u: ca.SX, lower: Lower) -> ca.SX:
@@ -25,6 +25,9 @@ def parameter_of(figure: Figure, apart: ca.SX, pose: Pose, lower: Lower) -> ca.S
 
 
 def _semi_axes(figure: Figure, lower: Lower) -> tuple[tuple[ca.SX, ca.SX], tuple[ca.SX, ca.SX]]:
+    if isinstance(figure, Ball):
+        radius = lower(figure.radius)
+        return (radius, X), (radius, Y)
     assert isinstance(figure, Ring | Oval)
     first, second = beside(unit_vector(figure.axis.given, lower))
     if isinstance(figure, Ring):

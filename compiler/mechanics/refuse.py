@@ -38,9 +38,12 @@ def refuse_unknown(model: Model, log: Log) -> None:
             moved = (
                 name in ("through", "centre", "point") and owner_body(shaped.owner).shape is None
             )
-            if is_fixed(argument) or name in ("point", "value"):
+            if is_fixed(argument):
                 continue
-            if not (moved and follows_time(argument)):
+            if name in ("point", "value"):
+                if not follows_time(argument, "uvxyz"):
+                    refuse(log, "a curve or surface that switches or follows", argument.span)
+            elif not (moved and follows_time(argument)):
                 refuse(log, f"'{name}' of a curve or surface that depends on time", argument.span)
     for frame in model.frames:
         for value in (frame.origin, frame.angle):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
+from frot.compiler.mechanics.figures import Figure, Flat
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Hanging,
@@ -29,7 +30,7 @@ from frot.compiler.mechanics.motions import (
     Turn,
     bare,
 )
-from frot.dsl.checked import Body, BodyPoint, Curve, Frame, Liaison, Model
+from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Model
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,6 +81,13 @@ def in_order(links: Iterable[Contact | Joint]) -> list[Joint]:
     return sorted(joints, key=lambda x: (x.mu is None, -len(x.locks)))
 
 
+def _along(curve: Figure) -> Motion:
+    """The motion along a curve."""
+    if isinstance(curve, Flat):
+        return Slide(curve.axis, coordinates=("u",))
+    return Follow(curve)
+
+
 def _can_carry(contact: Contact) -> bool:
     return contact.liaison.kind.name == "point_courbe" and not is_unilateral(contact.liaison)
 
@@ -98,8 +106,8 @@ class _Builder:
         elif group in self.carried:
             contact = self.carried[group]
             root = point_body(contact.point)
-            slide = Slide(Axis(contact.line.arguments["direction"]), coordinates=("u",))
-            yield self._hanging(root, contact, contact.line, contact.point, (slide,))
+            way = _along(contact.track.figure)
+            yield self._hanging(root, contact, contact.track.point, contact.point, (way,))
         else:
             root = next(b for b in self.model.bodies if self.groups.of(b) is group)
             ways = "xy" if self.model.planar else "xyz"
@@ -135,7 +143,7 @@ class _Builder:
         self,
         body: Body,
         link: Contact | Joint | None,
-        base: Point | Curve | None,
+        base: Point | None,
         own: Point | None,
         ways: tuple[Motion, ...],
     ) -> Hanging:
@@ -165,7 +173,7 @@ class _Builder:
         self,
         body: Body,
         link: Contact | Joint | None,
-        base: Point | Curve | None,
+        base: Point | None,
         own: Point | None,
         motions: tuple[Motion, ...],
     ) -> Hanging:

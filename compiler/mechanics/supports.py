@@ -8,7 +8,6 @@ import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.mechanics.mechanism import Hanging
 from frot.compiler.mechanics.spatial import Pose, nowhere
-from frot.dsl.checked import Curve
 from frot.dsl.messages.source import Span
 
 
@@ -55,5 +54,4 @@ def _carrier_velocity(hanging: Hanging, system: Assembled) -> ca.SX:
     kinematics = system.reduced.variables.kinematics
     if hanging.base is None or hanging.own is None:
         return nowhere()
-    base = hanging.base.owner if isinstance(hanging.base, Curve) else hanging.base
-    return kinematics.moving(base).velocity_of(kinematics.position(hanging.own))
+    return kinematics.moving(hanging.base).velocity_of(kinematics.position(hanging.own))

@@ -173,6 +173,8 @@ def coordinates(liaison: checked.Liaison, planar: bool) -> Mapping[str, Type]:
     place = liaison.b
     if "u" in liaison.kind.coordinates and isinstance(place, checked.CurvePlace):
         members["u"] = parameter_type(place.curve)
+        if place.curve.kind != "line":
+            members.pop("abscissa", None)
     return members
 
 
