@@ -23,6 +23,10 @@ OK, FULL, STOPPED, TERMINATED = 0, 1, 2, 3
 REFUSALS = {10: "E0401", 24: "E0908"}
 INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
 _TEXT = 1024
+# Doubles of the first and of the longest chunk of recorded steps; in a recorded step, the place of
+# the time at which it begins.
+_CHUNK, _LARGEST_CHUNK = 2**16, 2**24
+_BEGIN = 2
 # Bytes of recorded steps after which a run is told to be too long.
 MOST_MEMORY = 2**30
 
@@ -53,10 +57,13 @@ class Recorder(ct.Structure):
     _fields_ = (
         ("segments", ct.c_void_p),
         ("segment_capacity", ct.c_longlong),
-        ("segment_count", ct.c_longlong),
+        ("segment_used", ct.c_longlong),
         ("events", ct.POINTER(RawEvent)),
         ("event_capacity", ct.c_longlong),
         ("event_count", ct.c_longlong),
+        ("last", ct.c_longlong),
+        ("whole", ct.c_longlong),
+        ("naps", ct.c_longlong),
     )
 
 
@@ -137,15 +144,18 @@ def _load(path: str) -> ct.CDLL:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Run:
-    """What a call of `Engine.advance` gave: the kernel's status, the segments and the events.
+    """What a call of `Engine.advance` gave.
 
-    Status FULL: the steps take more than MOST_MEMORY; the run has not come to its end. Status
-    STOPPED: by `watch`, or by Ctrl-C where `interrupted`.
+    The kernel's status, the segments one after the other as the kernel records them, the events,
+    and the time at which the last segment begins. Status FULL: the steps take more than
+    MOST_MEMORY; the run has not come to its end. Status STOPPED: by `watch`, or by Ctrl-C where
+    `interrupted`.
     """
 
     status: int
     segments: Floats
     events: list[RawEvent]
+    last: float
     interrupted: bool = False
 
 
@@ -160,6 +170,11 @@ def _interrupts_noted(noted: list[BaseException]) -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+def _joined(chunks: list[Floats]) -> Floats:
+    """One array; what is one already is not copied."""
+    return chunks[0] if len(chunks) == 1 else np.concatenate([np.empty(0), *chunks])
 
 
 def _address(array: Floats) -> int:
@@ -267,11 +282,11 @@ class Engine:
         events: list[RawEvent],
         interrupted: list[BaseException],
     ) -> Run:
-        capacity = 64
+        capacity, last = _CHUNK, 0.0
         while True:
-            buffer = np.empty((capacity, self.segment_size))
+            buffer = np.empty(max(capacity, self.segment_size))
             raw = (RawEvent * (256 + self._library.frot_events_at_once(self._model)))()
-            recorder = Recorder(_address(buffer), capacity, 0, raw, len(raw), 0)
+            recorder = Recorder(_address(buffer), len(buffer), 0, raw, len(raw), 0)
             status = self._unless_refused(
                 int(
                     self._library.frot_advance(
@@ -279,16 +294,18 @@ class Engine:
                     )
                 )
             )
-            chunks.append(buffer[: recorder.segment_count].copy())
+            if recorder.segment_used:
+                chunks.append(buffer[: recorder.segment_used])
+                last = float(buffer[recorder.last + _BEGIN])
             events.extend(RawEvent.from_buffer_copy(raw[i]) for i in range(recorder.event_count))
             if any(not isinstance(error, KeyboardInterrupt) for error in interrupted):
                 raise interrupted[0]
             if interrupted:
-                return Run(STOPPED, np.concatenate(chunks), events, True)
-            taken = 8 * self.segment_size * sum(len(chunk) for chunk in chunks)
+                return Run(STOPPED, _joined(chunks), events, last, True)
+            taken = 8 * sum(len(chunk) for chunk in chunks)
             if status != FULL or taken > MOST_MEMORY:
-                return Run(status, np.concatenate(chunks), events)
-            capacity = min(2 * capacity, 65536)
+                return Run(status, _joined(chunks), events, last)
+            capacity = min(2 * capacity, _LARGEST_CHUNK)
 
     def sample(self, segments: Floats, times: Floats) -> Floats:
         """Values (times x variables) over segments in order; times in ascending order."""

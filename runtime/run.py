@@ -129,7 +129,7 @@ def simulate(
     run = engine.advance(end, watch)
     wall = clock.perf_counter() - begun
     if run.status == FULL:
-        end = float(run.segments[-1][0])
+        end = run.last
     elif run.status not in _GOOD:
         end = min(engine.fault.t, engine.time)
     elif run.status != OK:

@@ -7,7 +7,7 @@ matrix, no scale and no search: what does not touch costs what it costs alone.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import casadi as ca
@@ -59,19 +59,22 @@ class Grouping:
         return not any(g.general for g in self.groups)
 
 
-class _Sets:
+class Sets:
     """Sets of items that are joined pair by pair."""
 
     def __init__(self, count: int) -> None:
+        """Each item alone."""
         self._of = list(range(count))
 
     def find(self, item: int) -> int:
+        """The item that stands for the set."""
         while self._of[item] != item:
             self._of[item] = self._of[self._of[item]]
             item = self._of[item]
         return item
 
     def join(self, a: int, b: int) -> None:
+        """Make the sets of both one."""
         self._of[self.find(a)] = self.find(b)
 
 
@@ -89,7 +92,7 @@ def make_groups(system: Assembled) -> Grouping:
     first = n_rows - len(system.elements)
     elements += [text_element(len(joints) + k, first + k) for k in range(len(system.elements))]
     matrix, rows, spread = (ca.sparsify(x) for x in (system.matrix, system.rows, system.spread))
-    sets = _Sets(nw + n_rows)
+    sets = Sets(nw + n_rows)
     for i, j in _entries(matrix):
         sets.join(i, j)
     tree = reduced.tree
@@ -128,15 +131,49 @@ def make_groups(system: Assembled) -> Grouping:
                 make_tree(tree.steps, unknowns, nv, planar) if steps else None,
             )
         )
+    return _grouping(system, groups, elements, frozenset(range(n_rows)) - moved)
+
+
+def reorder_groups(system: Assembled, grouping: Grouping, order: Sequence[int]) -> Grouping:
+    """The same groups in another order."""
+    groups = [grouping.groups[k] for k in order]
+    return _grouping(system, groups, grouping.elements, grouping.prescribed)
+
+
+def _grouping(
+    system: Assembled,
+    groups: Sequence[Group],
+    elements: Sequence[Element],
+    prescribed: frozenset[int],
+) -> Grouping:
+    spread, metric = pack_spread(system, groups)
     return Grouping(
-        tuple(groups),
-        tuple(elements),
-        _readings(system, groups),
-        frozenset(range(n_rows)) - moved,
-        _pack(_matrix(system, g) for g in groups),
-        _pack(_metric(system, g) for g in groups),
-        _pack(system.rows[r, list(g.unknowns)] for g in groups for r in g.rows),
+        groups=tuple(groups),
+        elements=tuple(elements),
+        row_reads=_readings(system, groups),
+        prescribed=prescribed,
+        matrix=pack_matrix(system, groups),
+        metric=metric,
+        rows=pack_rows(system, groups),
+        spread=spread,
+    )
+
+
+def pack_matrix(system: Assembled, groups: Sequence[Group]) -> ca.SX:
+    """Their parts of A, one after the other by columns."""
+    return _pack(_matrix(system, g) for g in groups)
+
+
+def pack_rows(system: Assembled, groups: Sequence[Group]) -> ca.SX:
+    """Their rows of J."""
+    return _pack(system.rows[r, list(g.unknowns)] for g in groups for r in g.rows)
+
+
+def pack_spread(system: Assembled, groups: Sequence[Group]) -> tuple[ca.SX, ca.SX]:
+    """Their columns of E, and their metrics."""
+    return (
         _pack(system.spread[list(g.unknowns), r] for g in groups for r in g.rows),
+        _pack(_metric(system, g) for g in groups),
     )
 
 
@@ -161,7 +198,7 @@ def _pack(parts: Iterable[ca.SX]) -> ca.SX:
     return ca.vertcat(*items) if items else ca.SX.zeros(0)
 
 
-def _readings(system: Assembled, groups: list[Group]) -> tuple[int, ...]:
+def _readings(system: Assembled, groups: Sequence[Group]) -> tuple[int, ...]:
     """The auxiliary unknowns in the order of the liaisons kept by coordinates, and their rows."""
     reduced = system.reduced
     reads = [-1] * int(system.lam.numel())

@@ -9,11 +9,13 @@ import casadi as ca
 from frot.compiler.equations.origins import Origin
 from frot.compiler.lowering.assembled import Assembled, Block
 from frot.compiler.lowering.checks import Check, parameter_checks
+from frot.compiler.lowering.equals import Kind, Member, share_functions
 from frot.compiler.lowering.explicit import make_explicit
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.finite import watch_numbers
 from frot.compiler.lowering.groups import Grouping
 from frot.compiler.lowering.initial_values import Statement, lower_initial
+from frot.compiler.lowering.islands import divide
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, why_explicit
 from frot.compiler.lowering.listing import Listed, list_variables
 from frot.compiler.lowering.lower_events import lower_update
@@ -32,12 +34,16 @@ class Lowered:
 
     `position_statement` and `velocity_statement` give, for each scalar initial equation, the index
     of its statement in `statements`. `blocks` are the functions of the blocks of `system`.
+    Where there are `islands`, each is of one of the `kinds`. `conditions`: the values of all.
     """
 
     reduced: Reduced
     system: Assembled
     grouping: Grouping
     functions: dict[str, ca.Function]
+    kinds: tuple[Kind, ...]
+    islands: tuple[Member, ...]
+    conditions: ca.SX
     blocks: tuple[ca.Function, ...]
     carried: tuple[Carried, ...]
     checks: tuple[Check, ...]
@@ -81,7 +87,7 @@ def lower(system: Assembled, grouping: Grouping, log: Log) -> Lowered | None:
     given, is_set = ca.SX.sym("given", s.p.numel()), ca.SX.sym("set", s.p.numel())
     state = state_arguments(system)
     solution = [*state, system.z, system.lam]
-    no_rates = ca.SX.zeros(system.rates.shape)
+    grouping, islands = divide(system, grouping, conditions, state)
     outputs: dict[str, tuple[list[ca.SX], list[ca.SX]]] = {
         "parameters": (
             [given, is_set, s.u],
@@ -92,23 +98,7 @@ def lower(system: Assembled, grouping: Grouping, log: Log) -> Lowered | None:
         "start": ([s.t, s.u, s.p], initial.start),
         "initial_position": (state, initial.position),
         "initial_velocity": (state, initial.velocity),
-        "kinematics": (state, [system.gap, grouping.rows, system.rate, conditions]),
         "sides": (state, list(_sides(system))),
-        "dynamics": (
-            state,
-            [
-                no_rates if system.late else system.rates,
-                grouping.matrix,
-                system.force,
-                grouping.rows,
-                system.bias,
-                system.rate,
-                system.gap,
-                conditions[: reduced.conditions.located],
-                system.coefficients,
-                ca.SX(0) if system.late else system.power,
-            ],
-        ),
         "sizes": (
             state,
             [system.force_size, _without_reactions(resolve(reduced.load_sizes), system)],
@@ -116,8 +106,8 @@ def lower(system: Assembled, grouping: Grouping, log: Log) -> Lowered | None:
         "variables": ([*solution, s.energy], [values]),
         "energy": (state, [resolve(reduced.kinetic), resolve(reduced.potential)]),
     }
-    if not grouping.is_mass_matrix:
-        outputs["spread"] = (state, [grouping.spread, grouping.metric])
+    if not islands:
+        outputs |= _whole(system, grouping, conditions, state)
     carried = carried_bodies(system)
     if carried:
         outputs["places"] = (state, [column(body.value for body in carried)])
@@ -152,11 +142,15 @@ def lower(system: Assembled, grouping: Grouping, log: Log) -> Lowered | None:
         name: ca.Function(f"frot_{name}_at", arguments, _clean(results))
         for name, (arguments, results) in outputs.items()
     }
+    kinds, members = share_functions(islands)
     return Lowered(
         reduced=reduced,
         system=system,
         grouping=grouping,
         functions=functions,
+        kinds=kinds,
+        islands=members,
+        conditions=conditions,
         blocks=tuple(_block(k, b, system) for k, b in enumerate(system.blocks)),
         carried=carried,
         checks=checks,
@@ -169,6 +163,34 @@ def lower(system: Assembled, grouping: Grouping, log: Log) -> Lowered | None:
         jacobian=jacobian,
         watched=tuple(watched_origins),
     )
+
+
+def _whole(
+    system: Assembled, grouping: Grouping, conditions: ca.SX, state: list[ca.SX]
+) -> dict[str, tuple[list[ca.SX], list[ca.SX]]]:
+    """What islands have of their own where there are several."""
+    no_rates = ca.SX.zeros(system.rates.shape)
+    outputs = {
+        "kinematics": (state, [system.gap, grouping.rows, system.rate, conditions]),
+        "dynamics": (
+            state,
+            [
+                no_rates if system.late else system.rates,
+                grouping.matrix,
+                system.force,
+                grouping.rows,
+                system.bias,
+                system.rate,
+                system.gap,
+                conditions[: system.reduced.conditions.located],
+                system.coefficients,
+                ca.SX(0) if system.late else system.power,
+            ],
+        ),
+    }
+    if not grouping.is_mass_matrix:
+        outputs["spread"] = (state, [grouping.spread, grouping.metric])
+    return outputs
 
 
 def _sides(system: Assembled) -> tuple[ca.SX, ca.SX]:

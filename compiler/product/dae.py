@@ -140,7 +140,7 @@ def dae_of(lowered: Lowered) -> Dae:
     sideless = ca.SX.zeros(len(system.elements))
     d = ca.vertcat(flags, s.sides, sideless, system.discrete)
     state = [s.t, system.q, system.v, s.u, s.p, d, system.y]
-    conditions = lowered.functions["kinematics"].call(state)[3]
+    conditions = lowered.conditions
     q, v, guess, _ = lowered.functions["start"].call([s.t, s.u, s.p])
     values = default_values(reduced.mechanism.model, {})
     places = {"t": s.t, "x": x, "z": z, "u": s.u, "p": s.p, "mode": mode}

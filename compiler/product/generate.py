@@ -16,6 +16,11 @@ from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.elements import Bound, Element
 from frot.compiler.mechanics.mechanism import Joint, Relation
 from frot.compiler.mechanics.motions import count_speeds
+from frot.compiler.product.c_tables import array as _array
+from frot.compiler.product.c_tables import callable_record as _callable
+from frot.compiler.product.c_tables import number as _number
+from frot.compiler.product.c_tables import record as _record
+from frot.compiler.product.islands import island_arrays, read_numbers, shared_functions
 from frot.compiler.product.split import split_functions
 from frot.dsl.messages.source import Span
 
@@ -35,6 +40,7 @@ _MECHANICAL = (
         "contacts",
         "elements",
         "groups",
+        "islands",
         "row_reads",
         "row_beside",
         "row_group",
@@ -57,6 +63,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         _array("double", "p_default", [_number(x) for x in defaults]),
         _array("double", "u_default", [_number(x) for x in inputs]),
         *_mechanical_arrays(lowered),
+        *island_arrays(lowered),
         _array(
             "frot_check",
             "checks",
@@ -157,6 +164,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_elements": len(lowered.grouping.elements),
         "n_turns": len(symbols.turns),
         "n_groups": len(lowered.grouping.groups),
+        "n_islands": len(lowered.islands),
         **_packed_sizes(lowered),
         "n_discrete": system.discrete.numel(),
         "n_watched": len(lowered.watched),
@@ -416,33 +424,16 @@ def _n_paced(lowered: Lowered) -> int:
 
 def _functions(lowered: Lowered) -> str:
     generator = ca.CodeGenerator("frot_functions.c", {"casadi_int": "long long int"})
-    for function in (*lowered.functions.values(), *lowered.blocks):
+    for function in (*lowered.functions.values(), *lowered.blocks, *shared_functions(lowered)):
         generator.add(function)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(generator.generate(folder + "/"))
         text = path.read_text(encoding="utf-8")
     if "#error" in text:
         raise RuntimeError("CasADi could not generate C for a function of the model")
-    text = split_functions(_UNASKED.sub("", _ABSENT.sub(r"\2", text)))
+    text = _UNASKED.sub("", _ABSENT.sub(r"\2", text))
+    text = split_functions(read_numbers(text, lowered))
     return (_QUICK + text) if len(text) > _LONG else text
-
-
-def _callable(function: ca.Function) -> str:
-    sizes = (function.sz_arg(), function.sz_res(), function.sz_iw(), function.sz_w())
-    return _record(function.name(), *sizes)
-
-
-def _record(*fields: str | int) -> str:
-    return f"{{{', '.join(str(field) for field in fields)}}}"
-
-
-def _array(kind: str, name: str, items: list[str]) -> str:
-    """A table; one item where there is none, for C has no empty arrays."""
-    return f"static const {kind} {name}[] = {{{', '.join(items) or '0'}}};"
-
-
-def _number(value: float) -> str:
-    return repr(float(value))
 
 
 def _text(value: str) -> str:

@@ -42,6 +42,10 @@ def print_cost(lowered: Lowered) -> str:
     lines = [f"{lowered.reduced.mechanism.model.name}: operations of the generated functions"]
     counted = [*lowered.functions.items(), *((f.name(), f) for f in lowered.blocks)]
     lines += [f"  {name:<18}{f.n_instructions():>6}" for name, f in counted]
+    for k, kind in enumerate(lowered.kinds):
+        equal = sum(member.kind == k for member in lowered.islands)
+        counts = ", ".join(f"{name} {f.n_instructions()}" for name, f in kind.functions.items())
+        lines.append(f"  {equal} islands of a kind: {counts}")
     lines += [
         f"  states {system.q.numel() + system.nv} (of these speeds {system.nv}), auxiliary speeds "
         f"{system.na} (reactions that a law or an expression reads), rows {system.lam.numel()}, "

@@ -13,6 +13,7 @@
 
 #include "blocks.h"
 #include "inertia.h"
+#include "islands.h"
 #include "linear.h"
 #include "tolerances.h"
 
@@ -24,19 +25,21 @@ void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double 
   w->call.arg[5] = d, w->call.arg[6] = w->blocks.y;
 }
 
-/* Note the rows to look at in w->wanted. */
-static void want_rows(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                      int wanted) {
+/* Note the rows of a group to look at in w->core.wanted. */
+static void want_rows(const frot_model *m, frot_work *w, const frot_group *g,
+                      const frot_contact_mode *modes, int wanted) {
   unsigned char all = wanted != FROT_MOTION || m->general;
-  for (int r = 0; r < m->n_rows; r++) w->core.wanted[r] = all && frot_is_reading(m, r);
-  for (int i = 0; i < m->n_contacts; i++) {
-    int row = m->contacts[i].row_n;
-    if (row >= 0 && !m->contacts[i].reduced) w->core.wanted[row] = modes[i].closed != 0;
+  for (int i = 0; i < g->n_rows; i++)
+    w->core.wanted[g->rows[i]] = all && frot_is_reading(m, g->rows[i]);
+  for (int i = 0; i < g->n_contacts; i++) {
+    const frot_contact *contact = &m->contacts[g->contacts[i]];
+    if (contact->row_n >= 0 && !contact->reduced)
+      w->core.wanted[contact->row_n] = modes[g->contacts[i]].closed != 0;
   }
-  for (int e = 0; e < m->n_elements; e++) {
-    const frot_element *element = &m->elements[e];
-    int acts = modes[element->contact].closed &&
-               (wanted == FROT_LAWS || frot_element_mode(m, modes, e)->friction != FROT_NONE);
+  for (int i = 0; i < g->n_elements; i++) {
+    const frot_element *element = &m->elements[g->elements[i]];
+    int friction = frot_element_mode(m, modes, g->elements[i])->friction;
+    int acts = modes[element->contact].closed && (wanted == FROT_LAWS || friction != FROT_NONE);
     w->core.wanted[element->row] = (unsigned char)acts;
     for (int k = 0; acts && k < 2; k++)
       if (element->bounded_by[k] >= 0) w->core.wanted[element->bounded_by[k]] = 1;
@@ -45,27 +48,24 @@ static void want_rows(const frot_model *m, frot_work *w, const frot_contact_mode
 
 /* Sizes of the terms of c, of which those of the lengths of a contact may cancel: with the sum W of
  * the group's angular velocities and V of its other speeds, reach W^2 + V W. */
-static void size_biases(const frot_model *m, const frot_state *s, frot_work *w, const double *v) {
-  for (int k = 0; k < m->n_groups; k++) {
-    const frot_group *g = &m->groups[k];
-    if (g->n_rows == 0) continue;
-    double turning = 0, moving = 0;
-    for (int i = 0; i < g->n_speeds; i++) {
-      int speed = g->unknowns[i];
-      *(m->speed_turns[speed] ? &turning : &moving) += fabs(v[speed]);
-    }
-    for (int i = 0; i < g->n_rows; i++) w->core.bias_size[g->rows[i]] = fabs(w->core.c[g->rows[i]]);
-    for (int i = 0; i < g->n_elements; i++) {
-      const frot_element *e = &m->elements[g->elements[i]];
-      double reach = s->data[w->layout.reach + e->contact];
-      if (reach > 0 && !e->rolling)
-        w->core.bias_size[e->row] += (reach * turning + moving) * turning;
-    }
-    for (int i = 0; i < g->n_contacts; i++) {
-      int row = m->contacts[g->contacts[i]].row_n;
-      double reach = s->data[w->layout.reach + g->contacts[i]];
-      if (row >= 0 && reach > 0) w->core.bias_size[row] += (reach * turning + moving) * turning;
-    }
+static void size_biases(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
+                        const double *v) {
+  if (g->n_rows == 0) return;
+  double turning = 0, moving = 0;
+  for (int i = 0; i < g->n_speeds; i++) {
+    int speed = g->unknowns[i];
+    *(m->speed_turns[speed] ? &turning : &moving) += fabs(v[speed]);
+  }
+  for (int i = 0; i < g->n_rows; i++) w->core.bias_size[g->rows[i]] = fabs(w->core.c[g->rows[i]]);
+  for (int i = 0; i < g->n_elements; i++) {
+    const frot_element *e = &m->elements[g->elements[i]];
+    double reach = s->data[w->layout.reach + e->contact];
+    if (reach > 0 && !e->rolling) w->core.bias_size[e->row] += (reach * turning + moving) * turning;
+  }
+  for (int i = 0; i < g->n_contacts; i++) {
+    int row = m->contacts[g->contacts[i]].row_n;
+    double reach = s->data[w->layout.reach + g->contacts[i]];
+    if (row >= 0 && reach > 0) w->core.bias_size[row] += (reach * turning + moving) * turning;
   }
 }
 
@@ -84,10 +84,11 @@ static void drop_rounding(const frot_model *m, frot_work *w, int row, double rea
   if (fabs(w->core.rate[row]) <= FROT_CANCELS * speed) w->core.rate[row] = 0;
 }
 
-static void clean_rows(const frot_model *m, const frot_state *s, frot_work *w, const double *v) {
+static void clean_rows(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
+                       const double *v) {
   const double *reach = s->data + w->layout.reach;
-  for (int i = 0; i < m->n_contacts; i++) {
-    int row = m->contacts[i].row_n, sliding = m->contacts[i].sliding;
+  for (int k = 0; k < g->n_contacts; k++) {
+    int i = g->contacts[k], row = m->contacts[i].row_n, sliding = m->contacts[i].sliding;
     if (!(reach[i] > 0)) continue;
     if (row >= 0 && !m->contacts[i].reduced) drop_rounding(m, w, row, reach[i], v);
     if (sliding >= 0) drop_rounding(m, w, m->elements[sliding].row, reach[i], v);
@@ -192,31 +193,13 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   w->core.t = t;
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
-  frot_inputs(m, s, w, &t, q, v, d);
-  double *res[] = {w->core.qd,          w->core.mass, w->core.h,   w->core.rows,
-                   w->core.c,           w->core.rate, w->core.gap, w->core.condition,
-                   w->core.coefficient, w->core.power};
-  memcpy(w->call.res, res, sizeof res);
-  frot_call(w, &m->dynamics);
-  if (!frot_all_finite(w->core.mass, m->n_matrix) || !frot_all_finite(w->core.h, w->layout.nw) ||
-      !frot_all_finite(w->core.rows, m->n_entries) || !frot_all_finite(w->core.c, m->n_rows) ||
-      !frot_all_finite(w->core.qd, m->nq) ||
-      !frot_all_finite(w->core.coefficient, 2 * m->n_elements) ||
-      !frot_all_finite(w->core.condition, m->n_located) ||
-      !frot_all_finite(w->core.gap, m->n_contacts) || !frot_all_finite(w->core.power, 1))
-    return FROT_NAN;
-  if (m->general) {
-    w->call.res[0] = w->core.effect, w->call.res[1] = w->core.metric;
-    frot_call(w, &m->spread);
-    if (!frot_all_finite(w->core.effect, m->n_entries) ||
-        !frot_all_finite(w->core.metric, m->n_metric))
-      return FROT_NAN;
-  }
-  want_rows(m, w, modes, wanted);
-  clean_rows(m, s, w, v);
-  size_biases(m, s, w, v);
-  for (int k = 0; k < m->n_groups && status == FROT_OK; k++) {
-    const frot_group *g = &m->groups[k];
+  if (!frot_call_dynamics(m, s, w, t, q, v, d)) return FROT_NAN;
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_groups && status == FROT_OK; k++) {
+    const frot_group *g = &m->groups[now->groups[k]];
+    want_rows(m, w, g, modes, wanted);
+    clean_rows(m, s, w, g, v);
+    size_biases(m, s, w, g, v);
     status = g->general ? general_group(m, w, g) : symmetric_group(m, w, g);
   }
   return status;
@@ -226,11 +209,9 @@ int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, 
                     const double *v, const double *d) {
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
-  frot_inputs(m, s, w, &t, q, v, d);
-  double *res[] = {w->core.gap, w->core.rows, w->core.rate, w->core.condition};
-  memcpy(w->call.res, res, sizeof res);
-  frot_call(w, &m->kinematics);
-  clean_rows(m, s, w, v);
+  frot_call_kinematics(m, s, w, t, q, v, d);
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_groups; k++) clean_rows(m, s, w, &m->groups[now->groups[k]], v);
   return FROT_OK;
 }
 
@@ -243,8 +224,8 @@ void frot_note_reaches(const frot_model *m, frot_state *s, frot_work *w, double 
 }
 
 int frot_metric(const frot_model *m, frot_work *w) {
-  for (int k = 0; k < m->n_groups; k++) {
-    const frot_group *g = &m->groups[k];
+  for (int k = 0; k < w->awake.now->n_groups; k++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
     int ns = g->n_speeds;
     if (!g->general) continue;
     memcpy(w->core.factor + g->metric, w->core.metric + g->metric,
@@ -255,8 +236,8 @@ int frot_metric(const frot_model *m, frot_work *w) {
 }
 
 void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen) {
-  for (int k = 0; k < m->n_groups; k++) {
-    const frot_group *g = &m->groups[k];
+  for (int k = 0; k < w->awake.now->n_groups; k++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
     int n = g->n, ns = g->n_speeds, active = g->general ? n : ns;
     double *z = w->core.rest;
     memcpy(z, w->core.force + g->vector, sizeof(double) * (size_t)active);
@@ -304,7 +285,8 @@ double frot_metric_entry(const frot_model *m, frot_work *w, int a, int b) {
 
 double frot_kinetic(const frot_model *m, const frot_work *w, const double *v) {
   double sum = 0;
-  for (int k = 0; k < m->n_groups; k++) sum += frot_square_of(w, &m->groups[k], v);
+  for (int k = 0; k < w->awake.now->n_groups; k++)
+    sum += frot_square_of(w, &m->groups[w->awake.now->groups[k]], v);
   return 0.5 * sum;
 }
 
@@ -387,20 +369,13 @@ static void spread_in_inverse(frot_work *w, const frot_group *g, const double *l
   }
 }
 
-static void find_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                       const double *v, const double *d) {
-  frot_inputs(m, s, w, &t, q, v, d);
-  w->call.res[0] = w->core.load, w->call.res[1] = w->call.values;
-  frot_call(w, &m->sizes);
-}
-
 void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
                              const double *q, const double *v, const double *d, double *size) {
   memset(size, 0, sizeof(double) * (size_t)m->nv);
   if (!m->sizes.call) return;
-  find_loads(m, s, w, t, q, v, d);
-  for (int k = 0; k < m->n_groups; k++) {
-    const frot_group *g = &m->groups[k];
+  frot_call_sizes(m, s, w, t, q, v, d);
+  for (int k = 0; k < w->awake.now->n_groups; k++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
     int ns = g->n_speeds, n = g->general ? g->n : ns;
     double *sum = w->core.load_size, *response = w->core.rest;
     spread_in_inverse(w, g, w->core.load, sum);
@@ -419,9 +394,9 @@ void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, 
                     const double *v, const double *d) {
   double *load = w->core.load, *size = w->core.load_size;
   if (!m->sizes.call) return;
-  find_loads(m, s, w, t, q, v, d);
-  for (int k = 0; k < m->n_groups; k++) {
-    const frot_group *g = &m->groups[k];
+  frot_call_sizes(m, s, w, t, q, v, d);
+  for (int k = 0; k < w->awake.now->n_groups; k++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
     int n = g->n, count = g->general ? n : g->n_speeds;
     if (g->n_rows == 0) continue;
     if (g->general)

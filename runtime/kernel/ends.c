@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "awake.h"
 #include "core.h"
 #include "guards.h"
 #include "mechanics.h"
@@ -16,17 +17,23 @@ static const frot_contact_mode *modes_of(const frot_state *s, const frot_work *w
 void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z) {
   const double *d = s->data + w->layout.d;
   const frot_contact_mode *modes = modes_of(s, w);
-  for (int e = 0; e < m->n_elements; e++)
+  const frot_awake_lists *now = w->awake.now;
+  for (int i = 0; i < now->n_elements; i++) {
+    int e = now->elements[i];
     for (int k = 0; k < 2 && m->elements[e].bound == FROT_BY_PIN; k++)
       w->guards.end_reaction[2 * e + k] = w->core.lam[m->elements[e].bounded_by[k]];
+  }
   if (frot_guards_read_loads(m, w, modes)) frot_row_loads(m, s, w, t, z, z + m->nq, d);
   frot_guards(m, s, w, z, z + m->nq, d, modes, w->step.z, w->guards.size);
 }
 
 void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z) {
   const frot_layout *l = &w->layout;
-  for (int j = 0; j < m->nq + m->nv; j++)
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n - FROT_QUADRATURES; k++) {
+    int j = now->states[k];
     s->data[l->scale_x + j] = fmax(s->data[l->scale_x + j], fabs(z[j]));
+  }
   for (int k = 0; k < w->guards.count; k++) {
     double *scale = s->data + l->scale_g + w->guards.list[k];
     *scale = fmax(*scale, w->guards.size[k]);
@@ -36,14 +43,19 @@ void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, con
 
 int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t) {
   const frot_layout *l = &w->layout;
-  memcpy(w->step.z0, s->data + l->x, sizeof(double) * (size_t)l->nx);
-  memset(w->step.z0 + l->nx, 0, sizeof(double) * (size_t)l->ng);
+  if (w->awake.filled) {
+    memcpy(w->step.z0, s->data + l->x, sizeof(double) * (size_t)l->nx);
+    memcpy(w->step.z1, w->step.z0, sizeof(double) * (size_t)l->nx);
+  } else {
+    frot_copy_awake(w, s->data + l->x, w->step.z0);
+  }
   frot_list_guards(m, s, w, modes_of(s, w));
   if (s->has_slope) {
-    memcpy(frot_stage(w, 0), s->data + l->slope, sizeof(double) * (size_t)l->nz);
+    frot_pack(w, s->data + l->slope, frot_stage(w, 0));
+    memcpy(frot_stage(w, 0) + w->awake.n, s->data + l->slope + l->nx,
+           sizeof(double) * (size_t)w->guards.count);
     return FROT_OK;
   }
-  memcpy(w->step.z1, w->step.z0, sizeof(double) * (size_t)l->nx);
   memcpy(w->blocks.y, s->data + l->y, sizeof(double) * (size_t)m->ny);
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   int status = frot_slope(m, s, w, t, w->step.z0, frot_stage(w, 0));
@@ -53,7 +65,7 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
     frot_turn_references(m, s, w);
     frot_measure_end(m, s, w, t, w->step.z0);
     frot_note_sizes(m, s, w, w->step.z0);
-    memcpy(frot_stage(w, 0) + l->nx, w->step.z, sizeof(double) * (size_t)w->guards.count);
+    memcpy(frot_stage(w, 0) + w->awake.n, w->step.z, sizeof(double) * (size_t)w->guards.count);
   }
   return status;
 }
@@ -61,9 +73,12 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
 void frot_turn_at_end(const frot_model *m, frot_state *s, frot_work *w, double *slope) {
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = modes_of(s, w);
-  for (int e = 0; e < m->n_elements; e++)
+  const frot_awake_lists *now = w->awake.now;
+  for (int i = 0; i < now->n_elements; i++) {
+    int e = now->elements[i];
     for (int k = 0; k < 2 && m->elements[e].bound == FROT_BY_PIN; k++)
       w->core.lam[m->elements[e].bounded_by[k]] = w->guards.end_reaction[2 * e + k];
+  }
   frot_turn_references(m, s, w);
   for (int k = 0; k < w->guards.count && w->guards.list[k] < frot_condition_guard(m); k++) {
     int e = (w->guards.list[k] - m->n_contacts) / 2;

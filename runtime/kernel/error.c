@@ -12,10 +12,11 @@
  * begins at zero without any rate there is no other. */
 static double size_at_start(const frot_model *m, const frot_state *s, const frot_work *w, int j,
                             double h) {
+  const int *place = w->awake.now->place;
   double size = fmax(s->data[w->layout.scale_x + j], fabs(w->step.z0[j])),
-         change = h * fabs(w->step.k[j]);
+         change = h * fabs(w->step.k[place[j]]);
   if (j < m->nq && m->q_speed[j] < 0) return w->sizes.own[j];
-  if (j < m->nq) change += h * h * fabs(w->step.k[m->nq + m->q_speed[j]]);
+  if (j < m->nq) change += h * h * fabs(w->step.k[place[m->nq + m->q_speed[j]]]);
   size = fmax(size, change);
   return size > 0 ? size : fabs(w->step.z1[j] - w->step.z0[j]);
 }
@@ -24,13 +25,17 @@ static double size_at_start(const frot_model *m, const frot_state *s, const frot
  * leaves a size of zero, by the first slope that is not: of what begins with the step nothing else
  * is known, and later ones may be wild where the step is far too long. */
 static void size_own_states(const frot_model *m, const frot_state *s, frot_work *w, double h) {
-  for (int j = 0; j < m->nq; j++) w->sizes.change[j] = h * fabs(w->step.k[j]);
+  const frot_size_work *own = &w->sizes;
+  for (int i = 0; i < own->count; i++) {
+    int j = own->states[i], at = w->awake.now->place[j];
+    own->change[j] = at < 0 ? 0 : h * fabs(w->step.k[at]);
+  }
   if (!frot_state_sizes(m, s, w)) return;
-  for (int j = 0; j < m->nq; j++)
-    for (int k = 1; m->q_speed[j] < 0 && w->sizes.own[j] == 0 && w->sizes.change[j] == 0; k++) {
-      if (k > DP_STAGES) break;
-      w->sizes.change[j] = h * fabs(frot_stage(w, k)[j]);
-    }
+  for (int i = 0; i < own->count; i++) {
+    int j = own->states[i], at = w->awake.now->place[j];
+    for (int k = 1; at >= 0 && own->own[j] == 0 && own->change[j] == 0 && k <= DP_STAGES; k++)
+      own->change[j] = h * fabs(frot_stage(w, k)[at]);
+  }
   frot_state_sizes(m, s, w);
 }
 
@@ -40,7 +45,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
   double tolerance = fmax(FROT_EXPLICIT_SHARE * s->tolerance, FROT_LEAST_TOLERANCE), worst = 0;
   double guard_tolerance = frot_guard_tolerance(s->tolerance);
   double e5[FROT_CHUNK], e3[FROT_CHUNK];
-  int end = frot_width(w);
+  int end = frot_width(w), n = w->awake.n, states = n - FROT_QUADRATURES;
   w->step.worst = -1;
   for (int j = 0; j < end; j++) {
     int at = j % FROT_CHUNK, size = end - j < FROT_CHUNK ? end - j : FROT_CHUNK;
@@ -48,26 +53,26 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       frot_weigh_stages(w, dp_e5, DP_STAGES + 1, j, size, e5);
       frot_weigh_stages(w, dp_e3, DP_STAGES + 1, j, size, e3);
     }
-    if (j >= m->nq + m->nv && j < l->nx) continue; /* energies follow */
+    if (j >= states && j < n) continue; /* energies follow */
     if (e5[at] == 0 && e3[at] == 0) continue;
     double bound, noise = 0, fifth = h * e5[at], third = h * e3[at];
-    if (j < l->nx) {
-      int plain = j < m->nq && m->q_speed[j] < 0;
-      noise = (plain ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN) * h * s->data[l->noise + j];
-      bound = tolerance * size_at_start(m, s, w, j, h);
+    if (j < n) {
+      int state = w->awake.now->states[j], plain = state < m->nq && m->q_speed[state] < 0;
+      noise = (plain ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN) * h * s->data[l->noise + state];
+      bound = tolerance * size_at_start(m, s, w, state, h);
       if (plain) bound = fmax(bound, noise), noise = 0; /* no inertia smooths it */
     } else {
-      double largest = FROT_GUARD_LOOSEST * s->data[l->scale_g + w->guards.list[j - l->nx]];
+      double largest = FROT_GUARD_LOOSEST * s->data[l->scale_g + w->guards.list[j - n]];
       for (int k = 0; k <= DP_STAGES; k++) largest = fmax(largest, fabs(frot_stage(w, k)[j]));
       bound = guard_tolerance * h * largest;
-      noise = FROT_NOISE_MARGIN * h * frot_guard_noise(m, s, w, w->guards.list[j - l->nx], h);
+      noise = FROT_NOISE_MARGIN * h * frot_guard_noise(m, s, w, w->guards.list[j - n], h);
     }
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
     double error = joint > 0 ? fifth * fifth / joint : joint;
     /* what rounding makes grows with the step as its bound does: it is no reason for a shorter one
      */
     double ratio = error <= noise ? 0 : (error - noise) / bound;
-    if (!(ratio <= worst)) worst = ratio, w->step.worst = j < m->nq + m->nv ? j : -1;
+    if (!(ratio <= worst)) worst = ratio, w->step.worst = j < states ? w->awake.now->states[j] : -1;
     if (isnan(worst)) break;
   }
   return worst;

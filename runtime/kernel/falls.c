@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "awake.h"
 #include "core.h"
 #include "error.h"
 #include "groups.h"
@@ -15,7 +16,7 @@
 
 void frot_guard_polynomial(const frot_state *s, const frot_work *w, int guard, double h,
                            double g[7]) {
-  const double *f = w->step.f + w->layout.nx + guard;
+  const double *f = w->step.f + w->awake.n + guard;
   int nz = w->layout.nz;
   for (int k = 0; s->implicit && k < 7; k++) g[k] = f[k * nz];
   if (s->implicit) return;
@@ -92,14 +93,14 @@ int frot_seems_to_dip(const frot_model *m, const frot_state *s, const frot_work 
 void frot_fire_at_start(frot_state *s, const frot_work *w, int guard) {
   const frot_layout *l = &w->layout;
   s->data[l->fired + w->guards.list[guard]] = 1;
-  memcpy(s->data + l->slope, w->step.k, sizeof(double) * (size_t)l->nz);
+  frot_unpack(w, w->step.k, s->data + l->slope);
   s->pending = 1;
 }
 
 void frot_fire_guards(const frot_model *m, frot_state *s, const frot_work *w, int first, double t,
                       double h) {
-  int nx = w->layout.nx;
-  const double *end = frot_stage(w, DP_STAGES) + nx, *start = frot_stage(w, 0) + nx;
+  int n = w->awake.n;
+  const double *end = frot_stage(w, DP_STAGES) + n, *start = frot_stage(w, 0) + n;
   for (int k = 0; k < w->guards.count; k++) {
     double g[7];
     frot_guard_polynomial(s, w, k, h, g);
@@ -110,35 +111,34 @@ void frot_fire_guards(const frot_model *m, frot_state *s, const frot_work *w, in
   s->pending = 1;
 }
 
-/* The listed guard of the first condition: they are all listed, last. */
-static int first_condition(const frot_model *m, const frot_work *w) {
-  return w->guards.count - m->n_located;
-}
+/* The listed guard of the first condition: those awake are all listed, last. */
+static int first_condition(const frot_work *w) { return w->guards.count - w->awake.now->n_located; }
 
 int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
                           double *part) {
   const double *d = s->data + w->layout.d;
-  const double *start = w->step.k + w->layout.nx + first_condition(m, w);
+  const double *start = w->step.k + w->awake.n + first_condition(w);
   int passed = -1;
   if (m->n_located == 0 || !frot_all_finite(w->step.z1, m->nq + m->nv)) return -1;
   memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
   if (frot_kinematics(m, s, w, w->core.t, w->step.z1, w->step.z1 + m->nq, d) != FROT_OK) return -1;
   *part = 1;
-  for (int j = 0; j < m->n_located; j++) {
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_located; k++) {
+    int j = now->located[k];
     double value = d[j] != 0 ? w->core.condition[j] : -w->core.condition[j];
-    if (!(value < 0 && start[j] >= 0)) continue;
-    double at = (w->core.t - t) / h * start[j] / (start[j] - value);
+    if (!(value < 0 && start[k] >= 0)) continue;
+    double at = (w->core.t - t) / h * start[k] / (start[k] - value);
     if (at <= *part) *part = at, passed = j;
   }
   return passed;
 }
 
 int frot_condition_at_zero(const frot_model *m, const frot_state *s, const frot_work *w) {
-  int first = first_condition(m, w);
-  const double *guard = w->step.k + w->layout.nx + first;
-  for (int j = 0; j < m->n_located; j++)
-    if (fabs(guard[j]) <=
-        FROT_GUARD_FLOOR * s->data[w->layout.scale_g + frot_condition_guard(m) + j])
-      return first + j;
+  int first = first_condition(w);
+  const double *guard = w->step.k + w->awake.n + first;
+  const double *size = s->data + w->layout.scale_g + frot_condition_guard(m);
+  for (int k = 0; k < w->awake.now->n_located; k++)
+    if (fabs(guard[k]) <= FROT_GUARD_FLOOR * size[w->awake.now->located[k]]) return first + k;
   return -1;
 }

@@ -155,6 +155,22 @@ typedef struct {
   const frot_link *links;
 } frot_group;
 
+/* Groups and states that depend on each other: their functions read no state of others. They take
+ * (t, q, v, u, p, d, y, numbers), of q, v, u, p and d the places given here, y whole; their results
+ * are those of the whole model's functions of these names over what is the island's: coordinates
+ * and conditions in the order given, what belongs to groups one group after the other. `numbers`
+ * are those by which it differs from others with the same functions. What has no group (states,
+ * conditions, power) is one more island. Groups of an island follow each other.
+ * `sleeps`: it depends neither on time nor on blocks. The first n_located conditions are located.
+ */
+typedef struct {
+  int sleeps, first_group, n_groups;
+  int nq, nv, nu, np, nd, n_conditions, n_located;
+  const int *q, *v, *u, *p, *d, *conditions;
+  const double *numbers;
+  frot_callable kinematics, dynamics, spread, sizes;
+} frot_island;
+
 enum frot_rule {
   FROT_POSITIVE = 0,
   FROT_NOT_NEGATIVE = 1,
@@ -262,6 +278,7 @@ typedef struct {
   int n_held;    /* the last n_held discrete values are what others were before: see `update` */
   int n_turns;   /* orientations among the coordinates */
   int n_groups;
+  int n_islands; /* 0: all is one, and the functions of the whole model are called */
   int n_matrix, n_metric, n_entries, n_square; /* items of the packed arrays of all groups */
   int general;                                 /* a group is general */
   int late_rates;     /* q' or the power depend on y of late blocks, z or lam: `rates` gives them */
@@ -283,7 +300,9 @@ typedef struct {
   frot_callable initial_position;
   /* initial_velocity -> the same in v: (nv x n_velocity), (ny x n_velocity) */
   frot_callable initial_velocity;
-  /* kinematics -> gap (n_contacts), rows J (n_entries), rate (n_rows), conditions
+  /* kinematics, dynamics, spread and sizes: islands have their own, and then only `sizes` is called
+   * for the whole, for the second of its results.
+   * kinematics -> gap (n_contacts), rows J (n_entries), rate (n_rows), conditions
    * (n_conditions) */
   frot_callable kinematics;
   /* sides -> what chooses the side of each contact at the start (3 x n_contacts): height of its
@@ -345,6 +364,7 @@ typedef struct {
   const frot_turn *turns; /* n_turns */
   const frot_element *elements;
   const frot_group *groups;
+  const frot_island *islands; /* n_islands */
   const int *row_reads;  /* n_rows: the auxiliary unknown whose place a reading takes, else -1 */
   const int *row_beside; /* n_rows: the row of the normal where this is the slip on it, else -1 */
   /* n_rows, nv: the group of a row, of a speed, and its number among the rows, the unknowns there
@@ -415,13 +435,17 @@ typedef struct {
 typedef struct frot_state frot_state;
 typedef struct frot_work frot_work;
 
-/* Where segments and events go, in memory of the caller. A segment takes frot_segment_size doubles;
- * with segments NULL only events are recorded. The events need room for frot_events_at_once. */
+/* Where segments and events go, in memory of the caller. A segment takes frot_segment_size doubles
+ * at most: one in which islands sleep refers to one before it for what stands still. Its first item
+ * is its length, its third the time at which it begins. The first of each memory stands by itself.
+ * With segments NULL only events are recorded. The events need room for frot_events_at_once. */
 typedef struct {
   double *segments;
-  long long segment_capacity, segment_count;
+  long long segment_capacity, segment_used; /* doubles */
   frot_event *events;
   long long event_capacity, event_count;
+  long long last;        /* where the last segment begins */
+  long long whole, naps; /* the kernel's own: the last that stands by itself, and what slept */
 } frot_recorder;
 
 /* Called now and then with the time reached; a nonzero answer stops the run. May be NULL. */
@@ -429,7 +453,7 @@ typedef int (*frot_monitor)(void *context, double t);
 
 size_t frot_state_size(const frot_model *model);      /* bytes */
 size_t frot_work_size(const frot_model *model);       /* bytes */
-long long frot_segment_size(const frot_model *model); /* doubles */
+long long frot_segment_size(const frot_model *model); /* doubles of the longest segment */
 
 /* Events that one instant may bring. */
 long long frot_events_at_once(const frot_model *model);
@@ -468,10 +492,11 @@ int frot_values(const frot_model *model, frot_state *state, frot_work *work, dou
 /* Values at any time inside a recorded segment (parameters and inputs are those of `state`). */
 int frot_segment_values(const frot_model *model, frot_state *state, frot_work *work,
                         const double *segment, double t, double *values);
-/* The same at many times in order, over recorded segments in order; values: count rows. A time
- * belongs to the last segment that begins at or before it, or after it by rounding. */
+/* The same at many times in order, over recorded segments in order, which take `size` doubles
+ * together; values: count rows. A time belongs to the last segment that begins at or before it, or
+ * after it by rounding. */
 int frot_sample(const frot_model *model, frot_state *state, frot_work *work, const double *segments,
-                long long segment_count, const double *times, long long count, double *values);
+                long long size, const double *times, long long count, double *values);
 
 /* Residual kinetic + potential + dissipated - work in since the start, and the energy scale:
  * balance[0..4] = residual, scale, kinetic + potential, dissipated, work. */

@@ -9,9 +9,12 @@
 
 /* Whether the sign of a bilateral reaction matters: friction follows it. */
 static int sign_matters(const frot_model *m, const frot_contact_mode *modes, int i) {
-  for (int e = 0; e < m->n_elements; e++)
+  const frot_group *g = &m->groups[m->contact_group[i]];
+  for (int k = 0; k < g->n_elements; k++) {
+    int e = g->elements[k];
     if (m->elements[e].contact == i && frot_element_mode(m, modes, e)->friction != FROT_NONE)
       return 1;
+  }
   return 0;
 }
 
@@ -34,14 +37,16 @@ static int count_element_guards(const frot_model *m, const frot_contact_mode *mo
 
 void frot_list_guards(const frot_model *m, const frot_state *s, frot_work *w,
                       const frot_contact_mode *modes) {
+  const frot_awake_lists *now = w->awake.now;
   int n = 0;
-  for (int i = 0; i < m->n_contacts; i++)
-    if (contact_has_guard(m, s, w, modes, i)) w->guards.list[n++] = i;
-  for (int e = 0; e < m->n_elements; e++) {
-    int count = count_element_guards(m, modes, e);
+  for (int i = 0; i < now->n_contacts; i++)
+    if (contact_has_guard(m, s, w, modes, now->contacts[i])) w->guards.list[n++] = now->contacts[i];
+  for (int i = 0; i < now->n_elements; i++) {
+    int e = now->elements[i], count = count_element_guards(m, modes, e);
     for (int k = 0; k < count; k++) w->guards.list[n++] = frot_element_guard(m, e) + k;
   }
-  for (int j = 0; j < m->n_located; j++) w->guards.list[n++] = frot_condition_guard(m) + j;
+  for (int i = 0; i < now->n_located; i++)
+    w->guards.list[n++] = frot_condition_guard(m) + now->located[i];
   w->guards.count = n;
 }
 
@@ -128,7 +133,9 @@ int frot_guards_read_loads(const frot_model *m, const frot_work *w,
 }
 
 void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w) {
-  for (int e = 0; e < m->n_elements; e++) {
+  const frot_awake_lists *now = w->awake.now;
+  for (int i = 0; i < now->n_elements; i++) {
+    int e = now->elements[i];
     const frot_element *element = &m->elements[e];
     if (element->bound != FROT_BY_PIN) continue;
     double *along = s->data + w->layout.along + 2 * e;

@@ -40,7 +40,7 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, double t, int 
     int status = frot_run_stages(m, s, w, t, at);
     if (status == FROT_OK && !s->implicit) status = land(m, s, w, t + at);
     if (status != FROT_OK) return status;
-    value = frot_stage(w, DP_STAGES)[w->layout.nx + guard];
+    value = frot_stage(w, DP_STAGES)[w->awake.n + guard];
     if (pass > 0 && at != last_at && value != last) {
       double secant = (value - last) / (at - last_at);
       if (secant < 0) slope = secant;

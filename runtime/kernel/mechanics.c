@@ -8,16 +8,31 @@
 #include "guards.h"
 #include "reactions.h"
 
+/* Whether all accelerations are numbers. */
+static int groups_finite(const frot_model *m, const frot_work *w) {
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_groups; k++) {
+    const frot_group *g = &m->groups[now->groups[k]];
+    for (int i = 0; i < g->n; i++)
+      if (!isfinite(w->core.a[g->unknowns[i]])) return 0;
+  }
+  return 1;
+}
+
 int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes,
                   const double *frozen, const double *along, int late) {
   int status =
       frot_dynamics(m, s, w, t, q, v, d, modes, late || m->late_rates ? FROT_READING : FROT_MOTION);
   if (status != FROT_OK) return status;
-  memcpy(w->reactions.along, along, sizeof(double) * 2 * (size_t)m->n_elements);
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_elements; k++) {
+    int at = 2 * now->elements[k];
+    w->reactions.along[at] = along[at], w->reactions.along[at + 1] = along[at + 1];
+  }
   if (frot_reactions(m, w, modes, NULL)) return FROT_DIVERGE;
   frot_accelerations(m, w, frozen);
-  if (!frot_all_finite(w->core.a, m->nv + m->na + m->nc)) return FROT_NAN;
+  if (!groups_finite(m, w)) return FROT_NAN;
   if (late || m->late_rates) {
     status = frot_solve_late(m, s, w, t, q, v, d);
     if (status != FROT_OK) return status;
@@ -34,21 +49,23 @@ int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, co
 int frot_derivatives(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z,
                      const double *d, const frot_contact_mode *modes, const double *frozen,
                      double *slope) {
-  int nx = m->nq + m->nv + FROT_QUADRATURES;
+  const frot_awake_lists *now = w->awake.now;
   const double *v = z + m->nq;
   int status = frot_solution(m, s, w, t, z, v, d, modes, frozen, s->data + w->layout.along, 0);
   if (status != FROT_OK) return status;
-  memcpy(slope, w->core.qd, sizeof(double) * (size_t)m->nq);
-  memcpy(slope + m->nq, w->core.a, sizeof(double) * (size_t)m->nv);
+  int states = now->n - FROT_QUADRATURES, k = 0;
+  for (; k < states && now->states[k] < m->nq; k++) slope[k] = w->core.qd[now->states[k]];
+  for (; k < states; k++) slope[k] = w->core.a[now->states[k] - m->nq];
   double dissipated = 0;
-  for (int e = 0; e < m->n_elements; e++) {
+  for (int i = 0; i < now->n_elements; i++) {
+    int e = now->elements[i];
     const frot_element *element = &m->elements[e];
     if (modes[element->contact].closed && frot_element_mode(m, modes, e)->friction > FROT_STICK)
       dissipated -= w->core.lam[element->row] * w->core.rate[element->row];
   }
-  slope[m->nq + m->nv] = dissipated;
-  slope[m->nq + m->nv + 1] = w->core.power[0];
-  frot_guards(m, s, w, z, v, d, modes, slope + nx, NULL);
+  slope[states] = dissipated;
+  slope[states + 1] = w->core.power[0];
+  frot_guards(m, s, w, z, v, d, modes, slope + now->n, NULL);
   return FROT_OK;
 }
 

@@ -10,14 +10,18 @@
 
 #define PASSES 60
 
-int frot_opening_metric(frot_opening *p) {
+/* The inertia of the groups at the values as they are. */
+static int find_inertia(const frot_opening *p) {
+  const frot_contact_mode *modes = (const void *)(p->s->data + p->w->layout.modes);
+  int status = frot_dynamics(p->m, p->s, p->w, p->t, p->q, p->v, p->d, modes, FROT_MOTION);
+  return status == FROT_OK ? frot_metric(p->m, p->w) : status;
+}
+
+/* The factor of the metric of all unknowns, after find_inertia. */
+static int factor_metric(frot_opening *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   int count = 0;
-  const frot_contact_mode *modes = (const void *)(p->s->data + frot_layout_of(m).modes);
-  int status = frot_dynamics(m, p->s, w, p->t, p->q, p->v, p->d, modes, FROT_MOTION);
-  if (status == FROT_OK) status = frot_metric(m, w);
-  if (status != FROT_OK) return status;
   for (int k = 0; k < frot_opening_count(p); k++) count += frot_is_attached(p, k);
   for (int a = 0, i = 0; a < frot_opening_count(p); a++) {
     if (!frot_is_attached(p, a)) continue;
@@ -29,6 +33,11 @@ int frot_opening_metric(frot_opening *p) {
   }
   p->factor = w->opening.factor, p->order = p->attached = count;
   return frot_cholesky(w->opening.factor, count) ? FROT_SINGULAR : FROT_OK;
+}
+
+int frot_opening_metric(frot_opening *p) {
+  int status = find_inertia(p);
+  return status == FROT_OK ? factor_metric(p) : status;
 }
 
 /* y <- L^-1 x: a row in the units of the metric; the attached unknowns come first. */
@@ -126,7 +135,7 @@ static int solve(frot_opening *p) {
   for (int k = 0; !p->velocity && k < p->m->nq; k++)
     w->relations.unit[k] = p->q[k] != 0 ? fabs(p->q[k]) : 1;
   for (int pass = 0;; pass++) {
-    int status = frot_opening_metric(p);
+    int status = find_inertia(p);
     if (status == FROT_OK) status = frot_evaluate_statements(p);
     if (status != FROT_OK) return frot_no_number(p, status);
     int good = 1;
@@ -142,6 +151,8 @@ static int solve(frot_opening *p) {
     if (good || p->n == 0) return FROT_OK;
     if (pass > 3 && largest >= last && largest <= FROT_AGREES) return FROT_OK;
     last = largest;
+    status = factor_metric(p);
+    if (status != FROT_OK) return frot_no_number(p, status);
     frot_least_change(p, NULL);
     if (!take(p) && pass < PASSES - 1) continue;
     status = frot_evaluate_statements(p);

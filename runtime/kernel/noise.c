@@ -16,10 +16,11 @@ static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, doubl
                          const double *largest) {
   double *noise = s->data + w->layout.noise, *size = w->relations.residual;
   frot_acceleration_sizes(m, s, w, t, w->step.z0, w->step.z0 + m->nq, s->data + w->layout.d, size);
-  for (int k = 0; k < m->nv; k++) {
-    double rounding = FROT_ROUNDING * size[k];
-    if (largest[m->nq + k] <= FROT_NOISE_MARGIN * rounding)
-      noise[m->nq + k] = fmax(noise[m->nq + k], rounding);
+  for (int j = 0; j < w->awake.n - FROT_QUADRATURES; j++) {
+    int state = w->awake.now->states[j];
+    if (state < m->nq) continue;
+    double rounding = FROT_ROUNDING * size[state - m->nq];
+    if (largest[j] <= FROT_NOISE_MARGIN * rounding) noise[state] = fmax(noise[state], rounding);
   }
 }
 
@@ -45,8 +46,9 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
   double *base = frot_stage(w, 1), *forth = frot_stage(w, 2), *back = frot_stage(w, 3);
   double *noise = s->data + w->layout.noise, *largest = w->step.f;
   double *guards = noise + m->nq + m->nv;
-  int n = m->nq + m->nv, nx = w->layout.nx;
-  for (int j = 0; j < n; j++) {
+  const int *states = w->awake.now->states;
+  int n = m->nq + m->nv, packed = w->awake.n, moving = packed - FROT_QUADRATURES;
+  for (int j = 0; j < moving; j++) {
     largest[j] = 0;
     for (int i = 0; i <= DP_STAGES; i++) largest[j] = fmax(largest[j], fabs(frot_stage(w, i)[j]));
   }
@@ -55,13 +57,13 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {
       double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
-      memcpy(w->step.z, w->step.z0, sizeof(double) * (size_t)w->layout.nz);
+      memcpy(w->step.z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
       for (int j = 0; j < n; j++) w->step.z[j] *= 1 + (((j >> pattern) & 1) != 0 ? moved : -moved);
       if (slope_from_start(m, s, w, t * (1 + moved), w->step.z, there) != FROT_OK) return;
     }
     for (int j = 0; j < frot_width(w); j++) {
-      if (j >= n && j < nx) continue; /* energies follow */
-      double *own = j < n ? noise + j : guards + w->guards.list[j - nx];
+      if (j >= moving && j < packed) continue; /* energies follow */
+      double *own = j < packed ? noise + states[j] : guards + w->guards.list[j - packed];
       double sensitivity = 0.5 * fabs(forth[j] - back[j]) * (FROT_NUDGE / FROT_APART);
       double rounding = 0.5 * fabs(forth[j] - 2 * base[j] + back[j]);
       *own = fmax(*own, sensitivity + rounding);

@@ -46,8 +46,9 @@ static int rows_of_group(const frot_model *m, const frot_group *g, const frot_co
 int frot_holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                       const unsigned char *stuck, int normals_only) {
   int n = 0;
-  for (int k = 0; k < m->n_groups; k++)
-    n += rows_of_group(m, &m->groups[k], modes, stuck, normals_only, w->relations.rows + n);
+  for (int k = 0; k < w->awake.now->n_groups; k++)
+    n += rows_of_group(m, &m->groups[w->awake.now->groups[k]], modes, stuck, normals_only,
+                       w->relations.rows + n);
   return n;
 }
 
@@ -83,8 +84,8 @@ static int project_positions(const frot_model *m, frot_state *s, frot_work *w, d
   for (int pass = 0; pass < PASSES; pass++) {
     int status = frot_kinematics(m, s, w, t, q, v, d), any = 0;
     if (status != FROT_OK) return status;
-    for (int k = 0; k < m->n_groups; k++) {
-      const frot_group *g = &m->groups[k];
+    for (int k = 0; k < w->awake.now->n_groups; k++) {
+      const frot_group *g = &m->groups[w->awake.now->groups[k]];
       int n = rows_of_group(m, g, modes, NULL, 1, w->relations.rows), off = 0, at = 0;
       for (int i = 0; i < g->n_contacts; i++) {
         int c = g->contacts[i];
@@ -108,8 +109,8 @@ static int project_speeds(const frot_model *m, frot_state *s, frot_work *w, doub
   for (int pass = 0; pass < PASSES; pass++) {
     int status = frot_kinematics(m, s, w, t, q, v, d), any = 0;
     if (status != FROT_OK) return status;
-    for (int k = 0; k < m->n_groups; k++) {
-      const frot_group *g = &m->groups[k];
+    for (int k = 0; k < w->awake.now->n_groups; k++) {
+      const frot_group *g = &m->groups[w->awake.now->groups[k]];
       int n = rows_of_group(m, g, modes, stuck, 0, w->relations.rows), off = 0;
       for (int i = 0; i < n; i++) {
         int row = w->relations.rows[i];

@@ -203,8 +203,9 @@ static void add_kept_rows(problem *p) {
   frot_work *w = p->w;
   int ns = p->g->n_speeds;
   for (int i = 0; i < p->g->n_contacts; i++)
-    for (int e = -1; e < m->n_elements && w->span.rank < ns; e++) {
-      int row = row_without_reaction(p, p->g->contacts[i], e), rank = w->span.rank;
+    for (int law = -1; law < p->g->n_elements && w->span.rank < ns; law++) {
+      int e = law < 0 ? -1 : p->g->elements[law], rank = w->span.rank;
+      int row = row_without_reaction(p, p->g->contacts[i], e);
       if (row < 0) continue;
       double *x = w->span.basis + ns * rank, *parts = w->span.parts, bias = w->core.c[row];
       memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
@@ -541,7 +542,7 @@ int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
 
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                    const unsigned char *at_rest) {
-  for (int k = 0; k < m->n_groups; k++)
-    if (frot_group_reactions(m, w, &m->groups[k], modes, at_rest)) return 1;
+  for (int k = 0; k < w->awake.now->n_groups; k++)
+    if (frot_group_reactions(m, w, &m->groups[w->awake.now->groups[k]], modes, at_rest)) return 1;
   return 0;
 }

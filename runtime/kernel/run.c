@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "awake.h"
 #include "blocks.h"
 #include "conditions.h"
 #include "groups.h"
@@ -14,6 +15,7 @@
 #include "step.h"
 #include "stiffness.h"
 #include "supports.h"
+#include "tape.h"
 
 /* Events at one instant after which the modes will not settle. */
 #define CROWD 100
@@ -193,13 +195,10 @@ static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
 }
 
 /* The text has ended the run: its last instant is a segment of its own. */
-static int end_of_run(const frot_model *m, frot_state *s, frot_recorder *recorder) {
-  frot_layout l = frot_layout_of(m);
+static int end_of_run(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
   if (recorder && recorder->segments && !s->ended_recorded) {
-    if (recorder->segment_count >= recorder->segment_capacity) return FROT_FULL;
-    memcpy(recorder->segments + recorder->segment_count * l.ns, s->data + l.segment,
-           sizeof(double) * (size_t)l.ns);
-    recorder->segment_count++;
+    if (!frot_has_room(m, recorder)) return FROT_FULL;
+    frot_record(m, s, w, recorder);
     s->ended_recorded = 1;
   }
   frot_tell(m, s, recorder);
@@ -209,29 +208,33 @@ static int end_of_run(const frot_model *m, frot_state *s, frot_recorder *recorde
 int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
                  frot_recorder *recorder, frot_monitor monitor, void *context) {
   if (s->phase == FROT_FAULTED) return s->fault.status;
-  if (s->phase == FROT_ENDED) return end_of_run(m, s, recorder);
+  if (s->phase == FROT_ENDED) {
+    frot_bind_work(m, w);
+    return end_of_run(m, s, w, recorder);
+  }
   if (s->phase != FROT_RUNNING || !(t >= s->t)) return FROT_MISUSE;
   frot_bind_work(m, w);
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   if (s->changed) {
     int status = settle(m, s, w, recorder);
-    if (status == FROT_TERMINATED) return end_of_run(m, s, recorder);
+    if (status == FROT_TERMINATED) return end_of_run(m, s, w, recorder);
     if (status != FROT_OK) return status;
   }
   while (*g.t1 <= t + FROT_SAME_INSTANT(t)) {
     if (recorder && (recorder->event_count + frot_events_at_once(m) > recorder->event_capacity ||
-                     (recorder->segments && recorder->segment_count >= recorder->segment_capacity)))
+                     !frot_has_room(m, recorder)))
       return FROT_FULL;
     frot_tell(m, s, recorder);
     int status = FROT_OK;
     if (s->pending) {
+      frot_wake_state(m, s, w);
       if (++s->crowded > CROWD)
         status = frot_fail(s, FROT_CHATTER, *g.t1, -1, condition_at_fault(m, s), -1, s->crowded);
       else
         status = happen_at_end(m, s, w, recorder);
       s->pending = s->has_slope = 0;
-      if (status == FROT_TERMINATED) return end_of_run(m, s, recorder);
+      if (status == FROT_TERMINATED) return end_of_run(m, s, w, recorder);
     }
     long long steps = s->statistics.steps;
     if (status == FROT_OK) status = frot_step(m, s, w);
@@ -240,11 +243,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
       return status;
     }
     if (s->statistics.steps == steps) continue;
-    if (recorder && recorder->segments) {
-      memcpy(recorder->segments + recorder->segment_count * l.ns, s->data + l.segment,
-             sizeof(double) * (size_t)l.ns);
-      recorder->segment_count++;
-    }
+    if (recorder && recorder->segments) frot_record(m, s, w, recorder);
     if (monitor && s->statistics.steps % MONITOR_EVERY == 0 && monitor(context, fmin(*g.t1, t))) {
       s->t = fmin(*g.t1, t);
       return FROT_STOPPED;

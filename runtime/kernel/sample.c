@@ -9,6 +9,7 @@
 #include "work.h"
 #include "segment.h"
 #include "spare.h"
+#include "tape.h"
 #include "turns.h"
 
 /* Whether a mode holds anything that coordinates do not. */
@@ -75,20 +76,22 @@ int frot_values(const frot_model *m, frot_state *s, frot_work *w, double *values
 int frot_segment_values(const frot_model *m, frot_state *s, frot_work *w, const double *segment,
                         double t, double *values) {
   frot_bind_work(m, w);
-  frot_segment g = frot_segment_at(m, (double *)segment);
+  frot_segment g = frot_read_record(m, w, segment);
   return values_in(m, s, w, &g, t, values);
 }
 
 int frot_sample(const frot_model *m, frot_state *s, frot_work *w, const double *segments,
-                long long segment_count, const double *times, long long count, double *values) {
-  long long size = frot_segment_size(m), at = 0;
-  if (segment_count <= 0) return FROT_MISUSE;
+                long long size, const double *times, long long count, double *values) {
+  const double *at = segments, *end_of_all = segments + size;
+  if (size <= 0) return FROT_MISUSE;
   for (long long i = 0; i < count; i++) {
     /* a segment begins with its first time */
     double end = times[i] + FROT_SAME_INSTANT(times[i]);
-    while (at + 1 < segment_count && segments[(at + 1) * size] <= end) at++;
-    double t = fmax(times[i], segments[at * size]);
-    int status = frot_segment_values(m, s, w, segments + at * size, t, values + i * m->n_variables);
+    for (const double *next = at + frot_record_length(at);
+         next < end_of_all && frot_record_begin(next) <= end; next += frot_record_length(next))
+      at = next;
+    double t = fmax(times[i], frot_record_begin(at));
+    int status = frot_segment_values(m, s, w, at, t, values + i * m->n_variables);
     if (status != FROT_OK) return status;
   }
   return FROT_OK;

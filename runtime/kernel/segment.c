@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "awake.h"
+
 void frot_interpolate(const frot_model *m, const frot_segment *g, double t, double *x) {
   int nx = frot_layout_of(m).nx;
   double theta = *g->h > 0 ? (t - *g->t0) / *g->h : 0, one = 1 - theta;
@@ -28,10 +30,11 @@ static void copy_modes(const frot_model *m, frot_state *s, const frot_layout *l,
   memcpy(g->frozen, s->data + l->frozen, sizeof(double) * (size_t)m->nv);
 }
 
-void frot_make_instant(const frot_model *m, frot_state *s, const frot_work *w, double t,
+void frot_make_instant(const frot_model *m, frot_state *s, frot_work *w, double t,
                        const double *x) {
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
+  frot_wake_state(m, s, w);
   *g.t0 = *g.t1 = t;
   *g.h = 0;
   copy_modes(m, s, &l, &g);
@@ -49,10 +52,13 @@ void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, doub
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   *g.t0 = t, *g.t1 = end, *g.h = h;
-  copy_modes(m, s, &l, &g);
+  if (s->asleep == 0) copy_modes(m, s, &l, &g); /* what wakes changes them */
+  const frot_awake_lists *now = w->awake.now;
+  for (int i = 0; i < now->n_elements; i++)
+    memcpy(g.along + 2 * now->elements[i], s->data + l.along + 2 * now->elements[i],
+           2 * sizeof(double));
   memcpy(g.y0, s->data + l.y, sizeof(double) * (size_t)m->ny);
   memcpy(g.y1, w->step.y_end, sizeof(double) * (size_t)m->ny);
-  memcpy(g.x0, w->step.z0, sizeof(double) * (size_t)l.nx);
-  for (int i = 0; i < DP_DENSE; i++)
-    memcpy(g.f + i * l.nx, w->step.f + i * l.nz, sizeof(double) * (size_t)l.nx);
+  frot_copy_awake(w, w->step.z0, g.x0);
+  for (int i = 0; i < DP_DENSE; i++) frot_unpack(w, w->step.f + i * l.nz, g.f + i * l.nx);
 }

@@ -12,8 +12,7 @@ void frot_guess_unknowns(const frot_model *m, frot_work *w, const frot_segment *
 
 /* Make the current segment the single instant t with the values x, the current modes and the
  * unknowns w->blocks.y of the blocks. */
-void frot_make_instant(const frot_model *m, frot_state *s, const frot_work *w, double t,
-                       const double *x);
+void frot_make_instant(const frot_model *m, frot_state *s, frot_work *w, double t, const double *x);
 
 /* Make it the step h from t that is in the scratch memory, with its dense output in w->step.f; it
  * ends at `end`, which is t + h but for rounding. */

@@ -25,14 +25,14 @@ static double larger(double a, double b) { return a > b ? a : b; }
 static int is_own(const frot_model *m, int j) { return m->q_speed[j] < 0; }
 
 int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w) {
-  frot_layout l = frot_layout_of(m);
-  const double *most = s->data + l.scale_x, *worth = s->data + l.worth;
-  const double *nominal = s->data + l.nominal;
+  const frot_layout *l = &w->layout;
+  const double *most = s->data + l->scale_x, *worth = s->data + l->worth;
+  const double *nominal = s->data + l->nominal;
   double *largest = w->sizes.alike;
   int zero = 0;
-  memset(largest, 0, sizeof(double) * (size_t)m->nq);
-  for (int j = 0; j < m->nq; j++) {
-    if (!is_own(m, j)) continue;
+  for (int i = 0; i < w->sizes.count; i++) largest[m->q_alike[w->sizes.states[i]]] = 0;
+  for (int i = 0; i < w->sizes.count; i++) {
+    int j = w->sizes.states[i];
     double size = larger(larger(worth[j], fabs(w->step.z0[j])), w->sizes.change[j]);
     w->sizes.own[j] = larger(larger(size, nominal[j]), LEAST_WORTH * most[j]);
     double *alike = &largest[m->q_alike[j]];
@@ -103,17 +103,18 @@ void frot_raise_small(const frot_model *m, const frot_state *s, frot_work *w, do
       w->sizes.own[j] = SMALL_PART * w->sizes.alike[m->q_alike[j]];
 }
 
-void frot_note_worth(const frot_model *m, frot_state *s, const double *z) {
-  double *worth = s->data + frot_layout_of(m).worth;
-  for (int j = 0; j < m->nq; j++) {
-    if (!is_own(m, j)) continue;
+void frot_note_worth(frot_state *s, const frot_work *w, const double *z) {
+  double *worth = s->data + w->layout.worth;
+  for (int i = 0; i < w->sizes.count; i++) {
+    int j = w->sizes.states[i];
     worth[j] = larger(LEFT * worth[j], fabs(z[j]));
   }
 }
 
-void frot_hold_worth(const frot_model *m, frot_state *s, const frot_work *w) {
-  double *worth = s->data + frot_layout_of(m).worth;
-  for (int j = 0; j < m->nq; j++)
-    if (is_own(m, j) && isfinite(w->sizes.change[j]))
-      worth[j] = larger(worth[j], w->sizes.change[j]);
+void frot_hold_worth(frot_state *s, const frot_work *w) {
+  double *worth = s->data + w->layout.worth;
+  for (int i = 0; i < w->sizes.count; i++) {
+    int j = w->sizes.states[i];
+    if (isfinite(w->sizes.change[j])) worth[j] = larger(worth[j], w->sizes.change[j]);
+  }
 }

@@ -29,10 +29,10 @@ void frot_raise_small(const frot_model *m, const frot_state *s, frot_work *w, do
                       int by_slopes);
 
 /* What the states are worth after a step to z (nq). */
-void frot_note_worth(const frot_model *m, frot_state *s, const double *z);
+void frot_note_worth(frot_state *s, const frot_work *w, const double *z);
 
 /* A step that failed again and again shows by w->sizes.change what its states will soon be: they
  * are worth that, however much shorter it becomes. */
-void frot_hold_worth(const frot_model *m, frot_state *s, const frot_work *w);
+void frot_hold_worth(frot_state *s, const frot_work *w);
 
 #endif

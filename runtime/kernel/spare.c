@@ -8,14 +8,24 @@
 #include "tolerances.h"
 
 void frot_note_spare(const frot_model *m, frot_state *s, const frot_work *w) {
-  for (int r = 0; r < m->n_rows; r++) s->data[w->layout.spare + r] = w->reactions.carried[r];
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_groups; k++) {
+    const frot_group *g = &m->groups[now->groups[k]];
+    for (int i = 0; i < g->n_rows; i++)
+      s->data[w->layout.spare + g->rows[i]] = w->reactions.carried[g->rows[i]];
+  }
 }
 
 void frot_follow_spare(const frot_model *m, const frot_state *s, frot_work *w) {
   w->span.follow = 0;
-  for (int r = 0; r < m->n_rows; r++) {
-    w->span.spare[r] = s->data[w->layout.spare + r] != 0;
-    w->span.follow |= w->span.spare[r];
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_groups; k++) {
+    const frot_group *g = &m->groups[now->groups[k]];
+    for (int i = 0; i < g->n_rows; i++) {
+      int r = g->rows[i];
+      w->span.spare[r] = s->data[w->layout.spare + r] != 0;
+      w->span.follow |= w->span.spare[r];
+    }
   }
 }
 
@@ -30,8 +40,9 @@ int frot_spare_rows_hold(const frot_model *m, frot_state *s, frot_work *w, doubl
   int moved;
   if (frot_project(m, s, w, t, z, z + m->nq, d, modes, NULL, &moved) != FROT_OK) return 1;
   if (frot_kinematics(m, s, w, t, z, z + m->nq, d) != FROT_OK) return 1;
-  for (int c = 0; c < m->n_contacts; c++) {
-    int row = m->contacts[c].row_n;
+  const frot_awake_lists *now = w->awake.now;
+  for (int i = 0; i < now->n_contacts; i++) {
+    int c = now->contacts[i], row = m->contacts[c].row_n;
     if (row < 0 || m->contacts[c].reduced || !frot_is_spare(w, row)) continue;
     if (fabs(w->core.gap[c]) > FROT_DEPENDENT * frot_gap_size(m, w, row, z)) return 0;
   }

@@ -26,15 +26,30 @@ void frot_weigh_stages(const frot_work *w, const double *coefficient, int count,
   }
 }
 
-/* z <- base + h * (sum of coefficient[k] times stage k < count); base may be NULL. */
-static void combine(const frot_work *w, const double *coefficient, int count, double h,
-                    const double *base, double *z) {
-  int end = frot_width(w);
+/* z <- z0 + h * (sum of coefficient[k] times stage k < count), for the awake states. */
+static void move(const frot_work *w, const double *coefficient, int count, double h, double *z) {
+  const int *states = w->awake.now->states;
+  int end = w->awake.n;
   for (int from = 0; from < end; from += FROT_CHUNK) {
     double sum[FROT_CHUNK];
     int size = end - from < FROT_CHUNK ? end - from : FROT_CHUNK;
     frot_weigh_stages(w, coefficient, count, from, size, sum);
-    for (int j = 0; j < size; j++) z[from + j] = (base ? base[from + j] : 0) + h * sum[j];
+    for (int j = 0; j < size; j++) {
+      int at = states[from + j];
+      z[at] = w->step.z0[at] + h * sum[j];
+    }
+  }
+}
+
+/* f <- h * (sum of coefficient[k] times stage k < count), packed, from the value `from` on. */
+static void weigh(const frot_work *w, const double *coefficient, int count, double h, int from,
+                  double *f) {
+  int end = frot_width(w);
+  for (; from < end; from += FROT_CHUNK) {
+    double sum[FROT_CHUNK];
+    int size = end - from < FROT_CHUNK ? end - from : FROT_CHUNK;
+    frot_weigh_stages(w, coefficient, count, from, size, sum);
+    for (int j = 0; j < size; j++) f[from + j] = h * sum[j];
   }
 }
 
@@ -43,10 +58,13 @@ int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, 
   memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
   for (int i = 1; i <= DP_STAGES; i++) {
     double *z = i == DP_STAGES ? w->step.z1 : w->step.z;
-    combine(w, dp_a[i], i, h, w->step.z0, z);
+    move(w, dp_a[i], i, h, z);
     int status = frot_slope(m, s, w, i == DP_STAGES ? t + h : t + dp_c[i] * h, z, frot_stage(w, i));
     if (status != FROT_OK) {
-      memmove(w->step.z1, z, sizeof(double) * (size_t)w->layout.nx); /* where it happened */
+      for (int k = 0; k < w->awake.n; k++) { /* where it happened */
+        int at = w->awake.now->states[k];
+        w->step.z1[at] = z[at];
+      }
       return status;
     }
   }
@@ -59,17 +77,21 @@ int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, 
   int nz = w->layout.nz;
   memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
   for (int i = DP_STAGES + 1; i < DP_ALL; i++) {
-    combine(w, dp_a[i], i, h, w->step.z0, w->step.z);
+    move(w, dp_a[i], i, h, w->step.z);
     int status = frot_slope(m, s, w, t + dp_c[i] * h, w->step.z, frot_stage(w, i));
     if (status != FROT_OK) return status;
   }
   const double *start = frot_stage(w, 0), *end = frot_stage(w, DP_STAGES);
+  weigh(w, dp_a[DP_STAGES], DP_STAGES, h, w->awake.n, w->step.f); /* integrals of the guards */
+  for (int j = 0; j < w->awake.n; j++) {
+    int at = w->awake.now->states[j];
+    w->step.f[j] = w->step.z1[at] - w->step.z0[at];
+  }
   for (int j = 0; j < frot_width(w); j++) {
-    double step = w->step.z1[j] - w->step.z0[j];
-    w->step.f[j] = step;
+    double step = w->step.f[j];
     w->step.f[nz + j] = h * start[j] - step;
     w->step.f[2 * nz + j] = 2 * step - h * (end[j] + start[j]);
   }
-  for (int i = 0; i < 4; i++) combine(w, dp_d[i], DP_ALL, h, NULL, w->step.f + (3 + i) * nz);
+  for (int i = 0; i < 4; i++) weigh(w, dp_d[i], DP_ALL, h, 0, w->step.f + (3 + i) * nz);
   return FROT_OK;
 }

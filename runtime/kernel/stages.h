@@ -14,8 +14,9 @@
 /* The slope (nz) of stage i. */
 static inline double *frot_stage(const frot_work *w, int i) { return w->step.k + i * w->layout.nz; }
 
-/* Values integrated together: the states and the guards listed. */
-static inline int frot_width(const frot_work *w) { return w->layout.nx + w->guards.count; }
+/* Values integrated together: the awake states (awake.h) and, from w->awake.n on, the guards
+ * listed. Slopes and vectors of the dense output hold these, packed. */
+static inline int frot_width(const frot_work *w) { return w->awake.n + w->guards.count; }
 
 /* sum[j] <- sum of coefficient[k] times stage k < count of the value from + j, j < size <=
  * FROT_CHUNK. */

@@ -37,6 +37,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.noise = at, at += m->nq + m->nv + l.ng;
   l.along = at, at += 2 * m->n_elements;
   l.reach = at, at += m->n_contacts;
+  l.asleep = at, at += m->n_islands;
   l.fired = at, at += l.nf;
   l.several = at, at += m->n_contacts;
   l.due = at, at += m->n_timed;
@@ -56,7 +57,9 @@ size_t frot_state_size(const frot_model *model) {
   return sizeof(frot_state) + sizeof(double) * (size_t)frot_layout_of(model).size;
 }
 
-long long frot_segment_size(const frot_model *model) { return frot_layout_of(model).ns; }
+long long frot_segment_size(const frot_model *model) {
+  return FROT_RECORD_HEAD + frot_layout_of(model).ns + model->n_islands;
+}
 
 frot_segment frot_segment_at(const frot_model *m, double *data) {
   frot_layout l = frot_layout_of(m);
@@ -134,6 +137,7 @@ int frot_state_valid(const frot_model *m, const void *block, size_t size) {
   if (s->phase < FROT_CLEARED || s->phase > FROT_ENDED) return 0;
   if (!isfinite(s->t) || !isfinite(s->h) || !isfinite(s->h_max) || !isfinite(s->tolerance))
     return 0;
+  if (s->asleep < 0 || s->asleep > m->n_islands) return 0;
   if (s->implicit < 0 || s->implicit > m->has_jacobian) return 0;
   if (s->fault.contact < -1 || s->fault.contact >= m->n_contacts) return 0;
   if (s->phase == FROT_ENDED && (s->outcome < 0 || s->outcome >= m->n_outcomes)) return 0;

@@ -32,7 +32,7 @@ typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, experiment, nominal, unilateral, x, y, slope, scale_x, scale_g, worth,
-      noise, along, reach, fired, several, due, left, spare, asked, fresh, modes, d, frozen,
+      noise, along, reach, asleep, fired, several, due, left, spare, asked, fresh, modes, d, frozen,
       segment, size;
 } frot_layout;
 
@@ -47,6 +47,8 @@ struct frot_state {
   int crowded;   /* events since the time last moved on */
   int jumped;    /* the last event of the text moved coordinates or speeds */
   int several;   /* groups of contacts had several motions at the start: to be told as events */
+  int asleep;    /* islands that sleep: see awake.h */
+  int naps;      /* times that this has changed */
   int implicit;  /* the next step is made by the implicit method */
   int stiff_steps, calm_steps; /* see stiffness.h */
   int patience, stay;
@@ -84,6 +86,10 @@ typedef struct {
   double *x0;      /* nx: q, v, quadratures */
   double *f;       /* DP_DENSE x nx */
 } frot_segment;
+
+/* A recorded segment begins with its length and how far before it, in doubles, one stands by itself
+ * that holds what it lacks: 0 where it does so itself. */
+#define FROT_RECORD_HEAD 2
 
 /* Times that differ by less are one instant: both are sums, rounded in different ways. */
 #define FROT_SAME_INSTANT(t) (4 * DBL_EPSILON * fabs(t))

@@ -4,11 +4,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "awake.h"
 #include "blame.h"
 #include "conditions.h"
 #include "ends.h"
 #include "error.h"
 #include "falls.h"
+#include "groups.h"
 #include "implicit.h"
 #include "locate.h"
 #include "pace.h"
@@ -82,8 +84,8 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
 }
 
 /* Whether nothing moves, nor starts to. */
-static int is_still(const frot_model *m, const frot_work *w) {
-  for (int j = 0; j < m->nq + m->nv; j++)
+static int is_still(const frot_work *w) {
+  for (int j = 0; j < w->awake.n - FROT_QUADRATURES; j++)
     if (w->step.k[j] != 0) return 0;
   return 1;
 }
@@ -110,7 +112,7 @@ static int begin(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
   a->longest = frot_longest_step(m, s, a->t, 0);
   a->h = fmin(s->h, a->longest);
   int status = frot_start_slope(m, s, w, a->t);
-  if (status == FROT_OK && is_still(m, w)) {
+  if (status == FROT_OK && is_still(w)) {
     a->longest = frot_longest_step(m, s, a->t, 1);
     a->h = m->time_dependent ? fmin(s->h, a->longest) : a->longest;
   }
@@ -162,7 +164,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a
   s->statistics.rejected++;
   a->to_due = 0;
   if (++a->rejections % PATIENCE == 0 && a->ratio > 1) frot_measure_noise(m, s, w, t + h);
-  if (a->rejections % HOLD == 0) frot_hold_worth(m, s, w);
+  if (a->rejections % HOLD == 0) frot_hold_worth(s, w);
   if (a->ratio > 1 && a->ratio < 1e300)
     a->h *= fmax(change_of_length(m, s, w, a->ratio), LEAST_PART);
   else
@@ -243,6 +245,18 @@ static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, attemp
   return FROT_OK;
 }
 
+/* Rounding that was measured is measured anew before long. */
+static void forget_noise(const frot_model *m, frot_state *s, const frot_work *w) {
+  const frot_awake_lists *now = w->awake.now;
+  double *noise = s->data + w->layout.noise, *guards = noise + m->nq + m->nv;
+  for (int k = 0; k < now->n - FROT_QUADRATURES; k++) noise[now->states[k]] *= FORGET;
+  for (int k = 0; k < now->n_contacts; k++) guards[now->contacts[k]] *= FORGET;
+  for (int k = 0; k < now->n_elements; k++)
+    for (int i = 0; i < 2; i++) guards[frot_element_guard(m, now->elements[k]) + i] *= FORGET;
+  for (int k = 0; k < now->n_located; k++)
+    guards[frot_condition_guard(m) + now->located[k]] *= FORGET;
+}
+
 /* Take the step: it becomes the current segment. Its end goes onto the relations; the slope there
  * serves the next step if nothing moved. */
 static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt *a, int guard) {
@@ -254,13 +268,15 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
   s->statistics.implicit_steps += s->implicit;
   memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   frot_note_sizes(m, s, w, w->step.z1);
-  frot_note_worth(m, s, w->step.z1);
+  frot_note_worth(s, w, w->step.z1);
   if (guard >= 0) frot_fire_guards(m, s, w, guard, a->t, a->h);
   if (a->to_due) frot_fire_due(m, s);
-  for (int j = 0; j < m->nq + m->nv + l->ng; j++) s->data[l->noise + j] *= FORGET;
+  forget_noise(m, s, w);
   frot_keep_step(m, s, w, a->t, a->h, end);
-  memcpy(x, w->step.z1, sizeof(double) * (size_t)l->nx);
-  memcpy(slope, frot_stage(w, DP_STAGES), sizeof(double) * (size_t)l->nz);
+  frot_copy_awake(w, w->step.z1, x);
+  frot_unpack(w, frot_stage(w, DP_STAGES), slope);
+  memcpy(slope + l->nx, frot_stage(w, DP_STAGES) + w->awake.n,
+         sizeof(double) * (size_t)w->guards.count);
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   int moved;
   int status = frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL, &moved);
@@ -268,6 +284,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   s->has_slope = !moved && !s->pending;
   if (s->has_slope) frot_turn_at_end(m, s, w, slope);
+  if (!s->pending && frot_note_still(m, s, w, x)) s->has_slope = 0; /* other guards are listed */
   frot_choose_next(m, s, a->stiff);
   if (end > s->crowded_since + CROWDED * s->h_max) s->crowded_since = end, s->crowded = 0;
   return FROT_OK;
@@ -282,7 +299,7 @@ static int take(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
   return s->pending ? FROT_OK : keep(m, s, w, a, guard);
 }
 
-int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
+static int step(const frot_model *m, frot_state *s, frot_work *w) {
   attempt a = {.t = *frot_segment_at(m, s->data + w->layout.segment).t1, .passed = -1, .guard = -1};
   if (s->due <= a.t) {
     frot_fire_due(m, s);
@@ -293,5 +310,12 @@ int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_follow_spare(m, s, w);
   status = take(m, s, w, &a);
   frot_see_anew(w);
+  return status;
+}
+
+int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
+  frot_let_sleep(m, s, w);
+  int status = step(m, s, w);
+  frot_wake(w);
   return status;
 }

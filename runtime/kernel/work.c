@@ -1,7 +1,9 @@
 /* Layout of the scratch block. */
 #include "work.h"
 
+#include "awake.h"
 #include "implicit.h"
+#include "islands.h"
 #include "tolerances.h"
 #include "tree.h"
 
@@ -69,7 +71,34 @@ static frot_callable scratch_of_all(const frot_model *m) {
     most.n_arg = larger(most.n_arg, call->n_arg), most.n_res = larger(most.n_res, call->n_res);
     most.n_iw = larger(most.n_iw, call->n_iw), most.n_w = larger(most.n_w, call->n_w);
   }
+  for (int i = 0; i < m->n_islands; i++) {
+    const frot_island *k = &m->islands[i];
+    const frot_callable *own[] = {&k->kinematics, &k->dynamics, &k->spread, &k->sizes};
+    for (int j = 0; j < 4; j++)
+      most.n_iw = larger(most.n_iw, own[j]->n_iw), most.n_w = larger(most.n_w, own[j]->n_w);
+  }
   return most;
+}
+
+static void bind_lists(const frot_model *m, const frot_layout *l, frot_awake_lists *w, arena *a) {
+  TAKE(w->place, l->nx), TAKE(w->states, l->nx), TAKE(w->islands, m->n_islands),
+      TAKE(w->groups, m->n_groups);
+  TAKE(w->contacts, m->n_contacts), TAKE(w->elements, m->n_elements);
+  TAKE(w->located, m->n_located);
+}
+
+static void bind_awake(const frot_model *m, const frot_layout *l, frot_awake_work *w, arena *a) {
+  bind_lists(m, l, &w->all, a), bind_lists(m, l, &w->some, a);
+  TAKE(w->extent, m->n_islands);
+  TAKE(w->power, m->n_islands), TAKE(w->state, m->nq + m->nv), TAKE(w->group, m->n_groups);
+  TAKE(w->condition, m->n_located);
+  int most = 0;
+  for (int i = 0; i < m->n_islands; i++) {
+    const frot_island *k = &m->islands[i];
+    most = larger(most, 2 * k->nq + k->nv + k->nu + k->np + k->nd + k->n_conditions);
+  }
+  if (m->n_islands > 0) most += l->nw + 2 * m->n_rows + m->n_contacts + 2 * m->n_elements + 1;
+  TAKE(w->values, most);
 }
 
 static void bind_call(const frot_model *m, const frot_layout *l, frot_call_work *w, arena *a) {
@@ -150,6 +179,10 @@ static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, a
   TAKE(p->k, DP_ALL * l->nz), TAKE(p->z0, l->nz), TAKE(p->z1, l->nz), TAKE(p->z, l->nz);
   TAKE(p->y_end, m->ny), TAKE(p->f, DP_DENSE * l->nz);
   TAKE(w->sizes.change, m->nq), TAKE(w->sizes.own, m->nq), TAKE(w->sizes.alike, m->nq);
+  TAKE(w->sizes.states, m->nq);
+  w->sizes.count = 0;
+  for (int j = 0; a->base && j < m->nq; j++)
+    if (m->q_speed[j] < 0) w->sizes.states[w->sizes.count++] = j;
   TAKE(w->implicit.items, frot_implicit_doubles(m));
   TAKE(w->implicit.pivot, frot_implicit_integers(m));
 }
@@ -188,6 +221,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   arena held = {base, sizeof(frot_work)}, *a = &held;
   w->layout = l;
   bind_call(m, &l, &w->call, a);
+  bind_awake(m, &l, &w->awake, a);
   bind_blocks(m, &e, &w->blocks, a);
   bind_core(m, &l, &w->core, a);
   bind_reactions(m, &e, w, a);
@@ -198,11 +232,16 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   bind_search(m, &w->search, a);
   bind_share(m, &l, &e, &w->share, a);
   TAKE(w->pace, 4 * m->n_paced);
+  TAKE(w->tape, m->n_islands > 0 ? l.ns : 0);
   TAKE(w->stood, m->n_contacts + m->n_rows + 2 * (FROT_PLACE * m->n_carried + m->n_invariants));
   return held.used;
 }
 
-void frot_bind_work(const frot_model *model, frot_work *work) { bind(model, work, (char *)work); }
+void frot_bind_work(const frot_model *model, frot_work *work) {
+  bind(model, work, (char *)work);
+  frot_measure_islands(model, work);
+  frot_list_all(model, work);
+}
 
 size_t frot_work_size(const frot_model *model) {
   frot_work counted;

@@ -16,6 +16,34 @@ typedef struct {
   double *w, *values;
 } frot_call_work;
 
+/* awake.h: places of awake islands and of what belongs to them, ascending; n states. */
+typedef struct {
+  int n, n_islands, n_groups, n_contacts, n_elements, n_located;
+  int *place; /* of each state among those awake, or -1 */
+  int *states, *islands, *groups, *contacts, *elements, *located;
+} frot_awake_lists;
+
+/* islands.h: what an island's groups have together, where their parts of packed arrays begin, and
+ * the items of these. */
+typedef struct {
+  int unknowns, rows, contacts, elements;
+  int matrix, entries, metric;
+  int matrices, all_entries, metrics;
+} frot_island_extent;
+
+/* awake.h: the lists in use, of which n is the number of states; those of a step, filled where
+ * `known` islands sleep (0: not), just now if `filled`; power by islands at the last evaluation.
+ * Scratch: which are awake, arguments and results of an island's functions. */
+typedef struct {
+  const frot_awake_lists *now;
+  frot_awake_lists all, some;
+  int n, known, filled;
+  double *power;
+  frot_island_extent *extent;
+  unsigned char *state, *group, *condition;
+  double *values;
+} frot_awake_work;
+
 /* blocks.h: y is the guess before, the solution after; the block that failed last, or -1, and
  * whether it was singular. The rest is the system of one block. */
 typedef struct {
@@ -96,17 +124,18 @@ typedef struct {
   double *size, *end_reaction;
 } frot_guard_work;
 
-/* stages.h: slopes k (DP_ALL x nz), values at the start, the end and the stage that runs, unknowns
- * of the blocks at the end, dense output f (DP_DENSE x nz); the state whose error is the worst, or
- * -1 (error.h). Between steps z1 and z are scratch. */
+/* stages.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones at the
+ * stage that runs, unknowns of the blocks at the end, dense output f (DP_DENSE x nz); the state
+ * whose error is the worst, or -1 (error.h). Between steps z1 and z are scratch. */
 typedef struct {
   double *k, *z0, *z1, *z, *y_end, *f;
   int worst;
 } frot_step_work;
 
-/* sizes.h (nq each). */
+/* sizes.h (nq each); the states that are no coordinates, `count` of them. */
 typedef struct {
   double *change, *own, *alike;
+  int *states, count;
 } frot_size_work;
 
 /* jacobian.h. */
@@ -145,6 +174,7 @@ typedef struct {
 struct frot_work {
   frot_layout layout;
   frot_call_work call;
+  frot_awake_work awake;
   frot_block_work blocks;
   frot_core_work core;
   frot_reaction_work reactions;
@@ -160,6 +190,7 @@ struct frot_work {
   frot_search_work search;
   frot_share_work share;
   double *pace;  /* pace.c */
+  double *tape;  /* tape.h: a segment */
   double *stood; /* supports.c */
 };
 

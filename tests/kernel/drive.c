@@ -28,7 +28,7 @@ int main(int argc, char **argv) {
     frot_state_clear(m, s);
     if (frot_advance(m, s, w, 1, NULL, NULL, NULL) != FROT_MISUSE) failures++;
     if (frot_start(m, s, w, 0, NULL) != FROT_OK) return 2;
-    frot_recorder recorder = {segments, 4, 0, events, frot_events_at_once(m), 0};
+    frot_recorder recorder = {segments, 4 * ns, 0, events, frot_events_at_once(m), 0, 0, 0, 0};
     double t = 0;
     while (t < end) {
       t += end / (3 + round);
@@ -36,7 +36,7 @@ int main(int argc, char **argv) {
       while ((status = frot_advance(m, s, w, t, &recorder, NULL, NULL)) == FROT_FULL) {
         for (long long i = 0; i < recorder.event_count; i++)
           frot_event_text(m, &events[i], text, sizeof text);
-        recorder.event_count = recorder.segment_count = 0;
+        recorder.event_count = recorder.segment_used = 0;
       }
       if (status != FROT_OK) failures++;
       if (frot_values(m, s, w, values) != FROT_OK) failures++;

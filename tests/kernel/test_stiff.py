@@ -130,7 +130,8 @@ def test_van_der_pol_goes_from_one_method_to_the_other_and_back(tolerance: float
     assert np.abs(found[0] - end)[0] <= 10 * tolerance
     assert np.abs(found[0] - end)[1] <= 10 * tolerance * 1.4e3
     # a segment ends with its dense output, of which implicit steps leave the last three zero
-    implicit = ~done.segments[:, -3 * (2 + 2) :].any(axis=1)
+    steps = done.segments.reshape(-1, made.segment_size)
+    implicit = ~steps[:, -3 * (2 + 2) :].any(axis=1)
     assert np.count_nonzero(implicit) == made.statistics.implicit_steps
     assert not implicit[0]
     changes = np.count_nonzero(implicit[1:] != implicit[:-1])

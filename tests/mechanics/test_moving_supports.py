@@ -35,7 +35,7 @@ class Bench:
         for name, value in before.items():
             self.set(name, value)
         assert self.engine.start(0.0, 1e-10, "rest") == OK
-        self.segments = np.empty((0, self.engine.segment_size))
+        self.segments = np.empty(0)
         self.to(0.0)
 
     def set(self, name: str, value: float) -> None:

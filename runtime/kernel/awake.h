@@ -1,0 +1,34 @@
+/* Islands (frot.h) that are awake: those that evaluations and steps look at.
+ *
+ * Outside frot_step all are. In a step those sleep whose states have stood still through a whole
+ * step before, at every instant of it: they depend on nothing that moves, so that they stand still
+ * until an event or a change from outside, after which all are awake. */
+#ifndef FROT_AWAKE_H
+#define FROT_AWAKE_H
+
+#include "work.h"
+
+/* Number all islands awake in w->awake; once for a block of scratch memory. */
+void frot_list_all(const frot_model *m, frot_work *w);
+
+/* Let those of s that sleep sleep from here on, and all be awake again. */
+void frot_let_sleep(const frot_model *m, const frot_state *s, frot_work *w);
+void frot_wake(frot_work *w);
+
+/* Nothing sleeps in the steps that follow. */
+void frot_wake_state(const frot_model *m, frot_state *s, frot_work *w);
+
+/* After an accepted step without an event, with its slopes in w->step.k and its end in x: note the
+ * islands that stood still. Returns their number. */
+int frot_note_still(const frot_model *m, frot_state *s, frot_work *w, const double *x);
+
+/* List those awake in w->awake.some, where no step runs. */
+void frot_list_awake(const frot_model *m, frot_work *w, const double *asleep);
+
+/* Awake states from one vector of all to another; from packed ones (stages.h) into all; and back.
+ * What sleeps is left as it is. */
+void frot_copy_awake(const frot_work *w, const double *from, double *to);
+void frot_unpack(const frot_work *w, const double *packed, double *all);
+void frot_pack(const frot_work *w, const double *all, double *packed);
+
+#endif

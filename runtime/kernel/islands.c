@@ -1,0 +1,194 @@
+#include "islands.h"
+
+#include <string.h>
+
+#include "core.h"
+
+/* Where the results of an island lie in w->awake.values, in the order of its tables. */
+typedef struct {
+  double *qd, *h, *c, *rate, *gap, *condition, *coefficient, *power, *end;
+} results;
+
+static double *gather(const double *from, const int *places, int count, double *to) {
+  for (int k = 0; k < count; k++) to[k] = from[places[k]];
+  return to + count;
+}
+
+static const double *scatter(const double *from, const int *places, int count, double *to) {
+  for (int k = 0; k < count; k++) to[places[k]] = from[k];
+  return from + count;
+}
+
+/* Point w->call.arg at the arguments of an island; returns what is free of w->awake.values. */
+static double *take_inputs(const frot_state *s, frot_work *w, const frot_island *island,
+                           const double *t, const double *q, const double *v, const double *d) {
+  const double **arg = w->call.arg;
+  double *at = w->awake.values;
+  arg[0] = t;
+  arg[1] = at, at = gather(q, island->q, island->nq, at);
+  arg[2] = at, at = gather(v, island->v, island->nv, at);
+  arg[3] = at, at = gather(s->data + w->layout.u, island->u, island->nu, at);
+  arg[4] = at, at = gather(s->data + w->layout.p, island->p, island->np, at);
+  arg[5] = at, at = gather(d, island->d, island->nd, at);
+  arg[6] = w->blocks.y, arg[7] = island->numbers;
+  return at;
+}
+
+static results divide(const frot_island *island, const frot_island_extent *size, double *at,
+                      int n_conditions) {
+  results r;
+  r.qd = at, at += island->nq;
+  r.h = at, at += size->unknowns;
+  r.c = at, at += size->rows;
+  r.rate = at, at += size->rows;
+  r.gap = at, at += size->contacts;
+  r.condition = at, at += n_conditions;
+  r.coefficient = at, at += 2 * size->elements;
+  r.power = at, at += 1;
+  r.end = at;
+  return r;
+}
+
+/* Put what belongs to groups where it belongs. */
+static void spread_results(const frot_model *m, frot_work *w, const frot_island *island,
+                           const results *r) {
+  const double *h = r->h, *c = r->c, *rate = r->rate, *gap = r->gap, *law = r->coefficient;
+  for (int k = 0; k < island->n_groups; k++) {
+    const frot_group *g = &m->groups[island->first_group + k];
+    h = scatter(h, g->unknowns, g->n, w->core.h);
+    c = scatter(c, g->rows, g->n_rows, w->core.c);
+    rate = scatter(rate, g->rows, g->n_rows, w->core.rate);
+    gap = scatter(gap, g->contacts, g->n_contacts, w->core.gap);
+    for (int i = 0; i < g->n_elements; i++, law += 2)
+      memcpy(w->core.coefficient + 2 * g->elements[i], law, 2 * sizeof(double));
+  }
+}
+
+static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, double t,
+                       const double *q, const double *v, const double *d) {
+  const frot_island *island = &m->islands[i];
+  const frot_island_extent *size = &w->awake.extent[i];
+  double *at = take_inputs(s, w, island, &t, q, v, d);
+  results r = divide(island, size, at, island->n_located);
+  double *matrix = w->core.mass + size->matrix, *entries = w->core.rows + size->entries;
+  double *res[] = {r.qd,   matrix, r.h,         entries,       r.c,
+                   r.rate, r.gap,  r.condition, r.coefficient, r.power};
+  memcpy(w->call.res, res, sizeof res);
+  frot_call(w, &island->dynamics);
+  if (!frot_all_finite(r.qd, (int)(r.end - r.qd)) || !frot_all_finite(matrix, size->matrices) ||
+      !frot_all_finite(entries, size->all_entries))
+    return 0;
+  scatter(r.qd, island->q, island->nq, w->core.qd);
+  scatter(r.condition, island->conditions, island->n_located, w->core.condition);
+  spread_results(m, w, island, &r);
+  w->awake.power[i] = *r.power;
+  w->core.power[0] += *r.power;
+  if (!island->spread.call) return 1;
+  double *effect = w->core.effect + size->entries, *metric = w->core.metric + size->metric;
+  w->call.res[0] = effect, w->call.res[1] = metric;
+  frot_call(w, &island->spread);
+  return frot_all_finite(effect, size->all_entries) && frot_all_finite(metric, size->metrics);
+}
+
+static int call_whole(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                      const double *v, const double *d) {
+  frot_inputs(m, s, w, &t, q, v, d);
+  double *res[] = {w->core.qd,          w->core.mass, w->core.h,   w->core.rows,
+                   w->core.c,           w->core.rate, w->core.gap, w->core.condition,
+                   w->core.coefficient, w->core.power};
+  memcpy(w->call.res, res, sizeof res);
+  frot_call(w, &m->dynamics);
+  if (!frot_all_finite(w->core.mass, m->n_matrix) || !frot_all_finite(w->core.h, w->layout.nw) ||
+      !frot_all_finite(w->core.rows, m->n_entries) || !frot_all_finite(w->core.c, m->n_rows) ||
+      !frot_all_finite(w->core.qd, m->nq) ||
+      !frot_all_finite(w->core.coefficient, 2 * m->n_elements) ||
+      !frot_all_finite(w->core.condition, m->n_located) ||
+      !frot_all_finite(w->core.gap, m->n_contacts) || !frot_all_finite(w->core.power, 1))
+    return 0;
+  if (!m->general) return 1;
+  w->call.res[0] = w->core.effect, w->call.res[1] = w->core.metric;
+  frot_call(w, &m->spread);
+  return frot_all_finite(w->core.effect, m->n_entries) &&
+         frot_all_finite(w->core.metric, m->n_metric);
+}
+
+void frot_measure_islands(const frot_model *m, frot_work *w) {
+  for (int i = 0; i < m->n_islands; i++) {
+    const frot_island *island = &m->islands[i];
+    frot_island_extent *size = &w->awake.extent[i];
+    *size = (frot_island_extent){0};
+    if (island->n_groups == 0) continue;
+    const frot_group *first = &m->groups[island->first_group];
+    size->matrix = first->matrix, size->entries = first->entries, size->metric = first->metric;
+    int end = island->first_group + island->n_groups;
+    const frot_group *after = end < m->n_groups ? &m->groups[end] : NULL;
+    size->matrices = (after ? after->matrix : m->n_matrix) - first->matrix;
+    size->all_entries = (after ? after->entries : m->n_entries) - first->entries;
+    size->metrics = (after ? after->metric : m->n_metric) - first->metric;
+    for (int k = 0; k < island->n_groups; k++) {
+      const frot_group *g = first + k;
+      size->unknowns += g->n, size->rows += g->n_rows;
+      size->contacts += g->n_contacts, size->elements += g->n_elements;
+    }
+  }
+}
+
+int frot_call_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                       const double *v, const double *d) {
+  if (m->n_islands == 0) return call_whole(m, s, w, t, q, v, d);
+  const frot_awake_lists *now = w->awake.now;
+  w->core.power[0] = 0;
+  for (int k = 0; k < now->n_islands; k++)
+    if (!call_island(m, s, w, now->islands[k], t, q, v, d)) return 0;
+  return 1;
+}
+
+void frot_call_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t,
+                          const double *q, const double *v, const double *d) {
+  if (m->n_islands == 0) {
+    frot_inputs(m, s, w, &t, q, v, d);
+    w->call.res[0] = w->core.gap, w->call.res[1] = w->core.rows;
+    w->call.res[2] = w->core.rate, w->call.res[3] = w->core.condition;
+    frot_call(w, &m->kinematics);
+    return;
+  }
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_islands; k++) {
+    const frot_island *island = &m->islands[now->islands[k]];
+    double *at = take_inputs(s, w, island, &t, q, v, d);
+    const frot_island_extent *size = &w->awake.extent[now->islands[k]];
+    results r = divide(island, size, at, island->n_conditions);
+    w->call.res[0] = r.gap, w->call.res[1] = w->core.rows + size->entries;
+    w->call.res[2] = r.rate, w->call.res[3] = r.condition;
+    frot_call(w, &island->kinematics);
+    scatter(r.condition, island->conditions, island->n_conditions, w->core.condition);
+    const double *rate = r.rate, *gap = r.gap;
+    for (int i = 0; i < island->n_groups; i++) {
+      const frot_group *g = &m->groups[island->first_group + i];
+      rate = scatter(rate, g->rows, g->n_rows, w->core.rate);
+      gap = scatter(gap, g->contacts, g->n_contacts, w->core.gap);
+    }
+  }
+}
+
+void frot_call_sizes(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                     const double *v, const double *d) {
+  if (m->n_islands == 0) {
+    frot_inputs(m, s, w, &t, q, v, d);
+    w->call.res[0] = w->core.load, w->call.res[1] = w->call.values;
+    frot_call(w, &m->sizes);
+    return;
+  }
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_islands; k++) {
+    const frot_island *island = &m->islands[now->islands[k]];
+    double *load = take_inputs(s, w, island, &t, q, v, d);
+    w->call.res[0] = load;
+    frot_call(w, &island->sizes);
+    for (int i = 0; i < island->n_groups; i++) {
+      const frot_group *g = &m->groups[island->first_group + i];
+      scatter(load, g->unknowns, g->n, w->core.load);
+      load += g->n;
+    }
+  }
+}

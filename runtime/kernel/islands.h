@@ -1,0 +1,20 @@
+/* Evaluation of the generated functions that islands have of their own (frot.h), of those awake. */
+#ifndef FROT_ISLANDS_H
+#define FROT_ISLANDS_H
+
+#include "work.h"
+
+/* Fill w->awake.extent; once for a block of scratch memory. */
+void frot_measure_islands(const frot_model *m, frot_work *w);
+
+/* The results of `dynamics` and `spread`, into w->core; of `kinematics`; of `sizes`, into
+ * w->core.load. Where a model has no islands, those of the whole. The first returns 0 where a
+ * result is no number. */
+int frot_call_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                       const double *v, const double *d);
+void frot_call_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t,
+                          const double *q, const double *v, const double *d);
+void frot_call_sizes(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                     const double *v, const double *d);
+
+#endif
