@@ -12,6 +12,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
+from frot.compiler.product.roll import Roller, roll
+
 # Statements of a piece. GCC takes least for some hundreds; a call costs nothing beside them.
 LONGEST = 500
 # Items of a result with one value that are written as a loop.
@@ -50,11 +52,15 @@ def _rewritten(name: str, lines: list[str]) -> list[str]:
     statements = [line for line in body if not _DECLARED.match(line)]
     if end != "  return 0;" or not all(map(_is_plain, statements)):
         return lines
+    parts = roll(statements)
+    if parts is not None:
+        made, names = Roller(name, statements, _PASSED).write(parts, LONGEST)
+        return [*made, head, *(f"  {piece}(arg, res, w);" for piece in names), end, brace]
     short = list(_with_loops(statements))
     if len(short) <= LONGEST:
         return [head, *_declared(_names(short)), *short, end, brace]
     pieces = [short[k : k + LONGEST] for k in range(0, len(short), LONGEST)]
-    made: list[str] = []
+    made = []
     for k, piece in enumerate(_with_passed(pieces)):
         made += [
             f"static void {name}_{k}({_PASSED}) {{",

@@ -5,7 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from frot.compiler import driver
 from frot.compiler.mechanics import dynamics
+from frot.compiler.product import roll
+from frot.dsl import Log, compile_text
 
 import frot
 
@@ -49,6 +52,32 @@ def test_accelerations_of_a_chain(n: int) -> None:
     found = [result[f"b[{k + 1}].angular_acceleration"][0] for k in range(n)]
     exact = chain_accelerations(angle, rate)
     assert found == pytest.approx(exact, abs=1e-12 * np.abs(exact).max())
+
+
+def test_rolled_code_gives_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:
+    text = CHAIN.format(n=25, first=0.3, tolerance=1e-9)
+    rolled, straight = [], []
+    for least, results in ((400, rolled), (10**9, straight)):
+        monkeypatch.setattr(roll, "LEAST", least)
+        program = frot.compile(f"// {least}\n{text}")
+        results.append(program.simulate(stop=0.2))
+        loops = (program.program().folder / "model.c").read_text().count("r<")
+        assert (loops > 4) == (least == 400)
+    assert all(np.array_equal(rolled[0][name], straight[0][name]) for name in straight[0])
+
+
+def test_code_grows_with_kinds_of_bodies_not_with_their_number() -> None:
+    lines, statements = [], []
+    for n in (60, 120):
+        log = Log()
+        model = compile_text(CHAIN.format(n=n, first=0.3, tolerance=1e-9), log)
+        assert model is not None
+        lowered = driver.lowered_of(model, log)
+        assert lowered is not None
+        lines.append(driver.text_of(lowered, "key").count("\n"))
+        statements.append(sum(f.n_instructions() for f in lowered.functions.values()))
+    assert lines[1] < 1.2 * lines[0]
+    assert statements[1] < 2.1 * statements[0]
 
 
 def plane(rng: random.Random, count: int) -> str:
