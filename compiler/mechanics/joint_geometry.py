@@ -64,7 +64,8 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
         name = name_of(motion)
         if name:
             coordinates[name], rates[name] = kinematics.coordinate(joint, k)
-    actions = tuple(act(lock, a.pose, b.pose, lower, side) for lock in joint.locks)
+    tangent = kinematics.tangents.get(joint.liaison)
+    actions = tuple(act(lock, a.pose, b.pose, lower, side, tangent) for lock in joint.locks)
     measured = [x.measure for x in actions if x.measure is not None]
     if measured:
         coordinates["length"] = measured[0]

@@ -152,7 +152,8 @@ class Kinematics:
         if isinstance(link, Joint):
             sign = 1 if hanging.carries_b else -1
             a, b = (at.pose, moving.pose) if hanging.carries_b else (moving.pose, at.pose)
-            columns = [act(lock, a, b, self.fixed.lower).column for lock in link.locks]
+            tangent, lower = self.tangents.get(link.liaison), self.fixed.lower
+            columns = [act(x, a, b, lower, tangent=tangent).column for x in link.locks]
         else:
             columns = [Column(nowhere(), self._normal(link))]
         nv, back = self.symbols.v.numel(), nowhere()

@@ -133,6 +133,15 @@ class NoSlip:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Across:
+    """No way beside a curve that carries b by its parameter, in one of two directions."""
+
+    side: int
+    turns: bool = False
+    kinematic: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Level:
     """A line at b stays parallel to a plane at a."""
 
@@ -143,7 +152,8 @@ class Level:
 
 
 Lock = (
-    Aligned
+    Across
+    | Aligned
     | Apart
     | Crossed
     | Drive

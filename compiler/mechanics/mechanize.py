@@ -8,6 +8,7 @@ from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressio
 from frot.compiler.mechanics.figures import Ball, Dot, Figure, Flat, Oval, Path, figure_of
 from frot.compiler.mechanics.halves import halve
 from frot.compiler.mechanics.joints import JOINTS, Pairing, drive
+from frot.compiler.mechanics.locks import Across
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
@@ -85,6 +86,13 @@ def _relations(joint: Joint, told: bool, log: Log) -> list[Relation]:
             f"friction in a {spelled(joint.liaison)} that closes a loop",
             joint.liaison.span,
             "all liaisons of a loop cannot have friction: leave it out of one of them",
+        )
+    if any(isinstance(lock, Across) for lock in joint.locks):
+        refuse(
+            log,
+            "a point on a parametric curve that closes a loop",
+            joint.liaison.span,
+            "a line, a circle or an ellipse may close one",
         )
     return [Relation(joint, lock, told and k == 0) for k, lock in enumerate(joint.locks)]
 

@@ -15,12 +15,13 @@ from frot.compiler.mechanics.figures import (
     Flat,
     Implicit,
     Oval,
+    Path,
     Placed,
     Ring,
     Straight,
 )
 from frot.compiler.mechanics.joints import Options, Pairing
-from frot.compiler.mechanics.locks import Apart, Level, Lock, NoSlip, Touching, WayAlong
+from frot.compiler.mechanics.locks import Across, Apart, Level, Lock, NoSlip, Touching, WayAlong
 from frot.compiler.mechanics.motions import Attitude, Axis, Follow, Heading, Motion, Slide
 from frot.compiler.mechanics.touches import can_touch
 
@@ -72,6 +73,8 @@ def _point_on_curve(a: Figure, b: Figure, options: Options, planar: bool) -> Pai
             )
         case Oval():
             locks = (Touching(Flat(a.axis, False), b), Touching(a, b))
+        case Path():
+            locks = (Across(0), Across(1))
         case _:
             return None
     return Pairing((Follow(a), _any_turn(planar)), locks)

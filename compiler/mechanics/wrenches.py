@@ -14,6 +14,7 @@ import casadi as ca
 from frot.compiler.mechanics.figures import Flat
 from frot.compiler.mechanics.locks import (
     LEFT,
+    Across,
     Aligned,
     Apart,
     Crossed,
@@ -68,8 +69,21 @@ class Action:
         return ca.dot(self.force, apart) + ca.dot(self.couple, b.angular - a.angular) + self.own
 
 
-def act(lock: Lock, a: Pose, b: Pose, lower: Lower, side: ca.SX | None = None) -> Action:
-    """The lock between the places a and b; `side` is that of figures which touch, see there."""
+def act(
+    lock: Lock,
+    a: Pose,
+    b: Pose,
+    lower: Lower,
+    side: ca.SX | None = None,
+    tangent: ca.SX | None = None,
+) -> Action:
+    """The lock between the places a and b.
+
+    `side` is that of figures which touch, see there; `tangent` that of a curve which carries b.
+    """
+    if isinstance(lock, Across):
+        assert tangent is not None
+        return _push(beside(tangent / ca.norm_2(tangent))[lock.side], ca.SX(0))
     if isinstance(lock, Touching | NoSlip):
         outside = ca.SX(1) if side is None else side
         found = touch(lock.a, lock.b, (a, b), lower, outside)
