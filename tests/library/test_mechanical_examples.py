@@ -1,0 +1,88 @@
+"""The worked examples of mechanisms without friction, against equations of their own."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.special import ellipk
+
+import frot
+
+MODELS = Path(__file__).parents[2] / "models"
+
+
+def solved(rate, start, stop):  # type: ignore[no-untyped-def]
+    """The state at the end, to about 1e-12."""
+    found = solve_ivp(rate, (0, stop), start, method="DOP853", rtol=1e-13, atol=1e-14)
+    return found.y[:, -1]
+
+
+def ring_rate(t: float, y: np.ndarray) -> np.ndarray:
+    """Axis e and angular velocity w of a rolling ring: the couple is that of the force on the rim.
+
+    The centre is above the rim by r = m/|m|, m = k - (k.e) e, and has the speed w x r.
+    """
+    up, axis, turn = np.array([0, 0, 1.0]), y[:3], y[3:]
+
+    def above(e: np.ndarray) -> np.ndarray:
+        m = up - (up @ e) * e
+        return m / np.sqrt(m @ m)
+
+    arm, moves = above(axis), np.cross(turn, axis)
+    bends = above(axis + 1e-30j * moves).imag / 1e-30
+    inertia = np.eye(3) / 2 + np.outer(axis, axis) / 2
+    # about the place of contact: J a + w x J w = -r x (a_c + g k), a_c = a x r + w x r'
+    square = np.cross(np.eye(3), arm) @ np.cross(np.eye(3), arm)
+    push = np.cross(arm, np.cross(turn, bends) + 9.81 * up)
+    gyration = np.cross(turn, inertia @ turn)
+    return np.concatenate([moves, np.linalg.solve(inertia - square, -push - gyration)])
+
+
+def test_a_ring_rolls_as_newton_and_euler_say() -> None:
+    model = frot.load(MODELS / "rolling_ring.frot")
+    result = model.simulate()
+    start = [0, -np.sin(1.2), np.cos(1.2), 0.1, -6 * np.sin(1.2), 0.5 + 6 * np.cos(1.2)]
+    for t in (0.7, 2.0):
+        want = solved(ring_rate, start, t)
+        at = result.at(t)
+        assert at["slope"] == pytest.approx(want[2], abs=1e-10)
+        assert at["own"] == pytest.approx(want[:3] @ want[3:], abs=1e-9)
+    assert result.balance.relative < 1e-12
+    # the rim never leaves the plane nor slips
+    assert max(np.abs(result[f"floor.slip.{axis}"]).max() for axis in "xyz") < 1e-12
+    assert np.abs(result["floor.gap"]).max() < 1e-13
+
+
+def test_the_ball_in_the_channel_of_the_wheel() -> None:
+    result = frot.load(MODELS / "wheel_channel.frot").simulate()
+
+    def rate(t: float, y: np.ndarray) -> list[float]:
+        s, c, a = np.sin(y[0]), np.cos(y[0]), np.cos(0.5)
+        return [y[1], -9.81 * a * s + 4 * a**2 * s * c]
+
+    assert result.at(2)["q"] == pytest.approx(solved(rate, [0.3, 0], 2)[0], abs=1e-10)
+
+
+def test_two_points_on_threads() -> None:
+    result = frot.load(MODELS / "double_pendulum.frot").simulate()
+
+    def rate(t: float, y: np.ndarray) -> list[float]:
+        d = y[0] - y[1]
+        mass = [[1.5, 0.5 * 0.7 * np.cos(d)], [0.5 * np.cos(d), 0.5 * 0.7]]
+        force = [
+            -0.5 * 0.7 * y[3] ** 2 * np.sin(d) - 1.5 * 9.81 * np.sin(y[0]),
+            0.5 * y[2] ** 2 * np.sin(d) - 0.5 * 9.81 * np.sin(y[1]),
+        ]
+        return [y[2], y[3], *np.linalg.solve(mass, force)]
+
+    want = solved(rate, [0.5, -0.3, 0, 0], 5)
+    at = result.at(5)
+    assert [at["theta"], at["phi"]] == pytest.approx(want[:2], abs=1e-9)
+
+
+def test_the_period_of_a_solid_on_a_pin() -> None:
+    result = frot.load(MODELS / "physical_pendulum.frot").simulate(tolerance=1e-12)
+    half = 2 * ellipk(np.sin(1.25) ** 2) / np.sqrt(9.81 * 0.5 * 3)
+    at = result.at(half)
+    assert [at["pin.angle"], at["pin.speed"]] == pytest.approx([-2.5, 0], abs=1e-10)
