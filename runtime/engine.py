@@ -91,6 +91,8 @@ class Statistics(ct.Structure):
         ("implicit_steps", ct.c_longlong),
         ("jacobians", ct.c_longlong),
         ("unsearched", ct.c_longlong),
+        ("blurred", ct.c_double),
+        ("crossings", ct.c_longlong),
     )
 
 

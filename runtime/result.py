@@ -73,7 +73,9 @@ class Figures:
     """What the run took: accepted and rejected steps, evaluations, wall time of the kernel (s).
 
     `unsearched`: instants with so many possible modes that one motion was found, and others were
-    not looked for.
+    not looked for. `crossings`: steps through postures in which the relations of a loop depend on
+    each other: the motion goes straight on there. `blurred`: the largest error of a step there,
+    relative, that rounding made beyond the tolerance.
     """
 
     steps: int
@@ -81,6 +83,8 @@ class Figures:
     evaluations: int
     wall_time: float
     unsearched: int = 0
+    crossings: int = 0
+    blurred: float = 0.0
 
 
 class Values(Mapping[str, Floats]):
@@ -219,6 +223,13 @@ class Result(Mapping[str, Floats]):
             f"  {figures.steps} steps ({figures.rejected} rejected), {figures.evaluations} "
             f"evaluations, {1e3 * figures.wall_time:.3g} ms in the kernel"
         )
+        if figures.crossings:
+            lines.append(
+                f"  {figures.crossings} passages through postures in which the relations of a loop "
+                "depend on each other: it goes straight on there"
+            )
+        if figures.blurred:
+            lines.append(f"  rounding made errors of {figures.blurred:.1e} there")
         if figures.unsearched:
             lines.append(
                 f"  at {figures.unsearched} instants one motion was found; with so many contacts, "

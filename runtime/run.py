@@ -45,6 +45,7 @@ CODES = {
     24: "E0908",
     25: "E0908",
     30: "E0909",
+    31: "E0910",
 }
 
 
@@ -138,7 +139,15 @@ def simulate(
     kept = times[times < end]
     grid = np.append(kept, end) if run.status != OK else times
     counts = engine.statistics
-    figures = Figures(counts.steps, counts.rejected, counts.evaluations, wall, counts.unsearched)
+    figures = Figures(
+        counts.steps,
+        counts.rejected,
+        counts.evaluations,
+        wall,
+        counts.unsearched,
+        counts.crossings,
+        counts.blurred,
+    )
     events = tuple(_event(engine, raw) for raw in run.events if raw.t <= reached)
     result = (
         Result(program, engine, grid, run.segments, events, figures) if len(run.segments) else None
@@ -229,6 +238,7 @@ _HELP = {
     22: "give start values near the solution, or keep the motion away from there",
     23: "look at what leads there, or weaken the assertion",
     30: "write the event so that it says one thing",
+    31: "give it more speed there, or keep it away from there by a stop or by other lengths",
     19: "give every body a mass and an inertia of a usual size",
     20: "leave friction out of some of the liaisons that act on each other",
 }

@@ -124,6 +124,15 @@ TOOLS: Mapping[str, Row] = {
         "Join the 'when's with 'elsewhen', which says which comes first; sample less often.",
         "",
     ),
+    "E0910": (
+        "a loop in a singular posture",
+        "The loop that the liaison closes comes to a posture in which its relations depend on each "
+        "other, as a parallelogram that is flat. A motion that passes goes straight on; one that "
+        "comes to rest there, or passes so slowly that rounding decides, could go on in several "
+        "ways. The run ends there and keeps its motion.",
+        "Give it more speed there, or keep it away from there by a stop or by other lengths.",
+        "",
+    ),
     "E0907": (
         "equations without a solution",
         "The equations named do not determine their unknowns at this instant: no solution was "

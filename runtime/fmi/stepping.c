@@ -36,6 +36,7 @@ static int ends_early(int fault) {
     case FROT_CHATTER:
     case FROT_NAN:
     case FROT_DIVERGE:
+    case FROT_POSTURE:
     case FROT_ALGEBRAIC:
     case FROT_ASSERT:
     case FROT_JUMP:

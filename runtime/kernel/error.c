@@ -2,10 +2,18 @@
 
 #include <math.h>
 
+#include "crossing.h"
 #include "implicit.h"
 #include "sizes.h"
 #include "stages.h"
 #include "tolerances.h"
+
+/* Weight of a stage in the step, which what is doubtful in its slope has. */
+#define DOUBTED 0.1
+
+double frot_step_tolerance(const frot_state *s) {
+  return fmax(FROT_EXPLICIT_SHARE * s->tolerance, FROT_LEAST_TOLERANCE);
+}
 
 /* Size against which the error of value j is measured: the largest it has had, or what the step
  * brings it by what is known at its start. The step's own result is no witness, but where a value
@@ -42,7 +50,7 @@ static void size_own_states(const frot_model *m, const frot_state *s, frot_work 
 /* The worst estimate of the local error over its bound, and in w->step.worst the value it is of. */
 static double worst_error(const frot_model *m, const frot_state *s, frot_work *w, double h) {
   const frot_layout *l = &w->layout;
-  double tolerance = fmax(FROT_EXPLICIT_SHARE * s->tolerance, FROT_LEAST_TOLERANCE), worst = 0;
+  double tolerance = frot_step_tolerance(s), worst = 0;
   double guard_tolerance = frot_guard_tolerance(s->tolerance);
   double e5[FROT_CHUNK], e3[FROT_CHUNK];
   int end = frot_width(w), n = w->awake.n, states = n - FROT_QUADRATURES;
@@ -58,6 +66,10 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     double bound, noise = 0, fifth = h * e5[at], third = h * e3[at];
     if (j < n) {
       int state = w->awake.now->states[j], plain = state < m->nq && m->q_speed[state] < 0;
+      if (state >= m->nq) {
+        fifth -= w->step.excused[state - m->nq];
+        third -= w->step.excused[m->nv + state - m->nq];
+      }
       noise = (plain ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN) * h * s->data[l->noise + state];
       bound = tolerance * size_at_start(m, s, w, state, h);
       if (plain) bound = fmax(bound, noise), noise = 0; /* no inertia smooths it */
@@ -69,6 +81,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     }
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
     double error = joint > 0 ? fifth * fifth / joint : joint;
+    error += DOUBTED * h * w->step.doubt[j];
     /* what rounding makes grows with the step as its bound does: it is no reason for a shorter one
      */
     double ratio = error <= noise ? 0 : (error - noise) / bound;
@@ -81,6 +94,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
 double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   if (s->implicit) return frot_implicit_error(m, s, w, h);
   size_own_states(m, s, w, h);
+  frot_excuse_noise(m, s, w, t, h);
   double worst = worst_error(m, s, w, h);
   if (!(worst > FROT_LIMITING) || w->step.worst < 0 || w->step.worst >= m->nq ||
       !frot_is_small(m, s, w, w->step.worst))

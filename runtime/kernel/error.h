@@ -20,4 +20,7 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
 double frot_guard_noise(const frot_model *m, const frot_state *s, const frot_work *w, int j,
                         double h);
 
+/* Bound of the relative error of an explicit step. */
+double frot_step_tolerance(const frot_state *s);
+
 #endif

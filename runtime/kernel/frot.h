@@ -43,6 +43,7 @@ enum frot_status {
   FROT_ASSERT = 23,      /* an `assert` of the text does not hold */
   FROT_REFUSED = 24,     /* a change from outside cannot be made in a run; the old values stay */
   FROT_EVENT_FAULT = 30, /* an event of the text cannot do what it says */
+  FROT_POSTURE = 31,     /* relations of a loop do not tell how it goes on */
   FROT_JUMP = 25         /* a `reinit` puts a body where its liaisons cannot have it */
 };
 
@@ -418,6 +419,8 @@ typedef struct {
   long long steps, rejected, evaluations, events;
   long long implicit_steps, jacobians; /* steps of the implicit method among `steps` */
   long long unsearched; /* instants at which other motions were not looked for: too many modes */
+  double blurred; /* largest error of a step, relative, that rounding made there beyond its bound */
+  long long crossings; /* steps through postures in which rows that hold depend on each other */
 } frot_statistics;
 
 /* The model compiled together with the kernel. */

@@ -20,6 +20,7 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, double t) {
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
   int moved;
+  if (s->weak && w->step.near[DP_STAGES]) return FROT_OK; /* no place there is better: crossing.h */
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   int status =
       frot_project(m, s, w, t, w->step.z1, w->step.z1 + m->nq, s->data + l->d, modes, NULL, &moved);

@@ -232,6 +232,7 @@ static int orthonormalize(problem *p) {
     int row = w->reactions.unknown[k];
     if (frot_is_spare(w, row)) {
       w->reactions.dependent = w->reactions.carried[row] = 1;
+      w->span.left[row] = 0;
       continue;
     }
     double *x = w->span.basis + ns * rank, *parts = w->span.parts;
@@ -246,10 +247,14 @@ static int orthonormalize(problem *p) {
     }
     if (!(rest > frot_least_length(m, w, row, length))) {
       w->reactions.dependent = w->reactions.carried[row] = 1;
+      w->span.left[row] = 0;
       if (!(fabs(bias) <= FROT_AGREES * (size + frot_free_size(m, w, row)))) return 1;
       continue;
     }
+    w->span.left[row] = rest;
     for (int i = 0; i < ns; i++) x[i] /= rest;
+    if (w->reactions.friction[k] == 0)
+      memcpy(frot_entries(m, w->span.direction, row), x, sizeof(double) * (size_t)ns);
     w->span.bias_size[rank] = size / rest;
     w->span.bias[rank++] = bias / rest;
   }

@@ -2,8 +2,10 @@
 
 #include <string.h>
 
+#include "crossing.h"
 #include "implicit.h"
 #include "mechanics.h"
+#include "projection.h"
 
 void frot_weigh_stages(const frot_work *w, const double *coefficient, int count, int from, int size,
                        double sum[FROT_CHUNK]) {
@@ -53,14 +55,33 @@ static void weigh(const frot_work *w, const double *coefficient, int count, doub
   }
 }
 
-int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
-  if (s->implicit) return frot_implicit_stages(m, s, w, t, h);
+/* Stage i at the values z. Where rows are weak, these are put onto the relations first. */
+static int evaluate(const frot_model *m, frot_state *s, frot_work *w, double t, double *z, int i) {
+  int moved;
+  if (s->weak && !(i <= DP_STAGES && w->step.near[i])) {
+    const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+    int status = frot_project(m, s, w, t, z, z + m->nq, s->data + w->layout.d, modes, NULL, &moved);
+    if (status != FROT_OK) return status;
+  }
+  return frot_slope(m, s, w, t, z, frot_stage(w, i));
+}
+
+/* Stages 1 .. DP_STAGES, and the last that could be evaluated. */
+static int run_once(const frot_model *m, frot_state *s, frot_work *w, double t, double h, int loops,
+                    int *reached) {
+  int before = *reached;
   memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  memset(w->step.doubt, 0, sizeof(double) * (size_t)w->layout.nz);
+  if (loops && w->step.near[0]) frot_interpolate_stage(m, w, 0, before);
   for (int i = 1; i <= DP_STAGES; i++) {
     double *z = i == DP_STAGES ? w->step.z1 : w->step.z;
     move(w, dp_a[i], i, h, z);
-    int status = frot_slope(m, s, w, i == DP_STAGES ? t + h : t + dp_c[i] * h, z, frot_stage(w, i));
-    if (status != FROT_OK) {
+    int status = evaluate(m, s, w, i == DP_STAGES ? t + h : t + dp_c[i] * h, z, i);
+    if (loops) frot_note_rows(m, s, w, i);
+    *reached = i;
+    if (loops && w->step.near[i])
+      frot_interpolate_stage(m, w, i, before > i ? before : i);
+    else if (status != FROT_OK) {
       for (int k = 0; k < w->awake.n; k++) { /* where it happened */
         int at = w->awake.now->states[k];
         w->step.z1[at] = z[at];
@@ -72,13 +93,25 @@ int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, 
   return FROT_OK;
 }
 
+int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  if (s->implicit) return frot_implicit_stages(m, s, w, t, h);
+  int loops = frot_has_loops(m, s, w), reached = 0, status;
+  memset(w->step.near, 0, DP_STAGES + 1);
+  memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)w->layout.nz);
+  for (int pass = 0;; pass++) {
+    status = run_once(m, s, w, t, h, loops, &reached);
+    if (!loops || !frot_find_crossings(m, s, w, t, h, reached, pass)) return status;
+    memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)w->layout.nz);
+  }
+}
+
 int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   if (s->implicit) return frot_implicit_dense(m, s, w, t, h);
   int nz = w->layout.nz;
   memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
   for (int i = DP_STAGES + 1; i < DP_ALL; i++) {
     move(w, dp_a[i], i, h, w->step.z);
-    int status = frot_slope(m, s, w, t + dp_c[i] * h, w->step.z, frot_stage(w, i));
+    int status = evaluate(m, s, w, t + dp_c[i] * h, w->step.z, i);
     if (status != FROT_OK) return status;
   }
   const double *start = frot_stage(w, 0), *end = frot_stage(w, DP_STAGES);

@@ -32,8 +32,8 @@ typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, experiment, nominal, unilateral, x, y, slope, scale_x, scale_g, worth,
-      noise, along, reach, asleep, fired, several, due, left, spare, asked, fresh, modes, d, frozen,
-      segment, size;
+      noise, along, reach, asleep, fired, several, due, left, spare, posture, asked, fresh, modes,
+      d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -49,6 +49,7 @@ struct frot_state {
   int several;   /* groups of contacts had several motions at the start: to be told as events */
   int asleep;    /* islands that sleep: see awake.h */
   int naps;      /* times that this has changed */
+  int weak;      /* rows of loops are weak: crossing.h */
   int implicit;  /* the next step is made by the implicit method */
   int stiff_steps, calm_steps; /* see stiffness.h */
   int patience, stay;

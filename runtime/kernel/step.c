@@ -7,6 +7,7 @@
 #include "awake.h"
 #include "blame.h"
 #include "conditions.h"
+#include "crossing.h"
 #include "ends.h"
 #include "error.h"
 #include "falls.h"
@@ -40,7 +41,15 @@
 #define FORGET 0.99
 /* Rejections after which the sizes of states no longer shrink with the step. */
 #define HOLD 6
-#define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
+/* Error that rounding may make in a step through a singular posture, relative; how exactly it is
+ * the same when that is run again. */
+#define MOST_BLUR 1e-8
+#define SLACK 1.5
+/* Power of the length with which an error falls that is none of rounding. */
+#define LEAST_ORDER 2
+#define LESS 0.95 /* of the length of a step that was rejected, most that it may be then */
+#define LAYS 8    /* times that a step is laid anew */
+#define LOOKS 7   /* at a guard that seems to dip, in ever shorter steps */
 /* Change of the step's length: at most, at least, after no value, and what of it is taken. */
 #define MOST_GROWTH 6
 #define LEAST_PART (1.0 / 3)
@@ -65,6 +74,10 @@ typedef struct {
   int to_due;    /* it ends where time changes a condition */
   int passed;    /* condition beyond which the last try had no value, or -1 */
   int rejections, changed, stiff;
+  int blurred, forced; /* its best length is tried again, and was, though that error is too large */
+  double best, best_ratio;
+  int laid;          /* times that it was laid anew between singular postures */
+  double want, most; /* its length but for them, and what it may be at most */
   int guard,
       looks; /* the guard that falls first, or -1, at theta; looks at one that seems to dip */
   double theta;
@@ -116,7 +129,10 @@ static int begin(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
     a->longest = frot_longest_step(m, s, a->t, 1);
     a->h = m->time_dependent ? fmin(s->h, a->longest) : a->longest;
   }
+  memcpy(w->step.first, frot_stage(w, 0), sizeof(double) * (size_t)w->layout.nz);
   if (status == FROT_OK && s->implicit) status = frot_implicit_begin(m, s, w, a->t);
+  a->want = a->h, a->most = a->longest;
+  if (s->weak) a->h = frot_lay_step(m, s, w, a->t, a->h, a->most);
   a->to_due = a->h >= s->due - a->t;
   if (a->to_due) a->h = s->due - a->t;
   a->first = a->h;
@@ -134,6 +150,27 @@ static int look_closer(const frot_model *m, frot_state *s, frot_work *w, attempt
   return FROT_DIVERGE;
 }
 
+/* Whether no stage of the step that ran is too near a singular posture; else it is laid anew. */
+static int is_laid(const frot_model *m, const frot_state *s, const frot_work *w, attempt *a) {
+  if (!s->weak || a->laid == LAYS || a->to_due) return 1;
+  if (frot_is_laid(m, s, w, a->t, a->h, a->want)) return 1;
+  a->h = frot_lay_step(m, s, w, a->t, a->want, a->most), a->laid++;
+  return 0;
+}
+
+/* Shorten the step h, in which rows are weak, to about a->h. Where a shorter one is no better than
+ * the best so far, rounding is all that is left of its error: the best is taken, if that leaves
+ * digits enough. */
+static void shorten_weak(const frot_model *m, frot_state *s, const frot_work *w, attempt *a,
+                         double h) {
+  int better = !(a->ratio >= a->best_ratio * pow(h / a->best, LEAST_ORDER));
+  a->want = a->h, a->most = LESS * h;
+  if (a->ratio > 1 && a->ratio < a->best_ratio) a->best = h, a->best_ratio = a->ratio;
+  a->h = frot_lay_step(m, s, w, a->t, a->h, a->most);
+  if (better || a->forced || a->best_ratio * frot_step_tolerance(s) > MOST_BLUR) return;
+  a->h = a->want = a->best, a->blurred = 1, a->laid = LAYS;
+}
+
 /* Try the step once: FROT_OK if it is good, with its dense output; then s->h is the next one's
  * length. */
 static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
@@ -141,6 +178,16 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a
   int status = frot_run_stages(m, s, w, t, h);
   a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &part) : -1;
   a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
+  a->forced = a->blurred;
+  if (a->forced && a->ratio > 1 && a->ratio <= SLACK * a->best_ratio) {
+    s->statistics.blurred = fmax(s->statistics.blurred, a->ratio * frot_step_tolerance(s));
+    a->ratio = 1;
+  }
+  if (s->weak && a->ratio <= 1) a->ratio = fmax(a->ratio, pow(frot_turning(m, s, w, t, h), 8));
+  if (status == FROT_OK && !is_laid(m, s, w, a)) {
+    s->statistics.rejected++;
+    return FROT_DIVERGE;
+  }
   if (a->ratio <= 1) {
     a->stiff = frot_is_stiff(m, s, w, h);
     a->stable = frot_stable_step(m, s, w);
@@ -169,6 +216,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a
     a->h *= fmax(change_of_length(m, s, w, a->ratio), LEAST_PART);
   else
     a->h *= a->passed >= 0 ? fmin(fmax(NEARLY * part, 0.01), NEARLY) : CUT;
+  if (s->weak && a->passed < 0) shorten_weak(m, s, w, a, h);
   return status == FROT_OK ? FROT_DIVERGE : status;
 }
 
@@ -182,6 +230,8 @@ static int give_up(const frot_model *m, frot_state *s, frot_work *w, attempt *a,
     a->changed = 1, a->h = a->first;
     if (begun == FROT_OK) return FROT_OK;
   }
+  int weak = frot_posture_at(m, s, w, a->t);
+  if (ends < 0 && weak >= 0) return frot_fail(s, FROT_POSTURE, a->t, weak, -1, -1, a->h);
   if (ends < 0)
     return frot_fail_step(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, a->t, a->h);
   frot_fire_at_start(s, w, ends);
@@ -206,6 +256,7 @@ static int find_length(const frot_model *m, frot_state *s, frot_work *w, attempt
   double factor = a->ratio > 0 ? change_of_length(m, s, w, a->ratio) : MOST_GROWTH;
   factor = fmin(fmax(factor, LEAST_PART), a->rejections ? 1 : MOST_GROWTH);
   s->h = fmin(a->h * factor, fmin(a->longest, a->stable));
+  if (s->weak) s->h = fmax(a->h, a->want); /* noise does not show how long it may be */
   if (a->to_due) s->h = fmax(s->h, planned);
   return FROT_OK;
 }
@@ -278,12 +329,16 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
   memcpy(slope + l->nx, frot_stage(w, DP_STAGES) + w->awake.n,
          sizeof(double) * (size_t)w->guards.count);
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-  int moved;
-  int status = frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL, &moved);
+  int moved = 0, lost = s->implicit ? -1 : frot_lost_row(m, s, w, a->t, a->h);
+  if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
+  int status = s->weak && w->step.near[DP_STAGES]
+                   ? FROT_OK
+                   : frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL, &moved);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, end, a->h);
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   s->has_slope = !moved && !s->pending;
   if (s->has_slope) frot_turn_at_end(m, s, w, slope);
+  if (!s->implicit) frot_keep_crossings(m, s, w, a->t, a->h);
   if (!s->pending && frot_note_still(m, s, w, x)) s->has_slope = 0; /* other guards are listed */
   frot_choose_next(m, s, a->stiff);
   if (end > s->crowded_since + CROWDED * s->h_max) s->crowded_since = end, s->crowded = 0;
@@ -300,7 +355,10 @@ static int take(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
 }
 
 static int step(const frot_model *m, frot_state *s, frot_work *w) {
-  attempt a = {.t = *frot_segment_at(m, s->data + w->layout.segment).t1, .passed = -1, .guard = -1};
+  attempt a = {.t = *frot_segment_at(m, s->data + w->layout.segment).t1,
+               .passed = -1,
+               .guard = -1,
+               .best_ratio = INFINITY};
   if (s->due <= a.t) {
     frot_fire_due(m, s);
     return FROT_OK;

@@ -244,6 +244,13 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                "(jamming) or a force is singular there",
                f->contact >= 0 ? "liaison '" : "", name, f->contact >= 0 ? "'" : "", f->t);
       return;
+    case FROT_POSTURE:
+      snprintf(
+          text, size,
+          "liaison '%s': next to t = %.17g relations of the loop that it closes depend on each "
+          "other, and they do not tell to rounding how it goes on",
+          name, f->t);
+      return;
     case FROT_SINGULAR:
       if (m->general) {
         snprintf(text, size,

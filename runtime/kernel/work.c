@@ -147,7 +147,11 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   }
   TAKE(r->known, 2 * followers), TAKE(r->effects, 2 * followed);
   TAKE(w->span.basis, (n + 1) * e->widest), TAKE(w->span.parts, n + e->widest);
-  TAKE(w->span.bias, n), TAKE(w->span.bias_size, n);
+  TAKE(w->span.bias, n), TAKE(w->span.bias_size, n), TAKE(w->span.left, n);
+  TAKE(w->span.direction, m->n_entries), TAKE(w->step.direction, m->n_entries);
+  TAKE(w->step.motion, m->n_entries);
+  TAKE(w->step.left, n * (DP_STAGES + 1));
+  TAKE(w->step.near, DP_STAGES + 1);
 }
 
 static void bind_relations(const frot_model *m, const frot_layout *l, const extent *e, frot_work *w,
@@ -176,7 +180,8 @@ static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, a
   frot_step_work *p = &w->step;
   TAKE(w->guards.list, l->ng), TAKE(w->guards.size, l->ng);
   TAKE(w->guards.end_reaction, 2 * m->n_elements);
-  TAKE(p->k, DP_ALL * l->nz), TAKE(p->z0, l->nz), TAKE(p->z1, l->nz), TAKE(p->z, l->nz);
+  TAKE(p->k, DP_ALL * l->nz), TAKE(p->first, l->nz), TAKE(p->doubt, l->nz),
+      TAKE(p->excused, 2 * m->nv), TAKE(p->z0, l->nz), TAKE(p->z1, l->nz), TAKE(p->z, l->nz);
   TAKE(p->y_end, m->ny), TAKE(p->f, DP_DENSE * l->nz);
   TAKE(w->sizes.change, m->nq), TAKE(w->sizes.own, m->nq), TAKE(w->sizes.alike, m->nq);
   TAKE(w->sizes.states, m->nq);

@@ -87,10 +87,12 @@ typedef struct {
 } frot_reaction_work;
 
 /* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:
- * reactions.c, projection.c. */
+ * reactions.c, projection.c. `left` (n_rows): the length that those before it leave of each row
+ * that was held last, 0 where it is dependent. */
 typedef struct {
   int rank, follow; /* whether `spare` (n_rows) says what depends on others: spare.h */
   unsigned char *spare;
+  double *left, *direction;
   double *basis, *parts, *bias, *bias_size;
 } frot_span_work;
 
@@ -126,8 +128,12 @@ typedef struct {
 
 /* stages.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones at the
  * stage that runs, unknowns of the blocks at the end, dense output f (DP_DENSE x nz); the state
- * whose error is the worst, or -1 (error.h). Between steps z1 and z are scratch. */
+ * whose error is the worst, or -1 (error.h). Between steps z1 and z are scratch. crossing.h:
+ * what is left of each row in each stage ((DP_STAGES + 1) x n_rows) and its first direction; the
+ * slope at the start, what is doubtful in slopes near postures, and excused in errors. */
 typedef struct {
+  double *left, *direction, *first, *doubt, *excused, *motion;
+  unsigned char *near;
   double *k, *z0, *z1, *z, *y_end, *f;
   int worst;
 } frot_step_work;
