@@ -107,6 +107,8 @@ def read_expressions(model: Model) -> Iterator[Expression]:
                 yield argument
     for liaison in model.liaisons:
         yield from liaison.driven.values()
+        for relation in liaison.relations:
+            yield from (relation.left, relation.right)
         for law in liaison.laws:
             yield from law.arguments.values()
 

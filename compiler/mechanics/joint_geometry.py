@@ -7,9 +7,11 @@ from dataclasses import dataclass
 import casadi as ca
 from frot.compiler.lowering.symbols import Rows
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.locks import Stated
 from frot.compiler.mechanics.mechanism import Joint, Relation, point_body
 from frot.compiler.mechanics.motions import name_of
 from frot.compiler.mechanics.spatial import Z, cross
+from frot.compiler.mechanics.stated import state, value_of
 from frot.compiler.mechanics.touches import Touch
 from frot.compiler.mechanics.wrenches import Action, act
 
@@ -65,7 +67,12 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
         if name:
             coordinates[name], rates[name] = kinematics.coordinate(joint, k)
     tangent = kinematics.tangents.get(joint.liaison)
-    actions = tuple(act(lock, a.pose, b.pose, lower, side, tangent) for lock in joint.locks)
+    actions = tuple(
+        state(lock, joint, kinematics)
+        if isinstance(lock, Stated)
+        else act(lock, a.pose, b.pose, lower, side, tangent)
+        for lock in joint.locks
+    )
     measured = [x.measure for x in actions if x.measure is not None]
     if measured:
         coordinates["length"] = measured[0]
@@ -93,6 +100,11 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
 def relation_geometry(relation: Relation, kinematics: Kinematics, side: ca.SX) -> RelationGeometry:
     """A lock between bodies that coordinates do not keep together."""
     joint = relation.joint
+    if isinstance(relation.lock, Stated):
+        value, size = value_of(relation.lock, kinematics)
+        if relation.lock.kinematic:
+            return RelationGeometry(ca.SX(0), value, ca.SX.ones(3), ca.SX(0))
+        return RelationGeometry(value, kinematics.rate(value), ca.SX.ones(3), size)
     a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
     action = act(relation.lock, a.pose, b.pose, kinematics.fixed.lower, side)
     sizes = kinematics.lengths_between(

@@ -151,6 +151,16 @@ class Level:
     kinematic: bool = False
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Stated:
+    """A relation of the user: left = right."""
+
+    left: Expression
+    right: Expression
+    kinematic: bool
+    turns: bool = False
+
+
 Lock = (
     Across
     | Aligned
@@ -161,6 +171,7 @@ Lock = (
     | NoSlip
     | Parallel
     | SameAngle
+    | Stated
     | Thread
     | Touching
     | Way

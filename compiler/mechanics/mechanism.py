@@ -171,7 +171,10 @@ class Mechanism:
         )
         shapes: tuple[Curve | Surface, ...] = (*self.model.curves, *self.model.surfaces)
         moved |= any(has_time(value) for x in shapes for value in x.arguments.values())
-        return moved or any(liaison.driven for liaison in self.model.liaisons)
+        for liaison in self.model.liaisons:
+            moved |= bool(liaison.driven)
+            moved |= any(has_time(x) for r in liaison.relations for x in (r.left, r.right))
+        return moved
 
 
 @dataclass(frozen=True, slots=True)

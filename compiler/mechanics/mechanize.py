@@ -8,7 +8,7 @@ from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressio
 from frot.compiler.mechanics.figures import Ball, Dot, Figure, Flat, Oval, Path, figure_of
 from frot.compiler.mechanics.halves import halve
 from frot.compiler.mechanics.joints import JOINTS, Pairing, drive
-from frot.compiler.mechanics.locks import Across
+from frot.compiler.mechanics.locks import Across, Lock, Stated
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
@@ -35,12 +35,15 @@ from frot.dsl import Log
 from frot.dsl.checked import (
     Curve,
     CurvePlace,
+    Derivative,
     Expression,
     Law,
     Liaison,
     Literal,
     Model,
+    Parameter,
     Quantity,
+    Reference,
 )
 
 ROUND = ("ring", "disc")
@@ -103,6 +106,8 @@ def _law(liaison: Liaison, kind: str) -> Law | None:
 
 
 def _link(liaison: Liaison, planar: bool, log: Log) -> Contact | Joint | None:
+    if liaison.relations:
+        return _stated(liaison, planar, log)
     if liaison.kind.name in JOINTS:
         return _joint(liaison, planar, log)
     if liaison.kind.name in (IN_PLANE if planar else IN_SPACE):
@@ -162,6 +167,41 @@ def _paired(liaison: Liaison, a: Point, b: Point, free: Pairing, swapped: bool) 
         mu_s=None,
         radius=None,
     )
+
+
+_OF_PLACES = ("position", "angle", "orientation", "ex", "ey", "ez")
+_OF_SPEEDS = ("velocity", "angular_velocity")
+
+
+def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
+    """A liaison of the user."""
+    locks: list[Lock] = []
+    for relation in liaison.relations:
+        names = (*_OF_PLACES, *(_OF_SPEEDS if relation.kinematic else ()))
+        for side in (relation.left, relation.right):
+            for node in subexpressions(side):
+                known = not isinstance(node, Quantity) or (
+                    node.name in names and not isinstance(node.owner, Liaison)
+                )
+                if not known or isinstance(node, Derivative) or not _is_of_motion(node):
+                    refuse(
+                        log,
+                        f"'{' '.join(node.span.text.split())}' in a relation of a liaison",
+                        node.span,
+                        f"it may hold time, parameters and: {', '.join(names)}",
+                    )
+                    return None
+        locks.append(Stated(relation.left, relation.right, relation.kinematic))
+    a, b = figure_of(liaison.a, planar), figure_of(liaison.b, planar)
+    if a is None or b is None:
+        refuse(log, "a curve or surface as a place of a liaison of one's own", liaison.span)
+        return None
+    return _paired(liaison, a.point, b.point, Pairing((), tuple(locks), carries=False), False)
+
+
+def _is_of_motion(node: Expression) -> bool:
+    """Whether an expression holds no variable, input or output of the text."""
+    return not isinstance(node, Reference) or isinstance(node.target, Parameter)
 
 
 def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:

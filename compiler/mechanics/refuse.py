@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from frot.compiler.lowering.walk import follows_time, is_fixed, read_expressions, subexpressions
 from frot.compiler.mechanics.joints import JOINTS
+from frot.compiler.mechanics.locks import Touching
 from frot.compiler.mechanics.mechanism import Contact, Joint, owner_body, turns
 from frot.compiler.mechanics.placed import IN_PLANE, IN_SPACE
 from frot.dsl import Log
@@ -59,7 +60,7 @@ def refuse_unknown(model: Model, log: Log) -> None:
                 refuse(log, "a body that depends on time or motion", argument.span)
     known = (*JOINTS, *((*PLANE_LIAISONS, *IN_PLANE) if model.planar else IN_SPACE))
     for liaison in model.liaisons:
-        if liaison.kind.name not in known:
+        if liaison.kind.name not in known and not liaison.relations:
             where = "" if model.planar else " in space"
             refuse(
                 log,
@@ -120,7 +121,8 @@ def _refuse_law(liaison: Liaison, law: Law, planar: bool, log: Log) -> None:
         refuse(log, f"the law '{law.kind.name}' in space", law.span, "planar models take it")
         return
     pin = liaison.kind.name == "rotoide"
-    if liaison.kind.name in (*JOINTS, *IN_PLANE) and not (pin and law.kind.name == "coulomb"):
+    plain = liaison.kind.name in (*JOINTS, *IN_PLANE) or bool(liaison.relations)
+    if plain and not (pin and law.kind.name == "coulomb"):
         kind = spelled(liaison)
         refuse(log, f"the law '{law.kind.name}' of a {kind}", law.span, "`coulomb` of a rotoïde is")
         return
@@ -186,7 +188,13 @@ def _refuse_drag(force: Force, log: Log) -> None:
 
 def refuse_surface(model: Model, links: Iterable[Contact | Joint], log: Log) -> None:
     """What happens at the surface of a pin is known with its radius only."""
-    plain = {e.liaison for e in links if isinstance(e, Joint) and e.radius is None}
+    plain = {
+        e.liaison
+        for e in links
+        if isinstance(e, Joint)
+        and e.radius is None
+        and not any(isinstance(lock, Touching) for lock in e.locks)
+    }
     for expression in read_expressions(model):
         for node in subexpressions(expression):
             if (

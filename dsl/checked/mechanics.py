@@ -139,10 +139,20 @@ class Law:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class StatedRelation:
+    """`left` = `right`, of a liaison of the user: between velocities, or between places."""
+
+    left: Expression
+    right: Expression
+    kinematic: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Liaison:
     """A liaison between the places `a` and `b`; its reaction is that of `a` on `b`.
 
-    `driven` are the coordinates that are prescribed, by name.
+    `driven` are the coordinates that are prescribed, by name; `relations` those of one that the
+    user defines.
     """
 
     name: str
@@ -154,6 +164,7 @@ class Liaison:
     span: Span
     doc: str = ""
     driven: Mapping[str, Expression] = field(default_factory=dict)
+    relations: tuple[StatedRelation, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

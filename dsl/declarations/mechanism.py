@@ -9,14 +9,16 @@ from frot.dsl.catalogue import FORCES, LAWS, LIAISONS, find, spellings
 from frot.dsl.checked.describe import quantity
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.declarations.geometry import called
-from frot.dsl.declarations.user_kinds import check_law, check_liaison
+from frot.dsl.declarations.user_kinds import check_law, stated_liaison
 from frot.dsl.expressions.expression import expect
 from frot.dsl.expressions.known import known
 from frot.dsl.messages.diagnostics import Label
+from frot.dsl.names.classes import Class
 from frot.dsl.names.members import coordinates
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.types import find_class
+from frot.dsl.quantities.dimensions import BOOLEAN
 from frot.dsl.text import tree
 
 
@@ -30,8 +32,8 @@ def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison
     if kind is None:
         defined = find_class(callee, scope)
         if defined is not None and defined.kind == "liaison":
-            check_liaison(defined, arguments, node.kind.span, scope)
-        elif scope.knows(name):
+            return _stated(node, full_name, defined, arguments, scope)
+        if scope.knows(name):
             help_text = did_you_mean(name, spellings(LIAISONS))
             word = "joint" if node.keyword == "joint" else "liaison"
             scope.log.report("E0202", f"unknown {word} {name!r}", callee.span, help=help_text)
@@ -54,6 +56,27 @@ def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison
     if node.driven is not None:
         _driven(node, made, driven, scope)
     return made
+
+
+def _stated(
+    node: tree.Liaison,
+    name: str,
+    of: Class,
+    arguments: tuple[tree.Argument, ...],
+    scope: Scope,
+) -> checked.Liaison | None:
+    """A liaison of the user."""
+    found = stated_liaison(of, arguments, node.kind.span, scope)
+    if found is None:
+        return None
+    kind, (a, b, *_), relations = found
+    if node.driven is not None:
+        scope.log.report("E0204", f"{of.name!r} has no coordinate to drive", node.driven_span)
+        return None
+    no = checked.Literal(False, BOOLEAN, node.span)
+    return checked.Liaison(
+        name, kind, a, b, {"unilateral": no}, (), node.span, node.doc, relations=relations
+    )
 
 
 def _driven(

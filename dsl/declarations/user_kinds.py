@@ -7,11 +7,12 @@ mechanics that would derive reactions from relations does not exist yet.
 from __future__ import annotations
 
 from frot.dsl import checked
+from frot.dsl.catalogue import LiaisonKind
 from frot.dsl.catalogue.types import FORCE, INERTIA, LENGTH, MASS, VELOCITY
 from frot.dsl.checked.describe import written_unit
 from frot.dsl.expressions.expression import expect, expression, fitting
 from frot.dsl.expressions.names import place
-from frot.dsl.messages.source import Span
+from frot.dsl.messages.source import Source, Span
 from frot.dsl.names.classes import Class, enter
 from frot.dsl.names.entities import Entity, Instance
 from frot.dsl.names.near import did_you_mean
@@ -20,37 +21,71 @@ from frot.dsl.names.types import Kind, find_type
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree
 
+_NOWHERE = Span(Source("", ""), 0, 0)
 _PLACES = ("frame", "body", "point", "curve", "surface", "repère", "repere", "corps")
 
 
-def check_liaison(
+def stated_liaison(
     of: Class, arguments: tuple[tree.Argument, ...], span: Span, scope: Scope
-) -> None:
-    """Check a liaison of the user where it is used, then refuse it."""
+) -> tuple[LiaisonKind, list[checked.Place], tuple[checked.StatedRelation, ...]] | None:
+    """A liaison of the user where it is used: its kind, its places, its relations."""
     bound = _bind(of, arguments, span, scope)
     if bound is None:
-        return
+        return None
     inner, local = bound
     at = inner.inside(**local)
+    relations: list[checked.StatedRelation] = []
+    complete = True
     for element in of.elements:
         if isinstance(element, tree.Relation):
-            left = expression(element.left, at)
-            if left is None:
-                continue
-            right = expression(element.right, at)
-            if right is None:
-                continue
-            # A bare zero stands for no value of any kind.
-            zero = isinstance(right, checked.Literal) and right.value == 0.0
-            if not (zero and not right.unit):  # type: ignore[union-attr]
-                fitting(right, element.right, left.type, at, unit=written_unit(left))
+            found = _relation(element, at)
+            if found is None:
+                complete = False
+            else:
+                relations.append(found)
         elif not isinstance(element, tree.Import | tree.Definition | tree.Alias | tree.Component):
+            complete = False
             scope.log.report(
                 "E0501",
                 "a liaison holds relations: 'kinematic a = b;' or 'geometric a = b;'",
                 element.span,
             )
-    _refuse("liaisons", of, span, scope)
+    if not complete:
+        return None
+    places = [p for p in map(_place_of, local.values()) if p is not None]
+    count = len(relations)
+    if len(places) < 2 or count == 0:
+        lacks = "two places" if len(places) < 2 else "a relation"
+        scope.log.report("E0501", f"the liaison {of.name!r} needs {lacks}", of.definition.span)
+        return None
+    return LiaisonKind(of.name, (), count, count), places, tuple(relations)
+
+
+def _relation(element: tree.Relation, at: Scope) -> checked.StatedRelation | None:
+    left = expression(element.left, at)
+    right = None if left is None else expression(element.right, at)
+    if left is None or right is None:
+        return None
+    # A bare zero stands for no value of any kind.
+    zero = isinstance(right, checked.Literal) and right.value == 0.0 and not right.unit
+    if not zero:
+        fitted = fitting(right, element.right, left.type, at, unit=written_unit(left))
+        if fitted is None:
+            return None
+        right = fitted
+    if left.type.shape:
+        at.log.report("E0301", "a relation is between two numbers", element.span)
+        return None
+    return checked.StatedRelation(left, right, element.kind == "kinematic")
+
+
+def _place_of(thing: Entity) -> checked.Place | None:
+    """The place that a formal argument stands for; None for a value."""
+    if isinstance(thing, checked.Body):
+        home = "origin" if thing.shape is None else thing.shape.home
+        return checked.BodyPoint(thing, home, thing.span or _NOWHERE)
+    places = (checked.BodyPoint, checked.Frame, checked.CurvePlace, checked.BodyGeometry)
+    return thing if isinstance(thing, places) else None
 
 
 def check_law(of: Class, arguments: tuple[tree.Argument, ...], span: Span, scope: Scope) -> None:
@@ -181,7 +216,9 @@ def _formal(
         return None
     value = fitting(value, node, kind.type, there, unit=kind.unit, rate=kind.rate)
     # A variable of this type stands for the value: the text of the definition is what is checked.
-    return checked.Parameter(formal.name.text, kind.type, value, formal.span) if value else None
+    if value is None:
+        return None
+    return checked.Parameter(formal.name.text, kind.type, value, formal.span, constant=True)
 
 
-__all__ = ["check_law", "check_liaison", "check_shape"]
+__all__ = ["check_law", "check_shape", "stated_liaison"]
