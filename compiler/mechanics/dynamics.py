@@ -21,8 +21,9 @@ from frot.compiler.mechanics.kinematics import Kinematics, Node
 from frot.compiler.mechanics.spatial import cross, nowhere, size_of_cross
 from frot.dsl.checked import Body
 
-# Speeds of a tree from which on the recursion costs less than the mass matrix. Measured.
-LARGE = 10
+# Speeds of a tree from which on the recursion costs less than the mass matrix, measured: of one
+# whose reactions nobody reads, and of one with readings, each of which is one more way along it.
+LARGE, LARGE_READ = 10, 20
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -162,8 +163,12 @@ def speeds_by_tree(nodes: Sequence[Node]) -> list[list[int]]:
 
 def large_speeds(nodes: Sequence[Node], nv: int) -> frozenset[int]:
     """The speeds of trees that have at least so many, auxiliary ones not counted."""
-    trees = speeds_by_tree(nodes)
-    return frozenset(p for own in trees if sum(k < nv for k in own) >= LARGE for p in own)
+
+    def is_large(own: list[int]) -> bool:
+        true = sum(k < nv for k in own)
+        return true >= (LARGE if true == len(own) else LARGE_READ)
+
+    return frozenset(p for own in speeds_by_tree(nodes) if is_large(own) for p in own)
 
 
 def in_trees(nodes: Sequence[Node], speeds: frozenset[int]) -> list[bool]:

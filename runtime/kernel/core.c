@@ -116,13 +116,15 @@ static int symmetric_group(const frot_model *m, frot_work *w, const frot_group *
     }
   }
   double *effects = w->core.delassus + g->square;
+  int *acting = w->core.acting, count = 0;
+  for (int i = 0; i < g->n_rows; i++)
+    if (w->core.wanted[g->rows[i]] && !frot_is_reading(m, g->rows[i])) acting[count++] = i;
   for (int i = 0; i < g->n_rows; i++) {
     int r = g->rows[i], reads = m->row_reads[r];
     if (!w->core.wanted[r]) continue;
     const double *half = w->core.half + g->entries + i * n;
-    for (int j = 0; j < g->n_rows; j++) {
-      int by = g->rows[j];
-      if (!w->core.wanted[by] || frot_is_reading(m, by)) continue;
+    for (int k = 0; k < count; k++) {
+      int j = acting[k];
       if (reads < 0 && j < i) {
         effects[i * g->n_rows + j] = effects[j * g->n_rows + i];
         continue;

@@ -195,14 +195,24 @@ static int row_without_reaction(const problem *p, int contact, int k) {
   return kept ? m->elements[k].row : -1;
 }
 
+/* Whether anything of the group is at its bound or carries nothing. */
+static int leaves_to_others(const problem *p) {
+  const frot_group *g = p->g;
+  for (int i = 0; i < g->n_contacts; i++)
+    if (p->modes[g->contacts[i]].unloaded) return 1;
+  for (int i = 0; i < g->n_elements; i++)
+    if (frot_element_mode(p->m, p->modes, g->elements[i])->at_bound != 0) return 1;
+  return 0;
+}
+
 /* What is at its bound or carries nothing is kept by the others: where several friction forces at
  * their bounds hold a row together, none of them has a row of its own. Appends those rows to the
  * orthonormal ones. */
 static void add_kept_rows(problem *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
-  int ns = p->g->n_speeds;
-  for (int i = 0; i < p->g->n_contacts; i++)
+  int ns = p->g->n_speeds, some = leaves_to_others(p);
+  for (int i = 0; some && i < p->g->n_contacts; i++)
     for (int law = -1; law < p->g->n_elements && w->span.rank < ns; law++) {
       int e = law < 0 ? -1 : p->g->elements[law], rank = w->span.rank;
       int row = row_without_reaction(p, p->g->contacts[i], e);
@@ -313,7 +323,11 @@ static void read_bounds(const problem *p) {
       int reading = m->elements[w->reactions.owner[f]].bounded_by[k];
       if (reading < 0) continue;
       *known = known_part(p, reading);
-      for (int c = 0; c < n; c++) effects[c] = w->reactions.unit_of[c] * effect_of(p, reading, c);
+      for (int c = 0; c < p->held; c++)
+        effects[c] = w->reactions.unit_of[c] * effect_of(p, reading, c);
+      const double *all = frot_effect_on(m, w, reading); /* nothing goes with what follows */
+      for (int c = p->held; c < n; c++)
+        effects[c] = w->reactions.unit_of[c] * all[m->row_local[w->reactions.unknown[c]]];
     }
 }
 

@@ -57,7 +57,8 @@ typedef struct {
  * a mass matrix the Cholesky factor L of the metric, L^-1 h, L^-1 J'; of a general core LU of A,
  * A^-1 h, A^-1 E); what it does to the rows wanted; sizes of all loads and of what they do, and
  * of the terms of c (bias_size, n_rows);
- * reactions lam (n_rows) and the solution a (nw). Scratch: rest and column (nw); of large trees
+ * reactions lam (n_rows) and the solution a (nw). Scratch: rest and column (nw), the
+ * rows of a group that act (acting); of large trees
  * inertia, twist and momenta (inertia.h). */
 typedef struct {
   double t;
@@ -66,6 +67,7 @@ typedef struct {
   double *factor, *force, *half, *lu, *lu_scale;
   int *lu_pivot;
   unsigned char *wanted;
+  int *acting;
   double *free, *delassus;
   double *load, *load_size, *row_load, *bias_size;
   double *lam, *a;

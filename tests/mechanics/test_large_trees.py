@@ -143,6 +143,7 @@ def test_recursion_and_mass_matrix_agree(
     results = []
     for large in (1, 10**6):
         monkeypatch.setattr(dynamics, "LARGE", large)
+        monkeypatch.setattr(dynamics, "LARGE_READ", large)
         results.append(frot.compile(f"// {large}\n{text}").simulate(stop=0.05))
     recursion, matrix = results
     of_motion = ("acceleration", "velocity", "force", "torque", "energy", "read")
