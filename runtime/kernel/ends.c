@@ -61,6 +61,7 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
   int status = frot_slope(m, s, w, t, w->step.z0, frot_stage(w, 0));
   if (status == FROT_OK) {
     frot_note_spare(m, s, w);
+    for (int k = 0; k < m->n_groups; k++) s->data[l->sign + k] = w->reactions.sign[k];
     memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
     frot_turn_references(m, s, w);
     frot_measure_end(m, s, w, t, w->step.z0);

@@ -149,3 +149,9 @@ void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w
       along[0] = -along[0], along[1] = -along[1]; /* it passes through zero */
   }
 }
+
+void frot_forget_guards(const frot_model *m, frot_state *s, int first, int count) {
+  frot_layout l = frot_layout_of(m);
+  memset(s->data + l.scale_g + first, 0, sizeof(double) * (size_t)count);
+  memset(s->data + l.noise + m->nq + m->nv + first, 0, sizeof(double) * (size_t)count);
+}

@@ -19,6 +19,10 @@ void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, c
                  const double *v, const double *d, const frot_contact_mode *modes, double *guard,
                  double *scale);
 
+/* Forget how large `count` guards from `first` on were, and what rounding did to them: in another
+ * mode they are something else, in other units. */
+void frot_forget_guards(const frot_model *m, frot_state *s, int first, int count);
+
 /* Whether a listed guard is a reaction, so that `scale` needs w->row_load. */
 int frot_guards_read_loads(const frot_model *m, const frot_work *w, const frot_contact_mode *modes);
 

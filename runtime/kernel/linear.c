@@ -57,14 +57,17 @@ double frot_reject(double *x, const double *basis, int columns, int n, double *p
   return sqrt(frot_dot(x, x, n));
 }
 
-int frot_lu_solve(double *a, double *b, int n) {
+int frot_lu_solve(double *a, double *b, int n, int *sign) {
   double largest = 0;
+  *sign = 1;
   for (int i = 0; i < n * n; i++) largest = fmax(largest, fabs(a[i]));
   for (int k = 0; k < n; k++) {
     int pivot = k;
     for (int i = k + 1; i < n; i++)
       if (fabs(AT(a, n, i, k)) > fabs(AT(a, n, pivot, k))) pivot = i;
     if (!(fabs(AT(a, n, pivot, k)) > FROT_SINGULAR_PIVOT * largest)) return 1;
+    if (pivot != k) *sign = -*sign;
+    if (AT(a, n, pivot, k) < 0) *sign = -*sign;
     if (pivot != k) {
       for (int j = k; j < n; j++) {
         double t = AT(a, n, k, j);

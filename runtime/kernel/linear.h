@@ -10,8 +10,8 @@ void frot_forward(const double *l, int n, int m, double *x);
 void frot_backward(const double *l, int n, int m, double *x);
 
 /* Solve a x = b by LU with partial pivoting (a and b are overwritten, b becomes x).
- * Returns 0, or 1 when a is singular to rounding. */
-int frot_lu_solve(double *a, double *b, int n);
+ * Returns 0 with the sign of the determinant, or 1 when a is singular to rounding. */
+int frot_lu_solve(double *a, double *b, int n, int *sign);
 
 /* LU of a (n x n) with partial pivoting, rows and columns scaled by powers of two first, so that
  * units do not matter. `pivot` takes n integers, `scale` 2 n doubles. Returns 0, or 1 when a is

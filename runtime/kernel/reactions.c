@@ -498,10 +498,10 @@ static int solve(problem *p, int *regular) {
   if (*regular) {
     memcpy(w->linear.scratch, w->linear.matrix, sizeof(double) * (size_t)(n * n));
     memcpy(x, w->linear.right, sizeof(double) * (size_t)n);
-    *regular = !frot_lu_solve(w->linear.scratch, x, n);
+    *regular = !frot_lu_solve(w->linear.scratch, x, n, &w->reactions.sign[p->g - p->m->groups]);
   }
   if (*regular) return 0;
-  w->reactions.dependent = 1;
+  w->reactions.dependent = 1, w->reactions.sign[p->g - p->m->groups] = 0;
   solve_least(p, x);
   spread_reactions(p, x);
   return !group_is_finite(p) || !is_solution(p);
@@ -534,7 +534,7 @@ static double turn_pins(const problem *p) {
 int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
                          const frot_contact_mode *modes, const unsigned char *at_rest) {
   problem p = {m, w, g, modes, 0, 0, 0, 0};
-  w->reactions.dependent = 0;
+  w->reactions.dependent = w->reactions.sign[g - m->groups] = 0;
   if (g->n_rows == 0) return 0;
   list_unknowns(&p, at_rest);
   int pins = 0, regular = 0;

@@ -5,6 +5,7 @@
 
 #include "blocks.h"
 #include "core.h"
+#include "guards.h"
 #include "projection.h"
 #include "record.h"
 #include "search.h"
@@ -251,11 +252,10 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   for (int k = 0; k < m->nv; k++)
     if (frozen[k] != 0) v[k] = 0;
   memset(fired, 0, sizeof(double) * (size_t)l.nf);
-  /* The guards of another mode have another size. */
   for (int i = 0; i < m->n_contacts; i++)
-    if (memcmp(&modes[i], &w->search.before[i], sizeof *modes) != 0) s->data[l.scale_g + i] = 0;
+    if (memcmp(&modes[i], &w->search.before[i], sizeof *modes) != 0) frot_forget_guards(m, s, i, 1);
   for (int e = 0; e < m->n_elements; e++)
     if (memcmp(&modes[m->n_contacts + e], &w->search.before[m->n_contacts + e], sizeof *modes) != 0)
-      memset(s->data + l.scale_g + frot_element_guard(m, e), 0, 2 * sizeof(double));
+      frot_forget_guards(m, s, frot_element_guard(m, e), 2);
   return FROT_OK;
 }

@@ -96,6 +96,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->due = INFINITY;
   memset(s->data + l.left, 0, sizeof(double) * (size_t)m->n_elements);
   memset(s->data + l.spare, 0, sizeof(double) * (size_t)m->n_rows);
+  memset(s->data + l.sign, 0, sizeof(double) * (size_t)m->n_groups);
   memset(s->data + l.frozen, 0, sizeof(double) * (size_t)m->nv);
   double *x = s->data + l.x;
   memset(x, 0, sizeof(double) * (size_t)l.nx);

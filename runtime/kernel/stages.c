@@ -55,6 +55,14 @@ static void weigh(const frot_work *w, const double *coefficient, int count, doub
   }
 }
 
+/* Whether the determinant that gives the reactions has another sign than at the start of the step:
+ * it was zero between, where they grow without bound (jamming). */
+static int has_jammed(const frot_model *m, const frot_state *s, const frot_work *w) {
+  for (int k = 0; k < m->n_groups; k++)
+    if (w->reactions.sign[k] * s->data[w->layout.sign + k] < 0) return 1;
+  return 0;
+}
+
 /* Stage i at the values z. Where rows are weak, these are put onto the relations first. */
 static int evaluate(const frot_model *m, frot_state *s, frot_work *w, double t, double *z, int i) {
   int moved;
@@ -63,7 +71,8 @@ static int evaluate(const frot_model *m, frot_state *s, frot_work *w, double t, 
     int status = frot_project(m, s, w, t, z, z + m->nq, s->data + w->layout.d, modes, NULL, &moved);
     if (status != FROT_OK) return status;
   }
-  return frot_slope(m, s, w, t, z, frot_stage(w, i));
+  int status = frot_slope(m, s, w, t, z, frot_stage(w, i));
+  return status == FROT_OK && has_jammed(m, s, w) ? FROT_DIVERGE : status;
 }
 
 /* Stages 1 .. DP_STAGES, and the last that could be evaluated. */

@@ -44,6 +44,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.left = at, at += m->n_elements;
   l.spare = at, at += m->n_rows;
   l.posture = at, at += m->n_rows;
+  l.sign = at, at += m->n_groups;
   l.asked = at, at += m->n_outcomes;
   l.fresh = at, at += m->n_conditions;
   l.modes = at, at += m->n_contacts + m->n_elements;

@@ -6,6 +6,7 @@
 
 #include "blocks.h"
 #include "core.h"
+#include "guards.h"
 #include "record.h"
 #include "tolerances.h"
 
@@ -111,7 +112,7 @@ static void open_contact(const change *c, int i) {
   frot_note(c->recorder, c->s, c->t, FROT_EVENT_SEPARATION, i, frot_mode_value(c->m, modes, i),
             FROT_MODE_OPEN, 1);
   frot_open(c->m, modes, i);
-  c->s->data[c->l.scale_g + i] = 0;
+  frot_forget_guards(c->m, c->s, i, 1);
 }
 
 /* Look at contact i or, with `act`, open it or let it close. */

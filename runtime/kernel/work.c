@@ -138,7 +138,8 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   int n = m->n_rows, elements = m->n_elements;
   TAKE(r->unknown, n), TAKE(r->owner, n), TAKE(r->fold, 2 * n), TAKE(r->friction, n);
   TAKE(w->span.spare, n), w->span.follow = 0;
-  TAKE(r->carried, n), TAKE(r->fold_ratio, 2 * n), TAKE(r->ratio, elements);
+  TAKE(r->sign, m->n_groups), TAKE(r->carried, n), TAKE(r->fold_ratio, 2 * n),
+      TAKE(r->ratio, elements);
   TAKE(r->along, 2 * elements), TAKE(r->unit_of, n), TAKE(r->weight, n), TAKE(r->solution, n);
   int followers = 0, followed = 0;
   for (int k = 0; k < m->n_groups; k++) {

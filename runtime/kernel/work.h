@@ -85,7 +85,7 @@ typedef struct {
   unsigned char *friction, *carried;
   double *fold_ratio, *ratio, *along, *unit_of, *weight, *solution;
   double *known, *effects;
-  int dependent;
+  int dependent, *sign; /* sign (n_groups): of the determinant, 0 where there is none */
 } frot_reaction_work;
 
 /* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:

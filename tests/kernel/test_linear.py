@@ -66,10 +66,12 @@ def test_lu_solves_what_is_not_symmetric(kernel: ct.CDLL, n: int) -> None:
     rng = np.random.default_rng(100 + n)
     a, b = rng.normal(size=(n, n)), rng.normal(size=n)
     matrix, x = a.flatten(order="F"), b.copy()
-    assert kernel.frot_lu_solve(address(matrix), address(x), n) == 0
+    sign = ct.c_int()
+    assert kernel.frot_lu_solve(address(matrix), address(x), n, ct.byref(sign)) == 0
+    assert sign.value == np.sign(np.linalg.det(a))
     assert np.allclose(a @ x, b, rtol=0, atol=1e-12 * np.linalg.cond(a))
 
 
 def test_lu_refuses_dependent_rows(kernel: ct.CDLL) -> None:
     matrix, b = np.array([1.0, 2.0, 2.0, 4.0]), np.array([1.0, 2.0])
-    assert kernel.frot_lu_solve(address(matrix), address(b), 2) == 1
+    assert kernel.frot_lu_solve(address(matrix), address(b), 2, ct.byref(ct.c_int())) == 1
