@@ -193,7 +193,7 @@ def _geometry(place: BodyGeometry, planar: bool) -> Placed | None:
             return Placed(at, Straight(Axis("z"), given["radius"]))
         case ("rod", "axis"):
             return Placed(at, Straight(Axis("x"), None))
-        case ("box", name) if not planar:
+        case ("box", name) if not planar and name in _FACES:
             return Placed(BodyPoint(body, name, place.span), Flat(Axis(_FACES[name]), False))
     return None
 

@@ -118,6 +118,11 @@ def _link(liaison: Liaison, planar: bool, log: Log) -> Contact | Joint | None:
 def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     a, b, unilateral = liaison.a, liaison.b, liaison.options["unilateral"]
     name, told = liaison.kind.name, spelled(liaison)
+    for place in (a, b):
+        if not isinstance(place, Point):
+            what = f"'{place.span.text}' as a place of a {told}"
+            refuse(log, what, liaison.span, "name a body, a point of one or a frame")
+            return None
     assert isinstance(a, Point) and isinstance(b, Point)
     if not (isinstance(unilateral, Literal) and unilateral.value is False):
         refuse(log, f"a {told} that can part", unilateral.span)

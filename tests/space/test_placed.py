@@ -264,3 +264,16 @@ model Two "Two ellipsoids"
 end Two;
 """
             ).report()
+
+
+def test_corners_as_places_are_told() -> None:
+    for liaison in ("spherique(ground, x.corners)", "tige(ground, x.corners, length = 1 m)"):
+        with pytest.raises(frot.FrotError, match="E0701"):
+            frot.compile(
+                f"""
+model Corners "A box"
+  body x: box(mass = 1 kg, size = (1, 1, 1) m);
+  liaison L: {liaison};
+end Corners;
+"""
+            ).report()
