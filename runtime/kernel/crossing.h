@@ -13,6 +13,12 @@
 
 #include "work.h"
 
+/* In steps, how far before and beyond its stages a posture makes rows weak. */
+#define FROT_AROUND 0.6
+
+/* Whether a contact keeps a relation of a loop: it cannot open, and no coordinate keeps it. */
+int frot_is_loop(const frot_model *m, const frot_state *s, const frot_work *w, int contact);
+
 /* Whether relations of loops hold: rows of liaisons that cannot open. */
 int frot_has_loops(const frot_model *m, const frot_state *s, const frot_work *w);
 
@@ -38,22 +44,6 @@ int frot_is_laid(const frot_model *m, const frot_state *s, const frot_work *w, d
  * near the postures known. */
 double frot_lay_step(const frot_model *m, const frot_state *s, const frot_work *w, double t,
                      double h, double longest);
-
-/* What rounding makes of the error of the speeds along weak rows in the step h that ran: no error
- * of the motion. w->step.excused (2 nv) <- what is to be left out of their estimates by the weights
- * dp_e5 and dp_e3. After frot_run_stages. */
-void frot_excuse_noise(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
-
-/* How much the directions of weak rows turn in the step that ran, over what they may: a motion that
- * leaves its way, or one that the step is too long for, is more than 1. */
-double frot_turning(const frot_model *m, const frot_state *s, frot_work *w, double t, double h);
-
-/* The liaison of whose weak row a stage of the step that ran is so near a posture that rounding
- * turns it away from its motion, -1 if none: what follows from there may be another motion. */
-int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h);
-
-/* The liaison whose posture is nearest to t, -1 where none is near. */
-int frot_posture_at(const frot_model *m, const frot_state *s, const frot_work *w, double t);
 
 /* The step is taken: count a posture that it has passed, and say whether one is near the next. */
 void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w, double t,

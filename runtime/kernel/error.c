@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "crossing.h"
+#include "blur.h"
 #include "implicit.h"
 #include "sizes.h"
 #include "stages.h"

@@ -171,6 +171,15 @@ static int look_for_motions(const frot_instant *in, const int *chosen, int count
   return motions;
 }
 
+/* Whether nothing in the group of a contact can part or has friction: its relations alone leave no
+ * motion, as where they depend on each other and the speeds do not agree. */
+static int only_loops(const frot_instant *in, int contact) {
+  const frot_group *g = &in->m->groups[in->m->contact_group[contact]];
+  for (int i = 0; i < g->n_contacts; i++)
+    if (in->unilateral[g->contacts[i]] != 0) return 0;
+  return g->n_elements == 0;
+}
+
 /* The modes into w->search.best, component after component; each that has several motions is told.
  */
 static int choose_modes(const frot_instant *in, double t, int first, frot_recorder *recorder) {
@@ -186,9 +195,12 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
     if (count == 0) continue;
     int motions = look_for_motions(in, chosen, count, &unsearched);
     in->s->statistics.unsearched += unsearched;
-    if (motions == 0)
-      return frot_fail(in->s, unsearched ? FROT_TOO_LARGE : FROT_IMPASSE, t, chosen[0], -1, -1,
-                       count);
+    if (motions == 0) {
+      int fault = unsearched                  ? FROT_TOO_LARGE
+                  : only_loops(in, chosen[0]) ? FROT_POSTURE
+                                              : FROT_IMPASSE;
+      return frot_fail(in->s, fault, t, chosen[0], -1, -1, count);
+    }
     if (motions < 2) continue;
     if (!several) several = motions, several_at = chosen[0];
     if (!first)

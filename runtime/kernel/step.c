@@ -7,6 +7,7 @@
 #include "awake.h"
 #include "blame.h"
 #include "conditions.h"
+#include "blur.h"
 #include "crossing.h"
 #include "ends.h"
 #include "error.h"
@@ -14,6 +15,7 @@
 #include "groups.h"
 #include "implicit.h"
 #include "locate.h"
+#include "lost.h"
 #include "pace.h"
 #include "probe.h"
 #include "projection.h"
@@ -74,6 +76,7 @@ typedef struct {
   int to_due;    /* it ends where time changes a condition */
   int passed;    /* condition beyond which the last try had no value, or -1 */
   int rejections, changed, stiff;
+  int fresh;           /* the initial values or an event made its start */
   int blurred, forced; /* its best length is tried again, and was, though that error is too large */
   double best, best_ratio;
   int laid;          /* times that it was laid anew between singular postures */
@@ -87,6 +90,8 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   int status = frot_start_slope(m, s, w, s->t);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0);
   double h = FIRST_PART * s->h_max;
+  int lost = frot_starts_singular(m, s, w, s->t, h);
+  if (lost >= 0) return frot_fail(s, FROT_POSTURE, s->t, lost, -1, -1, 0);
   for (int j = 0; j < m->nq + m->nv; j++) {
     double slope = fabs(frot_stage(w, 0)[j]), size = fabs(w->step.z0[j]);
     if (slope > 0 && size > 0) h = fmin(h, FIRST_CHANGE * size / slope);
@@ -124,6 +129,7 @@ static double change_of_length(const frot_model *m, const frot_state *s, const f
 static int begin(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
   a->longest = frot_longest_step(m, s, a->t, 0);
   a->h = fmin(s->h, a->longest);
+  a->fresh = !s->has_slope;
   int status = frot_start_slope(m, s, w, a->t);
   if (status == FROT_OK && is_still(w)) {
     a->longest = frot_longest_step(m, s, a->t, 1);
@@ -329,7 +335,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
   memcpy(slope + l->nx, frot_stage(w, DP_STAGES) + w->awake.n,
          sizeof(double) * (size_t)w->guards.count);
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-  int moved = 0, lost = s->implicit ? -1 : frot_lost_row(m, s, w, a->t, a->h);
+  int moved = 0, lost = s->implicit ? -1 : frot_lost_row(m, s, w, a->t, a->h, a->fresh);
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   int status = s->weak && w->step.near[DP_STAGES]
                    ? FROT_OK

@@ -1,0 +1,121 @@
+#include "blur.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "crossing.h"
+#include "dormand_prince.h"
+#include "groups.h"
+#include "inertia.h"
+#include "linear.h"
+#include "stages.h"
+#include "tolerances.h"
+
+/* What rounding of a gap makes of the error of a speed, but for the posture's distance. */
+#define NOISE 5.0
+#define BESIDE 0.1 /* of what may be there, that is */
+/* Sine of the angle by which the direction of a weak row may turn in a step. */
+#define MOST_TURN 0.6
+
+/* y (n_speeds) <- L' v, by the mass matrix A = L L'. */
+static void into_metric(frot_work *w, const frot_group *g, const double *v, double *y) {
+  double *column = w->relations.step;
+  memset(y, 0, sizeof(double) * (size_t)g->n_speeds);
+  for (int k = 0; k < g->n_speeds; k++) {
+    frot_mass_column(w, g, k, column);
+    for (int i = 0; i < g->n_speeds; i++) y[i] += v[k] * column[i];
+  }
+  frot_inwards(w, g, y);
+}
+
+/* Sine of the angle by which the motion along a row turns in the step. */
+static double turn_of(const frot_model *m, frot_work *w, int row) {
+  const frot_group *g = frot_group_of(m, row);
+  double *y = w->core.load_size;
+  into_metric(w, g, frot_entries(m, w->step.motion, row), y);
+  double along = frot_dot(frot_entries(m, w->span.direction, row), y, g->n_speeds);
+  double square = frot_dot(y, y, g->n_speeds);
+  return square > 0 ? sqrt(fmax(0, 1 - along * along / square)) : 0;
+}
+
+/* The error of speeds along the direction of a weak row that rounding of its gap may make; *across:
+ * beside it, as the direction turns and is itself known to rounding. */
+static double noise_of(const frot_model *m, frot_work *w, int row, double at, double h, double bend,
+                       double *across) {
+  double along = 0, beside = 0, turn = turn_of(m, w, row);
+  double gap = NOISE * FROT_ROUNDING * frot_gap_size(m, w, row, w->step.z1);
+  for (int i = 1; i <= DP_STAGES; i++) {
+    double left = fabs(w->step.left[m->n_rows * i + row]), distance = fabs(dp_c[i] - at) * h;
+    if (w->step.near[i] || !(left > 0)) continue;
+    double noise = gap * h / (left * distance * distance);
+    along = fmax(along, noise), beside = fmax(beside, noise * fmin(1, turn + bend * distance));
+  }
+  *across += BESIDE * beside;
+  return along;
+}
+
+/* y <- L' times the estimate, by these weights, of the error of the group's speeds. */
+static void estimate(const frot_model *m, frot_work *w, const frot_group *g, const double *weights,
+                     double h, double *y) {
+  double *error = w->core.load_size;
+  for (int k = 0; k < g->n_speeds; k++) {
+    double sum[FROT_CHUNK];
+    int at = w->awake.now->place[m->nq + g->unknowns[k]];
+    frot_weigh_stages(w, weights, DP_STAGES + 1, at, 1, sum);
+    error[k] = h * sum[0];
+  }
+  into_metric(w, g, error, y);
+}
+
+/* Leave out of the estimate what is noise of the group's weak rows: along their directions, and, as
+ * these turn, a little across. */
+static void excuse(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
+                   const double *weights, double t, double h, double *excused) {
+  int ns = g->n_speeds, weak = 0;
+  double *error = w->core.rest, *rest = w->core.column, across = 0;
+  double bend = sqrt(frot_square_of(w, g, w->core.a) /
+                     fmax(frot_square_of(w, g, w->step.z1 + m->nq), DBL_MIN));
+  estimate(m, w, g, weights, h, error);
+  memcpy(rest, error, sizeof(double) * (size_t)ns);
+  for (int i = 0; i < g->n_contacts; i++) {
+    int contact = g->contacts[i], row = m->contacts[contact].row_n;
+    if (!frot_is_loop(m, s, w, contact)) continue;
+    double at = (s->data[w->layout.posture + row] - t) / h;
+    if (isnan(at) || w->span.left[row] == 0) continue;
+    const double *direction = frot_entries(m, w->span.direction, row);
+    double noise = noise_of(m, w, row, at, h, bend, &across),
+           along = frot_dot(direction, error, ns);
+    along = fmin(fmax(along, -noise), noise), weak = 1;
+    for (int k = 0; k < ns; k++) rest[k] -= along * direction[k];
+  }
+  if (!weak) return;
+  double length = sqrt(frot_dot(rest, rest, ns));
+  double part = length > across ? 1 - across / length : 0;
+  for (int k = 0; k < ns; k++) error[k] -= part * rest[k];
+  frot_outwards(w, g, error);
+  for (int k = 0; k < ns; k++) excused[g->unknowns[k]] = error[k];
+}
+
+void frot_excuse_noise(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  memset(w->step.excused, 0, sizeof(double) * 2 * (size_t)m->nv);
+  for (int k = 0; k < w->awake.now->n_groups && frot_has_loops(m, s, w); k++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
+    excuse(m, s, w, g, dp_e5, t, h, w->step.excused);
+    excuse(m, s, w, g, dp_e3, t, h, w->step.excused + m->nv);
+  }
+}
+
+double frot_turning(const frot_model *m, const frot_state *s, frot_work *w, double t, double h) {
+  double most = 0;
+  for (int k = 0; k < w->awake.now->n_contacts && s->weak; k++) {
+    int i = w->awake.now->contacts[k];
+    if (!frot_is_loop(m, s, w, i)) continue;
+    int row = m->contacts[i].row_n;
+    double at = (s->data[w->layout.posture + row] - t) / h;
+    if (at > -FROT_AROUND && at < 1 + FROT_AROUND && w->span.left[row] > 0)
+      most = fmax(most, turn_of(m, w, row) / MOST_TURN);
+  }
+  return most;
+}

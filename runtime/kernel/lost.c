@@ -1,0 +1,94 @@
+#include "lost.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "crossing.h"
+#include "dormand_prince.h"
+#include "groups.h"
+#include "inertia.h"
+#include "mechanics.h"
+#include "projection.h"
+#include "stages.h"
+#include "tolerances.h"
+#include "turns.h"
+
+/* Angle by which rounding may turn the direction of a weak row. */
+#define MOST_TILT 1e-6
+
+int frot_posture_at(const frot_model *m, const frot_state *s, const frot_work *w, double t) {
+  int nearest = -1;
+  double least = INFINITY;
+  for (int k = 0; k < w->awake.now->n_contacts && s->weak; k++) {
+    int i = w->awake.now->contacts[k];
+    if (!frot_is_loop(m, s, w, i)) continue;
+    double away = fabs(s->data[w->layout.posture + m->contacts[i].row_n] - t);
+    if (away < least) least = away, nearest = i;
+  }
+  return nearest;
+}
+
+/* Whether rounding turns the direction of a row of which so much is left, so far from a posture. */
+static int is_turned(double gap, double left, double way) {
+  return left > 0 && gap > MOST_TILT * left * way;
+}
+
+int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h,
+                  int fresh) {
+  for (int k = 0; k < w->awake.now->n_contacts && s->weak; k++) {
+    int i = w->awake.now->contacts[k];
+    if (!frot_is_loop(m, s, w, i)) continue;
+    int row = m->contacts[i].row_n;
+    double at = (s->data[w->layout.posture + row] - t) / h;
+    double way = h * sqrt(frot_square_of(w, frot_group_of(m, row), w->step.z1 + m->nq));
+    double gap = FROT_ROUNDING * frot_gap_size(m, w, row, w->step.z1);
+    const double *left = w->step.left + row;
+    if (isnan(at)) continue;
+    if (fresh && w->step.near[0] &&
+        is_turned(gap, fabs(left[m->n_rows * DP_STAGES] * at / (1 - at)), way * fabs(at)))
+      return i;
+    for (int j = 1; j <= DP_STAGES; j++)
+      if (!w->step.near[j] && is_turned(gap, fabs(left[m->n_rows * j]), way * fabs(dp_c[j] - at)))
+        return i;
+  }
+  return -1;
+}
+
+/* Note in `carried` the rows of loops that depend on others at the last evaluation. */
+static int note_carried(const frot_model *m, const frot_state *s, const frot_work *w,
+                        unsigned char *carried) {
+  int any = 0;
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!frot_is_loop(m, s, w, i)) continue;
+    int row = m->contacts[i].row_n;
+    any |= carried[row] = w->reactions.carried[row];
+  }
+  return any;
+}
+
+int frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  double *z = w->step.z, *step = w->relations.step;
+  unsigned char *carried = w->span.spare;
+  int moved;
+  if (!note_carried(m, s, w, carried)) return -1;
+  memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    for (int i = 0; i < g->n_speeds; i++) {
+      int speed = g->unknowns[i];
+      step[i] = h * (z[m->nq + speed] + 0.5 * h * w->core.a[speed]);
+    }
+    frot_displace(m, g, z, step, 1);
+  }
+  if (frot_project(m, s, w, t + h, z, z + m->nq, s->data + w->layout.d, modes, NULL, &moved))
+    return -1;
+  memset(w->reactions.carried, 0, (size_t)m->n_rows);
+  if (frot_slope(m, s, w, t + h, z, frot_stage(w, 1)) != FROT_OK) return -1;
+  for (int i = 0; i < m->n_contacts; i++)
+    if (frot_is_loop(m, s, w, i) && carried[m->contacts[i].row_n] &&
+        !w->reactions.carried[m->contacts[i].row_n])
+      return i;
+  return -1;
+}

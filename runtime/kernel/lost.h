@@ -1,0 +1,21 @@
+/* Where relations of a loop do not tell how it goes on: a start in a singular posture (crossing.h),
+ * or so near one that rounding decides. */
+#ifndef FROT_LOST_H
+#define FROT_LOST_H
+
+#include "work.h"
+
+/* The liaison of whose weak row a stage of the step that ran is so near a posture that rounding
+ * turns it away from its motion, -1 if none: what follows from there may be another motion.
+ * `fresh`: so is the start of the step, which an event or the initial values made. */
+int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h,
+                  int fresh);
+
+/* The liaison of a row that depends on others at the start of a run, where the slope has just been
+ * evaluated, and no more a little later, -1 if none: where it goes from there is not determined. */
+int frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
+
+/* The liaison whose posture is nearest to t, -1 where none is near. */
+int frot_posture_at(const frot_model *m, const frot_state *s, const frot_work *w, double t);
+
+#endif
