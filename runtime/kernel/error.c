@@ -9,7 +9,7 @@
 #include "tolerances.h"
 
 /* Weight of a stage in the step, which what is doubtful in its slope has. */
-#define DOUBTED 0.1
+#define DOUBTED 0.001
 
 double frot_step_tolerance(const frot_state *s) {
   return fmax(FROT_EXPLICIT_SHARE * s->tolerance, FROT_LEAST_TOLERANCE);

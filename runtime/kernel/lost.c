@@ -8,6 +8,7 @@
 #include "dormand_prince.h"
 #include "groups.h"
 #include "inertia.h"
+#include "linear.h"
 #include "mechanics.h"
 #include "projection.h"
 #include "stages.h"
@@ -15,7 +16,14 @@
 #include "turns.h"
 
 /* Angle by which rounding may turn the direction of a weak row. */
-#define MOST_TILT 1e-6
+#define MOST_TILT 1e-7
+/* The same at the start of a step, whose speeds were put onto the relations there. */
+#define MOST_TILT_AT_START 1e-8
+/* Part of its length that is left of a row at a start next to a posture, and how many times that
+ * much a little later: speeds that are given there are known with an error of rounding over the
+ * square of this part. */
+#define CLOSE 5e-4
+#define MORE 5
 
 int frot_posture_at(const frot_model *m, const frot_state *s, const frot_work *w, double t) {
   int nearest = -1;
@@ -30,12 +38,12 @@ int frot_posture_at(const frot_model *m, const frot_state *s, const frot_work *w
 }
 
 /* Whether rounding turns the direction of a row of which so much is left, so far from a posture. */
-static int is_turned(double gap, double left, double way) {
-  return left > 0 && gap > MOST_TILT * left * way;
+static int is_turned(double gap, double left, double way, double most) {
+  return left > 0 && gap > most * left * way;
 }
 
-int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h,
-                  int fresh) {
+int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, double t,
+                  double h) {
   for (int k = 0; k < w->awake.now->n_contacts && s->weak; k++) {
     int i = w->awake.now->contacts[k];
     if (!frot_is_loop(m, s, w, i)) continue;
@@ -45,24 +53,31 @@ int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, 
     double gap = FROT_ROUNDING * frot_gap_size(m, w, row, w->step.z1);
     const double *left = w->step.left + row;
     if (isnan(at)) continue;
-    if (fresh && w->step.near[0] &&
-        is_turned(gap, fabs(left[m->n_rows * DP_STAGES] * at / (1 - at)), way * fabs(at)))
-      return i;
-    for (int j = 1; j <= DP_STAGES; j++)
-      if (!w->step.near[j] && is_turned(gap, fabs(left[m->n_rows * j]), way * fabs(dp_c[j] - at)))
+    double start = fabs(left[m->n_rows * DP_STAGES] * at / (1 - at));
+    if (is_turned(gap, start, way * fabs(at), MOST_TILT_AT_START)) return i;
+    for (int j = 1; j <= DP_STAGES; j++) {
+      double distance = way * fabs(dp_c[j] - at);
+      if (!w->step.near[j] && is_turned(gap, fabs(left[m->n_rows * j]), distance, MOST_TILT))
         return i;
+    }
   }
   return -1;
 }
 
-/* Note in `carried` the rows of loops that depend on others at the last evaluation. */
-static int note_carried(const frot_model *m, const frot_state *s, const frot_work *w,
-                        unsigned char *carried) {
+/* Note the rows of loops that depend on others at the last evaluation, in `carried`, and what is
+ * left of those that nearly do. Returns whether there are any. */
+static int note_weak(const frot_model *m, const frot_state *s, frot_work *w,
+                     unsigned char *carried) {
   int any = 0;
   for (int i = 0; i < m->n_contacts; i++) {
     if (!frot_is_loop(m, s, w, i)) continue;
     int row = m->contacts[i].row_n;
-    any |= carried[row] = w->reactions.carried[row];
+    const double *half = frot_entries(m, w->core.half, row);
+    int ns = frot_group_of(m, row)->n_speeds;
+    double length = sqrt(frot_dot(half, half, ns)), left = w->span.left[row];
+    carried[row] = w->reactions.carried[row];
+    w->step.left[row] = carried[row] || left < CLOSE * length ? left : INFINITY;
+    any |= isfinite(w->step.left[row]);
   }
   return any;
 }
@@ -72,7 +87,7 @@ int frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, doubl
   double *z = w->step.z, *step = w->relations.step;
   unsigned char *carried = w->span.spare;
   int moved;
-  if (!note_carried(m, s, w, carried)) return -1;
+  if (!note_weak(m, s, w, carried)) return -1;
   memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
   for (int k = 0; k < m->n_groups; k++) {
     const frot_group *g = &m->groups[k];
@@ -87,8 +102,10 @@ int frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, doubl
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   if (frot_slope(m, s, w, t + h, z, frot_stage(w, 1)) != FROT_OK) return -1;
   for (int i = 0; i < m->n_contacts; i++)
-    if (frot_is_loop(m, s, w, i) && carried[m->contacts[i].row_n] &&
-        !w->reactions.carried[m->contacts[i].row_n])
-      return i;
+    if (frot_is_loop(m, s, w, i)) {
+      int row = m->contacts[i].row_n;
+      double now = w->reactions.carried[row] ? 0 : w->span.left[row];
+      if (carried[row] ? now > 0 : now > MORE * w->step.left[row]) return i;
+    }
   return -1;
 }

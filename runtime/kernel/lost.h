@@ -5,14 +5,13 @@
 
 #include "work.h"
 
-/* The liaison of whose weak row a stage of the step that ran is so near a posture that rounding
- * turns it away from its motion, -1 if none: what follows from there may be another motion.
- * `fresh`: so is the start of the step, which an event or the initial values made. */
-int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h,
-                  int fresh);
+/* The liaison of whose weak row the start or a stage of the step that ran is so near a posture that
+ * rounding turns it away from its motion, -1 if none: what follows may be another motion. */
+int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h);
 
-/* The liaison of a row that depends on others at the start of a run, where the slope has just been
- * evaluated, and no more a little later, -1 if none: where it goes from there is not determined. */
+/* The liaison of a row that depends, or nearly, on others at the start of a run, where the slope
+ * has just been evaluated, and much less a little later, -1 if none: where it goes from there is
+ * not determined. */
 int frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 
 /* The liaison whose posture is nearest to t, -1 where none is near. */

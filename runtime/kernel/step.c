@@ -45,7 +45,7 @@
 #define HOLD 6
 /* Error that rounding may make in a step through a singular posture, relative; how exactly it is
  * the same when that is run again. */
-#define MOST_BLUR 1e-8
+#define MOST_BLUR 1e-9
 #define SLACK 1.5
 /* Power of the length with which an error falls that is none of rounding. */
 #define LEAST_ORDER 2
@@ -76,7 +76,6 @@ typedef struct {
   int to_due;    /* it ends where time changes a condition */
   int passed;    /* condition beyond which the last try had no value, or -1 */
   int rejections, changed, stiff;
-  int fresh;           /* the initial values or an event made its start */
   int blurred, forced; /* its best length is tried again, and was, though that error is too large */
   double best, best_ratio;
   int laid;          /* times that it was laid anew between singular postures */
@@ -129,7 +128,6 @@ static double change_of_length(const frot_model *m, const frot_state *s, const f
 static int begin(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
   a->longest = frot_longest_step(m, s, a->t, 0);
   a->h = fmin(s->h, a->longest);
-  a->fresh = !s->has_slope;
   int status = frot_start_slope(m, s, w, a->t);
   if (status == FROT_OK && is_still(w)) {
     a->longest = frot_longest_step(m, s, a->t, 1);
@@ -335,7 +333,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
   memcpy(slope + l->nx, frot_stage(w, DP_STAGES) + w->awake.n,
          sizeof(double) * (size_t)w->guards.count);
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-  int moved = 0, lost = s->implicit ? -1 : frot_lost_row(m, s, w, a->t, a->h, a->fresh);
+  int moved = 0, lost = s->implicit ? -1 : frot_lost_row(m, s, w, a->t, a->h);
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   int status = s->weak && w->step.near[DP_STAGES]
                    ? FROT_OK
