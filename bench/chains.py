@@ -82,7 +82,11 @@ def own(n: int, exact: np.ndarray) -> tuple[Curve, float]:
             if best > 2:
                 break
         least = min(least, best / engine.statistics.evaluations)
-        at = model.simulate(tolerance=tolerance).at(1.0)
+        try:
+            at = model.simulate(tolerance=tolerance).at(1.0)
+        except frot.SimulationError as error:
+            say(f"{n} links at tolerance {tolerance:g}: {str(error).splitlines()[0]}")
+            break
         error = float(np.hypot(at["x"] - exact[0], at["y"] - exact[1]))
         curve.append((error, best))
         if best > 4:
