@@ -62,10 +62,11 @@ struct frot_state {
    * that the row began with */
   double text_event, text_gap, text_ratio, text_first;
   double crowded_since;
-  double left_at; /* instant at which rest was left last: see `left` */
-  double t;       /* time reached */
-  double h;       /* next step */
-  double due;     /* when time next changes a condition, INFINITY if never */
+  double left_at;            /* instant at which rest was left last: see `left` */
+  double t;                  /* time reached */
+  double h;                  /* next step */
+  double last_h, last_ratio; /* the last step and its error over the bound; 0: none */
+  double due;                /* when time next changes a condition, INFINITY if never */
   double h_max;
   double began; /* time of the start */
   double tolerance;

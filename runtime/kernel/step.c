@@ -242,6 +242,16 @@ static int give_up(const frot_model *m, frot_state *s, frot_work *w, attempt *a,
   return FROT_OK;
 }
 
+/* Change of the step's length that its error will bear if it goes on as it went from the step
+ * before to this one (K. Gustafsson, ACM Trans. Math. Softw. 20, 1994, p. 496). */
+static double trend(const frot_model *m, frot_state *s, const attempt *a) {
+  double change = INFINITY;
+  if (reactions_bound(m) && s->last_ratio > 0 && a->ratio > 0)
+    change = SAFETY * a->h / s->last_h * pow(s->last_ratio / (a->ratio * a->ratio), 1.0 / 8);
+  s->last_h = a->h, s->last_ratio = a->ratio;
+  return change;
+}
+
 /* Shorten the step until its error is within its bound. FROT_OK with s->pending where there is
  * none but an event at its start. */
 static int find_length(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
@@ -258,6 +268,7 @@ static int find_length(const frot_model *m, frot_state *s, frot_work *w, attempt
     if (status == FROT_OK) break;
   }
   double factor = a->ratio > 0 ? change_of_length(m, s, w, a->ratio) : MOST_GROWTH;
+  factor = fmin(factor, trend(m, s, a));
   factor = fmin(fmax(factor, LEAST_PART), a->rejections ? 1 : MOST_GROWTH);
   s->h = fmin(a->h * factor, fmin(a->longest, a->stable));
   if (s->weak) s->h = fmax(a->h, a->want); /* noise does not show how long it may be */
@@ -324,6 +335,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
   memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   frot_note_sizes(m, s, w, w->step.z1);
   frot_note_worth(s, w, w->step.z1);
+  if (guard >= 0) s->last_ratio = 0;
   if (guard >= 0) frot_fire_guards(m, s, w, guard, a->t, a->h);
   if (a->to_due) frot_fire_due(m, s);
   forget_noise(m, s, w);
