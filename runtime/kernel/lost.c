@@ -8,7 +8,6 @@
 #include "dormand_prince.h"
 #include "groups.h"
 #include "inertia.h"
-#include "linear.h"
 #include "mechanics.h"
 #include "projection.h"
 #include "stages.h"
@@ -19,7 +18,7 @@
 #define MOST_TILT 1e-7
 /* The same at the start of a step, whose speeds were put onto the relations there. */
 #define MOST_TILT_AT_START 1e-8
-/* Part of its length that is left of a row at a start next to a posture, and how many times that
+/* Part of the longest that is left of a row at a start next to a posture, and how many times that
  * much a little later: speeds that are given there are known with an error of rounding over the
  * square of this part. */
 #define CLOSE 5e-4
@@ -69,14 +68,15 @@ int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, 
 static int note_weak(const frot_model *m, const frot_state *s, frot_work *w,
                      unsigned char *carried) {
   int any = 0;
+  double longest = 0;
+  for (int i = 0; i < m->n_contacts; i++)
+    if (frot_is_loop(m, s, w, i)) longest = fmax(longest, w->span.left[m->contacts[i].row_n]);
   for (int i = 0; i < m->n_contacts; i++) {
     if (!frot_is_loop(m, s, w, i)) continue;
     int row = m->contacts[i].row_n;
-    const double *half = frot_entries(m, w->core.half, row);
-    int ns = frot_group_of(m, row)->n_speeds;
-    double length = sqrt(frot_dot(half, half, ns)), left = w->span.left[row];
+    double left = w->span.left[row];
     carried[row] = w->reactions.carried[row];
-    w->step.left[row] = carried[row] || left < CLOSE * length ? left : INFINITY;
+    w->step.left[row] = carried[row] || left < CLOSE * longest ? left : INFINITY;
     any |= isfinite(w->step.left[row]);
   }
   return any;
