@@ -204,6 +204,13 @@ void frot_interpolate_stage(const frot_model *m, frot_work *w, int stage, int re
   }
 }
 
+int frot_passes(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h) {
+  const double *posture = s->data + w->layout.posture;
+  int passed = 0;
+  for (int row = 0; row < m->n_rows; row++) passed |= posture[row] > t && posture[row] <= t + h;
+  return passed;
+}
+
 void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w, double t,
                          double h) {
   const double *posture = s->data + w->layout.posture;
@@ -214,4 +221,5 @@ void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w,
     s->weak |= fabs(posture[row] - (t + h)) <= FOLLOWS * s->h;
   }
   s->statistics.crossings += passed;
+  if (passed) s->across = INFINITY;
 }

@@ -45,6 +45,9 @@ int frot_is_laid(const frot_model *m, const frot_state *s, const frot_work *w, d
 double frot_lay_step(const frot_model *m, const frot_state *s, const frot_work *w, double t,
                      double h, double longest);
 
+/* Whether a posture lies in the step h from t. */
+int frot_passes(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h);
+
 /* The step is taken: count a posture that it has passed, and say whether one is near the next. */
 void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w, double t,
                          double h);

@@ -50,6 +50,7 @@ struct frot_state {
   int asleep;    /* islands that sleep: see awake.h */
   int naps;      /* times that this has changed */
   int weak;      /* rows of loops are weak: crossing.h */
+  double across; /* error, to its bound, of the last step that tried to pass a posture ahead */
   int implicit;  /* the next step is made by the implicit method */
   int stiff_steps, calm_steps; /* see stiffness.h */
   int patience, stay;

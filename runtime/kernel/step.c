@@ -7,6 +7,7 @@
 #include "awake.h"
 #include "blame.h"
 #include "conditions.h"
+#include "core.h"
 #include "blur.h"
 #include "crossing.h"
 #include "ends.h"
@@ -46,6 +47,7 @@
 /* Error that rounding may make in a step through a singular posture, relative; how exactly it is
  * the same when that is run again. */
 #define MOST_BLUR 1e-9
+#define MOST_LOST 1e-6 /* part of the kinetic energy that a projection may take */
 #define SLACK 1.5
 /* Power of the length with which an error falls that is none of rounding. */
 #define LEAST_ORDER 2
@@ -175,6 +177,21 @@ static void shorten_weak(const frot_model *m, frot_state *s, const frot_work *w,
   a->h = a->want = a->best, a->blurred = 1, a->laid = LAYS;
 }
 
+/* What rounding does to a step across a posture grows as the step begins nearer to it; all else
+ * shrinks. So where one is no better than the last that was tried from farther off, no other will
+ * be: it is taken if it leaves digits enough, else the run ends here. */
+static void judge_passage(const frot_model *m, frot_state *s, const frot_work *w, attempt *a) {
+  if (!(a->ratio > 1) || !frot_passes(m, s, w, a->t, a->h)) return;
+  int no_better = a->ratio >= s->across, enough = a->ratio * frot_step_tolerance(s) <= MOST_BLUR;
+  s->across = a->ratio;
+  if (!no_better) return;
+  if (enough) {
+    s->statistics.blurred = fmax(s->statistics.blurred, a->ratio * frot_step_tolerance(s));
+    a->ratio = 1;
+  } else
+    a->h = 0;
+}
+
 /* Try the step once: FROT_OK if it is good, with its dense output; then s->h is the next one's
  * length. */
 static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
@@ -192,6 +209,8 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a
     s->statistics.rejected++;
     return FROT_DIVERGE;
   }
+  if (s->weak) judge_passage(m, s, w, a);
+  if (a->h == 0) return FROT_DIVERGE;
   if (a->ratio <= 1) {
     a->stiff = frot_is_stiff(m, s, w, h);
     a->stable = frot_stable_step(m, s, w);
@@ -323,6 +342,21 @@ static void forget_noise(const frot_model *m, frot_state *s, const frot_work *w)
     guards[frot_condition_guard(m) + now->located[k]] *= FORGET;
 }
 
+/* The liaison of a posture near the end of the step, or of a loop, if putting the speeds onto the
+ * relations has taken more of the kinetic energy than errors within the tolerance make, -1 if not:
+ * the projection is orthogonal in the metric of the mass, so that it takes what they amount to
+ * squared. */
+static int speed_lost(const frot_model *m, const frot_state *s, const frot_work *w, double t) {
+  if (!frot_has_loops(m, s, w)) return -1;
+  double before = frot_kinetic(m, w, w->step.z1 + m->nq);
+  double after = frot_kinetic(m, w, s->data + w->layout.x + m->nq);
+  if (fabs(after - before) <= (MOST_LOST + s->tolerance) * s->energy_scale) return -1;
+  int lost = frot_posture_at(m, s, w, t);
+  for (int i = 0; lost < 0 && i < m->n_contacts; i++)
+    if (frot_is_loop(m, s, w, i)) lost = i;
+  return lost;
+}
+
 /* Take the step: it becomes the current segment. Its end goes onto the relations; the slope there
  * serves the next step if nothing moved. */
 static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt *a, int guard) {
@@ -351,6 +385,8 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
                    ? FROT_OK
                    : frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL, &moved);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, end, a->h);
+  lost = moved && !s->implicit ? speed_lost(m, s, w, end) : -1;
+  if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   s->has_slope = !moved && !s->pending;
   if (s->has_slope) frot_turn_at_end(m, s, w, slope);
