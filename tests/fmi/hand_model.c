@@ -112,7 +112,7 @@ static const frot_contact contacts[1] = {{"guide", "hand_model.c:1:1", 0, 1, 0, 
 static const frot_element elements[1] = {{0, FROT_BY_NORMAL, 1, {0, -1}, 0, 1, 0, {-1, -1}}};
 static const int places[2] = {0, 1};
 static const frot_group groups[1] = {
-    {0, 2, 1, 1, 2, 1, 1, places, places, places, places, 0, 0, 0, 0, 0}};
+    {0, 2, 1, 1, 2, 1, 1, places, places, places, places, 0, 0, 0, 0, 0, 0, 0, 0}};
 static const int row_reads[2] = {1, -1};
 static const int row_beside[2] = {-1, 0};
 static const int none[2] = {0, 0};
