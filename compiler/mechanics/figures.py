@@ -199,3 +199,34 @@ def _geometry(place: BodyGeometry, planar: bool) -> Placed | None:
 
 
 _FACES = {"left": "-x", "right": "x", "bottom": "-z", "top": "z", "front": "-y", "back": "y"}
+
+
+# Pairs that touch in closed form (touches.py), in this order.
+CLOSED_FORMS = frozenset(
+    {
+        (Flat, Dot),
+        (Flat, Ball),
+        (Flat, Ring),
+        (Flat, Oval),
+        (Flat, Egg),
+        (Ball, Dot),
+        (Ball, Ball),
+        (Straight, Dot),
+        (Straight, Ball),
+        (Straight, Straight),
+        (Ring, Ball),
+        (Implicit, Dot),
+        (Oval, Dot),
+    }
+)
+
+
+def can_touch(a: Figure, b: Figure) -> bool:
+    """Whether there is a closed form, in this order, and one relation says that they touch."""
+    return (type(a), type(b)) in CLOSED_FORMS and not (_is_thin(a) and _is_thin(b))
+
+
+def _is_thin(figure: Figure) -> bool:
+    """A point or a line: two of them meet by more than one relation."""
+    thin = isinstance(figure, Dot | Ring | Oval)
+    return thin or (isinstance(figure, Straight) and figure.radius is None)

@@ -5,7 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
-from frot.compiler.mechanics.figures import Ball, Dot, Figure, Flat, Oval, Path, figure_of
+from frot.compiler.mechanics.figures import (
+    Ball,
+    Dot,
+    Figure,
+    Flat,
+    Oval,
+    Path,
+    can_touch,
+    figure_of,
+)
 from frot.compiler.mechanics.halves import halve
 from frot.compiler.mechanics.joints import JOINTS, Pairing, drive
 from frot.compiler.mechanics.locks import Across, Lock, Stated
@@ -30,7 +39,6 @@ from frot.compiler.mechanics.refuse import (
     spelled,
 )
 from frot.compiler.mechanics.spanning import span
-from frot.compiler.mechanics.touches import can_touch
 from frot.dsl import Log
 from frot.dsl.checked import (
     Curve,

@@ -19,11 +19,11 @@ from frot.compiler.mechanics.figures import (
     Placed,
     Ring,
     Straight,
+    can_touch,
 )
 from frot.compiler.mechanics.joints import Options, Pairing
 from frot.compiler.mechanics.locks import Across, Apart, Level, Lock, NoSlip, Touching, WayAlong
 from frot.compiler.mechanics.motions import Attitude, Axis, Follow, Heading, Motion, Slide
-from frot.compiler.mechanics.touches import can_touch
 
 
 def _rows(*locks: Lock) -> Pairing:

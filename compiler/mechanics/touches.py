@@ -49,17 +49,6 @@ def touch(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, side: ca.SX
     return _TOUCHES[type(a), type(b)](a, b, *at, lower, side)
 
 
-def can_touch(a: Figure, b: Figure) -> bool:
-    """Whether there is a closed form, in this order, and one relation says that they touch."""
-    return (type(a), type(b)) in _TOUCHES and not (_is_thin(a) and _is_thin(b))
-
-
-def _is_thin(figure: Figure) -> bool:
-    """A point or a line: two of them meet by more than one relation."""
-    thin = isinstance(figure, Dot | Ring | Oval)
-    return thin or (isinstance(figure, Straight) and figure.radius is None)
-
-
 def length(value: Expression | None, lower: Lower) -> ca.SX:
     """A radius, zero where there is none."""
     return ca.SX(0) if value is None else lower(value)
@@ -188,6 +177,7 @@ def _oval_dot(a: Oval, b: Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) ->
     return Touch(side * value / steep, normal, pb.origin, value, p + q)
 
 
+# Their pairs are those of `figures.CLOSED_FORMS`, which can be asked without CasADi.
 _TOUCHES: Mapping[tuple[type, type], _Rule] = {
     (Flat, Dot): _flat_ball,
     (Flat, Ball): _flat_ball,

@@ -393,7 +393,7 @@ _LATER = {
         "The text is right, but this version of Frot cannot turn it into equations yet. "
         "It says so rather than leaving the construct out.",
         "Write the model without it.",
-        snippet("curve c on ground: circle(radius = 1 m);"),
+        snippet(f"{_BALL}\noutput Length late = delay(ball.position.x, 1 s);"),
     ),
 }
 

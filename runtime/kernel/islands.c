@@ -75,12 +75,13 @@ static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, 
                    r.rate, r.gap,  r.condition, r.coefficient, r.power};
   memcpy(w->call.res, res, sizeof res);
   frot_call(w, &island->dynamics);
-  if (!frot_all_finite(r.qd, (int)(r.end - r.qd)) || !frot_all_finite(matrix, size->matrices) ||
-      !frot_all_finite(entries, size->all_entries))
-    return 0;
+  /* what is no number is put there too, where it is looked for */
   scatter(r.qd, island->q, island->nq, w->core.qd);
   scatter(r.condition, island->conditions, island->n_located, w->core.condition);
   spread_results(m, w, island, &r);
+  if (!frot_all_finite(r.qd, (int)(r.end - r.qd)) || !frot_all_finite(matrix, size->matrices) ||
+      !frot_all_finite(entries, size->all_entries))
+    return 0;
   w->awake.power[i] = *r.power;
   w->core.power[0] += *r.power;
   if (!island->spread.call) return 1;

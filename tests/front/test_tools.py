@@ -142,7 +142,7 @@ class TestExplain:
             ("E203", "did you mean 'E0203'?"),
             ("E0299", "did you mean 'E0201'?"),
             ("E09", "did you mean 'E0901'?"),
-            ("E091", "did you mean 'E0901'?"),
+            ("E091", "did you mean 'E0910'?"),
             ("impasse", "'frot explain' lists all codes"),
             ("\0", "'frot explain' lists all codes"),
         ],

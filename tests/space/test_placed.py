@@ -277,3 +277,10 @@ model Corners "A box"
 end Corners;
 """
             ).report()
+
+
+def test_what_is_said_to_touch_is_what_can_be_computed() -> None:
+    from frot.compiler.mechanics.figures import CLOSED_FORMS
+    from frot.compiler.mechanics.touches import _TOUCHES
+
+    assert set(_TOUCHES) == CLOSED_FORMS
