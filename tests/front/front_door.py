@@ -14,6 +14,14 @@ import pytest
 
 from frot.command_line import main
 
+_AS_A_TERMINAL = """
+import signal, sys
+for one in (signal.SIGHUP, signal.SIGTERM):
+    signal.signal(one, signal.SIG_DFL)
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from frot.command_line import main
+sys.exit(main())
+"""
 ROOT = Path(__file__).parents[2]
 MODELS = ROOT / "models"
 HOOP, BLOCK, OSCILLATOR = (
@@ -119,8 +127,9 @@ class Shell:
     def start(
         self, *words: object, changes: Mapping[str, str | Path] | None = None
     ) -> subprocess.Popen[str]:
+        """The command as a terminal starts it: what starts the tests may ignore interrupts."""
         return subprocess.Popen(
-            [sys.executable, "-m", "frot.command_line", *(str(w) for w in words)],
+            [sys.executable, "-c", _AS_A_TERMINAL, *(str(w) for w in words)],
             cwd=self.folder,
             env=self.environment(**(changes or {})),
             stdout=subprocess.PIPE,

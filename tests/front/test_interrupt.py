@@ -64,7 +64,8 @@ def test_a_start_is_interrupted(shell: Shell) -> None:
     """From the first line of `main` on; the interpreter's own start is not ours."""
     words = [str(word) for word in LONG]
     code = (
-        "import sys; from frot.command_line import main; "
+        "import signal, sys; from frot.command_line import main; "
+        "signal.signal(signal.SIGINT, signal.default_int_handler); "
         f"print('begun', flush=True); sys.exit(main({words!r}))"
     )
     process = subprocess.Popen(
