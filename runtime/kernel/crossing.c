@@ -214,12 +214,10 @@ int frot_passes(const frot_model *m, const frot_state *s, const frot_work *w, do
 void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w, double t,
                          double h) {
   const double *posture = s->data + w->layout.posture;
-  int passed = 0;
+  int passed = frot_passes(m, s, w, t, h);
   s->weak = 0;
-  for (int row = 0; row < m->n_rows; row++) {
-    passed |= posture[row] > t && posture[row] <= t + h;
+  for (int row = 0; row < m->n_rows; row++)
     s->weak |= fabs(posture[row] - (t + h)) <= FOLLOWS * s->h;
-  }
   s->statistics.crossings += passed;
   if (passed) s->across = INFINITY;
 }

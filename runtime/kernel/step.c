@@ -177,6 +177,12 @@ static void shorten_weak(const frot_model *m, frot_state *s, const frot_work *w,
   a->h = a->want = a->best, a->blurred = 1, a->laid = LAYS;
 }
 
+/* Take the step though its error is beyond its bound: rounding is all that is left of it. */
+static void take_blurred(frot_state *s, attempt *a) {
+  s->statistics.blurred = fmax(s->statistics.blurred, a->ratio * frot_step_tolerance(s));
+  a->ratio = 1;
+}
+
 /* What rounding does to a step across a posture grows as the step begins nearer to it; all else
  * shrinks. So where one is no better than the last that was tried from farther off, no other will
  * be: it is taken if it leaves digits enough, else the run ends here. */
@@ -185,11 +191,10 @@ static void judge_passage(const frot_model *m, frot_state *s, const frot_work *w
   int no_better = a->ratio >= s->across, enough = a->ratio * frot_step_tolerance(s) <= MOST_BLUR;
   s->across = a->ratio;
   if (!no_better) return;
-  if (enough) {
-    s->statistics.blurred = fmax(s->statistics.blurred, a->ratio * frot_step_tolerance(s));
-    a->ratio = 1;
-  } else
-    a->h = 0;
+  if (enough)
+    take_blurred(s, a);
+  else
+    a->h = a->to_due = 0;
 }
 
 /* Try the step once: FROT_OK if it is good, with its dense output; then s->h is the next one's
@@ -200,10 +205,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a
   a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &part) : -1;
   a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
   a->forced = a->blurred;
-  if (a->forced && a->ratio > 1 && a->ratio <= SLACK * a->best_ratio) {
-    s->statistics.blurred = fmax(s->statistics.blurred, a->ratio * frot_step_tolerance(s));
-    a->ratio = 1;
-  }
+  if (a->forced && a->ratio > 1 && a->ratio <= SLACK * a->best_ratio) take_blurred(s, a);
   if (s->weak && a->ratio <= 1) a->ratio = fmax(a->ratio, pow(frot_turning(m, s, w, t, h), 8));
   if (status == FROT_OK && !is_laid(m, s, w, a)) {
     s->statistics.rejected++;

@@ -63,3 +63,12 @@ def test_a_start_in_the_posture_ends_by_name(model: frot.Model, w: float) -> Non
 def test_at_rest_it_rests_there(model: frot.Model) -> None:
     now = model.simulate(parameters={"th": 0.0, "w": 0.0}).at(3.0)
     assert now["l.angle"] == now["r.angle"] == now["t.angle"] == 0.0
+
+
+def test_an_instant_known_beforehand_next_to_a_posture_does_not_hang() -> None:
+    """A step that was to end where time changes a load, and cannot pass the posture before it."""
+    nudge = "force nudge: couple(l, value = if time < 0.00101 s then 0 N.m else 1e-9 N.m);"
+    model = frot.compile(TEXT.replace("initial\n", f"  {nudge}\ninitial\n"))
+    with pytest.raises(frot.FrotError) as told:
+        model.simulate(tolerance=1e-8, parameters={"th": 0.001, "w": -1.0})
+    assert told.value.diagnostics[0].code == "E0910"
