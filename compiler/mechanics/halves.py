@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from frot.compiler.mechanics.joints import JOINTS
+from frot.compiler.mechanics.joints import JOINTS, make_joint
 from frot.compiler.mechanics.mechanism import Contact, Joint, Point, point_body, turns
 from frot.compiler.mechanics.spanning import Groups, in_order
 from frot.dsl.catalogue import LIAISONS
@@ -62,20 +62,8 @@ def _frame_on(frame: Frame, half: Body) -> Frame:
 def _weld(body: Body, half: Body, planar: bool) -> Joint:
     span = body.span
     assert span is not None
-    bilateral = Literal(False, BOOLEAN, span)
     kind = LIAISONS["encastrement"]
     a, b = (BodyPoint(one, "G", span) for one in (body, half))
-    options = {"unilateral": bilateral}
-    pairing = JOINTS[kind.name](options, planar)
-    return Joint(
-        Liaison(half.name, kind, a, b, options, (), span),
-        a=a,
-        b=b,
-        motions=pairing.motions,
-        locks=pairing.locks,
-        reduced=False,
-        unilateral=bilateral,
-        mu=None,
-        mu_s=None,
-        radius=None,
-    )
+    options = {"unilateral": Literal(False, BOOLEAN, span)}
+    weld = Liaison(half.name, kind, a, b, options, (), span)
+    return make_joint(weld, a, b, JOINTS[kind.name](options, planar))

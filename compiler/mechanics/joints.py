@@ -23,6 +23,7 @@ from frot.compiler.mechanics.locks import (
     Way,
     WayAlong,
 )
+from frot.compiler.mechanics.mechanism import Joint, Point, is_particle, point_body
 from frot.compiler.mechanics.motions import (
     Attitude,
     Axis,
@@ -34,7 +35,7 @@ from frot.compiler.mechanics.motions import (
     Turn,
     name_of,
 )
-from frot.dsl.checked import Expression
+from frot.dsl.checked import Expression, Liaison
 
 Options = Mapping[str, Expression]
 
@@ -131,6 +132,30 @@ def drive(pairing: Pairing, values: Mapping[str, Expression]) -> Pairing:
     if "length" in values:
         locks = [Apart(values["length"]) if isinstance(x, Apart) else x for x in locks]
     return Pairing(tuple(motions), tuple(locks), pairing.carries)
+
+
+def make_joint(
+    liaison: Liaison, a: Point, b: Point, free: Pairing, *, swapped: bool = False
+) -> Joint:
+    """A joint without friction; what keeps a particle from turning is left out."""
+    pairing = drive(free, liaison.driven)
+    locks = pairing.locks
+    if is_particle(point_body(a)) or is_particle(point_body(b)):
+        locks = tuple(lock for lock in locks if not lock.turns)
+    return Joint(
+        liaison,
+        a=a,
+        b=b,
+        motions=pairing.motions,
+        locks=locks,
+        carries=pairing.carries,
+        swapped=swapped,
+        reduced=False,
+        unilateral=liaison.options["unilateral"],
+        mu=None,
+        mu_s=None,
+        radius=None,
+    )
 
 
 JOINTS: Mapping[str, Callable[[Options, bool], Pairing]] = {

@@ -16,7 +16,7 @@ from frot.compiler.mechanics.figures import (
     figure_of,
 )
 from frot.compiler.mechanics.halves import halve
-from frot.compiler.mechanics.joints import JOINTS, Pairing, drive
+from frot.compiler.mechanics.joints import JOINTS, Pairing, make_joint
 from frot.compiler.mechanics.locks import Across, Lock, Stated
 from frot.compiler.mechanics.mechanism import (
     Contact,
@@ -25,7 +25,6 @@ from frot.compiler.mechanics.mechanism import (
     Mechanism,
     Point,
     Relation,
-    is_particle,
     is_unilateral,
     point_body,
     turns,
@@ -132,7 +131,7 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
             refuse(log, what, liaison.span, "name a body, a point of one or a frame")
             return None
     assert isinstance(a, Point) and isinstance(b, Point)
-    if not (isinstance(unilateral, Literal) and unilateral.value is False):
+    if is_unilateral(liaison):
         refuse(log, f"a {told} that can part", unilateral.span)
         return None
     if not (turns(point_body(a)) or turns(point_body(b))) and name == "rotoide":
@@ -143,7 +142,7 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
             "a particle has no angle: use a rod, a disc or a ring",
         )
         return None
-    joint = _paired(liaison, a, b, JOINTS[name](liaison.options, planar), False)
+    joint = make_joint(liaison, a, b, JOINTS[name](liaison.options, planar))
     law = _law(liaison, "coulomb")
     if law is None:
         return joint
@@ -158,28 +157,6 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
         return None
     mu, mu_s, radius = (law.arguments[key] for key in ("mu", "mu_s", "radius"))
     return replace(joint, mu=mu, mu_s=mu_s, radius=radius)
-
-
-def _paired(liaison: Liaison, a: Point, b: Point, free: Pairing, swapped: bool) -> Joint:
-    """A joint without friction; what keeps a particle from turning is left out."""
-    pairing = drive(free, liaison.driven)
-    locks = pairing.locks
-    if is_particle(point_body(a)) or is_particle(point_body(b)):
-        locks = tuple(lock for lock in locks if not lock.turns)
-    return Joint(
-        liaison,
-        a=a,
-        b=b,
-        motions=pairing.motions,
-        locks=locks,
-        carries=pairing.carries,
-        swapped=swapped,
-        reduced=False,
-        unilateral=liaison.options["unilateral"],
-        mu=None,
-        mu_s=None,
-        radius=None,
-    )
 
 
 _OF_PLACES = ("position", "angle", "orientation", "ex", "ey", "ez")
@@ -209,7 +186,7 @@ def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     if a is None or b is None:
         refuse(log, "a curve or surface as a place of a liaison of one's own", liaison.span)
         return None
-    return _paired(liaison, a.point, b.point, Pairing((), tuple(locks), carries=False), False)
+    return make_joint(liaison, a.point, b.point, Pairing((), tuple(locks), carries=False))
 
 
 def _is_of_motion(node: Expression) -> bool:
@@ -220,7 +197,7 @@ def _is_of_motion(node: Expression) -> bool:
 def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     """A liaison between figures."""
     unilateral = liaison.options["unilateral"]
-    if not (isinstance(unilateral, Literal) and unilateral.value is False):
+    if is_unilateral(liaison):
         refuse(
             log,
             f"a {spelled(liaison)} that can part" + ("" if planar else " in space"),
@@ -237,7 +214,7 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
         return None
     pairing, swapped = found
     first, second = (b.point, a.point) if swapped else (a.point, b.point)
-    return _paired(liaison, first, second, pairing, swapped)
+    return make_joint(liaison, first, second, pairing, swapped=swapped)
 
 
 def _contact(liaison: Liaison, log: Log) -> Contact | None:

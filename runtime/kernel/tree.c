@@ -138,6 +138,16 @@ static inline void carry(int width, int as_point, const double *arm, const doubl
   for (int i = 0; i < 3; i++) to[i] = as_point ? 0 : from[i];
 }
 
+/* The twist that step k gets from the one before it, the ground at rest; where it stands. */
+static inline double *carry_to(int width, const frot_link *s, int k, const double *data,
+                               double *twist) {
+  static const double still[SPACE] = {0, 0, 0, 0, 0, 0};
+  const double *before = s->above < 0 ? still : twist + width * s->above;
+  double *motion = twist + width * k;
+  carry(width, s->faces_ground, arm_of(width, s, data), before, motion);
+  return motion;
+}
+
 /* `to` += X' P X, where X is `carry`: with the blocks I H M of P, what turns and what moves, and
  * [r] of the arm, H becomes H + [r] M and I becomes I + [r] H' + ([r] (H + [r] M)')'. */
 static inline void add_inertia(int width, int as_point, const double *arm, const double *p,
@@ -270,12 +280,9 @@ static inline void inwards(int width, const frot_group *g, const double *data, c
 
 static inline void outwards(int width, const frot_group *g, const double *data,
                             const double *factor, double *twist, double *x) {
-  static const double still[SPACE] = {0, 0, 0, 0, 0, 0};
   for (int k = 0; k < g->n_links; k++) {
     const frot_link *s = &g->links[k];
-    double *motion = twist + width * k;
-    const double *before = s->above < 0 ? still : twist + width * s->above;
-    carry(width, s->faces_ground, arm_of(width, s, data), before, motion);
+    double *motion = carry_to(width, s, k, data, twist);
     for (int j = s->count - 1; j >= 0 && !s->auxiliary; j--) {
       const double *column = data + s->data + width * j, *y = factor + s->factor + (width + 1) * j;
       double *own = x + s->first + j;
@@ -294,13 +301,10 @@ static inline void momentum(int width, const double *mass, const double *motion,
 
 static inline void make_column(int width, const frot_group *g, const double *data, double *twist,
                                int unknown, double *result) {
-  static const double still[SPACE] = {0, 0, 0, 0, 0, 0};
   memset(result, 0, sizeof(double) * (size_t)g->n);
   for (int k = 0; k < g->n_links; k++) {
     const frot_link *s = &g->links[k];
-    double *motion = twist + width * k;
-    const double *before = s->above < 0 ? still : twist + width * s->above;
-    carry(width, s->faces_ground, arm_of(width, s, data), before, motion);
+    double *motion = carry_to(width, s, k, data, twist);
     int j = unknown - s->first;
     if (j >= 0 && j < s->count) add_times(width, motion, 1, data + s->data + width * j);
   }
@@ -321,13 +325,10 @@ static inline void make_column(int width, const frot_group *g, const double *dat
 
 static inline double make_square(int width, const frot_group *g, const double *data, double *twist,
                                  const double *v) {
-  static const double still[SPACE] = {0, 0, 0, 0, 0, 0};
   double sum = 0;
   for (int k = 0; k < g->n_links; k++) {
     const frot_link *s = &g->links[k];
-    double *motion = twist + width * k, own[SPACE];
-    const double *before = s->above < 0 ? still : twist + width * s->above;
-    carry(width, s->faces_ground, arm_of(width, s, data), before, motion);
+    double *motion = carry_to(width, s, k, data, twist), own[SPACE];
     for (int j = 0; j < s->count && !s->auxiliary; j++)
       add_times(width, motion, v[g->unknowns[s->first + j]], data + s->data + width * j);
     momentum(width, mass_of(width, s, data), motion, own);
