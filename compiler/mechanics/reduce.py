@@ -13,15 +13,11 @@ from dataclasses import dataclass, field, replace
 
 import casadi as ca
 from frot.compiler.equations.before import Before
-from frot.compiler.equations.chains import Chains
 from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.events import Events, gather_events
 from frot.compiler.equations.gather import gather
-from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.text_symbols import (
-    FrictionElement,
     TextSymbols,
-    make_text_symbols,
     scalars,
 )
 from frot.compiler.lowering.expressions import Conditions, Lowering
@@ -30,19 +26,23 @@ from frot.compiler.mechanics.contacts import Geometry, gravity, link_geometry, r
 from frot.compiler.mechanics.dynamics import (
     Push,
     Step,
-    in_trees,
     large_speeds,
     make_steps,
     write_out,
 )
-from frot.compiler.mechanics.forces import Action, Load, load
 from frot.compiler.mechanics.joint_geometry import JointGeometry, RelationGeometry
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.loads import applied_loads, sum_loads
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Mechanism, Relation
-from frot.compiler.mechanics.motions import name_of
+from frot.compiler.mechanics.text_of_motion import (
+    add_slip_accelerations,
+    chains_of_motion,
+    first_values,
+    friction_maker,
+)
 from frot.compiler.mechanics.variables import Variables
 from frot.dsl import Log
-from frot.dsl.checked import Call, Liaison, Model, Quantity, Reference, Variable
+from frot.dsl.checked import Liaison, Quantity, Variable
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,7 +114,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
 
     fixed = Lowering(symbols, nothing, lambda value: value * 0, log, variable=_Locals().symbol)
     kinematics = Kinematics(mechanism, symbols, fixed)
-    text = _text(mechanism, symbols)
+    text = chains_of_motion(mechanism, symbols)
     geometry = _geometry(mechanism, kinematics)
     variables = _variables(mechanism, kinematics, text, geometry)
     conditions = Conditions()
@@ -130,8 +130,8 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         )
         for located in (conditions, None)
     )
-    moving.friction = _friction_maker(text)
-    first = _first_values(mechanism.model, text, symbols, looking, log)
+    moving.friction = friction_maker(text)
+    first = first_values(mechanism.model, text, symbols, looking, log)
     moving.before = Before(text, text.values.__getitem__, first)
     for variable in mechanism.model.variables:
         if variable.discrete:
@@ -144,10 +144,10 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         for rate in row_rates(link, g, kinematics)
     )
     speeds = ca.vertcat(symbols.v, symbols.sw)
-    applied = _applied(mechanism, variables, moving)
+    applied = applied_loads(mechanism, variables, moving)
     coefficients = _coefficients(mechanism.contacts, moving, symbols, log)
     equations = gather(mechanism.model.equations, moving, log)
-    _add_slip_accelerations(equations, text)
+    add_slip_accelerations(equations, text)
     events = gather_events(mechanism.model, text, conditions, moving, looking, log)
     if log.failed:
         return None
@@ -155,7 +155,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     forces = column(ca.vec(action.force) for x in applied for action in x.actions)
     plain = not has_text and not _reads_solution(forces, symbols)
     large = large_speeds(kinematics.nodes, symbols.v.numel()) if plain else frozenset[int]()
-    loads = _loads(mechanism, variables, applied, large)
+    loads = sum_loads(mechanism, variables, applied, large)
     steps, potential = _masses(mechanism, variables, loads.pushes)
     motion = write_out(steps, symbols.v.numel(), speeds.numel(), large)
     settled = variables.settled
@@ -201,92 +201,6 @@ class _Locals:
     def symbol(self, variable: Variable) -> ca.SX:
         """Its own symbol, which whoever lowers the expression replaces."""
         return self.known.setdefault(variable, ca.SX.sym(variable.name))
-
-
-def _text(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
-    """Chains of the coordinates, then symbols for the variables of the text."""
-    chains = Chains(symbols.t)
-    # the coordinate whose rate is a speed stands before it; a quaternion has none for each
-    before = {k: i for i, k in enumerate(symbols.q_speed) if k >= 0}
-    for k in range(symbols.v.numel()):
-        name = symbols.q[before[k]].name() if k in before else symbols.v[k].name()
-        first = symbols.q[before[k]] if k in before else ca.SX.sym(f"integral({name})")
-        chains.add(name, None, symbols=(first, symbols.v[k], symbols.a[k]), fixed=True)
-    for turn in symbols.turns:
-        places = range(turn.coordinate, turn.coordinate + 4)
-        chains.give_rates(
-            [symbols.q[i] for i in places],
-            [symbols.rates[i] for i in places],
-            [k for k in turn.speeds if k >= 0],
-        )
-    chains.forbid_rate(symbols.u, "the input")
-    chains.forbid_rate(symbols.lam, "the reaction of")
-    return make_text_symbols(mechanism.model.variables, chains)
-
-
-def _first_values(
-    model: Model, text: TextSymbols, given: Symbols, looking: Lowering, log: Log
-) -> Callable[[Variable], list[ca.SX]]:
-    """Gives the first values of what jumps: those of `initial`, of `start`, or zero."""
-    stated = {
-        e.left.target: e.right
-        for e in model.initial
-        if isinstance(e.left, Reference) and isinstance(e.left.target, Variable)
-    }
-
-    def first(variable: Variable) -> list[ca.SX]:
-        count = text.values[variable].numel()
-        value = stated.get(variable, variable.start)
-        starts = [ca.SX(0)] if value is None else scalars(looking.lower(value))
-        if value is not None and not all(_is_given(start, given) for start in starts):
-            log.report(
-                "E0602",
-                f"the first value of '{variable.name}', which events set, depends on the motion",
-                value.span,
-                help=f"set it in `when initial() then {variable.name} = ...; end when;`",
-            )
-        return starts * count if len(starts) == 1 else starts
-
-    return first
-
-
-def _is_given(value: ca.SX, symbols: Symbols) -> bool:
-    """Whether a value follows from time, parameters and inputs alone."""
-    given = ca.vertcat(symbols.t, symbols.u, symbols.p)
-    known = {x.element_hash() for x in ca.vertsplit(given)}
-    return all(x.element_hash() in known for x in ca.symvar(value))
-
-
-def _friction_maker(text: TextSymbols) -> Callable[[Call, list[ca.SX], str], ca.SX]:
-    """Makes an element of every `friction(slip, bound, bound_s)` of the equations."""
-    taken: set[str] = set()
-
-    def make(call: Call, arguments: list[ca.SX], owner: str) -> ca.SX:
-        slip, bound = arguments[:2]
-        at_rest = arguments[2] if len(arguments) > 2 else bound
-        name, count = owner or "friction", 1
-        while name in taken:
-            count += 1
-            name = f"{owner}.friction_{count}" if owner else f"friction_{count}"
-        taken.add(name)
-        force = ca.SX.sym(f"{name}.friction")
-        acceleration = ca.SX.sym(f"{name}.slip_acceleration")
-        text.elements.append(
-            FrictionElement(name, call.span, force, acceleration, slip, bound, at_rest)
-        )
-        text.chains.forbid_rate(force, "the friction")
-        return force
-
-    return make
-
-
-def _add_slip_accelerations(equations: Residuals, text: TextSymbols) -> None:
-    """An unknown for the rate of each slip, so that index reduction brings it to light."""
-    for element in text.elements:
-        name = element.acceleration.name()
-        text.chains.add(name, element.span, symbols=(element.acceleration,))
-        equations.values.append(text.chains.rate(element.slip) - element.acceleration)
-        equations.origins.append(Origin(element.span, f"slip of {element.name}", ""))
 
 
 def _geometry(
@@ -361,65 +275,6 @@ def _settled_steps(
     return tuple(
         replace(step, force=settled(step.force), couple=settled(step.couple)) for step in steps
     )
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Loads:
-    """Generalized applied forces, the sizes of their terms and of each, potential and power.
-
-    `pushes` act on bodies of large trees, and are in none of the first two.
-    """
-
-    force: ca.SX
-    size: ca.SX
-    pushes: tuple[Push, ...]
-    sizes: list[ca.SX]
-    potential: ca.SX
-    power: ca.SX
-
-
-def _applied(mechanism: Mechanism, variables: Variables, moving: Lowering) -> list[Load]:
-    """The forces of the text and the efforts of its flanges."""
-    kinematics = variables.kinematics
-    links = (*mechanism.contacts, *mechanism.ideal)
-    joints = {x.liaison: x for x in links if isinstance(x, Joint)}
-    joints |= {x.liaison: x.joint for x in links if isinstance(x, Relation)}
-    applied = [load(force, kinematics, moving, joints) for force in mechanism.forces]
-    for flange in mechanism.model.flanges:
-        assert moving.variable is not None
-        effort = moving.variable(flange.effort)
-        joint = joints[flange.liaison]
-        names = [name_of(m) for m in joint.motions]
-        rate = kinematics.coordinate(joint, names.index(flange.coordinate))[1]
-        applied.append(Load((Action(rate, effort),), None))
-    return applied
-
-
-def _loads(
-    mechanism: Mechanism, variables: Variables, applied: list[Load], large: frozenset[int]
-) -> _Loads:
-    kinematics, symbols = variables.kinematics, variables.symbols
-    speeds = ca.vertcat(symbols.v, symbols.sw)
-    force, size = ca.SX.zeros(speeds.numel()), ca.SX.zeros(speeds.numel())
-    potential, power = ca.SX(0), ca.SX(0)
-    sizes: list[ca.SX] = []
-    pushes: list[Push] = []
-    inside = in_trees(kinematics.nodes, large)
-    held = {body for body, k in kinematics.node_of.items() if k >= 0 and inside[k]}
-    for result in applied:
-        for action in result.actions:
-            if action.push is not None and action.push.body in held:
-                pushes.append(action.push)
-            else:
-                along = ca.jacobian(action.velocity, speeds).T
-                force += along @ action.force
-                size += ca.fabs(along) @ ca.fabs(action.force)
-            if result.potential is None:
-                power += ca.dot(action.velocity, action.force)
-        sizes.append(sum((ca.sum1(ca.fabs(a.force)) for a in result.actions), ca.SX(0)))
-        if result.potential is not None:
-            potential += result.potential
-    return _Loads(force, size, tuple(pushes), sizes[: len(mechanism.forces)], potential, power)
 
 
 def _reads_solution(value: ca.SX, symbols: Symbols) -> bool:

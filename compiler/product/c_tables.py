@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import casadi as ca
+from frot.dsl.messages.source import Span
 
 
 def callable_record(function: ca.Function | None) -> str:
@@ -26,3 +27,17 @@ def array(kind: str, name: str, items: list[str]) -> str:
 def number(value: float) -> str:
     """A literal."""
     return repr(float(value))
+
+
+def text(value: str) -> str:
+    """A C string literal in UTF-8, with octal escapes for all that is not plain."""
+    out = []
+    for byte in value.encode("utf-8"):
+        plain = 32 <= byte < 127 and byte not in b'"\\?'
+        out.append(chr(byte) if plain else f"\\{byte:03o}")
+    return '"' + "".join(out) + '"'
+
+
+def place(span: Span | None) -> str:
+    """File, line and column, as messages show them."""
+    return span.place if span is not None else ""

@@ -1,0 +1,73 @@
+"""Generalized forces of what the text applies: springs, couples, drags and flanges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.mechanics.dynamics import Push, in_trees
+from frot.compiler.mechanics.forces import Action, Load, load
+from frot.compiler.mechanics.mechanism import Joint, Mechanism, Relation
+from frot.compiler.mechanics.motions import name_of
+from frot.compiler.mechanics.variables import Variables
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Loads:
+    """Generalized applied forces, the sizes of their terms and of each, potential and power.
+
+    `pushes` act on bodies of large trees, and are in none of the first two.
+    """
+
+    force: ca.SX
+    size: ca.SX
+    pushes: tuple[Push, ...]
+    sizes: list[ca.SX]
+    potential: ca.SX
+    power: ca.SX
+
+
+def applied_loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> list[Load]:
+    """The forces of the text and the efforts of its flanges."""
+    kinematics = variables.kinematics
+    links = (*mechanism.contacts, *mechanism.ideal)
+    joints = {x.liaison: x for x in links if isinstance(x, Joint)}
+    joints |= {x.liaison: x.joint for x in links if isinstance(x, Relation)}
+    applied = [load(force, kinematics, moving, joints) for force in mechanism.forces]
+    for flange in mechanism.model.flanges:
+        assert moving.variable is not None
+        effort = moving.variable(flange.effort)
+        joint = joints[flange.liaison]
+        names = [name_of(m) for m in joint.motions]
+        rate = kinematics.coordinate(joint, names.index(flange.coordinate))[1]
+        applied.append(Load((Action(rate, effort),), None))
+    return applied
+
+
+def sum_loads(
+    mechanism: Mechanism, variables: Variables, applied: list[Load], large: frozenset[int]
+) -> Loads:
+    """What all of them do along each speed; those of large trees push their bodies."""
+    kinematics, symbols = variables.kinematics, variables.symbols
+    speeds = ca.vertcat(symbols.v, symbols.sw)
+    force, size = ca.SX.zeros(speeds.numel()), ca.SX.zeros(speeds.numel())
+    potential, power = ca.SX(0), ca.SX(0)
+    sizes: list[ca.SX] = []
+    pushes: list[Push] = []
+    inside = in_trees(kinematics.nodes, large)
+    held = {body for body, k in kinematics.node_of.items() if k >= 0 and inside[k]}
+    for result in applied:
+        for action in result.actions:
+            if action.push is not None and action.push.body in held:
+                pushes.append(action.push)
+            else:
+                along = ca.jacobian(action.velocity, speeds).T
+                force += along @ action.force
+                size += ca.fabs(along) @ ca.fabs(action.force)
+            if result.potential is None:
+                power += ca.dot(action.velocity, action.force)
+        sizes.append(sum((ca.sum1(ca.fabs(a.force)) for a in result.actions), ca.SX(0)))
+        if result.potential is not None:
+            potential += result.potential
+    return Loads(force, size, tuple(pushes), sizes[: len(mechanism.forces)], potential, power)
