@@ -18,6 +18,7 @@
 #include "locate.h"
 #include "lost.h"
 #include "pace.h"
+#include "passage.h"
 #include "probe.h"
 #include "projection.h"
 #include "segment.h"
@@ -44,16 +45,7 @@
 #define FORGET 0.99
 /* Rejections after which the sizes of states no longer shrink with the step. */
 #define HOLD 6
-/* Error that rounding may make in a step through a singular posture, relative; how exactly it is
- * the same when that is run again. */
-#define MOST_BLUR 1e-9
-#define MOST_LOST 1e-6 /* part of the kinetic energy that a projection may take */
-#define SLACK 1.5
-/* Power of the length with which an error falls that is none of rounding. */
-#define LEAST_ORDER 2
-#define LESS 0.95 /* of the length of a step that was rejected, most that it may be then */
-#define LAYS 8    /* times that a step is laid anew */
-#define LOOKS 7   /* at a guard that seems to dip, in ever shorter steps */
+#define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
 /* Change of the step's length: at most, at least, after no value, and what of it is taken. */
 #define MOST_GROWTH 6
 #define LEAST_PART (1.0 / 3)
@@ -68,24 +60,6 @@
 #define STRAY 0.01
 /* Time beyond which events no longer crowd, in longest steps. */
 #define CROWDED 1e-9
-
-/* The step that is being tried. */
-typedef struct {
-  double t, h, longest;
-  double first;  /* its length at first */
-  double stable; /* most that the next one may be */
-  double ratio;  /* of its error to the bound */
-  int to_due;    /* it ends where time changes a condition */
-  int passed;    /* condition beyond which the last try had no value, or -1 */
-  int rejections, changed, stiff;
-  int blurred, forced; /* its best length is tried again, and was, though that error is too large */
-  double best, best_ratio;
-  int laid;          /* times that it was laid anew between singular postures */
-  double want, most; /* its length but for them, and what it may be at most */
-  int guard,
-      looks; /* the guard that falls first, or -1, at theta; looks at one that seems to dip */
-  double theta;
-} attempt;
 
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   int status = frot_start_slope(m, s, w, s->t);
@@ -127,7 +101,7 @@ static double change_of_length(const frot_model *m, const frot_state *s, const f
 }
 
 /* Everything at the start of the step, and the length to try first. */
-static int begin(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
+static int begin(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   a->longest = frot_longest_step(m, s, a->t, 0);
   a->h = fmin(s->h, a->longest);
   int status = frot_start_slope(m, s, w, a->t);
@@ -147,7 +121,7 @@ static int begin(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
 
 /* Take a guard that seems to dip for what it is: first by what rounding does to it, then by a
  * shorter step. */
-static int look_closer(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
+static int look_closer(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   if (a->looks++ == 0)
     frot_measure_noise(m, s, w, a->t + a->h);
   else
@@ -156,62 +130,21 @@ static int look_closer(const frot_model *m, frot_state *s, frot_work *w, attempt
   return FROT_DIVERGE;
 }
 
-/* Whether no stage of the step that ran is too near a singular posture; else it is laid anew. */
-static int is_laid(const frot_model *m, const frot_state *s, const frot_work *w, attempt *a) {
-  if (!s->weak || a->laid == LAYS || a->to_due) return 1;
-  if (frot_is_laid(m, s, w, a->t, a->h, a->want)) return 1;
-  a->h = frot_lay_step(m, s, w, a->t, a->want, a->most), a->laid++;
-  return 0;
-}
-
-/* Shorten the step h, in which rows are weak, to about a->h. Where a shorter one is no better than
- * the best so far, rounding is all that is left of its error: the best is taken, if that leaves
- * digits enough. */
-static void shorten_weak(const frot_model *m, frot_state *s, const frot_work *w, attempt *a,
-                         double h) {
-  int better = !(a->ratio >= a->best_ratio * pow(h / a->best, LEAST_ORDER));
-  a->want = a->h, a->most = LESS * h;
-  if (a->ratio > 1 && a->ratio < a->best_ratio) a->best = h, a->best_ratio = a->ratio;
-  a->h = frot_lay_step(m, s, w, a->t, a->h, a->most);
-  if (better || a->forced || a->best_ratio * frot_step_tolerance(s) > MOST_BLUR) return;
-  a->h = a->want = a->best, a->blurred = 1, a->laid = LAYS;
-}
-
-/* Take the step though its error is beyond its bound: rounding is all that is left of it. */
-static void take_blurred(frot_state *s, attempt *a) {
-  s->statistics.blurred = fmax(s->statistics.blurred, a->ratio * frot_step_tolerance(s));
-  a->ratio = 1;
-}
-
-/* What rounding does to a step across a posture grows as the step begins nearer to it; all else
- * shrinks. So where one is no better than the last that was tried from farther off, no other will
- * be: it is taken if it leaves digits enough, else the run ends here. */
-static void judge_passage(const frot_model *m, frot_state *s, const frot_work *w, attempt *a) {
-  if (!(a->ratio > 1) || !frot_passes(m, s, w, a->t, a->h)) return;
-  int no_better = a->ratio >= s->across, enough = a->ratio * frot_step_tolerance(s) <= MOST_BLUR;
-  s->across = a->ratio;
-  if (!no_better) return;
-  if (enough)
-    take_blurred(s, a);
-  else
-    a->h = a->to_due = 0;
-}
-
 /* Try the step once: FROT_OK if it is good, with its dense output; then s->h is the next one's
  * length. */
-static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
+static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   double part = 1, t = a->t, h = a->h;
   int status = frot_run_stages(m, s, w, t, h);
   a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &part) : -1;
   a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
   a->forced = a->blurred;
-  if (a->forced && a->ratio > 1 && a->ratio <= SLACK * a->best_ratio) take_blurred(s, a);
+  if (a->forced) frot_take_forced(s, a);
   if (s->weak && a->ratio <= 1) a->ratio = fmax(a->ratio, pow(frot_turning(m, s, w, t, h), 8));
-  if (status == FROT_OK && !is_laid(m, s, w, a)) {
+  if (status == FROT_OK && !frot_passage_is_laid(m, s, w, a)) {
     s->statistics.rejected++;
     return FROT_DIVERGE;
   }
-  if (s->weak) judge_passage(m, s, w, a);
+  if (s->weak) frot_judge_passage(m, s, w, a);
   if (a->h == 0) return FROT_DIVERGE;
   if (a->ratio <= 1) {
     a->stiff = frot_is_stiff(m, s, w, h);
@@ -241,13 +174,13 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, attempt *a
     a->h *= fmax(change_of_length(m, s, w, a->ratio), LEAST_PART);
   else
     a->h *= a->passed >= 0 ? fmin(fmax(NEARLY * part, 0.01), NEARLY) : CUT;
-  if (s->weak && a->passed < 0) shorten_weak(m, s, w, a, h);
+  if (s->weak && a->passed < 0) frot_shorten_passage(m, s, w, a, h);
   return status == FROT_OK ? FROT_DIVERGE : status;
 }
 
 /* The step has become too short. FROT_OK where it can go on with the other method, or an event is
  * at its start (s->pending), else the status of the fault. */
-static int give_up(const frot_model *m, frot_state *s, frot_work *w, attempt *a, int status) {
+static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a, int status) {
   int ends = frot_condition_at_zero(m, s, w);
   int over = a->passed >= 0 && ends >= 0; /* no method has a value beyond it */
   if (!over && !a->changed && frot_change_method(m, s)) {
@@ -265,7 +198,7 @@ static int give_up(const frot_model *m, frot_state *s, frot_work *w, attempt *a,
 
 /* Change of the step's length that its error will bear if it goes on as it went from the step
  * before to this one (K. Gustafsson, ACM Trans. Math. Softw. 20, 1994, p. 496). */
-static double trend(const frot_model *m, frot_state *s, const attempt *a) {
+static double trend(const frot_model *m, frot_state *s, const frot_attempt *a) {
   double change = INFINITY;
   if (reactions_bound(m) && s->last_ratio > 0 && a->ratio > 0)
     change = SAFETY * a->h / s->last_h * pow(s->last_ratio / (a->ratio * a->ratio), 1.0 / 8);
@@ -275,7 +208,7 @@ static double trend(const frot_model *m, frot_state *s, const attempt *a) {
 
 /* Shorten the step until its error is within its bound. FROT_OK with s->pending where there is
  * none but an event at its start. */
-static int find_length(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
+static int find_length(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   double planned = s->h;
   for (int status = FROT_OK;;) {
     double paced = frot_pace_step(m, s, w, a->t, a->h);
@@ -298,7 +231,7 @@ static int find_length(const frot_model *m, frot_state *s, frot_work *w, attempt
 }
 
 /* Run the step again with the length h, with its dense output. */
-static int run_again(const frot_model *m, frot_state *s, frot_work *w, attempt *a, double h) {
+static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a, double h) {
   a->h = h, a->to_due = 0;
   int status = frot_run_stages(m, s, w, a->t, h);
   if (status != FROT_OK) return status;
@@ -309,7 +242,8 @@ static int run_again(const frot_model *m, frot_state *s, frot_work *w, attempt *
 /* End the step where the first guard falls inside it. *guard is the one that does, or -1. A guard
  * may seem to fall, in a step that is long for it, where it only comes near zero: a step that ends
  * before it, or is much shorter, shows that it does not, and hides no other guard's fall. */
-static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, attempt *a, int *guard) {
+static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
+                        int *guard) {
   for (*guard = -1; a->guard >= 0;) {
     double longest = a->h;
     int falls;
@@ -344,24 +278,10 @@ static void forget_noise(const frot_model *m, frot_state *s, const frot_work *w)
     guards[frot_condition_guard(m) + now->located[k]] *= FORGET;
 }
 
-/* The liaison of a posture near the end of the step, or of a loop, if putting the speeds onto the
- * relations has taken more of the kinetic energy than errors within the tolerance make, -1 if not:
- * the projection is orthogonal in the metric of the mass, so that it takes what they amount to
- * squared. */
-static int speed_lost(const frot_model *m, const frot_state *s, const frot_work *w, double t) {
-  if (!frot_has_loops(m, s, w)) return -1;
-  double before = frot_kinetic(m, w, w->step.z1 + m->nq);
-  double after = frot_kinetic(m, w, s->data + w->layout.x + m->nq);
-  if (fabs(after - before) <= (MOST_LOST + s->tolerance) * s->energy_scale) return -1;
-  int lost = frot_posture_at(m, s, w, t);
-  for (int i = 0; lost < 0 && i < m->n_contacts; i++)
-    if (frot_is_loop(m, s, w, i)) lost = i;
-  return lost;
-}
-
 /* Take the step: it becomes the current segment. Its end goes onto the relations; the slope there
  * serves the next step if nothing moved. */
-static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt *a, int guard) {
+static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a,
+                int guard) {
   const frot_layout *l = &w->layout;
   double *x = s->data + l->x, *slope = s->data + l->slope;
   double end = a->to_due ? s->due : a->t + a->h;
@@ -387,7 +307,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
                    ? FROT_OK
                    : frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL, &moved);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, end, a->h);
-  lost = moved && !s->implicit ? speed_lost(m, s, w, end) : -1;
+  lost = moved && !s->implicit ? frot_speed_lost(m, s, w, end) : -1;
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   s->has_slope = !moved && !s->pending;
@@ -400,7 +320,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const attempt 
 }
 
 /* Find the step's length and its end, and take it. */
-static int take(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
+static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   int guard, status = find_length(m, s, w, a);
   if (status != FROT_OK || s->pending) return status;
   status = cut_at_event(m, s, w, a, &guard);
@@ -409,10 +329,10 @@ static int take(const frot_model *m, frot_state *s, frot_work *w, attempt *a) {
 }
 
 static int step(const frot_model *m, frot_state *s, frot_work *w) {
-  attempt a = {.t = *frot_segment_at(m, s->data + w->layout.segment).t1,
-               .passed = -1,
-               .guard = -1,
-               .best_ratio = INFINITY};
+  frot_attempt a = {.t = *frot_segment_at(m, s->data + w->layout.segment).t1,
+                    .passed = -1,
+                    .guard = -1,
+                    .best_ratio = INFINITY};
   if (s->due <= a.t) {
     frot_fire_due(m, s);
     return FROT_OK;

@@ -89,7 +89,7 @@ typedef struct {
 } frot_reaction_work;
 
 /* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:
- * reactions.c, projection.c. `left` (n_rows): the length that those before it leave of each row
+ * held.c, projection.c. `left` (n_rows): the length that those before it leave of each row
  * that was held last, 0 where it is dependent. */
 typedef struct {
   int rank, follow; /* whether `spare` (n_rows) says what depends on others: spare.h */

@@ -1,0 +1,69 @@
+/* Friction that follows readings.
+ *
+ * The size of a pin's reaction is not linear: it is replaced by its part along the direction
+ * w->reactions.along of the last pass, which is Newton's method. */
+#include <math.h>
+
+#include "core.h"
+#include "problem.h"
+
+void frot_read_bounds(const frot_problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int n = p->unknowns;
+  double *known = w->reactions.known, *effects = w->reactions.effects;
+  for (int f = p->held; f < n; f++)
+    for (int k = 0; k < 2; k++, known++, effects += n) {
+      int reading = m->elements[w->reactions.owner[f]].bounded_by[k];
+      if (reading < 0) continue;
+      *known = frot_known_part(p, reading);
+      for (int c = 0; c < p->held; c++)
+        effects[c] = w->reactions.unit_of[c] * frot_unknown_effect(p, reading, c);
+      const double *all = frot_effect_on(m, w, reading); /* nothing goes with what follows */
+      for (int c = p->held; c < n; c++)
+        effects[c] = w->reactions.unit_of[c] * all[m->row_local[w->reactions.unknown[c]]];
+    }
+}
+
+void frot_follow_readings(frot_problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int n = p->unknowns;
+  const double *known = w->reactions.known, *effects = w->reactions.effects;
+  p->equations = p->holding;
+  for (int f = p->held; f < n; f++, known += 2, effects += 2 * n) {
+    int e = w->reactions.owner[f], line = p->equations++, pin = m->elements[e].bound == FROT_BY_PIN;
+    double ratio = w->reactions.ratio[e] / w->reactions.unit_of[f];
+    double first = pin ? w->reactions.along[2 * e] : 1;
+    double second = pin ? w->reactions.along[2 * e + 1] : 0;
+    double *entry = w->linear.matrix + line;
+    for (int c = 0; c < n; c++, entry += n) {
+      double effect = first * effects[c];
+      if (pin) effect += second * effects[n + c];
+      *entry = (c == f) - ratio * effect;
+    }
+    w->linear.right[line] = ratio * (first * known[0] + (pin ? second * known[1] : 0));
+  }
+}
+
+double frot_turn_pins(const frot_problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int n = p->unknowns;
+  double missed = 0;
+  const double *known = w->reactions.known, *effects = w->reactions.effects;
+  for (int f = p->held; f < n; f++, known += 2, effects += 2 * n) {
+    int e = w->reactions.owner[f];
+    if (m->elements[e].bound != FROT_BY_PIN) continue;
+    double *along = w->reactions.along + 2 * e, first = known[0], second = known[1];
+    for (int c = 0; c < n; c++) {
+      first += effects[c] * w->reactions.solution[c];
+      second += effects[n + c] * w->reactions.solution[c];
+    }
+    double size = hypot(first, second), before = along[0] * first + along[1] * second;
+    if (!(size > 0)) continue;
+    missed = fmax(missed, (size - before) / size);
+    along[0] = first / size, along[1] = second / size;
+  }
+  return missed;
+}

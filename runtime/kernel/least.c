@@ -1,0 +1,55 @@
+/* Reactions that are not unique: the least, friction sparingly. */
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "linear.h"
+#include "problem.h"
+#include "tolerances.h"
+
+/* What the unknowns weigh, into w->reactions.weight: friction so much more than normal reactions
+ * that rest is not lost for want of it. Elements side by side that values bound share a load in
+ * proportion to their bounds, so that they reach them together: sum of lam^2 g / bound is least,
+ * where g, the size of the row, makes a gear between them count. */
+static void weigh(const frot_problem *p) {
+  frot_work *w = p->w;
+  double largest = 0;
+  for (int c = 0; c < p->unknowns; c++) {
+    w->reactions.weight[c] = 1;
+    if (c >= p->held || w->reactions.friction[c] < 2) continue;
+    double size =
+        sqrt(fabs(frot_effect(p->m, w, w->reactions.unknown[c], w->reactions.unknown[c])));
+    w->reactions.weight[c] =
+        size > 0 ? sqrt(w->core.coefficient[2 * w->reactions.owner[c] + 1] / size) : 1;
+    largest = fmax(largest, w->reactions.weight[c]);
+  }
+  for (int c = 0; c < p->held; c++) {
+    if (w->reactions.friction[c] == 0) continue;
+    if (w->reactions.friction[c] == 2 && largest > 0) w->reactions.weight[c] /= largest;
+    w->reactions.weight[c] *= FROT_FRICTION_WEIGHT;
+  }
+}
+
+void frot_solve_least(const frot_problem *p, double *x) {
+  frot_work *w = p->w;
+  int n = p->unknowns, rows = p->equations;
+  double *copy = w->linear.scratch, *b = copy + n * n, *step = b + n, *scratch = step + n;
+  weigh(p);
+  memset(x, 0, sizeof(double) * (size_t)n);
+  for (int pass = 0; pass < 2; pass++) {
+    for (int r = 0; r < rows; r++) {
+      double largest = 0, rest = w->linear.right[r];
+      for (int c = 0; c < n; c++) {
+        double weighed =
+            w->linear.matrix[c * n + r] / w->reactions.unit_of[c] * w->reactions.weight[c];
+        copy[c * rows + r] = weighed, largest = fmax(largest, fabs(weighed));
+        rest -= w->linear.matrix[c * n + r] * x[c];
+      }
+      double scale = largest > 0 ? 1 / largest : 1;
+      for (int c = 0; c < n; c++) copy[c * rows + r] *= scale;
+      b[r] = rest * scale;
+    }
+    frot_least_norm(copy, b, rows, n, step, scratch, w->linear.pivot);
+    for (int c = 0; c < n; c++) x[c] += step[c] * w->reactions.weight[c] / w->reactions.unit_of[c];
+  }
+}
