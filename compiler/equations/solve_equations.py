@@ -33,7 +33,7 @@ from frot.compiler.equations.index import reduce_index
 from frot.compiler.equations.order import Component, closure
 from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.tear import tear
-from frot.compiler.lowering.assembled import Assembled, Block, Invariants
+from frot.compiler.lowering.assembled import Assembled, Block, Invariants, Solution
 from frot.compiler.lowering.symbols import column
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.reduce import Reduced
@@ -209,17 +209,14 @@ def _finish(
 ) -> Assembled:
     chains, s = reduced.text.chains, reduced.symbols
 
-    def resolve(value: ca.SX) -> ca.SX:
-        return replace_known(resolve_all(value, chains, left.resolver), solving.known)
-
-    rates = resolve(core.rates)
-    power = resolve(reduced.power)
+    solution = Solution(chains, left.resolver, solving.known)
+    rates, power = solution.of(core.rates), solution.of(reduced.power)
     y, early = column(solving.y), sum(b.residual.numel() for b in solving.blocks if not b.late)
     later = ca.vertcat(core.z, core.lam, y[early:])
     late = bool(later.numel()) and any(
         value.numel() and ca.depends_on(value, later) for value in (rates, power)
     )
-    invariants = resolve(column(found.invariants))
+    invariants = solution.of(column(found.invariants))
     return Assembled(
         reduced=reduced,
         elements=tuple(reduced.text.elements),
@@ -249,5 +246,5 @@ def _finish(
         blocks=tuple(solving.blocks),
         invariants=Invariants(invariants, tuple(found.invariant_origins)),
         pivots=(*left.pivots, *solving.pivots, *core.pivots),
-        resolve=resolve,
+        solution=solution,
     )

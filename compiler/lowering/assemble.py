@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import casadi as ca
+from frot.compiler.equations.chains import Resolver
 from frot.compiler.equations.solve_equations import solve_equations
-from frot.compiler.lowering.assembled import Assembled, Invariants
+from frot.compiler.lowering.assembled import Assembled, Invariants, Solution
 from frot.compiler.lowering.symbols import scalars_of
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl import Log
@@ -49,5 +50,5 @@ def _plain(reduced: Reduced) -> Assembled:
         blocks=(),
         invariants=Invariants(nothing, ()),
         pivots=(),
-        resolve=lambda value: value,
+        solution=Solution(reduced.text.chains, Resolver(), {}),
     )

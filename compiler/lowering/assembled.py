@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.equations.eliminate import Pivot
+from frot.compiler.equations.chains import Chains, Resolver, replace_known
+from frot.compiler.equations.eliminate import Pivot, resolve_all
 from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.text_symbols import FrictionElement
 from frot.compiler.mechanics.reduce import Reduced
@@ -34,15 +35,32 @@ class Invariants:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Solution:
+    """What unknowns of the text are in terms of those left.
+
+    `removed` are given by definitions, with all their derivatives, `known` by formulas of
+    components (hashes of symbols to values).
+    """
+
+    chains: Chains
+    removed: Resolver
+    known: Mapping[int, ca.SX]
+
+    def of(self, value: ca.SX) -> ca.SX:
+        """The value with all of them put in."""
+        return replace_known(resolve_all(value, self.chains, self.removed), self.known)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Assembled:
     """States (q, v), y, and the core system `matrix` z = `force` + `spread` lam.
 
     z (nw): rates of v (nv), auxiliary accelerations (na), algebraic unknowns (nc). The rows
     accelerate by `rows` z + `bias`, and have the speeds `rate`; those of the mechanism's contacts
     come first, then one for each friction element. `rates` are those of q; with `late` they, or
-    `power`, depend on z, lam or the y of late blocks. `resolve` turns an expression of the text's
-    symbols into one of t, q, v, u, p, d, y, z and lam. Of large trees of bodies `matrix` and
-    `force` have what `Reduced` says: where both are looked at, `in_full`.
+    `power`, depend on z, lam or the y of late blocks. `solution` is what the symbols of the text
+    are in terms of these. Of large trees of bodies `matrix` and `force` have what `Reduced` says:
+    where both are looked at, `in_full`.
     """
 
     reduced: Reduced
@@ -73,7 +91,11 @@ class Assembled:
     blocks: tuple[Block, ...]
     invariants: Invariants
     pivots: tuple[Pivot, ...]
-    resolve: Callable[[ca.SX], ca.SX]
+    solution: Solution
+
+    def resolve(self, value: ca.SX) -> ca.SX:
+        """An expression of the text's symbols in terms of t, q, v, u, p, d, y, z and lam."""
+        return self.solution.of(value)
 
     def in_full(self) -> tuple[ca.SX, ca.SX]:
         """Matrix and force with those of large trees of bodies written out."""

@@ -74,7 +74,6 @@ class Reduced:
     events: Events
     contact_rows: tuple[Rows, ...]
     variables: Variables
-    fixed: Lowering
     conditions: Conditions
     mass: ca.SX
     force: ca.SX
@@ -169,7 +168,6 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         events=events,
         contact_rows=link_rows(mechanism.contacts),
         variables=variables,
-        fixed=fixed,
         conditions=conditions,
         mass=settled(motion.mass),
         force=settled(motion.force + loads.force),
