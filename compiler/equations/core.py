@@ -86,6 +86,10 @@ def make_core(
     order += list(range(nv, count + len(user)))
     equations = equations[order] if order else equations
     matrix, spread = ca.jacobian(equations, z), -ca.jacobian(equations, lam)
+    for place in reduced.tree.large:
+        if place < count:
+            matrix[place, place] -= 1
+    matrix = ca.sparsify(matrix)
     rows, bias, rate = _rows(reduced, left, z, known, na, nv)
     both = ca.vertcat(z, lam)
     if both.numel() and (ca.depends_on(matrix, both) or ca.depends_on(spread, both)):

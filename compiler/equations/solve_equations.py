@@ -7,7 +7,7 @@ depends on it after.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains, replace_known
@@ -36,7 +36,7 @@ from frot.compiler.equations.tear import tear
 from frot.compiler.lowering.assembled import Assembled, Block, Invariants, Solution
 from frot.compiler.lowering.symbols import column
 from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.mechanics.reduce import Reduced, Tree
 from frot.dsl import Log, default_values, evaluate
 
 
@@ -104,10 +104,16 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
 
 
 def _newton(reduced: Reduced) -> ca.SX:
-    """M a - h - J' lam, auxiliary accelerations at zero; the auxiliary rows last."""
+    """M a - h - J' lam, auxiliary accelerations at zero; the auxiliary rows last.
+
+    In place of the mass matrix of large trees stands one, which the core takes out again.
+    """
     s = reduced.symbols
     accelerations = ca.vertcat(s.a, ca.SX.zeros(s.sw.shape))
-    return reduced.mass @ accelerations - reduced.force - reduced.rows.T @ s.lam
+    alone = ca.SX.zeros(accelerations.shape)
+    for place in reduced.tree.large:
+        alone[place] = accelerations[place]
+    return reduced.mass @ accelerations + alone - reduced.force - reduced.rows.T @ s.lam
 
 
 def _are_equations(left: Eliminated, chains: Chains, log: Log) -> bool:
@@ -247,4 +253,25 @@ def _finish(
         invariants=Invariants(invariants, tuple(found.invariant_origins)),
         pivots=(*left.pivots, *solving.pivots, *core.pivots),
         solution=solution,
+        tree=_renumbered(reduced.tree, s.v.numel(), core.v.numel(), solution),
     )
+
+
+def _renumbered(tree: Tree, count: int, nv: int, solution: Solution) -> Tree:
+    """Its places among all unknowns, where auxiliary speeds follow those of the text."""
+    if not tree.large:
+        return tree
+
+    def place(p: int) -> int:
+        return p if p < count else p - count + nv
+
+    steps = tuple(
+        replace(
+            step,
+            node=replace(step.node, places=tuple(map(place, step.node.places))),
+            force=solution.of(step.force),
+            couple=solution.of(step.couple),
+        )
+        for step in tree.steps
+    )
+    return Tree(steps, frozenset(map(place, tree.large)))

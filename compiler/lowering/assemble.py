@@ -51,4 +51,5 @@ def _plain(reduced: Reduced) -> Assembled:
         invariants=Invariants(nothing, ()),
         pivots=(),
         solution=Solution(reduced.text.chains, Resolver(), {}),
+        tree=reduced.tree,
     )

@@ -10,7 +10,7 @@ from frot.compiler.equations.chains import Chains, Resolver, replace_known
 from frot.compiler.equations.eliminate import Pivot, resolve_all
 from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.text_symbols import FrictionElement
-from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.mechanics.reduce import Reduced, Tree
 from frot.dsl.messages.source import Span
 
 
@@ -59,8 +59,8 @@ class Assembled:
     accelerate by `rows` z + `bias`, and have the speeds `rate`; those of the mechanism's contacts
     come first, then one for each friction element. `rates` are those of q; with `late` they, or
     `power`, depend on z, lam or the y of late blocks. `solution` is what the symbols of the text
-    are in terms of these. Of large trees of bodies `matrix` and `force` have what `Reduced` says:
-    where both are looked at, `in_full`.
+    are in terms of these. `tree`: of large trees of bodies `matrix` and `force` have what `Reduced`
+    says; where both are looked at, `in_full`.
     """
 
     reduced: Reduced
@@ -92,6 +92,7 @@ class Assembled:
     invariants: Invariants
     pivots: tuple[Pivot, ...]
     solution: Solution
+    tree: Tree
 
     def resolve(self, value: ca.SX) -> ca.SX:
         """An expression of the text's symbols in terms of t, q, v, u, p, d, y, z and lam."""
@@ -99,7 +100,7 @@ class Assembled:
 
     def in_full(self) -> tuple[ca.SX, ca.SX]:
         """Matrix and force with those of large trees of bodies written out."""
-        return self.reduced.in_full() if self.reduced.tree.large else (self.matrix, self.force)
+        return self.tree.in_full(self.matrix, self.force, self.nv)
 
     @property
     def nv(self) -> int:

@@ -95,7 +95,7 @@ def make_groups(system: Assembled) -> Grouping:
     sets = Sets(nw + n_rows)
     for i, j in _entries(matrix):
         sets.join(i, j)
-    tree = reduced.tree
+    tree = system.tree
     for places in speeds_by_tree([step.node for step in tree.steps]):
         for place in places[1:]:
             sets.join(places[0], place)

@@ -12,7 +12,7 @@ def make_pace(system: Assembled, conditions: ca.SX) -> tuple[ca.SX, ca.SX] | Non
     t = system.reduced.symbols.t
     parts = [
         system.force,
-        *(x for step in system.reduced.tree.steps for x in (step.force, step.couple)),
+        *(x for step in system.tree.steps for x in (step.force, step.couple)),
         system.bias,
         system.coefficients,
         system.gap,

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 
 import casadi as ca
+from frot.compiler.equations.apart import moved_by_forces
 from frot.compiler.equations.before import Before
 from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.events import Events, gather_events
@@ -28,6 +29,7 @@ from frot.compiler.mechanics.dynamics import (
     Step,
     large_speeds,
     make_steps,
+    speeds_by_tree,
     write_out,
 )
 from frot.compiler.mechanics.joint_geometry import JointGeometry, RelationGeometry
@@ -51,6 +53,18 @@ class Tree:
 
     steps: tuple[Step, ...]
     large: frozenset[int]
+
+    def in_full(self, mass: ca.SX, force: ca.SX, nv: int) -> tuple[ca.SX, ca.SX]:
+        """A mass matrix and a force of `nv` speeds, then others, with those of large trees."""
+        if not self.large:
+            return mass, force
+        others = {p for step in self.steps for p in step.node.places} - self.large
+        whole = write_out(self.steps, nv, mass.size1(), frozenset(others))
+        own = ca.SX(force)
+        for place in self.large:
+            if place < nv:
+                own[place] += whole.force[place]
+        return mass + whole.mass, own
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,17 +105,6 @@ class Reduced:
     power: ca.SX
     kinetic: ca.SX
     potential: ca.SX
-
-    def in_full(self) -> tuple[ca.SX, ca.SX]:
-        """Mass matrix and force with those of large trees written out."""
-        if not self.tree.large:
-            return self.mass, self.force
-        nv = self.symbols.v.numel()
-        whole, force = write_out(self.tree.steps, nv, self.mass.size1()), ca.SX(self.force)
-        for place in self.tree.large:
-            if place < nv:
-                force[place] += whole.force[place]
-        return whole.mass, force
 
 
 def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
@@ -153,7 +156,10 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     has_text = bool(mechanism.model.variables or mechanism.model.equations or text.memory)
     forces = column(ca.vec(action.force) for x in applied for action in x.actions)
     plain = not has_text and not _reads_solution(forces, symbols)
-    large = large_speeds(kinematics.nodes, symbols.v.numel()) if plain else frozenset[int]()
+    large = large_speeds(kinematics.nodes, symbols.v.numel())
+    if large and not plain:
+        trees = [own for own in speeds_by_tree(kinematics.nodes) if not large.isdisjoint(own)]
+        large = moved_by_forces(trees, forces, equations, text, symbols)
     loads = sum_loads(mechanism, variables, applied, large)
     steps, potential = _masses(mechanism, variables, loads.pushes)
     motion = write_out(steps, symbols.v.numel(), speeds.numel(), large)

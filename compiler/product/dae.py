@@ -383,8 +383,7 @@ def _reset(system: Assembled, switches: list[_Switch]) -> ca.SX:
         for row, kind in w.laws():
             holds[row] = w.mode[CLOSED] * (kind == STICK)
     active = ca.diag(holds) @ system.rows[:, :nv]
-    large = system.reduced.tree.large
-    metric = system.in_full()[0] if large else system.metric
+    metric = system.tree.in_full(system.metric, system.v, nv)[0]
     spread = ca.solve(metric[:nv, :nv], active.T)
     matrix = active @ spread + ca.diag(1 - holds)
     moved = system.v - spread @ ca.solve(matrix, holds * system.rate)

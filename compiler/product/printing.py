@@ -9,7 +9,8 @@ from frot.compiler.mechanics.reduce import Reduced
 
 def print_reduced(reduced: Reduced) -> str:
     """The mechanism's own equations, and the residuals of the text."""
-    s, (mass, force) = reduced.symbols, reduced.in_full()
+    s = reduced.symbols
+    mass, force = reduced.tree.in_full(reduced.mass, reduced.force, s.v.numel())
     lines = [f"{reduced.mechanism.model.name}: M a = h + J' lam, rows accelerate by J a + c"]
     parts = {
         "q": s.q,
