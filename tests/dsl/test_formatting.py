@@ -361,6 +361,6 @@ def test_a_long_text_takes_linear_time() -> None:
     lines = [f"  parameter Real {'long' * (i % 3)}a{i}   = {i};  // c" for i in range(4000)]
     text = "model M\n" + "\n".join(lines) + "\nend M;\n"
     format_text("model M\nend M;\n")
-    begun = time.perf_counter()
+    begun = time.process_time()
     format_text(text)
-    assert time.perf_counter() - begun < 5.0
+    assert time.process_time() - begun < 5.0

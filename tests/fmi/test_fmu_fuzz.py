@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from fmu_host import X0, Host
+from patience import PATIENCE
 
 
 @pytest.mark.parametrize(("seed", "threads"), [(1, 1), (2, 1), (3, 4)])
@@ -21,7 +22,7 @@ def test_random_calls_do_not_crash(
     command = [sys.executable, str(script), *map(str, words)]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     done = subprocess.run(
-        command, capture_output=True, text=True, timeout=300, check=False, env=environment
+        command, capture_output=True, text=True, timeout=PATIENCE, check=False, env=environment
     )
     assert done.returncode == 0, done.stderr[-2000:]
 

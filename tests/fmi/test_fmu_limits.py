@@ -33,9 +33,9 @@ def test_a_step_of_aeons_ends(one: Host, step: float) -> None:
     """Without friction the block swings for ever: x = 2 cos 3t."""
     assert one.set(MU, 0.0) == OK
     one.start()
-    begun = time.monotonic()
+    begun = time.process_time()
     assert one.step(0.0, step) == DISCARD
-    assert time.monotonic() - begun < 60.0
+    assert time.process_time() - begun < 60.0
     assert f"has taken {MOST_WORK} evaluations of the model" in one.last
     assert "make shorter steps" in one.last
     t = reached(one)

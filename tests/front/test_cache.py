@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from front_door import HOOP, Answer, Door, Shell, script
+from patience import PATIENCE
 
 EVENT = "floor: slip -> stick at t = 1.868841318382"
 
@@ -103,7 +104,7 @@ def test_what_is_not_needed_is_not_imported(command: str, filled: Path, shell: S
 def test_two_first_runs_at_once_both_succeed(shell: Shell, cache: Path) -> None:
     both = [shell.start("simulate", HOOP, changes={"FROT_CACHE": cache}) for _ in range(2)]
     for process in both:
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=PATIENCE)
         assert process.returncode == 0 and EVENT in out, err
     assert len(list((cache / "programs").iterdir())) == 1
     assert not list(cache.rglob(".new-*"))

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from front_door import HOOP, Shell, files_in
+from patience import PATIENCE
 
 import frot
 
@@ -19,11 +20,11 @@ LONG = ("simulate", HOOP, "--stop", "4e6", "-o", "out.csv")
 def wait_for_library(pid: int) -> None:
     """Until the compiled model is loaded: the run is about to begin."""
     maps = Path(f"/proc/{pid}/maps")
-    for _ in range(400):
-        if "program.so" in maps.read_text():
-            return
+    end = time.monotonic() + PATIENCE
+    while "program.so" not in maps.read_text():
+        if time.monotonic() > end:
+            raise TimeoutError
         time.sleep(0.01)
-    raise TimeoutError
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
@@ -34,7 +35,7 @@ def test_an_interrupted_run_keeps_what_was_computed(after: float, shell: Shell) 
     wait_for_library(process.pid)
     time.sleep(after)
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130, err
     assert files_in(shell.folder) == {"out.csv", "out.png"}
     rows = (shell.folder / "out.csv").read_text(encoding="utf-8").splitlines()
@@ -78,7 +79,7 @@ def test_a_start_is_interrupted(shell: Shell) -> None:
     assert process.stdout is not None and process.stdout.readline() == "begun\n"
     time.sleep(0.005)
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=30)
+    _, err = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130, err
     assert files_in(shell.folder) == set()
     assert "Traceback" not in err

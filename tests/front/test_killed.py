@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from front_door import HOOP, Shell, script
 from frot.compiler.toolchain.compilers import Toolchain, compile_objects
+from patience import PATIENCE
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 
@@ -24,7 +25,7 @@ def alive(pid: int) -> bool:
     return state not in "ZX"
 
 
-def wait_until(holds: object, seconds: float = 20.0) -> bool:
+def wait_until(holds: object, seconds: float = PATIENCE) -> bool:
     """Whether a condition comes to hold in time."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
@@ -41,7 +42,7 @@ class Compiling:
         self.cache = folder / "cache"
         self.notes = folder / "pids"
         self.notes.touch()
-        body = f'echo $$ >> "{self.notes}"\nsleep 300 &\necho $! >> "{self.notes}"\nwait'
+        body = f'echo $$ >> "{self.notes}"\nsleep 600 &\necho $! >> "{self.notes}"\nwait'
         compiler = script(folder / "slow-cc", body)
         changes = {"FROT_CC": compiler, "FROT_CACHE": self.cache}
         self.process = shell.start("simulate", HOOP, changes=changes)
@@ -70,14 +71,14 @@ def test_the_compiler_and_the_half_made_folder_end_with_the_run(
 ) -> None:
     assert compiling.halves() and all(map(alive, compiling.pids()))
     compiling.process.send_signal(getattr(signal, how))
-    compiling.process.communicate(timeout=20)
+    compiling.process.communicate(timeout=PATIENCE)
     assert wait_until(lambda: not any(map(alive, compiling.pids())))
     assert wait_until(lambda: not compiling.halves())
 
 
 def test_an_interrupt_while_compiling_is_told_at_once(compiling: Compiling) -> None:
     compiling.process.send_signal(signal.SIGINT)
-    out, err = compiling.process.communicate(timeout=20)
+    out, err = compiling.process.communicate(timeout=PATIENCE)
     assert (compiling.process.returncode, out) == (130, "")
     assert err == "interrupted while compiling 'BackspinHoop'; nothing half made is left\n"
     assert not any(map(alive, compiling.pids())) and not compiling.halves()
@@ -87,7 +88,7 @@ def test_an_interrupted_compiler_does_not_hinder_the_next_run(
     compiling: Compiling, shell: Shell
 ) -> None:
     compiling.process.kill()
-    compiling.process.communicate(timeout=20)
+    compiling.process.communicate(timeout=PATIENCE)
     shell("simulate", HOOP, FROT_CACHE=compiling.cache).succeeds()
 
 
@@ -99,14 +100,14 @@ def test_the_compilers_of_an_fmu_end_too(
     temporary.mkdir()
     shell("simulate", HOOP).succeeds()
     # A compiler that sleeps where a flag of FMUs is among its words.
-    sleeps = f'*visibility=hidden*) echo $$ >> "{notes}"; sleep 300'
+    sleeps = f'*visibility=hidden*) echo $$ >> "{notes}"; sleep 600'
     slow = f'case "$*" in {sleeps};; esac\nexec cc "$@" -O0'
     changes = {"FROT_CC": script(folder / "slow-cc", slow), "TMPDIR": temporary}
     process = shell.start("fmu", HOOP, "-o", "hoop.fmu", changes=changes)
-    assert wait_until(notes.exists, 60.0)
+    assert wait_until(notes.exists)
     pids = [int(word) for word in notes.read_text().split()]
     process.kill()
-    process.communicate(timeout=20)
+    process.communicate(timeout=PATIENCE)
     assert wait_until(lambda: not any(map(alive, pids)))
     assert wait_until(lambda: not list(temporary.glob("frot-*")))
     assert not (shell.folder / "hoop.fmu").exists()
@@ -136,7 +137,7 @@ def test_an_interrupt_while_compilers_are_being_started_ends_them(
 ) -> None:
     """It may come between the start of one compiler and that of the next."""
     notes = tmp_path / "pids"
-    slow = script(tmp_path / "slow-cc", f'echo $$ >> "{notes}"\nexec sleep 300')
+    slow = script(tmp_path / "slow-cc", f'echo $$ >> "{notes}"\nexec sleep 600')
     submit = ThreadPoolExecutor.submit
 
     def interrupted(pool: ThreadPoolExecutor, *call: object) -> object:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from front_door import HOOP, script
+from patience import PATIENCE
 
 pty = pytest.importorskip("pty")
 
@@ -32,7 +33,7 @@ def told(compiler: Path, cache: Path, on_terminal: bool) -> str:
             break
         seen += piece
     os.close(ours)
-    assert process.wait(timeout=60) == 1
+    assert process.wait(timeout=PATIENCE) == 1
     return seen.decode("utf-8", "replace")
 
 

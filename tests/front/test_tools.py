@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from front_door import BLOCK, HOOP, Door, Shell
 from frot.dsl import CODES
+from patience import PATIENCE
 
 TEXT = HOOP.read_text(encoding="utf-8")
 UNTIDY = TEXT.replace("  body hoop", "body   hoop").replace("mass = 1", "mass=1").rstrip()
@@ -23,7 +24,7 @@ def piped(door: Door, *words: str, text: str | bytes) -> tuple[int, bytes, str]:
         input=text.encode() if isinstance(text, str) else text,
         cwd=door.folder,
         capture_output=True,
-        timeout=60,
+        timeout=PATIENCE,
         check=False,
     )
     return done.returncode, done.stdout, done.stderr.decode()

@@ -10,6 +10,7 @@ import pytest
 from c_objects import c_objects
 from frot.compiler.driver import kernel_folder, kernel_sources
 from frot.runtime.program import Program
+from patience import PATIENCE
 from small_models import Small, source
 from test_elements import clutch, pin_pendulum
 from test_general_core import pendulum_in_x_y
@@ -36,7 +37,7 @@ def drive(model: Path, stop: float, folder: Path) -> None:
         [binary, str(stop)],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=PATIENCE,
         check=False,
         env={**os.environ, "ASAN_OPTIONS": "detect_leaks=1"},
     )
