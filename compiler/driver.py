@@ -138,11 +138,11 @@ def make_report(model: Model, log: Log) -> Report | None:
 def _balanced(model: Model, log: Log) -> Mechanism | None:
     """The mechanism, if the text has as many equations as unknowns."""
     mechanism = mechanize(model, log)
-    if mechanism is None or not (model.variables or model.equations):
+    if mechanism is None or not (mechanism.model.variables or mechanism.model.equations):
         return mechanism
     from frot.compiler.equations.check_balance import check_balance
 
-    return mechanism if check_balance(model, mechanism, log) else None
+    return mechanism if check_balance(mechanism.model, mechanism, log) else None
 
 
 def print_stage(model: Model, stage: str, log: Log) -> str | None:

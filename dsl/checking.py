@@ -7,7 +7,7 @@ import sys
 from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
 from frot.dsl.declarations.instantiate import declare_values, instantiate
-from frot.dsl.declarations.mechanism import give_laws
+from frot.dsl.declarations.mechanism import complete_liaison
 from frot.dsl.declarations.settle import entities, settle_all
 from frot.dsl.expressions.rules import RULES
 from frot.dsl.messages.diagnostics import Log
@@ -76,7 +76,7 @@ def _model(
     root = instantiate(of, "", {}, "", definition.span, build)
     made = settle_all(build)
     for instance in made:
-        _give_laws(instance)
+        _complete_liaisons(instance)
     statements = root.statements
     the_world = [world(call, scope) for call, scope in statements.worlds]
     holds = the_world[-1] if the_world else default_world(planar)
@@ -151,17 +151,18 @@ def _vector(values: tuple[float, ...], kind: Type, source: Source) -> checked.Ve
     return checked.Vector(items, kind.of_shape((len(items),)), here)
 
 
-def _give_laws(instance: Instance) -> None:
-    """Laws are read once every name has its meaning: they may name any coordinate."""
+def _complete_liaisons(instance: Instance) -> None:
+    """Drives and laws are read once every name has its meaning: they may name any coordinate."""
     for node, scope in instance.statements.liaisons:
         declared = scope.find(node.name.text)
         if isinstance(declared, Array):
             of_items = scope.items(len(declared.items))
             for one, own in zip(declared.items, of_items, strict=True):
                 if isinstance(one, checked.Liaison):
-                    give_laws(node, one, own)
+                    complete_liaison(node, one, own)
         else:
-            give_laws(node, declared if isinstance(declared, checked.Liaison) else None, scope)
+            one = declared if isinstance(declared, checked.Liaison) else None
+            complete_liaison(node, one, scope)
 
 
 def _equations(made: list[Instance], build: Build) -> list[checked.Equation | checked.IfEquations]:

@@ -36,7 +36,7 @@ class Chains:
         self._time = time.element_hash()
         self._given: dict[int, ca.SX] = {}
         self._turned_by: dict[int, list[int]] = {}
-        self._without_rate: dict[int, str] = {}
+        self._without_rate: dict[int, tuple[str, bool]] = {}
 
     def add(
         self,
@@ -82,15 +82,21 @@ class Chains:
             return [self.place[key]]
         return [(chain, 0) for chain in self._turned_by.get(key, ())]
 
-    def forbid_rate(self, symbols: ca.SX, what: str) -> None:
-        """Note symbols whose derivative nobody knows; `what` names them: `the input`."""
-        for symbol in ca.vertsplit(symbols) if symbols.numel() else ():
-            self._without_rate[symbol.element_hash()] = f"{what} '{symbol.name()}'"
+    def forbid_rate(self, symbols: ca.SX, what: str, rest: bool = False) -> None:
+        """Note symbols whose derivative nobody knows; `what` names them: `the input`.
 
-    def without_rate(self, value: ca.SX) -> list[str]:
-        """What in a value has no derivative: inputs and reactions, in words."""
-        names = (self._without_rate.get(s.element_hash()) for s in ca.symvar(value))
-        return [n for n in names if n is not None]
+        `rest`: they are constant between events.
+        """
+        for symbol in ca.vertsplit(symbols) if symbols.numel() else ():
+            self._without_rate[symbol.element_hash()] = f"{what} '{symbol.name()}'", rest
+
+    def without_rate(self, value: ca.SX, inputs_rest: bool = False) -> list[str]:
+        """What in a value has no derivative: inputs and reactions, in words.
+
+        `inputs_rest`: what is constant between events has the derivative zero.
+        """
+        found = (self._without_rate.get(s.element_hash()) for s in ca.symvar(value))
+        return [x[0] for x in found if x is not None and not (x[1] and inputs_rest)]
 
     def is_unrated(self, symbol: ca.SX) -> bool:
         """Whether a symbol is one whose derivative nobody knows."""

@@ -137,7 +137,7 @@ def find_incidence(
 def _may_be_differentiated(
     value: ca.SX, of_mechanism: bool, origin: Origin, chains: Chains, log: Log
 ) -> bool:
-    names = chains.without_rate(value)
+    names = chains.without_rate(value, inputs_rest=origin.drives)
     if not (names or of_mechanism):
         return True
     if of_mechanism:

@@ -32,7 +32,7 @@ def _residuals(
     lowering.look_at(equation.left, equation.right)
     difference = lowering.lower(equation.left) - lowering.lower(equation.right)
     text = equation.connection or " ".join(equation.span.text.split()).rstrip("; ")
-    origin = Origin(equation.span, text, equation.owner)
+    origin = Origin(equation.span, text, equation.owner, equation.drives)
     return [(value, origin) for value in scalars(difference)]
 
 

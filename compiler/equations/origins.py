@@ -9,11 +9,12 @@ from frot.dsl.messages.source import Span
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """A scalar equation: its place, its text and the component it is in."""
+    """A scalar equation: its place, its text, the component it is in, whether it is a drive."""
 
     span: Span
     text: str
     owner: str
+    drives: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.dynamics import Push
+from frot.compiler.mechanics.efforts import Effort
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.mechanism import Joint, point_body
-from frot.compiler.mechanics.motions import name_of
+from frot.compiler.mechanics.mechanism import point_body
 from frot.compiler.mechanics.spatial import about_z, nowhere, whole
 from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Liaison, Literal, Place
 
@@ -66,7 +66,7 @@ def load(
     force: Force,
     kinematics: Kinematics,
     lowering: Lowering,
-    joints: Mapping[Liaison, Joint],
+    effort: Callable[[Liaison, str], Effort],
 ) -> Load:
     """Lower one force. `lowering` is that of the motion, so that its switches are located."""
     arguments = force.arguments
@@ -76,7 +76,7 @@ def load(
         return Load((end.under(push),), None)
     if force.kind.name == "couple":
         value = lowering.lower(_value(arguments["value"]))
-        return Load((_couple(arguments["holder"], kinematics, joints, value),), None)
+        return Load((_couple(arguments["holder"], kinematics, effort, value),), None)
     if force.kind.name == "drag":
         return _drag(arguments, kinematics, lowering)
     ends = ("centre", "point") if force.kind.name == "attraction" else ("a", "b")
@@ -110,13 +110,14 @@ def load(
 
 
 def _couple(
-    holder: Argument, kinematics: Kinematics, joints: Mapping[Liaison, Joint], value: ca.SX
+    holder: Argument,
+    kinematics: Kinematics,
+    effort: Callable[[Liaison, str], Effort],
+    value: ca.SX,
 ) -> Action:
     """A couple drives the angle of a liaison, or a body (about z in the plane)."""
     if isinstance(holder, Liaison):
-        joint = joints[holder]
-        index = next(k for k, m in enumerate(joint.motions) if name_of(m) == "angle")
-        return Action(kinematics.coordinate(joint, index)[1], value)
+        return Action(effort(holder, "angle").rate, value)
     assert isinstance(holder, BodyPoint)
     turning = kinematics.angular_velocity(holder.body)
     if not kinematics.planar:

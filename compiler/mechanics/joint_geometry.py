@@ -126,9 +126,16 @@ def _beside(found: Touch, vector: ca.SX, planar: bool) -> ca.SX:
 
 
 def joint_variable(
-    geometry: JointGeometry, name: str, rows: Rows | None, lam: ca.SX, planar: bool
+    geometry: JointGeometry,
+    name: str,
+    rows: Rows | None,
+    lam: ca.SX,
+    drive: tuple[ca.SX, ca.SX],
+    planar: bool,
 ) -> ca.SX:
     """A variable of a joint; `rows` is None where its reaction is not computed.
+
+    `drive`: force and couple of what keeps prescribed coordinates.
 
     The force, at the place b, and the couple are those of a on b, in ground axes. With the radius
     of a pin, `slip` and `tangential_force` are those at its surface.
@@ -150,7 +157,7 @@ def joint_variable(
             return _beside(geometry.touch, geometry.moves, planar)
     if rows is None:
         raise KeyError(name)
-    force, couple = ca.SX.zeros(3), ca.SX.zeros(3)
+    force, couple = (ca.densify(x) for x in drive)
     for row, action in zip(rows.reaction, geometry.actions, strict=True):
         force += lam[row] * action.force
         couple += lam[row] * action.couple

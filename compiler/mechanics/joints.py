@@ -135,10 +135,19 @@ def drive(pairing: Pairing, values: Mapping[str, Expression]) -> Pairing:
 
 
 def make_joint(
-    liaison: Liaison, a: Point, b: Point, free: Pairing, *, swapped: bool = False
+    liaison: Liaison,
+    a: Point,
+    b: Point,
+    free: Pairing,
+    told: Mapping[str, Expression],
+    *,
+    swapped: bool = False,
 ) -> Joint:
-    """A joint without friction; what keeps a particle from turning is left out."""
-    pairing = drive(free, liaison.driven)
+    """A joint without friction whose coordinates in `told` are values of time.
+
+    What keeps a particle from turning is left out.
+    """
+    pairing = drive(free, told)
     locks = pairing.locks
     if is_particle(point_body(a)) or is_particle(point_body(b)):
         locks = tuple(lock for lock in locks if not lock.turns)

@@ -1,4 +1,4 @@
-"""Generalized forces of what the text applies: springs, couples, drags and flanges."""
+"""Generalized forces of what the text applies: springs, couples, drags, flanges and drives."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.mechanics.dynamics import Push, in_trees
 from frot.compiler.mechanics.forces import Action, Load, load
-from frot.compiler.mechanics.mechanism import Joint, Mechanism, Relation
-from frot.compiler.mechanics.motions import name_of
+from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.variables import Variables
 
 
@@ -29,19 +28,13 @@ class Loads:
 
 
 def applied_loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> list[Load]:
-    """The forces of the text and the efforts of its flanges."""
+    """The forces of the text and the efforts of its flanges and drives."""
     kinematics = variables.kinematics
-    links = (*mechanism.contacts, *mechanism.ideal)
-    joints = {x.liaison: x for x in links if isinstance(x, Joint)}
-    joints |= {x.liaison: x.joint for x in links if isinstance(x, Relation)}
-    applied = [load(force, kinematics, moving, joints) for force in mechanism.forces]
+    applied = [load(force, kinematics, moving, variables.effort) for force in mechanism.forces]
     for flange in mechanism.model.flanges:
         assert moving.variable is not None
-        effort = moving.variable(flange.effort)
-        joint = joints[flange.liaison]
-        names = [name_of(m) for m in joint.motions]
-        rate = kinematics.coordinate(joint, names.index(flange.coordinate))[1]
-        applied.append(Load((Action(rate, effort),), None))
+        rate = variables.effort(flange.liaison, flange.coordinate).rate
+        applied.append(Load((Action(rate, moving.variable(flange.effort)),), None))
     return applied
 
 

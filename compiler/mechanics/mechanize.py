@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
+from frot.compiler.mechanics.drives import free_drives, told_by_time
 from frot.compiler.mechanics.figures import (
     Ball,
     Dot,
@@ -61,6 +62,7 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     refuse_unknown(model, log)
     if log.failed:
         return None
+    model = free_drives(model)
     links = [e for x in model.liaisons if (e := _link(x, model.planar, log)) is not None]
     refuse_surface(model, links, log)
     if log.failed:
@@ -142,7 +144,9 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
             "a particle has no angle: use a rod, a disc or a ring",
         )
         return None
-    joint = make_joint(liaison, a, b, JOINTS[name](liaison.options, planar))
+    joint = make_joint(
+        liaison, a, b, JOINTS[name](liaison.options, planar), told_by_time(liaison, planar)
+    )
     law = _law(liaison, "coulomb")
     if law is None:
         return joint
@@ -186,7 +190,7 @@ def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     if a is None or b is None:
         refuse(log, "a curve or surface as a place of a liaison of one's own", liaison.span)
         return None
-    return make_joint(liaison, a.point, b.point, Pairing((), tuple(locks), carries=False))
+    return make_joint(liaison, a.point, b.point, Pairing((), tuple(locks), carries=False), {})
 
 
 def _is_of_motion(node: Expression) -> bool:
@@ -214,7 +218,8 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
         return None
     pairing, swapped = found
     first, second = (b.point, a.point) if swapped else (a.point, b.point)
-    return make_joint(liaison, first, second, pairing, swapped=swapped)
+    told = told_by_time(liaison, planar)
+    return make_joint(liaison, first, second, pairing, told, swapped=swapped)
 
 
 def _contact(liaison: Liaison, log: Log) -> Contact | None:
@@ -237,9 +242,6 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
             liaison.span,
             "a point or a rim on a line or circle is supported, and a point that stays on a curve",
         )
-        return None
-    if liaison.driven:
-        refuse(log, f"a driven {spelled(liaison)} in the plane", liaison.span)
         return None
     point = rim.point
     if not is_fixed(liaison.options["unilateral"]):

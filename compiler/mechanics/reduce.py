@@ -243,13 +243,19 @@ def _variables(
         assert not isinstance(own, RelationGeometry)
         links[link.liaison], reactions[link.liaison] = link, rows
         geometry[link.liaison] = own
-    for link in (*mechanism.ideal, *links.values()):
+    for link in (*mechanism.ideal, *tuple(links.values())):
         if link.liaison not in geometry:
             side = sides.get(link.liaison, ca.SX(1))
             other = link_geometry(link, kinematics, side, world)
             assert not isinstance(other, RelationGeometry)
             geometry[link.liaison] = other
-    return Variables(symbols, text.chains, kinematics, geometry, links, reactions)
+        links[link.liaison] = link
+    drives: dict[Liaison, list[tuple[str, ca.SX]]] = {}
+    for flange in mechanism.model.flanges:
+        if flange.drives:
+            effort = text.values[flange.effort]
+            drives.setdefault(flange.liaison, []).append((flange.coordinate, effort))
+    return Variables(symbols, text.chains, kinematics, geometry, links, reactions, drives)
 
 
 def _masses(

@@ -101,13 +101,10 @@ def refuse_unknown(model: Model, log: Log) -> None:
 
 def _refuse_drive(liaison: Liaison, log: Log) -> None:
     for name, value in liaison.driven.items():
-        if name.startswith("speed"):
-            coordinate = "displacement" if "displacement" in liaison.kind.coordinates else "angle"
-            refuse(log, f"a driven '{name}'", value.span, f"drive '{coordinate}'")
-        elif not follows_time(value):
+        if name in ("length", "gap") and not follows_time(value):
             refuse(
                 log,
-                "a drive that follows other than time",
+                f"a driven '{name}' that follows other than time",
                 value.span,
                 "write a value of time and parameters without switches",
             )

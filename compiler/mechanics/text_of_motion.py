@@ -37,7 +37,7 @@ def chains_of_motion(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
             [symbols.rates[i] for i in places],
             [k for k in turn.speeds if k >= 0],
         )
-    chains.forbid_rate(symbols.u, "the input")
+    chains.forbid_rate(symbols.u, "the input", rest=True)
     chains.forbid_rate(symbols.lam, "the reaction of")
     return make_text_symbols(mechanism.model.variables, chains)
 

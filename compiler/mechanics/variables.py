@@ -8,10 +8,12 @@ import casadi as ca
 from frot.compiler.equations.chains import Chains
 from frot.compiler.lowering.symbols import Rows, Symbols
 from frot.compiler.mechanics.contacts import Geometry
+from frot.compiler.mechanics.efforts import Effort, effort_along
 from frot.compiler.mechanics.joint_geometry import JointGeometry, joint_variable
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.mechanism import Contact, Joint, point_body
 from frot.compiler.mechanics.shapes import inertia_of
+from frot.compiler.mechanics.spatial import nowhere
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity
 
 
@@ -19,7 +21,8 @@ from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity
 class Variables:
     """Gives the value of a variable by its owner and name.
 
-    `geometry` holds every liaison, `reactions` the rows of those whose reaction is computed.
+    `geometry` and `links` hold every liaison, `reactions` the rows of those whose reaction is
+    computed, `drives` the efforts that keep prescribed coordinates, by their names.
     """
 
     symbols: Symbols
@@ -28,6 +31,7 @@ class Variables:
     geometry: dict[Liaison, Geometry | JointGeometry]
     links: dict[Liaison, Contact | Joint]
     reactions: dict[Liaison, Rows]
+    drives: dict[Liaison, list[tuple[str, ca.SX]]]
 
     def quantity(self, node: Quantity) -> ca.SX:
         """Value of a variable named in the text."""
@@ -100,12 +104,26 @@ class Variables:
         axes = self.kinematics.pose(body).axes
         return ca.sparsify(axes @ own @ axes.T)
 
+    def effort(self, liaison: Liaison, coordinate: str) -> Effort:
+        """One unit along a coordinate of a liaison."""
+        link, geometry = self.links[liaison], self.geometry[liaison]
+        return effort_along(link, coordinate, geometry, self.kinematics)
+
+    def _drive(self, liaison: Liaison) -> tuple[ca.SX, ca.SX]:
+        """Force and couple of the drives of a liaison."""
+        force, couple = nowhere(), nowhere()
+        for coordinate, size in self.drives.get(liaison, ()):
+            unit = self.effort(liaison, coordinate)
+            force, couple = force + size * unit.force, couple + size * unit.couple
+        return force, couple
+
     def of_liaison(self, liaison: Liaison, name: str) -> ca.SX:
         """A variable of a liaison; its reaction is that of its first place on its second."""
         geometry = self.geometry[liaison]
         if isinstance(geometry, JointGeometry):
             rows, planar = self.reactions.get(liaison), self.kinematics.planar
-            return joint_variable(geometry, name, rows, self.symbols.lam, planar)
+            drive = self._drive(liaison)
+            return joint_variable(geometry, name, rows, self.symbols.lam, drive, planar)
         match name:
             case "gap":
                 return geometry.gap
@@ -116,7 +134,8 @@ class Variables:
         rows, contact = self.reactions[liaison], self.links[liaison]
         lam = self.symbols.lam
         normal = lam[rows.reaction[0]]
-        tangent = lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
+        tangent = ca.dot(self._drive(liaison)[0], geometry.line.direction)
+        tangent += lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
         couple = lam[rows.rolling] if rows.rolling >= 0 else ca.SX(0)
         assert isinstance(contact, Contact)
         on_second = 1 if contact.line_first else -1
@@ -132,5 +151,6 @@ class Variables:
             case "torque":
                 return on_second * couple
             case "power":
+                tangent = lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
                 return tangent * geometry.slip + couple * geometry.roll
         raise KeyError(name)

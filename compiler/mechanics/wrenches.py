@@ -29,7 +29,7 @@ from frot.compiler.mechanics.locks import (
     Way,
     WayAlong,
 )
-from frot.compiler.mechanics.motions import Axis, Follow, Screw, Slide, Turn
+from frot.compiler.mechanics.motions import Axis, Follow, Motion, Screw, Slide, Turn
 from frot.compiler.mechanics.moves import (
     Column,
     Lower,
@@ -39,7 +39,7 @@ from frot.compiler.mechanics.moves import (
     unit_vector,
     way_of,
 )
-from frot.compiler.mechanics.paths import point_of
+from frot.compiler.mechanics.paths import parameter_of, point_of
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, beside, cross, nowhere
 from frot.compiler.mechanics.touches import Touch, touch
 
@@ -181,6 +181,26 @@ def _level(lock: Level, a: Pose, b: Pose, lower: Lower) -> Action:
     """n_a . d_b = 0."""
     normal, along = _along(a, lock.normal, lower), _along(b, lock.along, lower)
     return _twist(cross(along, normal), ca.dot(normal, along))
+
+
+def wrench_along(
+    motion: Motion, a: Pose, b: Pose, lower: Lower, tangent: ca.SX | None = None
+) -> tuple[ca.SX, ca.SX]:
+    """Force and couple on b whose power is one unit for each unit of the coordinate's rate.
+
+    On the other motions that are left it does no work. `tangent` is that of a curve that carries b.
+    """
+    if isinstance(motion, Slide):
+        return a.direction(way_of(motion, lower)), nowhere()
+    if isinstance(motion, Follow):
+        if tangent is None:
+            u = ca.SX.sym("u")
+            here = parameter_of(motion.curve, b.origin - a.origin, a, lower)
+            slope = ca.jacobian(point_of(motion.curve, u, lower), u)
+            tangent = a.direction(ca.substitute(slope, u, here))
+        return tangent / ca.sumsqr(tangent), nowhere()
+    assert isinstance(motion, Turn | Screw)
+    return nowhere(), arc(motion, a, b, lower).about
 
 
 def _drive(lock: Drive, a: Pose, b: Pose, lower: Lower) -> Action:

@@ -187,9 +187,11 @@ class Flange:
     """The flange of a liaison of one coordinate, where something is connected to it.
 
     `effort` is its flow variable, the force or couple that flows into the liaison: it drives the
-    coordinate `Quantity(liaison, coordinate)` upwards.
+    coordinate `Quantity(liaison, coordinate)` upwards. `drives`: it is what keeps a prescribed
+    coordinate, and a part of the liaison's reaction.
     """
 
     liaison: Liaison
     coordinate: str
     effort: Variable
+    drives: bool = False

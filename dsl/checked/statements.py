@@ -18,6 +18,7 @@ class Equation:
     `span` is where it is written, in the class of the component; `owner` is the component's dotted
     name, empty in the model itself. A connection gives equations with the span of its `connect`;
     `connection` is then its text for messages (`connect(r.n, l.p)`, or `flows of r.n, l.p`).
+    `drives`: it prescribes a coordinate, and inputs in it rest between their changes.
     """
 
     left: Expression
@@ -25,6 +26,7 @@ class Equation:
     span: Span
     owner: str = ""
     connection: str = ""
+    drives: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -23,7 +23,7 @@ from frot.dsl.text import tree
 
 
 def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison | None:
-    """The checked liaison, its laws still to be given by `give_laws`; None after a message."""
+    """The checked liaison, still to be completed by `complete_liaison`; None after a message."""
     call = called(node.kind, "liaison", scope)
     if call is None:
         return None
@@ -51,11 +51,7 @@ def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison
     if not _parts_agree(node, kind.name, a, b, scope):
         return None
     options = cast("dict[str, checked.Expression]", found.values)
-    driven: dict[str, checked.Expression] = {}
-    made = checked.Liaison(full_name, kind, a, b, options, (), node.span, node.doc, driven=driven)
-    if node.driven is not None:
-        _driven(node, made, driven, scope)
-    return made
+    return checked.Liaison(full_name, kind, a, b, options, (), node.span, node.doc)
 
 
 def _stated(
@@ -80,12 +76,10 @@ def _stated(
 
 
 def _driven(
-    node: tree.Liaison,
-    made: checked.Liaison,
-    driven: dict[str, checked.Expression],
-    scope: Scope,
-) -> None:
-    """Check `driven(angle = ...)`; `driven` learns the values by their coordinates."""
+    node: tree.Liaison, made: checked.Liaison, scope: Scope
+) -> dict[str, checked.Expression]:
+    """Check `driven(angle = ...)`: the values by their coordinates, none after a message."""
+    driven: dict[str, checked.Expression] = {}
     known_coordinates = coordinates(made, scope.planar)
     own = [c for c in made.kind.coordinates if c in known_coordinates]
     for argument in node.driven or ():
@@ -99,15 +93,16 @@ def _driven(
                 notes=(f"its coordinates are: {', '.join(own) or 'none'}",),
                 help=did_you_mean(name, own),
             )
-            return
+            return {}
         if name in driven:
             message = f"{name!r} of liaison {made.name!r} is driven twice"
             scope.log.report("E0204", message, argument.span)
-            return
+            return {}
         value = expect(argument.value, known_coordinates[name], scope)
         if value is None:
-            return
+            return {}
         driven[name] = value
+    return driven
 
 
 def _parts_agree(
@@ -145,12 +140,14 @@ def _root(place: checked.Place) -> checked.Body:
     return owner
 
 
-def give_laws(node: tree.Liaison, to: checked.Liaison | None, scope: Scope) -> None:
-    """Check the laws of a liaison once every name has its meaning.
+def complete_liaison(node: tree.Liaison, to: checked.Liaison | None, scope: Scope) -> None:
+    """Check the drives and laws of a liaison once every name has its meaning.
 
     They may read any coordinate, that of their own liaison among them. `to` is None where the
     liaison itself was refused.
     """
+    if to is not None and node.driven is not None and not to.relations:
+        object.__setattr__(to, "driven", _driven(node, to, scope))
     found: list[checked.Law] = []
     for written in node.laws:
         law = _law(written, scope)

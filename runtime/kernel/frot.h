@@ -44,7 +44,7 @@ enum frot_status {
   FROT_REFUSED = 24,     /* a change from outside cannot be made in a run; the old values stay */
   FROT_EVENT_FAULT = 30, /* an event of the text cannot do what it says */
   FROT_POSTURE = 31,     /* relations of a loop do not tell how it goes on */
-  FROT_JUMP = 25         /* a `reinit` puts a body where its liaisons cannot have it */
+  FROT_JUMP = 25         /* a `reinit` or a switch moves a body against what holds it */
 };
 
 /* Why a change is refused: `other` of the fault. Of contacts, then of bodies that are carried

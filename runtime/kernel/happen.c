@@ -9,6 +9,7 @@
 #include "mechanics.h"
 #include "record.h"
 #include "resolve.h"
+#include "supports.h"
 #include "tolerances.h"
 
 #define SHRINKING \
@@ -235,6 +236,9 @@ static int change_conditions(const instant *in, int first) {
   if (m->n_conditions == 0) return FROT_OK;
   int status = frot_note_conditions(m, s, in->w, in->t, in->q, in->v);
   if (status != FROT_OK) return status;
+  int kept = !first && m->n_invariants > 0;
+  if (kept) status = frot_note_supports(m, s, in->w, in->t, in->q, in->v);
+  if (status != FROT_OK) return status;
   memcpy(in->w->events.before, d, sizeof(double) * (size_t)m->n_conditions);
   s->jumped = 0;
   for (int j = 0; j < m->n_conditions; j++) {
@@ -244,6 +248,7 @@ static int change_conditions(const instant *in, int first) {
   memset(s->data + in->l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   if (!first) status = frot_settle_conditions(m, s, in->w, in->t, in->q, in->v);
   if (status == FROT_OK) tell_conditions(in);
+  if (status == FROT_OK && kept) status = frot_check_switch(m, s, in->w, in->t, in->q, in->v);
   return status;
 }
 

@@ -142,14 +142,35 @@ static int check_contact(const change *c, int i, int act) {
   return FROT_OK;
 }
 
+/* The first relation between states that has moved since it was noted, -1 if none has. */
+static int moved_invariant(const frot_model *m, const frot_work *w, const noted *before,
+                           const double *now) {
+  for (int i = 0; i < m->n_invariants; i++)
+    if (fabs(now[i] - before->invariant[i]) >
+        FROT_TOUCH * (w->relations.residual[i] + fabs(now[i])))
+      return i;
+  return -1;
+}
+
 static int check_invariants(const change *c, const double *now) {
   const frot_model *m = c->m;
-  for (int i = 0; i < m->n_invariants; i++) {
-    double moved = now[i] - c->before.invariant[i];
-    if (fabs(moved) > FROT_TOUCH * (c->w->relations.residual[i] + fabs(now[i])))
-      return refuse(c->s, c->t, -1, m->n_statements - m->n_invariants + i, FROT_BREAKS, moved);
-  }
-  return FROT_OK;
+  int i = moved_invariant(m, c->w, &c->before, now);
+  if (i < 0) return FROT_OK;
+  return refuse(c->s, c->t, -1, m->n_statements - m->n_invariants + i, FROT_BREAKS,
+                now[i] - c->before.invariant[i]);
+}
+
+int frot_check_switch(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                      const double *v) {
+  noted before = noted_in(m, w->stood);
+  double *place = before.invariant + m->n_invariants;
+  double *now = place + FROT_PLACE * m->n_carried;
+  int status = look(m, s, w, t, q, v, place, now);
+  if (status != FROT_OK) return status;
+  int i = moved_invariant(m, w, &before, now);
+  if (i < 0) return FROT_OK;
+  return frot_fail(s, FROT_JUMP, t, -1, m->n_statements - m->n_invariants + i, FROT_BREAKS,
+                   now[i] - before.invariant[i]);
 }
 
 int frot_check_supports(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
@@ -209,7 +230,8 @@ void frot_refusal_text(const frot_model *m, const frot_fault *f, char *text, siz
   snprintf(what, sizeof what, words_of(f), f->value);
   const char *before =
       f->status == FROT_JUMP
-          ? "`reinit` moves a body against its liaisons"
+          ? (f->contact >= 0 ? "`reinit` moves a body against its liaisons"
+                             : "a switch moves at once what equations prescribe")
           : "the change of parameters or inputs is refused, and the old values stay";
   if (f->contact >= 0 && f->contact < m->n_contacts)
     snprintf(text, size, "%s at t = %.17g: liaison '%s': %s", before, f->t,

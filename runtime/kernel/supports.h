@@ -22,6 +22,11 @@ int frot_note_supports(const frot_model *m, frot_state *s, frot_work *w, double 
 int frot_check_supports(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                         const double *v, frot_recorder *recorder);
 
+/* After conditions have changed, at the same states: FROT_JUMP, with the fault recorded, where a
+ * relation of the text between states no longer holds. */
+int frot_check_switch(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                      const double *v);
+
 /* The sentence of a refusal, and the place of what it is about where that is no contact. */
 void frot_refusal_text(const frot_model *m, const frot_fault *f, char *text, size_t size);
 const char *frot_refusal_place(const frot_model *m, const frot_fault *f);

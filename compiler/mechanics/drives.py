@@ -1,0 +1,73 @@
+"""Drives that follow other than time alone, as equations of the text.
+
+A coordinate that is a value of time is none (`motions.Driven`). One that follows an input, a
+variable, a motion or a switch, and a prescribed speed, stay free: an effort along them, an unknown,
+is what the equation `coordinate = value` needs. Index reduction finds it, as it does for a motor on
+a flange.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from frot.compiler.lowering.walk import follows_time
+from frot.dsl.catalogue import TYPES
+from frot.dsl.checked import Equation, Expression, Flange, Liaison, Model, Quantity, Variable
+
+# What drives a coordinate is a couple where this is an angle, else a force.
+_ANGLES = ("angle", "angle_a", "angle_b")
+
+
+def free_drives(model: Model) -> Model:
+    """The model with every such drive as an effort and an equation; itself where it has none."""
+    if not any(_goes_free(x, name, model.planar) for x in model.liaisons for name in x.driven):
+        return model
+    efforts: list[Flange] = []
+    equations: list[Equation] = []
+    for liaison in model.liaisons:
+        for name, value in liaison.driven.items():
+            if _goes_free(liaison, name, model.planar):
+                efforts.append(_effort(liaison, driven_coordinate(liaison, name)))
+                equations.append(_equation(liaison, name, value))
+    return replace(
+        model,
+        variables=(*model.variables, *(x.effort for x in efforts)),
+        equations=(*model.equations, *equations),
+        flanges=(*model.flanges, *efforts),
+    )
+
+
+def driven_coordinate(liaison: Liaison, name: str) -> str:
+    """The coordinate that a drive moves: of a speed, that whose rate it is."""
+    if not name.startswith("speed"):
+        return name
+    slides = name == "speed" and "displacement" in liaison.kind.coordinates
+    return "displacement" if slides else "angle"
+
+
+def told_by_time(liaison: Liaison, planar: bool) -> dict[str, Expression]:
+    """The drives of a liaison that are values of time: their coordinates are none."""
+    return {k: x for k, x in liaison.driven.items() if not _goes_free(liaison, k, planar)}
+
+
+def _goes_free(liaison: Liaison, name: str, planar: bool) -> bool:
+    along_a_line = planar and liaison.kind.name == "point_courbe"
+    speed = name.startswith("speed")
+    return speed or along_a_line or not follows_time(liaison.driven[name])
+
+
+def _effort(liaison: Liaison, coordinate: str) -> Flange:
+    quantity = "Torque" if coordinate in _ANGLES else "Force"
+    effort = Variable(
+        f"{liaison.name}.drive.{coordinate}",
+        TYPES[quantity],
+        liaison.span,
+        f"what drives '{coordinate}'",
+        quantity=quantity,
+    )
+    return Flange(liaison, coordinate, effort, drives=True)
+
+
+def _equation(liaison: Liaison, name: str, value: Expression) -> Equation:
+    place = Quantity(liaison, name, value.type, value.span)
+    return Equation(place, value, value.span, drives=True)

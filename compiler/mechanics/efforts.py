@@ -1,0 +1,59 @@
+"""Efforts along the coordinates of liaisons: of flanges, of drives, of couples in a pin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.mechanics.contacts import Geometry
+from frot.compiler.mechanics.figures import Flat
+from frot.compiler.mechanics.joint_geometry import JointGeometry
+from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.mechanism import Contact, Joint
+from frot.compiler.mechanics.motions import bare, name_of
+from frot.compiler.mechanics.paths import point_of
+from frot.compiler.mechanics.spatial import nowhere
+from frot.compiler.mechanics.wrenches import wrench_along
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Effort:
+    """What one unit along a coordinate is: the rate it drives, its force and couple on b.
+
+    In a liaison of which a curve of the plane is one place, `force` is that on the point.
+    """
+
+    rate: ca.SX
+    force: ca.SX
+    couple: ca.SX
+
+
+def effort_along(
+    link: Contact | Joint,
+    coordinate: str,
+    geometry: Geometry | JointGeometry,
+    kinematics: Kinematics,
+) -> Effort:
+    """One unit along a coordinate, whether coordinates keep the liaison or not."""
+    lower = kinematics.fixed.lower
+    if isinstance(link, Contact):
+        assert isinstance(geometry, Geometry)
+        pace = _pace(link, geometry, kinematics)
+        return Effort(geometry.slip / pace, geometry.line.direction / pace, nowhere())
+    index = [name_of(m) for m in link.motions].index(coordinate)
+    rate = kinematics.coordinate(link, index)[1]
+    a, b = kinematics.pose(link.a), kinematics.pose(link.b)
+    tangent = kinematics.tangents.get(link.liaison)
+    return Effort(rate, *wrench_along(bare(link.motions[index]), a, b, lower, tangent))
+
+
+def _pace(contact: Contact, geometry: Geometry, kinematics: Kinematics) -> ca.SX:
+    """The way along a curve for one unit of its parameter."""
+    tangent = kinematics.tangents.get(contact.liaison)
+    if tangent is None and isinstance(contact.track.figure, Flat):
+        return ca.SX(1)
+    if tangent is None:
+        u = ca.SX.sym("u")
+        slope = ca.jacobian(point_of(contact.track.figure, u, kinematics.fixed.lower), u)
+        tangent = ca.substitute(slope, u, geometry.abscissa)
+    return ca.norm_2(tangent)
