@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import casadi as ca
@@ -12,6 +12,7 @@ from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.mechanics.mechanism import Link
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation, Reference, Variable
 from frot.dsl.messages.source import Span
@@ -43,9 +44,12 @@ class Initial:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Residual:
+    """A statement that something is zero; `only`: the one unknown that is to make it so."""
+
     value: ca.SX
     size: ca.SX
     statement: int
+    only: ca.SX | None = None
 
 
 def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
@@ -76,6 +80,11 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
         span = next(bodies, None) or model.span
         text = f"{name} is a unit quaternion (cos(f/2), sin(f/2)*n)"
         statements.append(Statement(text, span, "1"))
+    for counter, angle, link in _counted(system):
+        own = ca.atan2(ca.sin(angle - counter), ca.cos(angle - counter))
+        found.append(_Residual(own, ca.SX(1), len(statements), counter))
+        text = f"the turns of {link.liaison.name}"
+        statements.append(Statement(text, link.liaison.span, "1"))
     for value, origin in zip(
         ca.vertsplit(system.invariants.values) if system.invariants.origins else (),
         system.invariants.origins,
@@ -97,6 +106,15 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
         tuple(r.statement for r in position),
         tuple(r.statement for r in velocity),
     )
+
+
+def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Link]]:
+    """Each counter with the angle it counts, which is within half a turn of it."""
+    reduced = system.reduced
+    mechanism, kinematics = reduced.mechanism, reduced.variables.kinematics
+    for (link, k), counter in zip(mechanism.counters, kinematics.counters.values(), strict=True):
+        angle, _ = reduced.variables.coordinate(link.liaison, k)
+        yield counter, reduced.variables.settled(angle), link
 
 
 def _natural(system: Assembled) -> ca.SX:
@@ -216,9 +234,13 @@ def _depends(value: ca.SX, system: Assembled, on: ca.SX) -> bool:
 
 def _outputs(residuals: list[_Residual], unknown: ca.SX, y: ca.SX) -> list[ca.SX]:
     values = column(r.value for r in residuals)
+    slopes = ca.jacobian(values, unknown)
+    for i, residual in enumerate(residuals):
+        if residual.only is not None:
+            slopes[i, :] = -ca.jacobian(residual.only, unknown)
     return [
         values,
-        ca.jacobian(values, unknown).T,
+        ca.sparsify(slopes).T,
         column(r.size for r in residuals),
         ca.jacobian(values, y).T,
     ]

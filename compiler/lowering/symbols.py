@@ -20,7 +20,8 @@ class Symbols:
     along which the reaction of a reduced liaison is read; `u` inputs, `p` parameters, `sides` of
     the contacts (+1 or -1); `a` rates of v (nv), `lam` reactions of the rows by the names of their
     liaisons, `energy` (dissipated, work). `rates` are those of q in q and v; `q_speed` is the speed
-    that is the rate of a coordinate, or -1; `turns` are the coordinates that are quaternions.
+    that is the rate of a coordinate, or -1; `turns` are the coordinates that are quaternions. The
+    last of q are the mechanism's counters; their rates come with the geometry (reduce.py).
     `parameters` and `inputs` are scalars in the order of p and u; `items` are those of each array.
     """
 
@@ -114,6 +115,12 @@ def link_rows(links: tuple[Link, ...]) -> tuple[Rows, ...]:
     return tuple(rows)
 
 
+def counters_of(mechanism: Mechanism, q: ca.SX) -> dict[tuple[Liaison, int], ca.SX]:
+    """The symbols of the mechanism's counters, by liaison and motion."""
+    first = q.numel() - len(mechanism.counters)
+    return {(x.liaison, k): q[first + i] for i, (x, k) in enumerate(mechanism.counters)}
+
+
 def make_symbols(mechanism: Mechanism) -> Symbols:
     """Symbols of the sizes the mechanism needs."""
     names = [n for c in mechanism.coordinates for n in c.names]
@@ -124,13 +131,14 @@ def make_symbols(mechanism: Mechanism) -> Symbols:
         link.liaison.name for link, r in zip(mechanism.contacts, rows, strict=True) for _ in r.all
     ]
     q, v = column(ca.SX.sym(n) for n in names), column(ca.SX.sym(n) for n in speeds)
+    turned = column(ca.SX.sym(f"{x.liaison.name}.turned") for x, _ in mechanism.counters)
     motions = [m for c in mechanism.coordinates for m in c.motions]
     items, of_input = tunable(mechanism.model.parameters), by_input(mechanism.model.inputs)
     values: dict[Parameter | Input, ca.SX] = {}
     p, u = _scalars(items, values), _scalars(of_input, values)
     return Symbols(
         t=ca.SX.sym("t"),
-        q=q,
+        q=ca.vertcat(q, turned) if turned.numel() else q,
         v=v,
         sw=ca.SX.sym("sw", na),
         u=column(u),
@@ -140,7 +148,7 @@ def make_symbols(mechanism: Mechanism) -> Symbols:
         lam=column(ca.SX.sym(n) for n in reactions),
         energy=ca.SX.sym("energy", 2),
         rates=_rates(motions, q, v),
-        q_speed=_rate_places(motions),
+        q_speed=(*_rate_places(motions), *[-1] * turned.numel()),
         turns=_turns(motions),
         parameters=tuple(one for group in items.values() for one in group),
         inputs=tuple(one for group in of_input.values() for one in group),

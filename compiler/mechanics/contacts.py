@@ -223,5 +223,7 @@ def _on_round(contact: Contact, kinematics: Kinematics, side: ca.SX, world: Worl
         reach=found.size + ca.dot(ca.fabs(normal), sizes),
         slip=ca.dot(line.direction, apart),
         roll=ca.dot(Z, turning),
-        abscissa=parameter_of(contact.track.figure, own.origin - base.origin, base, lower),
+        abscissa=kinematics.counted(
+            contact, 0, parameter_of(contact.track.figure, own.origin - base.origin, base, lower)
+        ),
     )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import casadi as ca
 from frot.compiler.lowering.symbols import Rows
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.locks import Stated
+from frot.compiler.mechanics.locks import Stated, Thread
 from frot.compiler.mechanics.mechanism import Joint, Relation, point_body
 from frot.compiler.mechanics.motions import name_of
 from frot.compiler.mechanics.spatial import Z, cross
@@ -106,7 +106,10 @@ def relation_geometry(relation: Relation, kinematics: Kinematics, side: ca.SX) -
             return RelationGeometry(ca.SX(0), value, ca.SX.ones(3), ca.SX(0))
         return RelationGeometry(value, kinematics.rate(value), ca.SX.ones(3), size)
     a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
-    action = act(relation.lock, a.pose, b.pose, kinematics.fixed.lower, side)
+    turn = None
+    if isinstance(relation.lock, Thread):
+        turn = kinematics.coordinate(joint, 0)[0]
+    action = act(relation.lock, a.pose, b.pose, kinematics.fixed.lower, side, turn=turn)
     sizes = kinematics.lengths_between(
         (point_body(joint.a), kinematics.local_point(joint.a)),
         (point_body(joint.b), kinematics.local_point(joint.b)),

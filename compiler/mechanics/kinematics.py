@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
-from frot.compiler.lowering.symbols import Symbols, reading_places
+from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
 from frot.compiler.mechanics.figures import Flat, Placed
 from frot.compiler.mechanics.mechanism import (
     Contact,
@@ -28,6 +28,7 @@ from frot.compiler.mechanics.moves import (
     Column,
     Lower,
     carried,
+    counted,
     move,
     seen,
     turned_by_time,
@@ -99,6 +100,7 @@ class Kinematics:
         self.hangs: dict[Body, Hanging] = {}
         self.places: dict[Body, tuple[int, int]] = {}
         self.tangents: dict[Liaison, ca.SX] = {}
+        self.counters = counters_of(mechanism, symbols.q)
         nq = nv = 0
         for hanging in mechanism.coordinates:
             self.hangs[hanging.body] = hanging
@@ -304,7 +306,9 @@ class Kinematics:
     def rate(self, value: ca.SX) -> ca.SX:
         """Rate of a function of the coordinates and of time, without auxiliary speeds."""
         s = self.symbols
-        return ca.jtimes(value, ca.vertcat(s.t, s.q), ca.vertcat(1, s.rates))
+        count = s.q.numel() - len(self.counters)  # which turn it is changes no value
+        q = s.q[:count] if self.counters else s.q
+        return ca.jtimes(value, ca.vertcat(s.t, q), ca.vertcat(1, s.rates))
 
     def velocity_at(self, body: Body, place: ca.SX) -> ca.SX:
         """Velocity (3) of the material point of a body that is at `place`."""
@@ -328,7 +332,13 @@ class Kinematics:
             if motion.coordinates and hanging.motions[k].coordinates == motion.coordinates:
                 return self.symbols.q[nq], self.symbols.v[nv]
         a, b = self.moving(joint.a), self.moving(joint.b)
-        return seen(motion, a, b, self.fixed.lower)
+        value, rate = seen(motion, a, b, self.fixed.lower)
+        return self.counted(joint, index, value), rate
+
+    def counted(self, link: Joint | Contact, index: int, angle: ca.SX) -> ca.SX:
+        """The angle of a motion with the turns that its counter has seen, if it has one."""
+        counter = self.counters.get((link.liaison, index))
+        return angle if counter is None else counted(angle, counter)
 
     def parameter(self, liaison: Liaison) -> tuple[ca.SX, ca.SX]:
         """The parameter of the curve by which a liaison carries a body, and its rate."""

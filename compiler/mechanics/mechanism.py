@@ -8,9 +8,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from frot.compiler.lowering.walk import has_time, is_fixed
-from frot.compiler.mechanics.figures import Figure, Placed
+from frot.compiler.mechanics.figures import Figure, Flat, Placed
 from frot.compiler.mechanics.locks import Lock
-from frot.compiler.mechanics.motions import Motion
+from frot.compiler.mechanics.motions import Motion, comes_round
 from frot.dsl.checked import (
     Body,
     BodyPoint,
@@ -160,6 +160,23 @@ class Mechanism:
     ideal: tuple[Contact | Joint, ...]
     forces: tuple[Force, ...]
     halves: Mapping[Body, Body]
+
+    @property
+    def counters(self) -> tuple[tuple[Joint | Contact, int], ...]:
+        """Angles that no coordinate counts: those of liaisons that close loops, seen within a turn.
+
+        Each with the place of its motion; in the plane the angles of bodies count the turns.
+        """
+        found: list[tuple[Joint | Contact, int]] = []
+        for link in self.contacts:
+            if isinstance(link, Relation) and link.first and not self.model.planar:
+                motions = enumerate(link.joint.motions)
+                found += [(link.joint, k) for k, m in motions if comes_round(m)]
+        for link in (*self.contacts, *self.ideal):
+            follows = isinstance(link, Contact) and link.liaison.kind.name == "point_courbe"
+            if isinstance(link, Contact) and follows and not link.reduced:
+                found += [(link, 0)] if not isinstance(link.track.figure, Flat) else []
+        return tuple(found)
 
     @property
     def is_driven(self) -> bool:

@@ -171,6 +171,11 @@ def name_of(motion: Motion) -> str:
     return "" if own.faces_ground or not own.coordinates else own.coordinates[0]
 
 
+def comes_round(motion: Motion) -> bool:
+    """Whether a turn of the bodies brings back the posture at which the coordinate began."""
+    return isinstance(motion, Turn | Screw | Follow)
+
+
 def count_speeds(motion: Motion) -> int:
     """The number of speeds of a motion."""
     return len(motion.speeds or motion.coordinates)

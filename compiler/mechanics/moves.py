@@ -98,9 +98,15 @@ def rate_by_time(value: ca.SX, lower: Lower) -> ca.SX:
 def seen(motion: Motion, a: Moving, b: Moving, lower: Lower) -> Seen:
     """The coordinate of a motion and its rate from the postures of a and b alone.
 
-    Angles count the turns in the plane; in space they are within half a revolution.
+    Angles count the turns in the plane; in space they are within half a revolution (`counted`).
     """
     return _SEEN[type(motion)](motion, a, b, lower)
+
+
+def counted(angle: ca.SX, about: ca.SX) -> ca.SX:
+    """An angle known but for whole turns: the one that is less than half a turn from `about`."""
+    apart = angle - about
+    return about + ca.atan2(ca.sin(apart), ca.cos(apart))
 
 
 def carried(local: ca.SX, base: Moving, lower: Lower) -> Moving:

@@ -168,7 +168,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     equations.values[:] = [settled(value) for value in equations.values]
     return Reduced(
         mechanism=mechanism,
-        symbols=symbols,
+        symbols=_with_counters(symbols, mechanism, variables),
         text=text,
         equations=equations,
         events=events,
@@ -205,6 +205,14 @@ class _Locals:
     def symbol(self, variable: Variable) -> ca.SX:
         """Its own symbol, which whoever lowers the expression replaces."""
         return self.known.setdefault(variable, ca.SX.sym(variable.name))
+
+
+def _with_counters(symbols: Symbols, mechanism: Mechanism, variables: Variables) -> Symbols:
+    """With the rates of the counters too."""
+    if not mechanism.counters:
+        return symbols
+    seen = (variables.coordinate(link.liaison, k)[1] for link, k in mechanism.counters)
+    return replace(symbols, rates=column((symbols.rates, *map(variables.settled, seen))))
 
 
 def _geometry(

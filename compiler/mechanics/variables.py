@@ -109,6 +109,14 @@ class Variables:
         link, geometry = self.links[liaison], self.geometry[liaison]
         return effort_along(link, coordinate, geometry, self.kinematics)
 
+    def coordinate(self, liaison: Liaison, index: int) -> tuple[ca.SX, ca.SX]:
+        """A coordinate of a liaison, by the place of its motion, and its rate."""
+        link, geometry = self.links[liaison], self.geometry[liaison]
+        if isinstance(link, Contact):
+            assert isinstance(geometry, Geometry)
+            return geometry.abscissa, effort_along(link, "u", geometry, self.kinematics).rate
+        return self.kinematics.coordinate(link, index)
+
     def _drive(self, liaison: Liaison) -> tuple[ca.SX, ca.SX]:
         """Force and couple of the drives of a liaison."""
         force, couple = nowhere(), nowhere()

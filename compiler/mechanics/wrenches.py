@@ -76,11 +76,16 @@ def act(
     lower: Lower,
     side: ca.SX | None = None,
     tangent: ca.SX | None = None,
+    turn: ca.SX | None = None,
 ) -> Action:
     """The lock between the places a and b.
 
-    `side` is that of figures which touch, see there; `tangent` that of a curve which carries b.
+    `side` is that of figures which touch, see there; `tangent` that of a curve which carries b;
+    `turn` the angle of a screw with its whole turns, else it is within half a turn.
     """
+    if isinstance(lock, Thread):
+        seen = angle_about(lock.axis, a, b, lower) if turn is None else turn
+        return _thread(lock, seen, a, b, lower)
     if isinstance(lock, Across):
         assert tangent is not None
         return _push(beside(tangent / ca.norm_2(tangent))[lock.side], ca.SX(0))
@@ -136,13 +141,10 @@ def _same_angle(lock: SameAngle, a: Pose, b: Pose, lower: Lower) -> Action:
     return _twist(Z, b.angle - a.angle)
 
 
-def _thread(lock: Thread, a: Pose, b: Pose, lower: Lower) -> Action:
-    """A force F along e comes with the couple -F pitch/2 pi: no work on the screw's own motion.
-
-    Its gap counts the turn within half a revolution.
-    """
+def _thread(lock: Thread, turn: ca.SX, a: Pose, b: Pose, lower: Lower) -> Action:
+    """A force F along e comes with the couple -F pitch/2 pi: no work on the screw's own motion."""
     along, advance = _along(a, lock.axis, lower), lower(lock.pitch) / (2 * ca.pi)
-    gap = ca.dot(along, b.origin - a.origin) - advance * angle_about(lock.axis, a, b, lower)
+    gap = ca.dot(along, b.origin - a.origin) - advance * turn
     return Action(along, -advance * along, Column(nowhere(), along), gap)
 
 
@@ -243,7 +245,6 @@ _ACTS: dict[type, Callable[..., Action]] = {
     Parallel: _parallel,
     Aligned: _aligned,
     SameAngle: _same_angle,
-    Thread: _thread,
     Crossed: _crossed,
     Drive: _drive,
     Apart: _apart,
