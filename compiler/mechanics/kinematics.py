@@ -26,13 +26,11 @@ from frot.compiler.mechanics.mechanism import (
 from frot.compiler.mechanics.motions import count_speeds
 from frot.compiler.mechanics.moves import (
     Column,
-    Lower,
     carried,
     counted,
     move,
     seen,
     turned_by_time,
-    turned_pose,
     unit_vector,
 )
 from frot.compiler.mechanics.shapes import shape_of
@@ -47,7 +45,7 @@ from frot.compiler.mechanics.spatial import (
     whole,
 )
 from frot.compiler.mechanics.wrenches import act
-from frot.dsl.checked import Body, BodyPoint, Expression, Frame, Liaison
+from frot.dsl.checked import Body, BodyPoint, Frame, Liaison
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -183,24 +181,24 @@ class Kinematics:
             return moving, nowhere()
         if not hanging.motions or not hanging.motions[-1].faces_ground:
             moving = self._to_axes_of_body(hanging.own, moving)
-        back = -moving.pose.direction(self.local_point(hanging.own))
-        return moving.shifted(back), back
+        back = -self.local_point(hanging.own)
+        return carried(back, moving, self.fixed.lower), moving.pose.direction(back)
 
     def _to_axes_of_body(self, own: Point, moving: Moving) -> Moving:
-        """The axes of a body whose axes at a point are known."""
-        pose = moving.pose
+        """The axes of a body whose axes at a point are known; time may turn the frames between."""
         for frame in _frames(own):
             if frame.angle is not None:
-                pose = _turned(pose, frame.axis, -self.fixed.lower(frame.angle), self.fixed.lower)
-        return replace(moving, pose=pose)
+                back = -self.fixed.lower(frame.angle)
+                moving = turned_by_time(frame.axis, back, moving, self.fixed.lower)
+        return moving
 
     def _to_axes_of_place(self, own: Point, moving: Moving) -> Moving:
         """The axes at a point of a body whose own axes are known."""
-        pose = moving.pose
         for frame in reversed(list(_frames(own))):
             if frame.angle is not None:
-                pose = _turned(pose, frame.axis, self.fixed.lower(frame.angle), self.fixed.lower)
-        return replace(moving, pose=pose)
+                angle = self.fixed.lower(frame.angle)
+                moving = turned_by_time(frame.axis, angle, moving, self.fixed.lower)
+        return moving
 
     def _measure(self, hanging: Hanging, base: Body) -> None:
         body = hanging.body
@@ -360,8 +358,3 @@ def _frames(point: Point) -> Iterator[Frame]:
     while isinstance(frame, Frame):
         yield frame
         frame = frame.owner
-
-
-def _turned(pose: Pose, axis: Expression | str, angle: ca.SX, lower: Lower) -> Pose:
-    """Axes turned by a constant angle about one of their own."""
-    return turned_pose(pose, unit_vector(axis, lower), angle)

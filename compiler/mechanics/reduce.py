@@ -35,6 +35,7 @@ from frot.compiler.mechanics.dynamics import (
 from frot.compiler.mechanics.joint_geometry import JointGeometry, RelationGeometry
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.loads import applied_loads, sum_loads
+from frot.compiler.mechanics.locks import Stated
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Mechanism, Relation
 from frot.compiler.mechanics.text_of_motion import (
     add_slip_accelerations,
@@ -179,7 +180,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         force=settled(motion.force + loads.force),
         force_size=settled(motion.size + loads.size),
         load_sizes=settled(column(loads.sizes)),
-        rows=settled(ca.jacobian(rates, speeds)),
+        rows=_without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry),
         bias=kinematics.rate(settled(rates)),
         rate=settled(rates),
         gap=settled(column(g.gap for g in geometry)),
@@ -205,6 +206,34 @@ class _Locals:
     def symbol(self, variable: Variable) -> ca.SX:
         """Its own symbol, which whoever lowers the expression replaces."""
         return self.known.setdefault(variable, ca.SX.sym(variable.name))
+
+
+# Of the size of its terms, what sums of products along a chain leave where they cancel out.
+_ROUNDING = 64 * 2.0**-52
+
+
+def _without_rounding(
+    rows: ca.SX,
+    mechanism: Mechanism,
+    geometry: list[Geometry | JointGeometry | RelationGeometry],
+) -> ca.SX:
+    """The rows of liaisons that close loops, where what cancels out is zero.
+
+    A row that is rounding alone (two pins on one shaft, turned anyhow) would hold what is free.
+    """
+    rows = ca.sparsify(rows)
+    first = [rows_of.reaction[0] for rows_of in link_rows(mechanism.contacts)]
+    sizes = {
+        row: 1 + own.reach
+        for row, link, own in zip(first, mechanism.contacts, geometry, strict=True)
+        if isinstance(link, Relation) and not isinstance(link.lock, Stated)
+    }
+    entries = list(ca.vertsplit(rows.nz[:])) if rows.nnz() else []
+    for k, row in enumerate(rows.sparsity().row()):
+        if row in sizes and not entries[k].is_constant():
+            least = _ROUNDING * sizes[row]
+            entries[k] = ca.if_else(ca.fabs(entries[k]) > least, entries[k], 0)
+    return ca.SX(rows.sparsity(), column(entries)) if entries else rows
 
 
 def _with_counters(symbols: Symbols, mechanism: Mechanism, variables: Variables) -> Symbols:

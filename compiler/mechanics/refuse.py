@@ -50,9 +50,7 @@ def refuse_unknown(model: Model, log: Log) -> None:
         for value in (frame.origin, frame.angle):
             if value is None or is_fixed(value):
                 continue
-            if owner_body(frame).shape is not None:
-                refuse(log, "a frame of a body that depends on time or motion", value.span)
-            elif not follows_time(value):
+            if not follows_time(value):
                 refuse(log, "a frame that depends on other than time", value.span)
     for body in model.bodies:
         for argument in body.arguments.values():
