@@ -10,7 +10,18 @@ from frot.compiler.equations.eliminate import Pivot
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.dsl.catalogue import Argument
-from frot.dsl.checked import Binary, Call, Element, Expression, Liaison, Parameter, Place, Reference
+from frot.dsl.checked import (
+    Binary,
+    Call,
+    Element,
+    Expression,
+    Liaison,
+    Literal,
+    Parameter,
+    Place,
+    Reference,
+    Vector,
+)
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import REAL, Type
 
@@ -78,6 +89,8 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
             axis = liaison.options.get(argument.name) if argument.kind == "axis" else None
             if axis is not None and axis.type.shape:
                 yield _length(f"the {argument.name} of liaison '{liaison.name}'", axis)
+        if liaison.kind.name == "cardan":
+            yield _crossing(liaison)
         for law in liaison.laws:
             owner = f"liaison '{liaison.name}'"
             yield from _arguments(owner, law.kind.arguments, law.arguments)
@@ -87,6 +100,69 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
                 yield Check(
                     NOT_BELOW_PREVIOUS, f"mu_s of liaison '{liaison.name}'", mu_s, mu_s.span
                 )
+
+
+# Part of the cube of the moments' sum that rounding may take from a product that is zero: a plate.
+_FLAT = 1e-12
+
+
+def _principal_moments(owner: str, inertia: Expression) -> Iterator[Check]:
+    """The same of a matrix J: none of the products of its moments A B C and of (B + C - A) ...
+
+    is negative: det J and det(tr J - 2 J). Of the second three at most one can be.
+    """
+    span, item = inertia.span, inertia.type.item
+    row = Type(item.base, item.dimension, (3,))
+
+    def of(op: str, a: Expression, b: Expression) -> Expression:
+        return Binary(op, a, b, item, span)
+
+    def determinant(x: list[list[Expression]]) -> Expression:
+        (a, b, c), (d, e, f), (g, h, i) = x
+        first = of("*", a, of("-", of("*", e, i), of("*", f, h)))
+        second = of("*", b, of("-", of("*", d, i), of("*", f, g)))
+        third = of("*", c, of("-", of("*", d, h), of("*", e, g)))
+        return of("+", of("-", first, second), third)
+
+    own: list[list[Expression]] = [
+        [Element(Element(inertia, i, row, span), k, item, span) for k in range(3)] for i in range(3)
+    ]
+    for k in range(3):
+        subject = f"moment {k + 1} of the inertia of {owner}"
+        yield Check(NOT_NEGATIVE, subject, own[k][k], span)
+    total = of("+", of("+", own[0][0], own[1][1]), own[2][2])
+    twice, nothing = Literal(2.0, item, span), Literal(0.0, item, span)
+    rest: list[list[Expression]] = [
+        [of("-", total if i == k else nothing, of("*", twice, x)) for k, x in enumerate(line)]
+        for i, line in enumerate(own)
+    ]
+    cube = of("*", Literal(_FLAT, item, span), of("*", total, of("*", total, total)))
+    for subject, matrix in (
+        ("product of the principal moments", own),
+        ("product of what each two principal moments are more than the third,", rest),
+    ):
+        value = of("+", determinant(matrix), cube)
+        yield Check(NOT_NEGATIVE, f"{subject} of the inertia of {owner}", value, span)
+
+
+def _direction(axis: Expression) -> Expression:
+    """The vector of an axis, which may be named `x`, `-y` and so on."""
+    if not (isinstance(axis, Literal) and isinstance(axis.value, str)):
+        return axis
+    sign = -1.0 if axis.value[0] == "-" else 1.0
+    items = tuple(Literal(sign * (axis.value[-1] == k), REAL, axis.span) for k in "xyz")
+    return Vector(items, REAL.of_shape((3,)), axis.span)
+
+
+def _crossing(liaison: Liaison) -> Check:
+    """Of parallel axes a cardan would have one turn twice."""
+    first, second = (_direction(liaison.options[x]) for x in ("axis_a", "axis_b"))
+    span = liaison.span
+    normal = Call("cross", (first, second), first.type, span)
+    subject = f"product of the axes of liaison '{liaison.name}', which must cross,"
+    return Check(
+        POSITIVE, f"length of the vector {subject}", Call("norm", (normal,), REAL, span), span
+    )
 
 
 def _length(subject: str, direction: Expression) -> Check:
@@ -118,15 +194,10 @@ def _arguments(
 
 
 def _moments(owner: str, inertia: Expression) -> Iterator[Check]:
-    """No moment is negative, nor larger than the other two together (of a tuple of three)."""
+    """No moment is negative, nor larger than the other two together."""
     item = inertia.type.item
     if inertia.type.shape == (3, 3):
-        row = Type(item.base, item.dimension, (3,))
-        for k in range(3):
-            moment = Element(Element(inertia, k, row, inertia.span), k, item, inertia.span)
-            yield Check(
-                NOT_NEGATIVE, f"moment {k + 1} of the inertia of {owner}", moment, inertia.span
-            )
+        yield from _principal_moments(owner, inertia)
         return
     moments = [Element(inertia, k, item, inertia.span) for k in range(3)]
     for k, moment in enumerate(moments):

@@ -228,12 +228,12 @@ def _without_rounding(
         for row, link, own in zip(first, mechanism.contacts, geometry, strict=True)
         if isinstance(link, Relation) and not isinstance(link.lock, Stated)
     }
-    entries = list(ca.vertsplit(rows.nz[:])) if rows.nnz() else []
+    entries = rows.nonzeros()
     for k, row in enumerate(rows.sparsity().row()):
         if row in sizes and not entries[k].is_constant():
             least = _ROUNDING * sizes[row]
             entries[k] = ca.if_else(ca.fabs(entries[k]) > least, entries[k], 0)
-    return ca.SX(rows.sparsity(), column(entries)) if entries else rows
+    return ca.SX(rows.sparsity(), ca.vertcat(*entries)) if entries else rows
 
 
 def _with_counters(symbols: Symbols, mechanism: Mechanism, variables: Variables) -> Symbols:

@@ -173,9 +173,10 @@ def _no_slip(lock: NoSlip, found: Touch, a: Pose, lower: Lower) -> Action:
 
 
 def _apart(lock: Apart, a: Pose, b: Pose, lower: Lower) -> Action:
+    """Places that coincide have no direction: no way is found out of there, which is told."""
     way, size = b.origin - a.origin, lower(lock.length)
     long = ca.sqrt(ca.sumsqr(way))
-    push = _push(way / long, long - size)
+    push = _push(way / ca.if_else(long > 0, long, 1), long - size)
     return replace(push, own=-rate_by_time(size, lower), measure=long)
 
 
