@@ -161,8 +161,8 @@ def _complete_liaisons(instance: Instance) -> None:
                 if isinstance(one, checked.Liaison):
                     complete_liaison(node, one, own)
         else:
-            one = declared if isinstance(declared, checked.Liaison) else None
-            complete_liaison(node, one, scope)
+            alone = declared if isinstance(declared, checked.Liaison) else None
+            complete_liaison(node, alone, scope)
 
 
 def _equations(made: list[Instance], build: Build) -> list[checked.Equation | checked.IfEquations]:

@@ -15,6 +15,7 @@ from frot.compiler.mechanics.joint_geometry import JointGeometry
 from frot.compiler.mechanics.mechanism import Relation
 from frot.compiler.mechanics.names import component_names
 from frot.compiler.mechanics.reduce import Reduced
+from frot.dsl.catalogue import coordinates_of
 from frot.dsl.checked import Body, CurvePlace, Liaison, Variable
 from frot.dsl.names.members import parameter_type
 from frot.dsl.quantities.dimensions import Dimension, dimension
@@ -186,6 +187,8 @@ _COORDINATES = {
     "displacement": (LENGTH, "way of b along the axis", ""),
     "x": (LENGTH, "way of b in the plane", ""),
     "y": (LENGTH, "way of b in the plane", ""),
+    "z": (LENGTH, "way of b along z", ""),
+    "orientation": (NUMBER, "unit quaternion of b's axes in those of a: w, x, y, z", ""),
     "length": (LENGTH, "distance of the points", ""),
 }
 
@@ -199,7 +202,7 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
     geometry = reduced.variables.geometry[liaison]
     reacts = liaison in reduced.variables.reactions
     if isinstance(geometry, JointGeometry):
-        for name in liaison.kind.coordinates:
+        for name in coordinates_of(liaison.kind, reduced.mechanism.model.planar):
             if name in _COORDINATES:
                 yield from one(name, *_COORDINATES[name])
             elif name in ("gap", "u", "abscissa"):

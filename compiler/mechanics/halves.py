@@ -66,4 +66,4 @@ def _weld(body: Body, half: Body, planar: bool) -> Joint:
     a, b = (BodyPoint(one, "G", span) for one in (body, half))
     options = {"unilateral": Literal(False, BOOLEAN, span)}
     weld = Liaison(half.name, kind, a, b, options, (), span)
-    return make_joint(weld, a, b, JOINTS[kind.name](options, planar))
+    return make_joint(weld, a, b, JOINTS[kind.name](options, planar), {})

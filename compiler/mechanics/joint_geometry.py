@@ -10,7 +10,7 @@ from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.locks import Stated, Thread
 from frot.compiler.mechanics.mechanism import Joint, Relation, point_body
 from frot.compiler.mechanics.motions import name_of
-from frot.compiler.mechanics.spatial import Z, cross
+from frot.compiler.mechanics.spatial import Z, conjugate, cross, product
 from frot.compiler.mechanics.stated import state, value_of
 from frot.compiler.mechanics.touches import Touch
 from frot.compiler.mechanics.wrenches import Action, act
@@ -22,8 +22,9 @@ class JointGeometry:
 
     `actions` of its locks; `turned` is -1 where its a is the liaison's second place; `touch` of
     figures that touch, with the relative velocity `moves` there; `coordinates` and their rates by
-    name; `relative` angular velocity (3) of b from a; `apart` the velocities along the locks where
-    coordinates keep them, of auxiliary speeds alone (empty where no reaction is computed); `radius`
+    name; `relative` angular velocity (3) of b from a, its `attitude` a quaternion; `apart` the
+    velocities along the locks where coordinates keep them, of auxiliary speeds alone (empty where
+    no reaction is computed); `radius`
     of the pin or None.
     """
 
@@ -34,6 +35,7 @@ class JointGeometry:
     coordinates: dict[str, ca.SX]
     rates: dict[str, ca.SX]
     relative: ca.SX
+    attitude: ca.SX
     apart: ca.SX
     radius: ca.SX | None
     gap: ca.SX
@@ -89,6 +91,7 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
         coordinates=coordinates,
         rates=rates,
         relative=b.angular - a.angular,
+        attitude=product(conjugate(a.pose.quaternion), b.pose.quaternion),
         apart=ca.SX.zeros(0) if at is None else sw[at : at + len(joint.locks)],
         radius=None if joint.radius is None else lower(joint.radius),
         gap=ca.SX(0) if touch is None else touch.gap,
@@ -152,6 +155,8 @@ def joint_variable(
             return geometry.rates["angle"]
         case "angular_velocity":
             return ca.densify(geometry.relative)
+        case "orientation":
+            return ca.densify(geometry.attitude)
         case "gap":
             return geometry.gap
         case "slip" if geometry.radius is not None:
@@ -159,7 +164,9 @@ def joint_variable(
         case "slip" if geometry.touch is not None:
             return _beside(geometry.touch, geometry.moves, planar)
     if rows is None:
-        raise KeyError(name)
+        if geometry.actions:
+            raise KeyError(name)
+        rows = Rows((), -1, -1)  # nothing is locked
     force, couple = (ca.densify(x) for x in drive)
     for row, action in zip(rows.reaction, geometry.actions, strict=True):
         force += lam[row] * action.force

@@ -117,6 +117,12 @@ def _planar(options: Options, planar: bool) -> Pairing:
     return Pairing(motions, (WayAlong(normal), *_about(normal)))
 
 
+def _free(options: Options, planar: bool) -> Pairing:
+    """Places relative to a, and any orientation."""
+    ways = tuple(Slide(Axis(k), coordinates=(k,)) for k in ("xy" if planar else "xyz"))
+    return Pairing((*ways, Turn(Axis("z")) if planar else Attitude()), ())
+
+
 def drive(pairing: Pairing, values: Mapping[str, Expression]) -> Pairing:
     """The same liaison with coordinates that are values of time: they lock what they move."""
     motions: list[Motion] = []
@@ -176,4 +182,5 @@ JOINTS: Mapping[str, Callable[[Options, bool], Pairing]] = {
     "cardan": _universal,
     "spherique": _spherical,
     "appui_plan": _planar,
+    "libre": _free,
 }

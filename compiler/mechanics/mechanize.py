@@ -75,7 +75,8 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     for link in halved.links:
         link = replace(link, reduced=link.liaison in tree.kept)
         silent = link.mu is None and link.delta is None and link.liaison not in read
-        if link.reduced and silent:
+        nothing_locked = isinstance(link, Joint) and not link.locks
+        if (link.reduced and silent) or nothing_locked:
             ideal.append(link)
         elif isinstance(link, Contact) or link.reduced:
             chosen.append(link)

@@ -228,7 +228,7 @@ def _without_rounding(
         for row, link, own in zip(first, mechanism.contacts, geometry, strict=True)
         if isinstance(link, Relation) and not isinstance(link.lock, Stated)
     }
-    entries = rows.nonzeros()
+    entries = list(ca.vertsplit(ca.vec(rows.nz[:]))) if rows.nnz() else []
     for k, row in enumerate(rows.sparsity().row()):
         if row in sizes and not entries[k].is_constant():
             least = _ROUNDING * sizes[row]

@@ -79,6 +79,11 @@ def product(a: ca.SX, b: ca.SX) -> ca.SX:
     return ca.vertcat(a[0] * b[0] - ca.dot(a[1:], b[1:]), vector)
 
 
+def conjugate(quaternion: ca.SX) -> ca.SX:
+    """The turn back."""
+    return ca.vertcat(quaternion[0], -quaternion[1:])
+
+
 def turning(axis: ca.SX, angle: ca.SX) -> ca.SX:
     """The quaternion of a turn about a unit vector."""
     return ca.vertcat(ca.cos(angle / 2), ca.sin(angle / 2) * axis)

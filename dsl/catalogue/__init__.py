@@ -18,7 +18,13 @@ from frot.dsl.catalogue.kinds import (
 )
 from frot.dsl.catalogue.laws import LAWS
 from frot.dsl.catalogue.liaisons import LIAISONS
-from frot.dsl.catalogue.members import body_members, liaison_members, point_members, vector
+from frot.dsl.catalogue.members import (
+    body_members,
+    coordinates_of,
+    liaison_members,
+    point_members,
+    vector,
+)
 from frot.dsl.catalogue.shapes import SHAPES
 from frot.dsl.catalogue.types import TYPES, WORDS
 
@@ -38,6 +44,7 @@ __all__ = [
     "LiaisonKind",
     "Shape",
     "body_members",
+    "coordinates_of",
     "find",
     "liaison_members",
     "plain",

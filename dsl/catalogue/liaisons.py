@@ -11,6 +11,7 @@ from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
 POINT = ("point",)
 CURVE = ("curve",)
 SURFACE = ("surface",)
+ANY_TURN = {"orientation": REAL.of_shape((4,)), "angular_velocity": ANGULAR_VELOCITY.of_shape((3,))}
 ANY = ("point", "curve", "surface")
 
 
@@ -116,7 +117,7 @@ _ROWS = (
         POINT,
         POINT,
         (3, None),
-        {"angular_velocity": ANGULAR_VELOCITY},
+        ANY_TURN,
         doc="A common point.",
     ),
     _liaison(
@@ -219,7 +220,15 @@ _ROWS = (
         unilateral=True,
         doc="The corners of a face rest on a plane.",
     ),
-    _liaison("libre", ("free",), POINT, POINT, (0, 0), doc="No relation."),
+    _liaison(
+        "libre",
+        ("free",),
+        POINT,
+        POINT,
+        (0, 0),
+        {"x": LENGTH, "y": LENGTH, "z": LENGTH, "angle": REAL, **ANY_TURN},
+        doc="No relation.",
+    ),
 )
 
 LIAISONS = table(_ROWS)

@@ -76,5 +76,12 @@ def liaison_members(kind: LiaisonKind, planar: bool) -> Mapping[str, Type]:
         "gap": LENGTH,
         "mode": INTEGER,
         "power": POWER,
-        **kind.coordinates,
+        **coordinates_of(kind, planar),
     }
+
+
+def coordinates_of(kind: LiaisonKind, planar: bool) -> Mapping[str, Type]:
+    """The coordinates of a liaison: what turns any way has an angle in the plane alone."""
+    any_way = "angular_velocity" in kind.coordinates
+    other = ("z", "orientation", "angular_velocity") if planar else ("angle",) * any_way
+    return {name: of for name, of in kind.coordinates.items() if name not in other}
