@@ -9,6 +9,12 @@ from pathlib import Path
 
 from made_once import made_once
 
+# What tests under sanitizers compile with: all the same, so that the kernel is compiled once.
+SANITIZED = (
+    *("-std=c99", "-g", "-O1", "-ffp-contract=off"),
+    *("-fsanitize=address,undefined", "-fno-sanitize-recover=all"),
+)
+
 _INCLUDE = re.compile(rb'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 

@@ -17,7 +17,6 @@ HERE = Path(__file__).parent
 OK, WARNING, DISCARD, ERROR = range(4)
 MOST_WORK = 20_000
 FLAGS = ("-O2", "-std=c99", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off")
-SANITIZE = ("-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 
 ONE = Unit("1")
 METRE = Unit("m", (1, 0, 0, 0, 0, 0, 0, 0), "mm", 1e-3)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
-from c_objects import c_objects
-from fmu_host import SANITIZE
+from c_objects import SANITIZED, c_objects
 from frot.runtime.fmi.sources import source_files, to_compile
 from frot.runtime.program import Program
 
@@ -19,10 +18,10 @@ def test_lives_of_instances_are_clean(version: int, program: Program, tmp_path: 
     for name, content in sources.items():
         (tmp_path / name).write_bytes(content)
     drive = Path(__file__).with_name("drive.c")
-    flags = ("-std=c99", "-O1", "-ffp-contract=off", *SANITIZE, f"-DDRIVE={version}")
-    files = [drive, *(tmp_path / name for name in to_compile(sources))]
-    objects = c_objects(files, [tmp_path], flags)
-    command = ["cc", *flags, *map(str, objects), "-lm", "-o", str(tmp_path / "drive")]
+    files = [tmp_path / name for name in to_compile(sources)]
+    objects = c_objects(files, [tmp_path], SANITIZED)
+    objects += c_objects([drive], [tmp_path], (*SANITIZED, f"-DDRIVE={version}"))
+    command = ["cc", *SANITIZED, *map(str, objects), "-lm", "-o", str(tmp_path / "drive")]
     subprocess.run(command, check=True)
     done = subprocess.run([tmp_path / "drive"], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")

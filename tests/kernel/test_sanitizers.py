@@ -7,7 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from c_objects import c_objects
+from c_objects import SANITIZED, c_objects
 from frot.compiler.driver import kernel_folder, kernel_sources
 from frot.runtime.program import Program
 from patience import PATIENCE
@@ -17,7 +17,6 @@ from test_general_core import pendulum_in_x_y
 from test_text_events import ball, sampler
 
 STOPS = {"inclined_block": 3.0, "backspin_hoop": 3.0, "coulomb_oscillator": 12.0}
-FLAGS = ("-std=c99", "-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 SMALL = (
     (clutch("clutch", 1.0, 5.0, start=([0, 0], [10.0, 0.0])), 5.0),
     (pin_pendulum("pin", 0.05, 0.06, start=([1.2], [0.0])), 10.0),
@@ -31,8 +30,8 @@ def drive(model: Path, stop: float, folder: Path) -> None:
     """Compile the driver with a model and run it."""
     binary = folder / "drive"
     sources = [Path(__file__).parent / "drive.c", model, *kernel_sources()]
-    objects = c_objects(sources, [kernel_folder()], FLAGS)
-    subprocess.run(["cc", *FLAGS, *map(str, objects), "-o", str(binary), "-lm"], check=True)
+    objects = c_objects(sources, [kernel_folder()], SANITIZED)
+    subprocess.run(["cc", *SANITIZED, *map(str, objects), "-o", str(binary), "-lm"], check=True)
     done = subprocess.run(
         [binary, str(stop)],
         capture_output=True,
