@@ -78,7 +78,7 @@ def refuse_unknown(model: Model, log: Log) -> None:
             _refuse_drag(force, log)
     if model.world.gravity is not None and not is_fixed(model.world.gravity):
         refuse(log, "gravity that depends on time or motion", model.world.span)
-    allowed = ("auto", "explicit") if model.bodies else ("auto", "explicit", "implicit")
+    allowed = ("auto", "explicit", "implicit")
     if model.experiment.method not in allowed:
         refuse(
             log,

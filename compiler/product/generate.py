@@ -224,18 +224,19 @@ def _states(system: Assembled) -> Iterator[tuple[str, str]]:
 
 def _pattern(lowered: Lowered) -> str:
     jacobian = lowered.jacobian
-    if jacobian is None or jacobian.factors is None:
+    if jacobian is None or not jacobian.rows:
         return "{0}"
-    names = [f"pattern_{name}" for name in _PATTERN]
-    return _record(len(jacobian.factors.order), len(jacobian.rows), *names)
+    order = len(jacobian.factors.order) if jacobian.factors else 0
+    return _record(order, len(jacobian.rows), *(f"pattern_{name}" for name in _PATTERN))
 
 
 def _pattern_arrays(lowered: Lowered) -> list[str]:
     jacobian = lowered.jacobian
-    if jacobian is None or jacobian.factors is None:
+    if jacobian is None or not jacobian.rows:
         return []
     f = jacobian.factors
-    tables = (f.order, f.starts, f.columns, f.diagonal, jacobian.rows, jacobian.columns, f.places)
+    before = (f.order, f.starts, f.columns, f.diagonal) if f else ((),) * 4
+    tables = (*before, jacobian.rows, jacobian.columns, f.places if f else ())
     return [
         _array("int", f"pattern_{name}", [str(k) for k in table])
         for name, table in zip(_PATTERN, tables, strict=True)

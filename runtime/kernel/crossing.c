@@ -18,6 +18,9 @@ static const int in_order[COUNT] = {1, 2, 3, 6, 4, 7, 5, 9, 8, 10, 12};
 /* In steps, how far before its start and beyond its end a posture is looked for. */
 #define BEHIND (-1.0)
 #define AHEAD 2.0
+/* For a step made another way: what is left of a weak row, and how soon it becomes dependent. */
+#define WEAK 0.1
+#define SOON 0.5
 /* In steps, how near one makes the next step weak. */
 #define FOLLOWS 2
 /* Part of what is left of a row elsewhere below which a stage shows no more than rounding. */
@@ -107,6 +110,25 @@ static double find_zero(const frot_model *m, const frot_work *w, int row, int re
     if (at > BEHIND) return at;
   }
   return NAN;
+}
+
+int frot_meets_posture(const frot_model *m, const frot_state *s, const frot_work *w, int first,
+                       int last, double gap) {
+  int status = FROT_OK;
+  for (int k = 0; k < w->awake.now->n_contacts; k++) {
+    int i = w->awake.now->contacts[k], passes = 0;
+    if (!frot_is_loop(m, s, w, i)) continue;
+    int row = m->contacts[i].row_n, ns = frot_group_of(m, row)->n_speeds;
+    const double *left = w->step.left + row, *half = frot_entries(m, w->core.half, row);
+    for (int j = first + 1; j <= last; j++)
+      passes |= left[m->n_rows * j] * left[m->n_rows * (j - 1)] < 0;
+    double end = fabs(left[m->n_rows * last]), fall = fabs(left[m->n_rows * (last - 1)]) - end;
+    int soon = fall > 0 && gap * end / fall < SOON;
+    double least = fmin(end, fabs(left[m->n_rows * first]));
+    if ((passes || soon) && least < WEAK * sqrt(frot_dot(half, half, ns))) return FROT_POSTURE;
+    if (passes) status = FROT_DIVERGE;
+  }
+  return status;
 }
 
 /* Where row becomes dependent, as a part of the step, found now or known from before; NAN if

@@ -25,6 +25,12 @@ int frot_has_loops(const frot_model *m, const frot_state *s, const frot_work *w)
 /* Note what those before it leave of each such row in stage i, which has just been evaluated. */
 void frot_note_rows(const frot_model *m, const frot_state *s, frot_work *w, int stage);
 
+/* What a step made another way meets, by its stages `first` to `last`, of which the last two are
+ * `gap` of a step apart: FROT_POSTURE where a row is weak and becomes dependent in it or soon
+ * after, FROT_DIVERGE where one does so that was not weak at its ends, else FROT_OK. */
+int frot_meets_posture(const frot_model *m, const frot_state *s, const frot_work *w, int first,
+                       int last, double gap);
+
 /* Find when a row becomes dependent near the step that ran up to stage `reached`, into the state's
  * `posture`, and mark the stages that are too near in w->step.near. Returns whether the stages are
  * to be run again for it. */

@@ -4,6 +4,7 @@
 
 #include "blur.h"
 #include "implicit.h"
+#include "jacobian.h"
 #include "sizes.h"
 #include "stages.h"
 #include "tolerances.h"
@@ -99,7 +100,9 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
   if (!(worst > FROT_LIMITING) || w->step.worst < 0 || w->step.worst >= m->nq ||
       !frot_is_small(m, s, w, w->step.worst))
     return worst;
-  int no_jacobian = !m->has_jacobian || frot_implicit_begin(m, s, w, t) != FROT_OK;
+  /* of a motion it would take the place of what was last evaluated */
+  int no_jacobian =
+      !m->has_jacobian || frot_has_motion(m) || frot_implicit_begin(m, s, w, t) != FROT_OK;
   frot_raise_small(m, s, w, h, no_jacobian);
   return worst_error(m, s, w, h);
 }

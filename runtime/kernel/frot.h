@@ -246,7 +246,8 @@ enum frot_method { FROT_AUTO = 0, FROT_EXPLICIT = 1, FROT_IMPLICIT = 2 };
 /* Pattern of a Jacobian J (n x n) and of the factors L + U of shift I - J, whose row and column k
  * are those of state order[k]. Row k of the factors has the columns column[start[k]] .. up to
  * start[k + 1], ascending; its diagonal stands at diagonal[k]. Entry e of J is in row entry_row[e]
- * and column entry_column[e], and goes to place[e] of the factors. n = 0: the Jacobian is dense. */
+ * and column entry_column[e], and goes to place[e] of the factors. n = 0: the matrix that is
+ * factored is dense; of a motion the entries are those of the function `jacobian`. */
 typedef struct {
   int n, entries;
   const int *order, *start, *column, *diagonal;
@@ -285,7 +286,7 @@ typedef struct {
   int late_rates;     /* q' or the power depend on y of late blocks, z or lam: `rates` gives them */
   int time_dependent; /* forces, coefficients or located conditions depend on time */
   int method;         /* frot_method of the text */
-  int has_jacobian;   /* 1: the implicit method can run: no speeds, no rows, q' not late */
+  int has_jacobian;   /* 1: the implicit method can run: one island, q' not late */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
   /* the first variables are the modes of the contacts that have one, the others are real */
 
@@ -325,9 +326,14 @@ typedef struct {
   frot_callable spread;
   /* rates(..., y, z (nw), lam (n_rows)) -> q' (nq), power (1). Called where `late_rates`. */
   frot_callable rates;
-  /* jacobian -> dq'/dq, dq'/dt (nq), at fixed y. The first holds the entries of `pattern`, or is
-   * dense (nq x nq). With early blocks r = 0 of the unknowns y (ny), which take a dense one, also
-   * dq'/dy (nq x ny), dr/dq (ny x nq), dr/dt (ny), dr/dy (ny x ny). Where `has_jacobian`. */
+  /* jacobian -> where there are no speeds and no rows dq'/dq, dq'/dt (nq), at fixed y. The first
+   *   holds the entries of `pattern`, or is dense (nq x nq). With early blocks r = 0 of the
+   * unknowns y (ny), which take a dense one, also dq'/dy (nq x ny), dr/dq (ny x nq), dr/dt (ny),
+   * dr/dy (ny x ny). jacobian(..., y, z (nw), lam (n_rows)) -> else the entries of `pattern`:
+   * derivatives of q' (nq), A z - E lam - h (nw), J z + c (n_rows), coefficients (2 n_elements) and
+   * the residuals of the early blocks, in q, v and the unknowns y of these. Where `pattern` has
+   *   none: (..., lam, direction) -> their derivatives in that direction.
+   * Where `has_jacobian`. */
   frot_callable jacobian;
   frot_pattern pattern;
   /* invariants -> residual (n_invariants), its transposed Jacobian in (q, v) ((nq + nv) x

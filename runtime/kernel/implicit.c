@@ -4,8 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "crossing.h"
+#include "crossing.h"
 #include "jacobian.h"
 #include "mechanics.h"
+#include "radau.h"
 #include "rosenbrock.h"
 #include "roots.h"
 #include "sizes.h"
@@ -48,9 +51,11 @@ size_t frot_implicit_integers(const frot_model *m) {
 }
 
 int frot_implicit_begin(const frot_model *m, frot_state *s, frot_work *w, double t) {
-  frot_layout l = frot_layout_of(m);
-  memcpy(w->blocks.y, s->data + l.y, sizeof(double) * (size_t)m->ny);
-  return frot_jacobian_at(m, s, w, t, w->step.z0, s->data + l.d);
+  const frot_layout *l = &w->layout;
+  memcpy(w->blocks.y, s->data + l->y, sizeof(double) * (size_t)m->ny);
+  int status = frot_jacobian_at(m, s, w, t, w->step.z0, s->data + l->d, row(l, w, SLOPE_ROW));
+  if (status == FROT_OK && frot_has_loops(m, s, w)) frot_note_rows(m, s, w, 1);
+  return status;
 }
 
 /* Sums over j < count of a[j] U_j and b[j] U_j (and c[j] U_j) for a pair of states, or for one: in
@@ -91,6 +96,7 @@ static void prepare(const frot_layout *l, const frot_work *w, int n, int i, doub
 }
 
 int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  if (frot_has_motion(m)) return frot_radau_stages(m, s, w, t, h);
   frot_layout l = frot_layout_of(m);
   frot_jacobian jacobian = frot_jacobian_of(m, w, NULL, NULL);
   int n = m->nq, status;
@@ -123,14 +129,15 @@ int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, doubl
 static double worst_error(const frot_model *m, const frot_state *s, frot_work *w,
                           const frot_layout *l, double h) {
   double tolerance = fmax(FROT_IMPLICIT_SHARE * s->tolerance, FROT_LEAST_IMPLICIT), worst = 0;
-  const double *error = row(l, w, FIRST_ROW + RO_STAGES - 1), *noise = s->data + l->noise;
+  const double *error =
+      row(l, w, frot_has_motion(m) ? FROT_RADAU_ERROR : FIRST_ROW + RO_STAGES - 1);
+  const double *noise = s->data + l->noise;
   w->step.worst = -1;
-  for (int k = 0; k < m->nq; k++) {
+  for (int k = 0; k < frot_order(m); k++) {
     if (error[k] == 0) continue;
     double bound = fmax(tolerance * w->sizes.own[k], DBL_MIN);
     if (noise[k] > 0)
-      bound = fmax(bound,
-                   FROT_NOISE_OF_RATES * h * noise[k] / (1 + h * frot_jacobian_damping(m, w, k)));
+      bound = fmax(bound, FROT_NOISE_OF_RATES * h * noise[k] / frot_jacobian_damping(m, w, k, h));
     double ratio = fabs(error[k]) / bound;
     if (!(ratio <= worst)) worst = ratio, w->step.worst = k;
     if (isnan(worst)) break;
@@ -141,6 +148,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
 double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, double h) {
   frot_layout l = frot_layout_of(m);
   const double *slope = row(&l, w, 0);
+  frot_motion_sizes(m, s, w, h, slope, 1);
   /* a stiff state does not go where its slope at the start points to */
   for (int k = 0; k < m->nq; k++) {
     double pointed = h * fabs(slope[k]), gone = fabs(w->step.z1[k] - w->step.z0[k]);
@@ -152,7 +160,8 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
     frot_state_sizes(m, s, w);
   }
   double worst = worst_error(m, s, w, &l, h);
-  if (!(worst > FROT_LIMITING) || w->step.worst < 0 || !frot_is_small(m, s, w, w->step.worst))
+  if (!(worst > FROT_LIMITING) || w->step.worst < 0 || w->step.worst >= m->nq ||
+      !frot_is_small(m, s, w, w->step.worst))
     return worst;
   frot_raise_small(m, s, w, h, 0);
   return worst_error(m, s, w, &l, h);
@@ -163,8 +172,8 @@ static void inside(const frot_model *m, const frot_layout *l, const frot_work *w
                    double *z) {
   double one = 1 - theta;
   const double *f = w->step.f;
-  for (int k = 0; k < m->nq; k++) {
-    double sum = one * f[3 * l->nz + k];
+  for (int k = 0; k < frot_order(m); k++) {
+    double sum = one * (f[3 * l->nz + k] + theta * f[4 * l->nz + k]);
     sum = theta * (f[2 * l->nz + k] + sum);
     sum = one * (f[l->nz + k] + sum);
     z[k] = w->step.z0[k] + theta * (f[k] + sum);
@@ -176,6 +185,7 @@ static void inside(const frot_model *m, const frot_layout *l, const frot_work *w
 static int follow_guards(const frot_model *m, frot_state *s, frot_work *w, const frot_layout *l,
                          double t, double h) {
   frot_jacobian jacobian = frot_jacobian_of(m, w, NULL, NULL);
+  int count = w->guards.count;
   double *slope = row(l, w, SLOPE_ROW), *value = w->step.f + l->nx;
   const double *start = row(l, w, 0) + l->nx, *end = row(l, w, DP_STAGES) + l->nx;
   memcpy(w->step.z, w->step.z0, sizeof(double) * (size_t)l->nx);
@@ -187,9 +197,9 @@ static int follow_guards(const frot_model *m, frot_state *s, frot_work *w, const
       int status = frot_slope(m, s, w, t + theta * h, w->step.z, slope);
       if (status != FROT_OK) return status;
     }
-    for (int g = 0; g < l->ng; g++) value[i * l->nz + g] = from[g];
+    for (int g = 0; g < count; g++) value[i * l->nz + g] = from[g];
   }
-  for (int g = 0; g < l->ng; g++) {
+  for (int g = 0; g < count; g++) {
     double at[GUARD_NODES];
     for (int i = 0; i < GUARD_NODES; i++) at[i] = value[i * l->nz + g];
     for (int i = 0; i < GUARD_NODES; i++) {
@@ -204,7 +214,7 @@ static int follow_guards(const frot_model *m, frot_state *s, frot_work *w, const
     inside(m, l, w, theta, w->step.z);
     int status = frot_slope(m, s, w, t + theta * h, w->step.z, slope);
     if (status != FROT_OK) return status;
-    for (int g = 0; g < l->ng; g++) {
+    for (int g = 0; g < count; g++) {
       double b[GUARD_NODES];
       for (int k = 0; k < GUARD_NODES; k++) b[k] = value[k * l->nz + g];
       double miss = fabs(frot_bernstein(b, theta) - slope[l->nx + g]);
@@ -216,6 +226,11 @@ static int follow_guards(const frot_model *m, frot_state *s, frot_work *w, const
 
 int frot_implicit_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   frot_layout l = frot_layout_of(m);
+  if (frot_has_motion(m)) {
+    memset(w->step.f, 0, sizeof(double) * (size_t)(DP_DENSE * l.nz));
+    frot_radau_dense(m, w);
+    return w->guards.count > 0 ? follow_guards(m, s, w, &l, t, h) : FROT_OK;
+  }
   for (int i = 0; i < DP_DENSE; i++) { /* what no state fills below */
     int from = i < 4 ? m->nq : 0;
     memset(w->step.f + i * l.nz + from, 0, sizeof(double) * (size_t)(l.nz - from));
@@ -232,16 +247,16 @@ int frot_implicit_dense(const frot_model *m, frot_state *s, frot_work *w, double
       f[3 * l.nz + k + e] = -c.c[e];
     }
   }
-  return l.ng > 0 ? follow_guards(m, s, w, &l, t, h) : FROT_OK;
+  return w->guards.count > 0 ? follow_guards(m, s, w, &l, t, h) : FROT_OK;
 }
 
 int frot_implicit_follows_guards(const frot_model *m, const frot_state *s, const frot_work *w) {
   frot_layout l = frot_layout_of(m);
   frot_jacobian jacobian = frot_jacobian_of(m, w, NULL, NULL);
   double tolerance = frot_guard_tolerance(s->tolerance);
-  for (int g = 0; g < l.ng; g++) {
+  for (int g = 0; g < w->guards.count; g++) {
     double size = fmax(fabs(row(&l, w, 0)[l.nx + g]), fabs(row(&l, w, DP_STAGES)[l.nx + g]));
-    size = fmax(size, FROT_GUARD_LOOSEST * s->data[l.scale_g + g]);
+    size = fmax(size, FROT_GUARD_LOOSEST * s->data[l.scale_g + w->guards.list[g]]);
     if (!(jacobian.misfit[g] <= tolerance * size)) return 0;
   }
   return 1;

@@ -1,7 +1,7 @@
-/* The implicit step: Rosenbrock method of order 5 with dense output of order 4, for models whose
- * states are all q. It takes the place of the stages of the explicit step, in the same scratch:
- * w->step.z0 is the start, stage 0 of w->step.k the slope there; w->step.z1 becomes the end, stage
- * DP_STAGES of w->step.k the slope there. */
+/* The implicit step, in one mode. Of models of equations alone a Rosenbrock method of order 5 with
+ * dense output of order 4; of those with accelerations radau.h. It takes the place of the stages of
+ * the explicit step, in the same scratch: w->step.z0 is the start, stage 0 of w->step.k the slope
+ * there; w->step.z1 becomes the end, stage DP_STAGES of w->step.k the slope there. */
 #ifndef FROT_IMPLICIT_H
 #define FROT_IMPLICIT_H
 
@@ -14,7 +14,8 @@ size_t frot_implicit_integers(const frot_model *m);
 /* The Jacobian at the start (t, w->step.z0) of a step. FROT_OK, FROT_NAN or FROT_SINGULAR. */
 int frot_implicit_begin(const frot_model *m, frot_state *s, frot_work *w, double t);
 
-/* The step h. FROT_OK, or a status for which a shorter step is the remedy. */
+/* The step h. FROT_OK, or a status for which a shorter step is the remedy; FROT_POSTURE: radau.h.
+ */
 int frot_implicit_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 
 /* Estimate of the local error over its bound, after frot_implicit_stages. */

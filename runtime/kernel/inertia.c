@@ -48,6 +48,14 @@ double frot_mass_column(const frot_work *w, const frot_group *g, int k, double *
   return mass[k * g->n + k];
 }
 
+void frot_whole_column(frot_work *w, const frot_group *g, int k, double *column) {
+  const double *mass = w->core.mass + g->matrix;
+  if (g->n_links > 0)
+    frot_tree_column(g, mass, w->core.twist, k, column);
+  else
+    memcpy(column, mass + k * g->n, sizeof(double) * (size_t)g->n);
+}
+
 double frot_group_metric(frot_work *w, const frot_group *g, int i, int k) {
   if (g->general) return w->core.metric[g->metric + k * g->n_speeds + i];
   if (g->n_links == 0) return w->core.mass[g->matrix + k * g->n + i];

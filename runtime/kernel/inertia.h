@@ -15,6 +15,9 @@ void frot_outwards(const frot_work *w, const frot_group *g, double *x);
 /* column (n_speeds) <- entries of the speeds in the column of the unknown k; returns that of k. */
 double frot_mass_column(const frot_work *w, const frot_group *g, int k, double *column);
 
+/* column (n) <- that of the unknown k in the whole matrix; of any group. */
+void frot_whole_column(frot_work *w, const frot_group *g, int k, double *column);
+
 /* Entry of the metric for two unknowns of a group. */
 double frot_group_metric(frot_work *w, const frot_group *g, int i, int k);
 

@@ -5,6 +5,7 @@
 
 #include "linear.h"
 #include "mechanics.h"
+#include "radau.h"
 #include "sparse_lu.h"
 
 /* Sizes tried for the bound of the eigenvalues. */
@@ -28,35 +29,40 @@ static double *take(double *base, size_t *used, int count) {
 
 frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *doubles,
                                size_t *integers) {
-  int n = m->nq, ny = early_unknowns(m);
+  int n = frot_order(m), ny = early_unknowns(m), motion = frot_has_motion(m);
   int entries = is_sparse(m) ? m->pattern.entries : n * n;
   int factors = is_sparse(m) ? m->pattern.start[n] : n * n;
   double *base = doubles ? NULL : w->implicit.items;
-  size_t used = 0;
+  size_t used = motion ? frot_radau_doubles(m) : 0;
+  int *integer = doubles ? NULL : w->implicit.pivot + (motion ? frot_radau_integers(m) : 0);
   frot_jacobian j;
   j.entries = take(base, &used, entries);
   j.rate = take(base, &used, n);
   j.factors = take(base, &used, factors);
   j.scale = take(base, &used, 2 * n);
   j.scratch = take(base, &used, 2 * n);
-  j.error = take(base, &used, n);
   j.misfit = take(base, &used, m->n_contacts + 2 * m->n_elements + m->n_located);
   j.slope_y = take(base, &used, n * ny);
   j.block_q = take(base, &used, ny * n);
   j.block_t = take(base, &used, ny);
   j.block_y = take(base, &used, ny * ny);
   j.block_scale = take(base, &used, 2 * ny);
-  j.growth = doubles ? NULL : w->implicit.pivot;
+  j.growth = integer;
   j.pivot = doubles ? NULL : j.growth + 1;
   j.block_pivot = doubles ? NULL : j.pivot + n;
-  if (doubles) *doubles = used;
-  if (integers) *integers = (size_t)(1 + n + ny);
+  size_t own = 0, places = motion ? frot_radau_integers(m) : 0, more = 0;
+  if (motion)
+    j.linearize = frot_linearize_scratch(m, base ? base + used : NULL,
+                                         doubles ? NULL : j.block_pivot + ny, &own, &more);
+  if (doubles) *doubles = used + own;
+  if (integers) *integers = (size_t)(1 + n + ny) + places + more;
   return j;
 }
 
-/* q' depends on q and t through the unknowns y of the blocks too: J <- f_q - f_y (r_y)^-1 r_q. */
+/* The rates depend on the states and t through the unknowns y of the blocks too:
+ * J <- f_x - f_y (r_y)^-1 r_x. */
 static int condense(const frot_model *m, const frot_jacobian *j, int ny) {
-  int n = m->nq;
+  int n = frot_order(m);
   if (frot_lu(j->block_y, ny, j->block_pivot, j->block_scale)) return FROT_SINGULAR;
   for (int c = 0; c <= n; c++) {
     double *x = c < n ? j->block_q + ny * c : j->block_t;
@@ -70,20 +76,32 @@ static int condense(const frot_model *m, const frot_jacobian *j, int ny) {
   return FROT_OK;
 }
 
-int frot_jacobian_at(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                     const double *d) {
+int frot_jacobian_at(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z,
+                     const double *d, double *slope) {
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
-  int ny = early_unknowns(m), n = m->nq;
-  frot_inputs(m, s, w, &t, q, q + n, d);
+  int ny = early_unknowns(m), n = frot_order(m), status;
+  s->statistics.jacobians++;
+  if (frot_has_motion(m)) {
+    status = frot_linearize(m, s, w, t, z, d, &j.linearize, slope);
+    if (status != FROT_OK) return status;
+    memcpy(j.entries, j.linearize.rates, sizeof(double) * (size_t)(n * n));
+    memcpy(j.slope_y, j.linearize.rates + n * n, sizeof(double) * (size_t)(n * ny));
+    memcpy(j.block_q, j.linearize.residual, sizeof(double) * (size_t)(ny * n));
+    memcpy(j.block_y, j.linearize.residual + ny * n, sizeof(double) * (size_t)(ny * ny));
+    memset(j.rate, 0, sizeof(double) * (size_t)n);
+    memset(j.block_t, 0, sizeof(double) * (size_t)ny);
+    if (ny > 0 && (status = condense(m, &j, ny)) != FROT_OK) return status;
+    return frot_all_finite(j.entries, n * n) ? FROT_OK : FROT_NAN;
+  }
+  frot_inputs(m, s, w, &t, z, z + n, d);
   double *res[] = {j.entries, j.rate, j.slope_y, j.block_q, j.block_t, j.block_y};
   memcpy(w->call.res, res, sizeof res);
   frot_call(w, &m->jacobian);
-  s->statistics.jacobians++;
   if (ny > 0) {
     if (!frot_all_finite(j.slope_y, n * ny) || !frot_all_finite(j.block_q, ny * n) ||
         !frot_all_finite(j.block_t, ny) || !frot_all_finite(j.block_y, ny * ny))
       return FROT_NAN;
-    int status = condense(m, &j, ny);
+    status = condense(m, &j, ny);
     if (status != FROT_OK) return status;
   }
   int entries = is_sparse(m) ? m->pattern.entries : n * n;
@@ -92,7 +110,7 @@ int frot_jacobian_at(const frot_model *m, frot_state *s, frot_work *w, double t,
 
 int frot_jacobian_factor(const frot_model *m, frot_work *w, double shift) {
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
-  int n = m->nq;
+  int n = frot_order(m);
   if (is_sparse(m))
     return frot_sparse_factor(&m->pattern, j.entries, shift, j.factors, j.scratch, j.growth);
   for (int i = 0; i < n * n; i++) j.factors[i] = -j.entries[i];
@@ -106,30 +124,35 @@ void frot_jacobian_solve(const frot_model *m, const frot_work *w, const double *
     frot_sparse_solve(&m->pattern, j.factors, b, j.scratch, x);
     return;
   }
-  memcpy(x, b, sizeof(double) * (size_t)m->nq);
-  frot_lu_apply(j.factors, m->nq, j.pivot, j.scale, x);
+  int n = frot_order(m);
+  memcpy(x, b, sizeof(double) * (size_t)n);
+  frot_lu_apply(j.factors, n, j.pivot, j.scale, x);
 }
 
 double frot_jacobian_error(const frot_model *m, const frot_work *w, double shift, const double *b,
                            const double *x) {
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
   if (!is_sparse(m) || !*j.growth) return 0;
-  return frot_sparse_error(&m->pattern, j.entries, shift, b, x, j.scratch, j.scratch + m->nq);
+  return frot_sparse_error(&m->pattern, j.entries, shift, b, x, j.scratch,
+                           j.scratch + frot_order(m));
 }
 
-double frot_jacobian_damping(const frot_model *m, const frot_work *w, int state) {
+double frot_jacobian_damping(const frot_model *m, const frot_work *w, int state, double h) {
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
   const frot_pattern *p = &m->pattern;
-  if (!is_sparse(m)) return fabs(j.entries[(m->nq + 1) * state]);
+  int n = frot_order(m), coordinate = state < m->nq ? -1 : m->speed_coordinate[state - m->nq];
+  double damping = 1;
+  if (coordinate >= 0) damping += h * h * fabs(j.entries[n * coordinate + state]);
+  if (!is_sparse(m)) return damping + h * fabs(j.entries[(n + 1) * state]);
   for (int e = 0; e < p->entries; e++)
-    if (p->entry_row[e] == state && p->entry_column[e] == state) return fabs(j.entries[e]);
-  return 0;
+    if (p->entry_row[e] == state && p->entry_column[e] == state) damping += h * fabs(j.entries[e]);
+  return damping;
 }
 
 /* y <- |J| x. */
 static void spread(const frot_model *m, const frot_jacobian *j, const double *x, double *y) {
   const frot_pattern *p = &m->pattern;
-  int n = m->nq;
+  int n = frot_order(m);
   memset(y, 0, sizeof(double) * (size_t)n);
   if (is_sparse(m)) {
     for (int e = 0; e < p->entries; e++)
@@ -142,7 +165,7 @@ static void spread(const frot_model *m, const frot_jacobian *j, const double *x,
 
 double frot_jacobian_bound(const frot_model *m, const frot_work *w, const double *size) {
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
-  int n = m->nq;
+  int n = frot_order(m);
   double *x = j.scratch, *y = j.scratch + n, bound = INFINITY;
   memcpy(x, size, sizeof(double) * (size_t)n);
   for (int pass = 0; pass < BOUND_PASSES; pass++) {

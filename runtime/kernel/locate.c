@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "falls.h"
+#include "jacobian.h"
 #include "mechanics.h"
 #include "projection.h"
 #include "roots.h"
@@ -39,7 +40,7 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, double t, int 
   double at = theta * longest, last_at = 0, last = 0, value = 0;
   for (int pass = 0;; pass++) {
     int status = frot_run_stages(m, s, w, t, at);
-    if (status == FROT_OK && !s->implicit) status = land(m, s, w, t + at);
+    if (status == FROT_OK && !(s->implicit && !frot_has_motion(m))) status = land(m, s, w, t + at);
     if (status != FROT_OK) return status;
     value = frot_stage(w, DP_STAGES)[w->awake.n + guard];
     if (pass > 0 && at != last_at && value != last) {

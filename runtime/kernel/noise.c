@@ -50,7 +50,9 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
   int n = m->nq + m->nv, packed = w->awake.n, moving = packed - FROT_QUADRATURES;
   for (int j = 0; j < moving; j++) {
     largest[j] = 0;
-    for (int i = 0; i <= DP_STAGES; i++) largest[j] = fmax(largest[j], fabs(frot_stage(w, i)[j]));
+    /* of an implicit step only the slopes at its ends are there */
+    for (int i = 0; i <= DP_STAGES; i += s->implicit ? DP_STAGES : 1)
+      largest[j] = fmax(largest[j], fabs(frot_stage(w, i)[j]));
   }
   if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return;
   memset(noise, 0, sizeof(double) * (size_t)(n + w->layout.ng));

@@ -42,6 +42,19 @@ int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w) {
   return zero;
 }
 
+void frot_motion_sizes(const frot_model *m, const frot_state *s, frot_work *w, double h,
+                       const double *slope, int stiff) {
+  const double *most = s->data + w->layout.scale_x;
+  for (int j = 0; j < m->nq + m->nv; j++) {
+    if (j < m->nq && is_own(m, j)) continue;
+    double change = h * fabs(slope[j]), gone = fabs(w->step.z1[j] - w->step.z0[j]);
+    if (j < m->nq) change += h * h * fabs(slope[m->nq + m->q_speed[j]]);
+    if (stiff && gone < change) change = gone;
+    double size = larger(larger(most[j], fabs(w->step.z0[j])), change);
+    w->sizes.own[j] = size > 0 ? size : gone;
+  }
+}
+
 int frot_is_small(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
   return is_own(m, j) && s->data[w->layout.nominal + j] == 0 &&
          larger(s->data[w->layout.scale_x + j], w->sizes.own[j]) <
@@ -70,11 +83,12 @@ static int raise(frot_work *w, const raising *r, int row, int column, double ent
 static void raise_by_jacobian(const frot_model *m, const frot_state *s, frot_work *w, double h) {
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
   const frot_pattern *p = &m->pattern;
-  int n = m->nq, sparse = p->n > 0, entries = sparse ? p->entries : n * n, raised = 1;
+  int n = frot_order(m), sparse = p->n > 0, entries = sparse ? p->entries : n * n, raised = 1;
   raising r = {j.scratch, j.scratch + n, j.pivot};
   for (int k = 0; k < n; k++) {
     r.lives[k] = (double)LASTING / LASTING_STEPS / h;
-    r.most[k] = frot_is_small(m, s, w, k) ? SMALL_PART * w->sizes.alike[m->q_alike[k]] : 0;
+    r.most[k] =
+        k < m->nq && frot_is_small(m, s, w, k) ? SMALL_PART * w->sizes.alike[m->q_alike[k]] : 0;
     r.by[k] = -1;
   }
   for (int e = 0; e < entries; e++) {

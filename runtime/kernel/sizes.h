@@ -19,6 +19,12 @@
  * they are worth. Returns 1 when a size is zero. */
 int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w);
 
+/* Sizes of the coordinates and speeds into w->sizes.own (nq + nv) for a step h to w->step.z1: the
+ * largest they have had, or what the step brings by `slope` at its start and, of a `stiff` one, by
+ * its end: what is stiff does not go where its slope points to. */
+void frot_motion_sizes(const frot_model *m, const frot_state *s, frot_work *w, double h,
+                       const double *slope, int stiff);
+
 /* Whether state j is small beside another of its dimension, after frot_state_sizes. */
 int frot_is_small(const frot_model *m, const frot_state *s, const frot_work *w, int j);
 

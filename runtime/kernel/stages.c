@@ -55,9 +55,7 @@ static void weigh(const frot_work *w, const double *coefficient, int count, doub
   }
 }
 
-/* Whether the determinant that gives the reactions has another sign than at the start of the step:
- * it was zero between, where they grow without bound (jamming). */
-static int has_jammed(const frot_state *s, const frot_work *w) {
+int frot_has_jammed(const frot_state *s, const frot_work *w) {
   for (int i = 0; i < w->awake.now->n_groups; i++) {
     int k = w->awake.now->groups[i];
     if (w->reactions.sign[k] * s->data[w->layout.sign + k] < 0) return 1;
@@ -74,7 +72,7 @@ static int evaluate(const frot_model *m, frot_state *s, frot_work *w, double t, 
     if (status != FROT_OK) return status;
   }
   int status = frot_slope(m, s, w, t, z, frot_stage(w, i));
-  return status == FROT_OK && has_jammed(s, w) ? FROT_DIVERGE : status;
+  return status == FROT_OK && frot_has_jammed(s, w) ? FROT_DIVERGE : status;
 }
 
 /* Stages 1 .. DP_STAGES, and the last that could be evaluated. */

@@ -15,6 +15,7 @@
 #include "falls.h"
 #include "groups.h"
 #include "implicit.h"
+#include "jacobian.h"
 #include "locate.h"
 #include "lost.h"
 #include "pace.h"
@@ -96,7 +97,7 @@ static double change_of_length(const frot_model *m, const frot_state *s, const f
                                double ratio) {
   int j = w->step.worst;
   int moves = reactions_bound(m) && (j < 0 || j >= m->nq || m->q_speed[j] >= 0);
-  if (s->implicit) return SAFETY * pow(ratio, -1.0 / 5);
+  if (s->implicit) return SAFETY * pow(ratio, frot_has_motion(m) ? -1.0 / 6 : -1.0 / 5);
   return (moves ? SAFETY_OF_MOTION : SAFETY) * pow(ratio, -1.0 / 8);
 }
 
@@ -135,6 +136,10 @@ static int look_closer(const frot_model *m, frot_state *s, frot_work *w, frot_at
 static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   double part = 1, t = a->t, h = a->h;
   int status = frot_run_stages(m, s, w, t, h);
+  if (status == FROT_POSTURE) {
+    frot_pass_explicitly(s);
+    return FROT_DIVERGE;
+  }
   a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &part) : -1;
   a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
   a->forced = a->blurred;
@@ -148,7 +153,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   if (a->h == 0) return FROT_DIVERGE;
   if (a->ratio <= 1) {
     a->stiff = frot_is_stiff(m, s, w, h);
-    a->stable = frot_stable_step(m, s, w);
+    a->stable = frot_stable_step(m, s, w, h);
     memcpy(w->step.z, w->step.z1, sizeof(double) * (size_t)(m->nq + m->nv));
     if (!frot_spare_rows_hold(m, s, w, t + h, w->step.z)) {
       frot_spare_nothing(m, s, w);
@@ -301,13 +306,13 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   memcpy(slope + l->nx, frot_stage(w, DP_STAGES) + w->awake.n,
          sizeof(double) * (size_t)w->guards.count);
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-  int moved = 0, lost = s->implicit ? -1 : frot_lost_row(m, s, w, a->t, a->h);
+  int moved = 0, lost = frot_lost_row(m, s, w, a->t, a->h);
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   int status = s->weak && w->step.near[DP_STAGES]
                    ? FROT_OK
                    : frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL, &moved);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, end, a->h);
-  lost = moved && !s->implicit ? frot_speed_lost(m, s, w, end) : -1;
+  lost = moved ? frot_speed_lost(m, s, w, end) : -1;
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   s->has_slope = !moved && !s->pending;

@@ -3,6 +3,9 @@
 #include <math.h>
 
 #include "implicit.h"
+#include "jacobian.h"
+#include "sizes.h"
+#include "stages.h"
 
 /* Size of h lambda beyond which the explicit method is near its limit, about 6. */
 #define NEAR_LIMIT 5.0
@@ -20,6 +23,11 @@
 /* Size of h lambda below which the implicit method is not worth its price, for so many steps. */
 #define EASY 3.0
 #define EASY_STEPS 10
+/* Change of a pass of Newton's method over that of the one before that is best for its price; it
+ * grows with the square of the step. */
+#define GOOD_RATE 0.2
+/* Explicit steps past what the implicit method cannot pass, where the text wants that. */
+#define PASSING_STEPS 8
 /* Steps of the implicit method after which it was right to change. */
 #define LONG_STAY 50
 
@@ -32,40 +40,60 @@ void frot_choose_first(const frot_model *m, frot_state *s) {
   s->patience = STIFF_STEPS;
 }
 
-/* Square of the length of x - y, each state in units of its size. */
-static double distance(const frot_model *m, const frot_work *w, const double *x, const double *y) {
-  double sum = 0;
-  for (int j = 0; j < m->nq; j++) {
+/* Squares of lengths of a difference, each state in units of its size: of coordinates with a speed,
+ * of speeds, of all other states. */
+typedef struct {
+  double place, speed, other;
+} lengths;
+
+static lengths distance(const frot_model *m, const frot_work *w, const double *x, const double *y) {
+  lengths sum = {0, 0, 0};
+  for (int j = 0; j < frot_order(m); j++) {
     if (w->sizes.own[j] == 0) continue;
     double part = (x[j] - y[j]) / w->sizes.own[j];
-    sum += part * part;
+    double *of = j >= m->nq ? &sum.speed : m->q_speed[j] >= 0 ? &sum.place : &sum.other;
+    *of += part * part;
   }
   return sum;
+}
+
+/* The rate that turns a difference of states into that of their slopes. Places and speeds have
+ * sizes of their own, by which a spring would seem as fast as it is stiff beside a slow motion:
+ * places are weighed so that both ways, of speeds into rates of places and of places into
+ * accelerations, count alike. */
+static double rate_of(lengths slope, lengths state) {
+  double weight = 0;
+  if (state.place > 0 && slope.place > 0)
+    weight = sqrt(slope.speed / state.place * (state.speed / slope.place));
+  double values = weight * state.place + state.speed + state.other;
+  double rates = weight * slope.place + slope.speed + slope.other;
+  return values > 0 ? sqrt(rates / values) : 0;
 }
 
 /* The fastest rate that is felt in an explicit step: its last two arguments are both of the end, so
  * that their slopes differ by the Jacobian alone. */
 static double felt_rate(const frot_model *m, const frot_work *w) {
-  int nz = frot_layout_of(m).nz;
-  const double *last = w->step.k + (DP_STAGES - 1) * nz, *end = w->step.k + DP_STAGES * nz;
-  double values = distance(m, w, w->step.z1, w->step.z);
-  return values > 0 ? sqrt(distance(m, w, end, last) / values) : 0;
+  const double *last = frot_stage(w, DP_STAGES - 1), *end = frot_stage(w, DP_STAGES);
+  return rate_of(distance(m, w, end, last), distance(m, w, w->step.z1, w->step.z));
 }
 
-double frot_stable_step(const frot_model *m, frot_state *s, const frot_work *w) {
+double frot_stable_step(const frot_model *m, frot_state *s, const frot_work *w, double h) {
+  if (s->implicit && frot_has_motion(m))
+    return w->implicit.rate > 0 ? h * sqrt(GOOD_RATE / w->implicit.rate) : INFINITY;
   if (!is_chosen(m) || s->implicit) return INFINITY;
   s->felt = fmax(REMEMBERED * s->felt, felt_rate(m, w));
   return s->felt > 0 ? STABLE / s->felt : INFINITY;
 }
 
-int frot_is_stiff(const frot_model *m, const frot_state *s, const frot_work *w, double h) {
+int frot_is_stiff(const frot_model *m, const frot_state *s, frot_work *w, double h) {
   if (!is_chosen(m)) return 0;
   if (s->implicit) return h * frot_implicit_rate(m, w) >= EASY;
-  int nz = frot_layout_of(m).nz;
-  const double *start = w->step.k, *end = w->step.k + DP_STAGES * nz;
-  double way = distance(m, w, w->step.z1, w->step.z0), fastest = h * felt_rate(m, w);
-  if (!(way > 0)) return 0;
-  double own = h * sqrt(distance(m, w, end, start) / way);
+  const double *start = frot_stage(w, 0), *end = frot_stage(w, DP_STAGES);
+  frot_motion_sizes(m, s, w, h, start, 0);
+  double fastest = h * felt_rate(m, w);
+  lengths way = distance(m, w, w->step.z1, w->step.z0);
+  if (!(way.place + way.speed + way.other > 0)) return 0;
+  double own = h * rate_of(distance(m, w, end, start), way);
   return fastest > NEAR_LIMIT || (fastest > FELT && fastest > APART * own);
 }
 
@@ -75,12 +103,16 @@ static void change_to(frot_state *s, int implicit) {
 }
 
 int frot_change_method(const frot_model *m, frot_state *s) {
-  if (!is_chosen(m)) return 0;
+  if (!is_chosen(m) || s->weak) return 0;
   change_to(s, !s->implicit);
   return 1;
 }
 
+void frot_pass_explicitly(frot_state *s) { change_to(s, 0); }
+
 void frot_choose_next(const frot_model *m, frot_state *s, int stiff) {
+  if (!s->implicit && m->has_jacobian && m->method == FROT_IMPLICIT && !s->weak)
+    if (++s->stay > PASSING_STEPS) change_to(s, 1);
   if (!is_chosen(m)) return;
   s->calm_steps = stiff ? 0 : s->calm_steps + 1;
   if (s->implicit) {
@@ -94,6 +126,6 @@ void frot_choose_next(const frot_model *m, frot_state *s, int stiff) {
   } else {
     s->stiff_steps += stiff;
     if (s->calm_steps >= CALM_STEPS) s->stiff_steps = 0;
-    if (s->stiff_steps >= s->patience) change_to(s, 1);
+    if (s->stiff_steps >= s->patience && !s->weak) change_to(s, 1);
   }
 }

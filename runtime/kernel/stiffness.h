@@ -16,13 +16,18 @@ void frot_choose_first(const frot_model *m, frot_state *s);
 
 /* Whether the step h just accepted speaks for the implicit method. The explicit method's last
  * argument before the end is still in w->ztry. 0 where the text gives the method. */
-int frot_is_stiff(const frot_model *m, const frot_state *s, const frot_work *w, double h);
+int frot_is_stiff(const frot_model *m, const frot_state *s, frot_work *w, double h);
 
-/* The longest step that the explicit method should try after the one just accepted. */
-double frot_stable_step(const frot_model *m, frot_state *s, const frot_work *w);
+/* The longest step that should be tried after the one just accepted, of length h: of the explicit
+ * method by its stability, of the implicit one by how its stages were found. */
+double frot_stable_step(const frot_model *m, frot_state *s, const frot_work *w, double h);
 
 /* Where one method fails, the other is to be tried: takes it; 0 where the text gives the method. */
 int frot_change_method(const frot_model *m, frot_state *s);
+
+/* The implicit method cannot pass what is ahead: the explicit one takes some steps, whatever the
+ * text says. */
+void frot_pass_explicitly(frot_state *s);
 
 /* The method of the step after that one. */
 void frot_choose_next(const frot_model *m, frot_state *s, int stiff);

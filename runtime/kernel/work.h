@@ -140,7 +140,7 @@ typedef struct {
   int worst;
 } frot_step_work;
 
-/* sizes.h (nq each); the states that are no coordinates, `count` of them. */
+/* sizes.h (nq each, own nq + nv); the states that are no coordinates, `count` of them. */
 typedef struct {
   double *change, *own, *alike;
   int *states, count;
@@ -150,6 +150,7 @@ typedef struct {
 typedef struct {
   double *items;
   int *pivot;
+  double rate; /* at which Newton's method came near the stages of the last step: radau.h */
 } frot_implicit_work;
 
 /* Events of the text: conditions.h and happen.c. */

@@ -1,0 +1,235 @@
+#include "radau.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "complex_lu.h"
+#include "crossing.h"
+#include "crossing.h"
+#include "jacobian.h"
+#include "mechanics.h"
+#include "radau_table.h"
+#include "segment.h"
+#include "sizes.h"
+#include "stages.h"
+#include "tolerances.h"
+
+/* Newton's method: passes, the part of a step's error that it may leave, change of a pass over that
+ * of the one before at which it no longer converges, and the part of the error below which that is
+ * rounding. */
+#define PASSES 16
+#define LEFT 1e-3
+#define STALLED 0.9
+#define ROUNDED 0.3
+/* How far beyond its end, in its lengths, the last step shows where the next one goes. */
+#define BEYOND 2
+
+typedef char frot_radau_rows_suffice[FROT_RADAU_ERROR < DP_STAGES ? 1 : -1];
+
+typedef struct {
+  double *moved;   /* RA_STAGES x n: w, where what the stages have moved is T w */
+  double *change;  /* RA_STAGES x n: right sides, then changes of w */
+  double *factors; /* RA_PAIRS x 2 n x n */
+  int *pivot;      /* RA_PAIRS x n */
+} scratch;
+
+static scratch scratch_of(const frot_model *m, const frot_work *w) {
+  int n = frot_order(m);
+  double *base = w->implicit.items;
+  scratch x = {base, base + RA_STAGES * n, base + 2 * RA_STAGES * n, w->implicit.pivot};
+  return x;
+}
+
+size_t frot_radau_doubles(const frot_model *m) {
+  size_t n = (size_t)frot_order(m);
+  return 2 * RA_STAGES * n + 2 * RA_PAIRS * n * n;
+}
+
+size_t frot_radau_integers(const frot_model *m) { return (size_t)(RA_PAIRS * frot_order(m)); }
+
+static double *row(const frot_work *w, int i) { return frot_stage(w, i); }
+
+/* Factor (a + i b)/h I - J for each pair, and ra_gamma/h I - J. */
+static int factor(const frot_model *m, frot_work *w, const scratch *x, double h) {
+  if (frot_jacobian_factor(m, w, ra_gamma / h)) return 1;
+  int n = frot_order(m);
+  frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
+  for (int p = 0; p < RA_PAIRS; p++) {
+    double *re = x->factors + 2 * p * n * n, *im = re + n * n;
+    for (int i = 0; i < n * n; i++) re[i] = -j.entries[i];
+    memset(im, 0, sizeof(double) * (size_t)(n * n));
+    for (int i = 0; i < n; i++) re[(n + 1) * i] += ra_a[p] / h, im[(n + 1) * i] = ra_b[p] / h;
+    if (frot_complex_lu(re, im, n, x->pivot + p * n, j.scale)) return 1;
+  }
+  return 0;
+}
+
+/* The first guess: the last step goes on, where the motion has gone on from it in its mode. */
+static void guess(const frot_model *m, frot_state *s, frot_work *w, const scratch *x, double t,
+                  double h) {
+  int n = frot_order(m);
+  frot_segment last = frot_segment_at(m, s->data + w->layout.segment);
+  memset(x->moved, 0, sizeof(double) * (size_t)(RA_STAGES * n));
+  if (!(*last.h > 0) || h > BEYOND * *last.h) return;
+  double *start = row(w, DP_STAGES + 1), *there = row(w, DP_STAGES + 2);
+  frot_interpolate(m, &last, t, start);
+  for (int i = 0; i < RA_STAGES; i++) {
+    frot_interpolate(m, &last, t + ra_c[i] * h, there);
+    for (int r = 0; r < RA_STAGES; r++)
+      for (int k = 0; k < n; k++) x->moved[r * n + k] += ra_TI[r][i] * (there[k] - start[k]);
+  }
+}
+
+/* Slopes of the stages at what w gives. */
+static int evaluate(const frot_model *m, frot_state *s, frot_work *w, const scratch *x, double t,
+                    double h) {
+  int n = frot_order(m), loops = frot_has_loops(m, s, w);
+  double *z = w->step.z1;
+  for (int i = 0; i < RA_STAGES; i++) {
+    double *moved = row(w, FROT_RADAU_MOVED + i);
+    for (int k = 0; k < n; k++) {
+      double sum = 0;
+      for (int r = 0; r < RA_STAGES; r++) sum += ra_T[i][r] * x->moved[r * n + k];
+      moved[k] = sum, z[k] = w->step.z0[k] + sum;
+    }
+    int status = frot_slope(m, s, w, t + ra_c[i] * h, z, row(w, FROT_RADAU_SLOPES + i));
+    if (status != FROT_OK) return status;
+    if (frot_has_jammed(s, w)) return FROT_DIVERGE;
+    if (loops) frot_note_rows(m, s, w, 2 + i);
+  }
+  return FROT_OK;
+}
+
+/* One pass of Newton's method: the change of w. */
+static void improve(const frot_model *m, const frot_work *w, const scratch *x, double h) {
+  int n = frot_order(m);
+  frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
+  for (int r = 0; r < RA_STAGES; r++) {
+    double *right = x->change + r * n;
+    for (int k = 0; k < n; k++) right[k] = 0;
+    for (int i = 0; i < RA_STAGES; i++) {
+      const double *slope = row(w, FROT_RADAU_SLOPES + i);
+      for (int k = 0; k < n; k++) right[k] += ra_TI[r][i] * slope[k];
+    }
+  }
+  for (int k = 0; k < n; k++) x->change[k] -= ra_gamma / h * x->moved[k];
+  frot_jacobian_solve(m, w, x->change, x->change);
+  for (int p = 0; p < RA_PAIRS; p++) {
+    const double *u = x->moved + (1 + 2 * p) * n, *v = u + n, *re = x->factors + 2 * p * n * n;
+    double *first = x->change + (1 + 2 * p) * n, *second = first + n, a = ra_a[p] / h,
+           b = ra_b[p] / h;
+    for (int k = 0; k < n; k++) {
+      first[k] -= a * u[k] - b * v[k];
+      second[k] -= b * u[k] + a * v[k];
+    }
+    frot_complex_apply(re, re + n * n, n, x->pivot + p * n, j.scale, first, second);
+  }
+}
+
+/* Largest change of a state in the pass, in sizes of the states; these grow with what they move. */
+static double size_of_change(const frot_model *m, const frot_state *s, const frot_work *w,
+                             const scratch *x) {
+  int n = frot_order(m);
+  const double *most = s->data + w->layout.scale_x, *worth = s->data + w->layout.worth;
+  double largest = 0;
+  for (int k = 0; k < n; k++) {
+    int own = k < m->nq && m->q_speed[k] < 0;
+    double size = fmax(own ? worth[k] : most[k], fabs(w->step.z0[k])), change = 0;
+    for (int i = 0; i < RA_STAGES; i++) {
+      size = fmax(size, fabs(row(w, FROT_RADAU_MOVED + i)[k]));
+      change = fmax(change, fabs(x->change[i * n + k]));
+    }
+    if (change == 0) continue;
+    if (!(change <= largest * fmax(size, change))) largest = change / fmax(size, change);
+    if (isnan(largest)) break;
+  }
+  return largest;
+}
+
+/* Solve the stages. FROT_OK, FROT_DIVERGE or the status of an evaluation. */
+static int iterate(const frot_model *m, frot_state *s, frot_work *w, const scratch *x, double t,
+                   double h) {
+  double error = fmax(FROT_IMPLICIT_SHARE * s->tolerance, FROT_LEAST_IMPLICIT), last = INFINITY;
+  int n = frot_order(m);
+  w->implicit.rate = 0;
+  for (int pass = 0; pass < PASSES; pass++) {
+    int status = evaluate(m, s, w, x, t, h);
+    if (status != FROT_OK) return status;
+    improve(m, w, x, h);
+    double change = size_of_change(m, s, w, x), rate = change / last;
+    if (!isfinite(change)) return FROT_DIVERGE;
+    for (int k = 0; k < RA_STAGES * n; k++) x->moved[k] += x->change[k];
+    if (change <= FROT_ROUNDING) return FROT_OK;
+    if (pass > 0 && rate >= STALLED) {
+      if (change <= ROUNDED * error) return FROT_OK;
+      if (rate > 2 || pass > 2) return FROT_DIVERGE;
+    } else if (pass > 0) {
+      if (last > LEFT * error) w->implicit.rate = fmax(w->implicit.rate, rate);
+      if (rate / (1 - rate) * change <= LEFT * error) return FROT_OK;
+      if (pow(rate, PASSES - pass) * change > error) return FROT_DIVERGE;
+    }
+    last = change;
+  }
+  return FROT_DIVERGE;
+}
+
+/* What the stages and the energies have moved. */
+static void finish(const frot_model *m, frot_work *w, const scratch *x, double h) {
+  int n = frot_order(m);
+  for (int i = 0; i < RA_STAGES; i++) {
+    double *moved = row(w, FROT_RADAU_MOVED + i);
+    for (int k = 0; k < n + FROT_QUADRATURES; k++) {
+      double sum = 0;
+      for (int r = 0; r < RA_STAGES; r++)
+        sum += k < n ? ra_T[i][r] * x->moved[r * n + k]
+                     : h * ra_A[i][r] * row(w, FROT_RADAU_SLOPES + r)[k];
+      moved[k] = sum;
+    }
+  }
+  const double *last = row(w, FROT_RADAU_MOVED + RA_STAGES - 1);
+  for (int k = 0; k < n + FROT_QUADRATURES; k++) w->step.z1[k] = w->step.z0[k] + last[k];
+}
+
+static void estimate(const frot_model *m, frot_work *w, double h) {
+  int n = frot_order(m);
+  double *error = row(w, FROT_RADAU_ERROR);
+  const double *slope = row(w, 0);
+  for (int k = 0; k < n; k++) {
+    double sum = 0;
+    for (int i = 0; i < RA_STAGES; i++) sum += ra_e[i] * row(w, FROT_RADAU_MOVED + i)[k];
+    error[k] = slope[k] + ra_gamma / h * sum;
+  }
+  frot_jacobian_solve(m, w, error, error);
+}
+
+int frot_radau_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  scratch x = scratch_of(m, w);
+  memcpy(w->step.z1, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
+  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  if (factor(m, w, &x, h)) return FROT_DIVERGE;
+  guess(m, s, w, &x, t, h);
+  int status = iterate(m, s, w, &x, t, h);
+  if (status != FROT_OK) return status;
+  double gap = ra_c[RA_STAGES - 1] - ra_c[RA_STAGES - 2];
+  status = frot_meets_posture(m, s, w, 1, 1 + RA_STAGES, gap);
+  if (status != FROT_OK) return status;
+  finish(m, w, &x, h);
+  status = frot_slope(m, s, w, t + h, w->step.z1, row(w, DP_STAGES));
+  memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)m->ny);
+  if (status == FROT_OK && frot_has_jammed(s, w)) status = FROT_DIVERGE;
+  if (status == FROT_OK) estimate(m, w, h);
+  return status;
+}
+
+void frot_radau_dense(const frot_model *m, frot_work *w) {
+  int count = frot_order(m) + FROT_QUADRATURES, nz = w->layout.nz;
+  double *last = row(w, FROT_RADAU_MOVED + RA_STAGES - 1);
+  for (int k = 0; k < count; k++) {
+    last[k] = w->step.z1[k] - w->step.z0[k]; /* the end may have been put onto the relations */
+    for (int i = 0; i < RA_STAGES; i++) {
+      double sum = 0;
+      for (int r = 0; r < RA_STAGES; r++) sum += ra_dense[i][r] * row(w, FROT_RADAU_MOVED + r)[k];
+      w->step.f[i * nz + k] = sum;
+    }
+  }
+}

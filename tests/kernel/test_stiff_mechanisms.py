@@ -1,0 +1,191 @@
+"""Stiff mechanisms: the implicit method with trees, loops, dry friction and equations of the text.
+
+Values: linear modes, laws of conservation, the explicit method where it is affordable, and
+digits found with other programs (tests/reference).
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from frot.runtime.engine import OK, Engine
+
+import frot
+
+HERE = Path(__file__).parent
+MODELS = HERE.parents[1] / "models"
+
+# Two masses on a line, joined by a stiff spring and a damper; the first hangs on a soft one.
+MASSES = """planar model Masses
+  parameter Stiffness k = 1e8 N/m;
+  parameter Damping c = 1e5 N.s/m;
+  body a: particle(mass = 1 kg);
+  body b: particle(mass = 2 kg);
+  liaison on_a: prismatique(ground, a, axis = x);
+  liaison on_b: prismatique(ground, b, axis = x);
+  force soft: spring(ground, a, k = 10 N/m, length = 0.5 m);
+  force stiff: spring(a, b, k = k, length = 1 m);
+  force brake: damper(a, b, c = c);
+initial
+  a.position = (1, 0) m;
+  b.position = (2, 0) m;
+  experiment(stop = 3 s);
+end Masses;
+"""
+
+# A rod in a pin, a bob on a stiff spring at its tip: what is stiff turns.
+PENDULUM = """planar model Pendulum
+  body arm: rod(mass = 1 kg, length = 1 m);
+  body bob: particle(mass = 2 kg);
+  liaison pin: rotoide(ground, arm.start);
+  force stiff: spring(arm.tip, bob, k = 1e8 N/m, length = 0.5 m);
+  force brake: damper(arm.tip, bob, c = 1e5 N.s/m);
+initial
+  arm.angle = 0 rad;
+  bob.position = (1.5, 0) m;
+  experiment(stop = 0.2 s, method = {});
+end Pendulum;
+"""
+
+# A block on a belt, held by a spring; a motor of small inductance starts the belt.
+BELT = """planar model Belt
+  body belt: particle(mass = 5 kg);
+  body block: particle(mass = 1 kg);
+  liaison rail: prismatique(ground, belt, axis = x);
+  curve track on belt: line(through = (0, 0) m, direction = (1, 0));
+  liaison rub: point_courbe(block, track) with coulomb(0.3, mu_s = 0.5);
+  force back: spring(ground, block, k = 50 N/m, length = 1 m);
+  force drive: on(belt, value = (5 N/A*i, 0 N));
+  Current i;
+initial
+  belt.position = (0, 0) m;
+  block.position = (1, 0) m;
+  belt.velocity = (0, 0) m/s;
+  i = 0 A;
+equation
+  1e-5 H*der(i) = 2 V - 0.5 Ohm*i - 5 N/A*belt.velocity.x;
+  experiment(stop = 1.5 s, method = {});
+end Belt;
+"""
+
+# A crank on a stiff shaft, with a dry slider: a closed loop.
+CRANK = """planar model Crank
+  parameter Real k(unit = "N.m") = 1e6;
+  parameter Real c(unit = "N.m.s") = 1e3;
+  body wheel: disc(mass = 2 kg, radius = 0.2 m);
+  body crank: rod(mass = 0.6 kg, length = 80 mm);
+  body bielle: rod(mass = 1.1 kg, length = 240 mm);
+  body piston: particle(mass = 0.9 kg);
+  liaison W: rotoide(ground, wheel);
+  liaison O: rotoide(ground, crank.start);
+  liaison A: rotoide(crank.tip, bielle.start);
+  liaison B: rotoide(bielle.tip, piston);
+  curve bore on ground: line(through = (0, 0) m, direction = (1, 0));
+  liaison C: point_courbe(piston, bore) with coulomb(mu = 0.08, mu_s = 0.10);
+  force twist: couple(O, value = k*(W.angle - O.angle) + c*(W.speed - O.speed));
+  force back: couple(W, value = -k*(W.angle - O.angle) - c*(W.speed - O.speed));
+initial
+  O.angle = 30 deg;
+  W.angle = 30 deg;
+  W.speed = 20 rad/s;
+  O.speed = 20 rad/s;
+  experiment(stop = 0.2 s, method = {});
+end Crank;
+"""
+
+
+def steps(result: frot.Result) -> tuple[int, int]:
+    """All steps, and those of the implicit method."""
+    counts = result._engine.statistics
+    return counts.steps, counts.implicit_steps
+
+
+@pytest.mark.parametrize("damping", [1e5, 1e8])
+def test_a_stiff_spring_follows_the_tolerance_and_is_found_by_itself(damping: float) -> None:
+    model, k, soft = frot.compile(MASSES), 1e8, 10.0
+    # x_a, x_b - x_a - 1, their rates; rates of modes from the inverse, which keeps slow ones exact
+    a = np.zeros((4, 4))
+    a[0, 2] = a[1, 3] = 1
+    a[2], a[3] = [-soft, k, 0, damping], [soft, -1.5 * k, 0, -1.5 * damping]
+    inverse, modes = np.linalg.eig(np.linalg.inv(a))
+    parts = np.linalg.solve(modes, np.array([0.5, 0, 0, 0], dtype=complex))
+    lasting = np.abs(inverse) > 1e-3
+    exact = (modes[:, lasting] @ (parts * np.exp(3 / inverse))[lasting]).real
+    exact[0] += 0.5
+    for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
+        result = model.simulate(tolerance=tolerance, parameters={"c": damping})
+        error = max(
+            abs(result["a.position.x"][-1] - exact[0]), abs(result["a.velocity.x"][-1] - exact[2])
+        )
+        assert error < 2 * tolerance
+        count, implicit = steps(result)
+        assert 0 < implicit < count < 400
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        (PENDULUM, ("arm.angle", "bob.velocity.x", "bob.position.y")),
+        (BELT, ("block.position.x", "belt.velocity.x", "i")),
+        (CRANK, ("piston.position.x", "W.speed", "O.angle")),
+    ],
+)
+def test_both_methods_agree_in_trees_loops_and_dry_friction(text: str, names: tuple[str]) -> None:
+    slow = frot.compile(text.format("explicit")).simulate(tolerance=1e-11)
+    fast = frot.compile(text.format("implicit"))
+    for tolerance in (1e-6, 1e-9):
+        result = fast.simulate(tolerance=tolerance)
+        for name in names:
+            size = np.abs(slow[name]).max()
+            assert abs(result[name][-1] - slow[name][-1]) < 20 * tolerance * size, name
+            assert np.abs(result[name] - slow[name]).max() < 1e-6 * size, name
+        count, implicit = steps(result)
+        assert count == implicit < 0.2 * steps(slow)[0]
+        assert [(e.kind, e.liaison) for e in result.events] == [
+            (e.kind, e.liaison) for e in slow.events
+        ]
+        for event, other in zip(result.events, slow.events, strict=True):
+            assert abs(event.time - other.time) < 20 * tolerance
+        assert abs(result.balance.relative) < 20 * tolerance
+
+
+def test_what_sticks_does_not_creep_in_implicit_steps() -> None:
+    result = frot.compile(BELT.format("implicit")).simulate(stop=0.3)
+    assert steps(result)[1] > 0
+    assert np.all(result["rub.slip"] == 0)
+
+
+def test_a_run_goes_on_to_the_same_bits_from_where_it_was_saved() -> None:
+    made = Engine(frot.compile(BELT.format("implicit")).program())
+    assert made.start(0.0, 1e-8, "rest") == OK
+    assert made.advance(0.4).status == OK
+    kept = made.save()
+    there = made.sample(made.advance(1.4).segments, np.array([1.4]))
+    made.restore(kept)
+    for t in (0.5, 0.9, 1.4):
+        done = made.advance(t)
+    assert np.array_equal(made.sample(done.segments, np.array([1.4])), there)
+
+
+def test_andrews_squeezer() -> None:
+    known = json.loads((HERE.parent / "reference" / "andrews_squeezer.json").read_text())
+    model = frot.load(MODELS / "andrews_squeezer.frot")
+    for tolerance, error in ((1e-8, 1e-9), (1e-11, 3e-12)):
+        result = model.simulate(tolerance=tolerance)
+        for name, value in known["q"].items():
+            assert abs(result[f"{name}.angle"][-1] - value) < error, name
+
+
+def test_the_governor_keeps_its_moment_of_momentum() -> None:
+    model = frot.load(MODELS / "flyball_governor.frot")
+    result = model.simulate(stop=10.0, tolerance=1e-9)
+    count, implicit = steps(result)
+    assert 0 < implicit < count < 1500
+    sine, cosine = np.sin(result["open_right.angle"]), np.cos(result["open_right.angle"])
+    arms = (5 + 0.3 / 4 + 0.3 * (1 + 1e-4) / 12) * sine**2 + 0.3 * 2e-4 / 12 * cosine**2
+    momentum = result["turn.speed"] * (3 * 0.02 / 12 + 0.3 * 2e-4 / 12 + 2 * arms)
+    assert np.abs(momentum / momentum[0] - 1).max() < 1e-8
+    assert abs(result.balance.relative) < 1e-9
