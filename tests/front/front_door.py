@@ -144,3 +144,29 @@ def script(path: Path, text: str) -> Path:
     path.write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
     path.chmod(0o755)
     return path
+
+
+def hasty_compiler(folder: Path) -> Path:
+    """A compiler that does not optimise, and compiles the same text with the same words once.
+
+    For tests that look at when compilers are called; the folder keeps what they made.
+    """
+    return script(
+        folder / "hasty-cc",
+        f"""
+case " $* " in *" -c "*) ;; *) exec cc "$@" -O0 ;; esac
+rest= last=
+for word; do
+  case "$last" in -c) source=$word ;; -o) target=$word ;; *) rest="$rest $word" ;; esac
+  last=$word
+done
+key=$({{ echo "$rest"; cat "$source" "$(dirname "$source")"/*.h; }} 2>&1 | cksum | tr ' ' -)
+kept="{folder}/$key-$(basename "$source").o"
+if [ ! -f "$kept" ]; then
+  cc "$@" -O0 || exit
+  cp "$target" "$kept.$$" && mv "$kept.$$" "$kept"
+  exit
+fi
+exec cp "$kept" "$target"
+""",
+    )

@@ -7,7 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 
 import pytest
-from front_door import HOOP, Answer, Door, Shell, script
+from front_door import HOOP, Answer, Door, Shell, hasty_compiler, script
 from patience import PATIENCE
 
 EVENT = "floor: slip -> stick at t = 1.868841318382"
@@ -23,8 +23,7 @@ def cache(folder: Path) -> Path:
 
 @pytest.fixture(scope="session")
 def hasty(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A compiler that does not optimise: what is looked at is when it is called."""
-    return script(tmp_path_factory.mktemp("hasty") / "hasty-cc", 'exec cc "$@" -O0')
+    return hasty_compiler(tmp_path_factory.mktemp("hasty"))
 
 
 @pytest.fixture
@@ -50,15 +49,17 @@ def ran(answer: Answer) -> Answer:
     return answer
 
 
-def counting(folder: Path) -> tuple[Path, Path]:
+def counting(folder: Path, hasty: Path) -> tuple[Path, Path]:
     """A compiler that notes each call, and the file of its notes."""
     notes = folder / "calls"
     notes.touch()
-    return script(folder / "counting-cc", f'echo "$@" >> "{notes}"\nexec cc "$@" -O0'), notes
+    return script(folder / "counting-cc", f'echo "$@" >> "{notes}"\nexec "{hasty}" "$@"'), notes
 
 
-def test_a_second_run_and_other_parameters_start_no_compiler(shell: Shell, cache: Path) -> None:
-    compiler, notes = counting(cache)
+def test_a_second_run_and_other_parameters_start_no_compiler(
+    shell: Shell, cache: Path, hasty: Path
+) -> None:
+    compiler, notes = counting(cache, hasty)
     first = ran(shell("simulate", HOOP, FROT_CC=compiler, FROT_CACHE=cache))
     calls = notes.read_text()
     assert calls.count("\n") > 2
@@ -69,8 +70,8 @@ def test_a_second_run_and_other_parameters_start_no_compiler(shell: Shell, cache
     assert notes.read_text() == calls
 
 
-def test_another_model_compiles_its_own_file_only(shell: Shell, cache: Path) -> None:
-    compiler, notes = counting(cache)
+def test_another_model_compiles_its_own_file_only(shell: Shell, cache: Path, hasty: Path) -> None:
+    compiler, notes = counting(cache, hasty)
     ran(shell("simulate", HOOP, FROT_CC=compiler, FROT_CACHE=cache))
     notes.write_text("")
     changed = HOOP.read_text(encoding="utf-8").replace("ring(", "disc(")
