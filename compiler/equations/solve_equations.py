@@ -33,8 +33,14 @@ from frot.compiler.equations.index import reduce_index
 from frot.compiler.equations.order import Component, closure
 from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.tear import tear
-from frot.compiler.lowering.assembled import Assembled, Block, Invariants, Solution
-from frot.compiler.lowering.symbols import column
+from frot.compiler.lowering.assembled import (
+    Assembled,
+    Block,
+    Invariants,
+    Solution,
+    followed_blocks,
+)
+from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.reduce import Reduced, Tree
 from frot.dsl import Log, default_values, evaluate
@@ -89,7 +95,8 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
     if found is None:
         return None
     core, late = _core_components(found, reduced)
-    solving = Solving()
+    y, blocks = followed_blocks(reduced)
+    solving = Solving(y=scalars_of(y), blocks=list(blocks))
     for k, component in enumerate(found.components):
         if k not in core and k not in late:
             _solve(component, found, solving, False, given)

@@ -5,7 +5,12 @@ from __future__ import annotations
 import casadi as ca
 from frot.compiler.equations.chains import Resolver
 from frot.compiler.equations.solve_equations import solve_equations
-from frot.compiler.lowering.assembled import Assembled, Invariants, Solution
+from frot.compiler.lowering.assembled import (
+    Assembled,
+    Invariants,
+    Solution,
+    followed_blocks,
+)
 from frot.compiler.lowering.symbols import scalars_of
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl import Log
@@ -21,12 +26,13 @@ def _plain(reduced: Reduced) -> Assembled:
     s = reduced.symbols
     na = s.sw.numel()
     nothing = ca.SX.zeros(0)
+    y, blocks = followed_blocks(reduced)
     return Assembled(
         reduced=reduced,
         elements=(),
         q=s.q,
         v=s.v,
-        y=nothing,
+        y=y,
         z=ca.vertcat(s.a, ca.SX.sym("auxiliary", na)),
         lam=s.lam,
         discrete=nothing,
@@ -47,7 +53,7 @@ def _plain(reduced: Reduced) -> Assembled:
         gap=reduced.gap,
         coefficients=reduced.coefficients,
         power=reduced.power,
-        blocks=(),
+        blocks=blocks,
         invariants=Invariants(nothing, ()),
         pivots=(),
         solution=Solution(reduced.text.chains, Resolver(), {}),

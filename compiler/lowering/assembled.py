@@ -10,13 +10,17 @@ from frot.compiler.equations.chains import Chains, Resolver, replace_known
 from frot.compiler.equations.eliminate import Pivot, resolve_all
 from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.text_symbols import FrictionElement
+from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.reduce import Reduced, Tree
 from frot.dsl.messages.source import Span
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Block:
-    """Equations 0 = `residual` that determine y[first .. first + count) together."""
+    """Equations 0 = `residual` that determine y[first .. first + count) together.
+
+    `size` is that of their terms and `start` where the search begins, None where nobody knows.
+    """
 
     residual: ca.SX
     first: int
@@ -24,6 +28,8 @@ class Block:
     late: bool
     name: str
     span: Span
+    size: ca.SX | None = None
+    start: ca.SX | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -111,3 +117,17 @@ class Assembled:
     def early(self) -> int:
         """The number of unknowns of blocks that are solved before the core."""
         return sum(int(b.residual.numel()) for b in self.blocks if not b.late)
+
+
+def followed_blocks(reduced: Reduced) -> tuple[ca.SX, tuple[Block, ...]]:
+    """The unknowns that say where figures touch, and the blocks that solve for them."""
+    y: list[ca.SX] = []
+    blocks: list[Block] = []
+    for liaison, track in reduced.variables.kinematics.tracks.items():
+        name = f"the place where '{liaison.name}' touches"
+        first, span = sum(int(x.numel()) for x in y), liaison.span
+        y.append(track.unknowns)
+        blocks.append(
+            Block(track.residual, first, False, False, name, span, track.size, track.start)
+        )
+    return column(y), tuple(blocks)

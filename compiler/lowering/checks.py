@@ -171,8 +171,10 @@ def _length(subject: str, direction: Expression) -> Check:
 
 
 def _sizes(owner: str, given: Mapping[str, Expression]) -> Iterator[Check]:
-    """No direction is zero, and sizes are positive."""
+    """No direction is zero, and sizes are positive, as far as parameters give them."""
     for name, value in given.items():
+        if not is_fixed(value):
+            continue
         if name in ("direction", "normal", "axis") and value.type.shape:
             yield _length(f"the {name} of {owner}", value)
         elif name in ("radius", "a", "b"):

@@ -96,7 +96,7 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
     position = [r for r, m in zip(found, moving, strict=True) if not m]
     velocity = [r for r, m in zip(found, moving, strict=True) if m]
     known |= _values(system.v, v)
-    y_start = _guess(system, looking, system.y, ca.SX.zeros(system.y.shape), known)
+    y_start = _guess(system, looking, system.y, _beginnings(system, _values(system.q, q)), known)
     discrete = column(d.start for d in system.reduced.text.memory)
     return Initial(
         [q, v, y_start, discrete],
@@ -122,6 +122,17 @@ def _natural(system: Assembled) -> ca.SX:
     start = ca.SX.zeros(system.q.shape)
     for turn in system.reduced.symbols.turns:
         start[turn.coordinate] = 1
+    return start
+
+
+def _beginnings(system: Assembled, places: Mapping[int, ca.SX]) -> ca.SX:
+    """Where the search for the unknowns of the blocks begins without a guess."""
+    start = ca.SX.zeros(system.y.shape)
+    for block in system.blocks:
+        if block.start is not None:
+            start[block.first : block.first + block.start.numel()] = replace_known(
+                block.start, places
+            )
     return start
 
 

@@ -99,7 +99,9 @@ def may_be_stiff(system: Assembled) -> bool:
     """
     reduced = system.reduced
     states = any(symbol < 0 for symbol in _unturned(system))
-    if states or system.nc or system.early or reduced.mechanism.model.flanges:
+    # blocks that say where figures touch, which have a beginning, bring no rates of their own
+    blocks = any(not b.late and b.start is None for b in system.blocks)
+    if states or system.nc or blocks or reduced.mechanism.model.flanges:
         return True
     if system.nv > reduced.symbols.v.numel():
         return True

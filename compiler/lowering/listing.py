@@ -85,7 +85,7 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
         yield from _of_body(reduced, body, accelerations)
     known = dict.fromkeys(x.liaison for x in (*mechanism.contacts, *mechanism.ideal))
     own = set(mechanism.model.liaisons)
-    for liaison in (x for x in known if x in own):
+    for liaison in (*(x for x in known if x in own), *mechanism.corners):
         yield from _of_liaison(reduced, liaison)
     if not mechanism.model.bodies:
         return
@@ -199,8 +199,18 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
         for suffix, part in _components(f"{liaison.name}.{name}", value):
             yield Listed(suffix, part, of, doc, quantity)
 
-    geometry = reduced.variables.geometry[liaison]
-    reacts = liaison in reduced.variables.reactions
+    variables = reduced.variables
+    corners = variables.corners.get(liaison, ())
+    if corners:
+        yield from one("gap", LENGTH, "smallest distance of a corner")
+        if all(corner in variables.reactions for corner in corners):
+            yield from one("normal_force", FORCE, "sum of the reactions along the normal")
+            yield from one("tangential_force", FORCE, "sum of the friction at the corners")
+            yield from one("force", FORCE, "reaction of the first place on the second")
+            yield from one("power", POWER, "power of the reactions")
+        return
+    geometry = variables.geometry[liaison]
+    reacts = liaison in variables.reactions
     if isinstance(geometry, JointGeometry):
         for name in coordinates_of(liaison.kind, reduced.mechanism.model.planar):
             if name in _COORDINATES:

@@ -273,7 +273,9 @@ def _block(index: int, block: Block, system: Assembled) -> ca.Function:
     """Residual, its Jacobian in the block's own unknowns, the size of its terms."""
     own = system.y[block.first : block.first + block.residual.numel()]
     slope = ca.jacobian(block.residual, own)
-    size = ca.fabs(slope) @ ca.fabs(own) + ca.fabs(block.residual)
+    size = block.size
+    if size is None:
+        size = ca.fabs(slope) @ ca.fabs(own) + ca.fabs(block.residual)
     arguments = state_arguments(system)
     if block.late:
         arguments += [system.z, system.lam]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.mechanics.figures import Ball, Flat, Oval
+from frot.compiler.mechanics.figures import Ball, Flat, Oval, count_parameters, is_closed
 from frot.compiler.mechanics.joint_geometry import (
     JointGeometry,
     RelationGeometry,
@@ -18,12 +18,12 @@ from frot.compiler.mechanics.mechanism import (
     Joint,
     Link,
     is_unilateral,
-    owner_body,
     point_body,
 )
 from frot.compiler.mechanics.paths import parameter_of
 from frot.compiler.mechanics.spatial import X, Y, Z, cross, nowhere
 from frot.compiler.mechanics.touches import spread_of, touch
+from frot.compiler.mechanics.tracking import on_side, track
 from frot.dsl.checked import World
 
 STANDARD_GRAVITY = 9.81
@@ -61,7 +61,7 @@ def _witness(contact: Contact, line: Line, kinematics: Kinematics, world: World)
     The ground is below its own line, whatever the start says, and a point that cannot leave its
     line has its normal to the left.
     """
-    if contact.line.span is None or _keeps_left(contact):
+    if contact.floor or _keeps_left(contact):
         return ca.SX.ones(3)
     centre = kinematics.position(contact.point)
     middle = kinematics.position(point_body(contact.point))
@@ -75,7 +75,7 @@ def _keeps_left(contact: Contact) -> bool:
 
 def _reach(contact: Contact, line: Line, kinematics: Kinematics) -> ca.SX:
     """Size of the vectors from the bodies' coordinates to the point and to the line."""
-    base = owner_body(contact.line.owner)
+    base = point_body(contact.track.point)
     sizes = kinematics.lengths_between(
         (base, None), (point_body(contact.point), kinematics.local_point(contact.point))
     )
@@ -138,9 +138,9 @@ def contact_geometry(
         side = ca.SX(1)
     if contact.liaison in kinematics.tangents:
         return _carried(contact, kinematics)
-    if isinstance(contact.track.figure, Flat):
+    if isinstance(contact.track.figure, Flat) and is_closed(contact.track.figure, contact.figure):
         return _on_line(contact, kinematics, side, world)
-    return _on_round(contact, kinematics, side, world)
+    return _on_curve(contact, kinematics, side, world)
 
 
 def _apart(
@@ -200,30 +200,40 @@ def _carried(contact: Contact, kinematics: Kinematics) -> Geometry:
     )
 
 
-def _on_round(contact: Contact, kinematics: Kinematics, side: ca.SX, world: World) -> Geometry:
-    """On a circle or an ellipse, whose left is its inside."""
-    lower = kinematics.fixed.lower
+def _on_curve(contact: Contact, kinematics: Kinematics, side: ca.SX, world: World) -> Geometry:
+    """On a curve of any kind; the left of a circle is its inside."""
+    lower, a, b = kinematics.fixed.lower, contact.track.figure, contact.figure
     base, own = kinematics.pose(contact.track.point), kinematics.pose(contact.point)
-    found = touch(contact.track.figure, contact.figure, (base, own), lower, -side)
-    normal = side * found.normal
+    left = -1 if isinstance(a, Ball) else 1
+    if is_closed(a, b):
+        found = touch(a, b, (base, own), lower, left * side)
+        angle = parameter_of(a, own.origin - base.origin, base, lower)
+        abscissa = kinematics.counted(contact, 0, angle)
+    else:
+        followed = kinematics.track(
+            contact.liaison, lambda: track(a, b, (base, own), lower, planar=True)
+        )
+        found = on_side(followed.touch, left * side)
+        by_place = count_parameters(a) < 0
+        apart = found.place - base.origin
+        abscissa = parameter_of(a, apart, base, lower) if by_place else followed.unknowns[0]
+    normal, witness = side * found.normal, left * found.witness
     line = Line(found.place, cross(normal, Z), normal)
     apart, nearing, turning = _apart(contact, kinematics, found.place, found.place)
     up = ca.dot(normal, _upward(world, kinematics))
-    kept = _keeps_left(contact)
     sizes = kinematics.lengths_between(
         (point_body(contact.track.point), kinematics.local_point(contact.track.point)),
         (point_body(contact.point), kinematics.local_point(contact.point)),
     )
+    kept = _keeps_left(contact)
     return Geometry(
         line=line,
         side=side,
         gap=found.gap,
-        approach=ca.dot(found.normal, nearing),
-        witness=ca.SX.ones(3) if kept else ca.vertcat(-found.witness, up, -found.witness),
+        approach=ca.dot(found.normal, nearing) + found.own,
+        witness=ca.SX.ones(3) if kept else ca.vertcat(witness, up, witness),
         reach=found.size + ca.dot(ca.fabs(normal), sizes),
-        slip=ca.dot(line.direction, apart),
+        slip=ca.dot(line.direction, apart + found.drift),
         roll=ca.dot(Z, turning),
-        abscissa=kinematics.counted(
-            contact, 0, parameter_of(contact.track.figure, own.origin - base.origin, base, lower)
-        ),
+        abscissa=abscissa,
     )

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import casadi as ca
 from frot.compiler.lowering.symbols import Rows
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.locks import Stated, Thread
+from frot.compiler.mechanics.locks import Across, Stated, Tangent, Thread, Touching
 from frot.compiler.mechanics.mechanism import Joint, Relation, point_body
 from frot.compiler.mechanics.motions import name_of
 from frot.compiler.mechanics.spatial import Z, conjugate, cross, product
 from frot.compiler.mechanics.stated import state, value_of
 from frot.compiler.mechanics.touches import Touch
+from frot.compiler.mechanics.tracking import Track, along, tangency, track
 from frot.compiler.mechanics.wrenches import Action, act
 
 
@@ -62,17 +64,17 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
     """A joint, whether coordinates keep it or not."""
     a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
     lower = kinematics.fixed.lower
+    tangent, followed = kinematics.tangents.get(joint.liaison), track_of(joint, kinematics)
     coordinates: dict[str, ca.SX] = {}
     rates: dict[str, ca.SX] = {}
     for k, motion in enumerate(joint.motions):
         name = name_of(motion)
         if name:
             coordinates[name], rates[name] = kinematics.coordinate(joint, k)
-    tangent = kinematics.tangents.get(joint.liaison)
     actions = tuple(
         state(lock, joint, kinematics)
         if isinstance(lock, Stated)
-        else act(lock, a.pose, b.pose, lower, side, tangent)
+        else act(lock, a.pose, b.pose, lower, side, tangent, track=followed)
         for lock in joint.locks
     )
     measured = [x.measure for x in actions if x.measure is not None]
@@ -100,6 +102,26 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
     )
 
 
+def track_of(joint: Joint, kinematics: Kinematics) -> Track | None:
+    """What is followed where the figures of a joint touch, or where a point is on its curve."""
+    if joint.liaison in kinematics.tangents:
+        return None
+    for lock in joint.locks:
+        if isinstance(lock, Across | Tangent) or (isinstance(lock, Touching) and lock.followed):
+            return kinematics.track(joint.liaison, partial(_make_track, lock, joint, kinematics))
+    return None
+
+
+def _make_track(lock: Across | Tangent | Touching, joint: Joint, kinematics: Kinematics) -> Track:
+    at, lower = (kinematics.pose(joint.a), kinematics.pose(joint.b)), kinematics.fixed.lower
+    match lock:
+        case Across(curve=curve):
+            return along(curve, at, lower)
+        case Tangent(a=a, b=b):
+            return tangency(a, b, at, lower)
+    return track(lock.a, lock.b, at, lower, kinematics.planar)
+
+
 def relation_geometry(relation: Relation, kinematics: Kinematics, side: ca.SX) -> RelationGeometry:
     """A lock between bodies that coordinates do not keep together."""
     joint = relation.joint
@@ -112,11 +134,15 @@ def relation_geometry(relation: Relation, kinematics: Kinematics, side: ca.SX) -
     turn = None
     if isinstance(relation.lock, Thread):
         turn = kinematics.coordinate(joint, 0)[0]
-    action = act(relation.lock, a.pose, b.pose, kinematics.fixed.lower, side, turn=turn)
+    followed = track_of(joint, kinematics)
+    lower = kinematics.fixed.lower
+    action = act(relation.lock, a.pose, b.pose, lower, side, turn=turn, track=followed)
     sizes = kinematics.lengths_between(
         (point_body(joint.a), kinematics.local_point(joint.a)),
         (point_body(joint.b), kinematics.local_point(joint.b)),
     )
+    if isinstance(relation.lock, Tangent) and relation.lock.part == 2:
+        return RelationGeometry(action.gap, kinematics.rate(action.gap), ca.SX.ones(3), ca.SX(1))
     reach = ca.SX(1) if relation.lock.turns else ca.dot(ca.fabs(action.force), sizes)
     witness = ca.SX.ones(3)
     if action.touch is not None:

@@ -125,6 +125,8 @@ def _free(options: Options, planar: bool) -> Pairing:
 
 def drive(pairing: Pairing, values: Mapping[str, Expression]) -> Pairing:
     """The same liaison with coordinates that are values of time: they lock what they move."""
+    if "abscissa" in values:  # of a line, that is its parameter
+        values = {**values, "u": values["abscissa"]}
     motions: list[Motion] = []
     locks = list(pairing.locks)
     for motion in pairing.motions:

@@ -7,7 +7,7 @@ differentiated.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import casadi as ca
@@ -23,7 +23,7 @@ from frot.compiler.mechanics.mechanism import (
     point_body,
     turns,
 )
-from frot.compiler.mechanics.motions import count_speeds
+from frot.compiler.mechanics.motions import Follow, count_speeds
 from frot.compiler.mechanics.moves import (
     Column,
     carried,
@@ -44,6 +44,7 @@ from frot.compiler.mechanics.spatial import (
     turn_about,
     whole,
 )
+from frot.compiler.mechanics.tracking import Track
 from frot.compiler.mechanics.wrenches import act
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison
 
@@ -79,7 +80,8 @@ class Kinematics:
 
     `nodes` are the steps of the tree, each after those above it, `node_of` the last of each body
     and `beyond` the vector (3) from its origin to the body's G.
-    `tangents` are those of the curves that carry bodies, by the length of their parameter.
+    `tangents` are those of the curves that carry bodies, by the length of their parameter;
+    `tracks` what is followed where figures touch, with the rates of the parameters.
     `arms` are the bodies that one hangs on, itself last, each with the sizes in ground axes (3) of
     the vectors from the body before to its own G.
     """
@@ -99,6 +101,8 @@ class Kinematics:
         self.places: dict[Body, tuple[int, int]] = {}
         self.tangents: dict[Liaison, ca.SX] = {}
         self.counters = counters_of(mechanism, symbols.q)
+        self.tracks: dict[Liaison, Track] = {}
+        self.track_rates: dict[Liaison, ca.SX] = {}
         nq = nv = 0
         for hanging in mechanism.coordinates:
             self.hangs[hanging.body] = hanging
@@ -306,7 +310,24 @@ class Kinematics:
         s = self.symbols
         count = s.q.numel() - len(self.counters)  # which turn it is changes no value
         q = s.q[:count] if self.counters else s.q
-        return ca.jtimes(value, ca.vertcat(s.t, q), ca.vertcat(1, s.rates))
+        states = ca.vertcat(s.t, q, *(track.unknowns for track in self.tracks.values()))
+        rates = ca.vertcat(1, s.rates, *self.track_rates.values())
+        return ca.jtimes(value, states, rates)
+
+    def track(self, liaison: Liaison, make: Callable[[], Track]) -> Track:
+        """What is followed where the figures of a liaison touch, made once.
+
+        Its conditions hold on and on: R_s s' = -(R_q q' + R_t).
+        """
+        if liaison not in self.tracks:
+            made = make()
+            if made.unknowns.numel():
+                known = self.rate(made.residual)
+                slope = ca.jacobian(made.residual, made.unknowns)
+                self.tracks[liaison] = made
+                self.track_rates[liaison] = -ca.densify(ca.solve(ca.densify(slope), known))
+            return made
+        return self.tracks[liaison]
 
     def velocity_at(self, body: Body, place: ca.SX) -> ca.SX:
         """Velocity (3) of the material point of a body that is at `place`."""
@@ -329,6 +350,8 @@ class Kinematics:
             nv += sum(count_speeds(m) for m in hanging.motions[:k])
             if motion.coordinates and hanging.motions[k].coordinates == motion.coordinates:
                 return self.symbols.q[nq], self.symbols.v[nv]
+        if isinstance(motion, Follow) and joint.liaison in self.tracks:
+            return self.tracks[joint.liaison].unknowns[0], self.track_rates[joint.liaison][0]
         a, b = self.moving(joint.a), self.moving(joint.b)
         value, rate = seen(motion, a, b, self.fixed.lower)
         return self.counted(joint, index, value), rate

@@ -109,10 +109,11 @@ class Apart:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Touching:
-    """A figure at a and one at b touch."""
+    """A figure at a and one at b touch; `followed`: where they do is solved for (tracking.py)."""
 
     a: Figure
     b: Figure
+    followed: bool = False
     turns: bool = False
     kinematic: bool = False
 
@@ -128,14 +129,41 @@ class NoSlip:
     b: Figure
     side: int
     planar: bool
+    followed: bool = False
     turns: bool = False
     kinematic: bool = True
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Across:
-    """No way beside a curve that carries b by its parameter, in one of two directions."""
+class NoSpin:
+    """No turn about the normal of a plane of a: of what rolls on a line."""
 
+    axis: Axis
+    turns: bool = True
+    kinematic: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tangent:
+    """Two curves in space are tangent: no way in two directions beside them (0, 1), or no angle.
+
+    Curves that meet have one relation (they cross), tangent ones two more. One of these two says
+    how the place moves along the curves, the other, across the plane in which they bend apart,
+    is the third relation (2).
+    """
+
+    a: Figure
+    b: Figure
+    part: int
+    turns: bool = False
+    kinematic: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Across:
+    """No way beside a curve on which b is, in one of two directions."""
+
+    curve: Figure
     side: int
     turns: bool = False
     kinematic: bool = False
@@ -169,9 +197,11 @@ Lock = (
     | Drive
     | Level
     | NoSlip
+    | NoSpin
     | Parallel
     | SameAngle
     | Stated
+    | Tangent
     | Thread
     | Touching
     | Way

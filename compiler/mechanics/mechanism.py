@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from frot.compiler.lowering.walk import has_time, is_fixed
-from frot.compiler.mechanics.figures import Figure, Flat, Placed
+from frot.compiler.mechanics.figures import Ball, Figure, Placed
 from frot.compiler.mechanics.locks import Lock
 from frot.compiler.mechanics.motions import Motion, comes_round
 from frot.dsl.checked import (
@@ -28,20 +28,20 @@ Point = BodyPoint | Frame
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contact:
-    """A point or a rim on a curve of the plane, with the laws that bound its reaction.
+    """A point, a rim or a curve on a curve of the plane, with the laws that bound its reaction.
 
-    `figure` is what touches: a point, or a rim with its centre at `point`; `track` the curve's
-    figure with a point of the curve, or its centre. `reduced`: the coordinates of the body already
-    keep the liaison. `line_first`: the curve is `a`, the first place of the liaison. Laws are None
-    where there is none.
+    `figure` is what touches: a point, or a rim with its centre at `point`; `track` the figure that
+    it touches with a point of it, or its centre. `floor`: that is the line of the ground.
+    `reduced`: the coordinates of the body already keep the liaison. `track_first`: the track is
+    `a`, the first place of the liaison. Laws are None where there is none.
     """
 
     liaison: Liaison
     point: Point
     figure: Figure
-    line: Curve
     track: Placed
-    line_first: bool
+    track_first: bool
+    floor: bool
     reduced: bool
     unilateral: Expression
     mu: Expression | None
@@ -151,7 +151,8 @@ class Mechanism:
     `coordinates` has one entry a body, each after the bodies it hangs on. `contacts` are the
     liaisons whose reactions are computed, because a law or an expression reads them or because they
     close a loop, these relation by relation; `ideal` are those kept by coordinates alone. `halves`
-    are the bodies added to the model's, each with the one it is a part of (halves.py).
+    are the bodies added to the model's, each with the one it is a part of (halves.py); `corners`
+    the liaisons that one of faces stands for (faces.py).
     """
 
     model: Model
@@ -160,6 +161,7 @@ class Mechanism:
     ideal: tuple[Contact | Joint, ...]
     forces: tuple[Force, ...]
     halves: Mapping[Body, Body]
+    corners: Mapping[Liaison, tuple[Liaison, ...]]
 
     @property
     def counters(self) -> tuple[tuple[Joint | Contact, int], ...]:
@@ -175,7 +177,7 @@ class Mechanism:
         for link in (*self.contacts, *self.ideal):
             follows = isinstance(link, Contact) and link.liaison.kind.name == "point_courbe"
             if isinstance(link, Contact) and follows and not link.reduced:
-                found += [(link, 0)] if not isinstance(link.track.figure, Flat) else []
+                found += [(link, 0)] if isinstance(link.track.figure, Ball) else []
         return tuple(found)
 
     @property
@@ -223,6 +225,11 @@ def mobility(mechanism: Mechanism) -> Mobility:
     freedoms = sum(freedoms_of(b, model.planar) for b in model.bodies)
     unilateral = [x for x in liaisons if is_unilateral(x)]
     relations = {x: relations_of(x, model.planar) for x in liaisons}
+    for link in mechanism.contacts:
+        # what touches along a line keeps more than the table says of its kind
+        joint = link.joint if isinstance(link, Relation) else link
+        if isinstance(joint, Joint) and not joint.carries and joint.liaison in relations:
+            relations[joint.liaison] = len(joint.locks)
     return Mobility(
         freedoms,
         sum(n for x, n in relations.items() if x not in unilateral),

@@ -6,19 +6,11 @@ from dataclasses import replace
 
 from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
 from frot.compiler.mechanics.drives import free_drives, told_by_time
-from frot.compiler.mechanics.figures import (
-    Ball,
-    Dot,
-    Figure,
-    Flat,
-    Oval,
-    Path,
-    can_touch,
-    figure_of,
-)
+from frot.compiler.mechanics.faces import part_faces
+from frot.compiler.mechanics.figures import Dot, Flat, Placed, can_touch, figure_of
 from frot.compiler.mechanics.halves import halve
 from frot.compiler.mechanics.joints import JOINTS, Pairing, make_joint
-from frot.compiler.mechanics.locks import Across, Lock, Stated
+from frot.compiler.mechanics.locks import Lock, Stated
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
@@ -41,7 +33,6 @@ from frot.compiler.mechanics.refuse import (
 from frot.compiler.mechanics.spanning import span
 from frot.dsl import Log
 from frot.dsl.checked import (
-    Curve,
     CurvePlace,
     Derivative,
     Expression,
@@ -59,6 +50,8 @@ ROUND = ("ring", "disc")
 
 def mechanize(model: Model, log: Log) -> Mechanism | None:
     """Build the mechanism; what the mechanics does not take yet is reported by name (E0701)."""
+    faced = part_faces(model, log)
+    model = faced.model
     refuse_unknown(model, log)
     if log.failed:
         return None
@@ -70,6 +63,7 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     halved = halve(model, links)
     tree = span(replace(model, bodies=(*model.bodies, *halved.halves)), halved.links)
     read = _read_liaisons(model)
+    read |= {corner for x in read for corner in faced.corners.get(x, ())}
     chosen: list[Link] = []
     ideal: list[Contact | Joint] = []
     for link in halved.links:
@@ -88,7 +82,15 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     coordinates = tuple(
         h if h.link is None else replace(h, link=kept[h.link.liaison]) for h in tree.coordinates
     )
-    return Mechanism(model, coordinates, tuple(chosen), tuple(ideal), model.forces, halved.halves)
+    return Mechanism(
+        model=model,
+        coordinates=coordinates,
+        contacts=tuple(chosen),
+        ideal=tuple(ideal),
+        forces=model.forces,
+        halves=halved.halves,
+        corners=faced.corners,
+    )
 
 
 def _relations(joint: Joint, told: bool, log: Log) -> list[Relation]:
@@ -99,13 +101,6 @@ def _relations(joint: Joint, told: bool, log: Log) -> list[Relation]:
             f"friction in a {spelled(joint.liaison)} that closes a loop",
             joint.liaison.span,
             "all liaisons of a loop cannot have friction: leave it out of one of them",
-        )
-    if any(isinstance(lock, Across) for lock in joint.locks):
-        refuse(
-            log,
-            "a point on a parametric curve that closes a loop",
-            joint.liaison.span,
-            "a line, a circle or an ellipse may close one",
         )
     return [Relation(joint, lock, told and k == 0) for k, lock in enumerate(joint.locks)]
 
@@ -224,33 +219,25 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
 
 
 def _contact(liaison: Liaison, log: Log) -> Contact | None:
-    line_first = isinstance(liaison.a, CurvePlace)
-    line_place, other = (liaison.a, liaison.b) if line_first else (liaison.b, liaison.a)
-    if not isinstance(line_place, CurvePlace) or isinstance(other, CurvePlace):
+    places = (liaison.a, liaison.b)
+    figures = [figure_of(place, True) for place in places]
+    first = next((k for k in (0, 1) if _is_contact(liaison, figures[k], figures[1 - k])), None)
+    if first is None:
         refuse(
             log,
             f"the liaison '{liaison.kind.name}' between these two places",
             liaison.span,
-            "a point, or a rim, on a curve is supported",
+            "a point, a rim or a curve on a curve is supported",
         )
         return None
-    line: Curve = line_place.curve
-    track, rim = figure_of(line_place, True), figure_of(other, True)
-    if track is None or rim is None or not _is_contact(liaison, track.figure, rim.figure):
-        refuse(
-            log,
-            f"the liaison '{liaison.kind.name}' between these two places",
-            liaison.span,
-            "a point or a rim on a line or circle is supported, and a point that stays on a curve",
-        )
-        return None
-    point = rim.point
+    track, rim = figures[first], figures[1 - first]
+    assert track is not None and rim is not None
     if not is_fixed(liaison.options["unilateral"]):
         refuse(log, "an option `unilateral` that changes", liaison.options["unilateral"].span)
         return None
     coulomb = _law(liaison, "coulomb")
     rolling = _law(liaison, "rolling_resistance")
-    moving = point_body(point)
+    moving = point_body(rim.point)
     if rolling is not None and moving.shape is not None and not moving.shape.turns:
         log.report(
             "E0511",
@@ -258,13 +245,14 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
             rolling.span,
             help="a particle has no angle; use a disc or a ring",
         )
+    place = places[first]
     return Contact(
         liaison=liaison,
-        point=point,
+        point=rim.point,
         figure=rim.figure,
-        line=line,
         track=track,
-        line_first=line_first,
+        track_first=first == 0,
+        floor=isinstance(place, CurvePlace) and place.curve.span is None,
         reduced=False,
         unilateral=liaison.options["unilateral"],
         mu=coulomb.arguments["mu"] if coulomb else None,
@@ -273,12 +261,14 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
     )
 
 
-def _is_contact(liaison: Liaison, track: Figure, rim: Figure) -> bool:
-    """Whether a figure can touch a curve; what follows a curve is a point that cannot leave it."""
-    if liaison.kind.name == "contact_ponctuel":
-        return can_touch(track, rim) and isinstance(track, Flat | Ball)
-    stays = isinstance(track, Flat) or not is_unilateral(liaison)
-    return isinstance(rim, Dot) and stays and isinstance(track, Flat | Ball | Oval | Path)
+def _is_contact(liaison: Liaison, track: Placed | None, rim: Placed | None) -> bool:
+    """Whether a figure can touch another; a point on a curve has the curve first."""
+    if track is None or rim is None:
+        return False
+    on_curve = liaison.kind.name == "point_courbe"
+    if on_curve and isinstance(track.figure, Flat) and isinstance(rim.figure, Dot):
+        return True
+    return can_touch(track.figure, rim.figure, True)
 
 
 def _read_liaisons(model: Model) -> set[Liaison]:

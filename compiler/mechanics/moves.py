@@ -74,6 +74,32 @@ class Moved:
 Seen = tuple[ca.SX, ca.SX]
 
 
+class Moments:
+    """Lowers with time as a symbol of its own, to tell what time changes by itself.
+
+    `met`: an expression that depends on time was lowered.
+    """
+
+    def __init__(self, lower: Lower) -> None:
+        """`lower` is what time is told apart in."""
+        self._lower = lower
+        self._now = lower(NOW)
+        self.symbol = ca.SX.sym("now")
+        self.met = False
+
+    def __call__(self, expression: Expression) -> ca.SX:
+        """The value with the symbol for time."""
+        value = self._lower(expression)
+        if not ca.depends_on(value, self._now):
+            return value
+        self.met = True
+        return ca.substitute(value, self._now, self.symbol)
+
+    def back(self, *values: ca.SX) -> list[ca.SX]:
+        """The values with time itself."""
+        return [ca.SX(x) for x in ca.substitute(list(values), [self.symbol], [self._now])]
+
+
 def unit_vector(given: Expression | str, lower: Lower) -> ca.SX:
     """The unit vector of `x`, `-x`, `y`, ... or of a vector of the text."""
     name = given.value if isinstance(given, Literal) else given

@@ -13,16 +13,30 @@ from frot.compiler.mechanics.figures import (
     Dot,
     Figure,
     Flat,
-    Implicit,
     Oval,
     Path,
     Placed,
     Ring,
+    Sheet,
     Straight,
     can_touch,
+    count_parameters,
+    is_bent_by_time,
+    is_closed,
+    is_level,
 )
 from frot.compiler.mechanics.joints import Options, Pairing
-from frot.compiler.mechanics.locks import Across, Apart, Level, Lock, NoSlip, Touching, WayAlong
+from frot.compiler.mechanics.locks import (
+    Across,
+    Apart,
+    Level,
+    Lock,
+    NoSlip,
+    NoSpin,
+    Tangent,
+    Touching,
+    WayAlong,
+)
 from frot.compiler.mechanics.motions import Attitude, Axis, Follow, Heading, Motion, Slide
 
 
@@ -64,28 +78,27 @@ def _point_on_curve(a: Figure, b: Figure, options: Options, planar: bool) -> Pai
     if not isinstance(b, Dot):
         return None
     match a:
-        case Straight(radius=None):
+        case Straight(radius=None) if not is_bent_by_time(a):
             return _on_line(a.axis, "u")
         case Ring():
             locks: tuple[Lock, ...] = (
                 Touching(Flat(a.axis, False), b),
                 Touching(Straight(a.axis, a.radius), b),
             )
-        case Oval():
+        case Oval() if not is_bent_by_time(a):
             locks = (Touching(Flat(a.axis, False), b), Touching(a, b))
-        case Path():
-            locks = (Across(0), Across(1))
+        case Path() | Straight(radius=None) | Oval():
+            locks = (Across(a, 0), Across(a, 1))
         case _:
             return None
     return Pairing((Follow(a), _any_turn(planar)), locks)
 
 
 def _point_on_surface(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
-    if not isinstance(b, Dot) or not isinstance(a, Flat | Ball | Straight | Implicit):
+    surface = is_level(a) or isinstance(a, Sheet)
+    if not isinstance(b, Dot) or not surface or not can_touch(a, b, planar):
         return None
-    if not can_touch(a, b):
-        return None
-    lock = Touching(a, b)
+    lock = _touch(a, b)
     if isinstance(a, Flat):
         ways = (Slide(a.axis, 0, coordinates=("x",)), Slide(a.axis, 1, coordinates=("y",)))
         return Pairing((*ways, Attitude()), (lock,))
@@ -93,22 +106,53 @@ def _point_on_surface(a: Figure, b: Figure, options: Options, planar: bool) -> P
 
 
 def _touching(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
-    return _rows(Touching(a, b)) if can_touch(a, b) else None
+    if _is_along_line(a, b):
+        return _rows(*_lying(a, b))
+    return _rows(_touch(a, b)) if can_touch(a, b, planar) else None
+
+
+def _touch(a: Figure, b: Figure) -> Touching:
+    return Touching(a, b, followed=not is_closed(a, b))
+
+
+def _is_along_line(a: Figure, b: Figure) -> bool:
+    """Whether a cylinder lies on a plane."""
+    return isinstance(a, Flat) and isinstance(b, Straight) and b.radius is not None
+
+
+def _lying(a: Figure, b: Figure) -> tuple[Lock, ...]:
+    """A cylinder touches a plane along a line: its axis is parallel to it, at its radius."""
+    assert isinstance(a, Flat) and isinstance(b, Straight) and b.radius is not None
+    return Touching(a, Ball(b.radius)), Level(a.axis, b.axis)
+
+
+def _tangent(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
+    if planar:
+        return _touching(a, b, options, planar)
+    curves = count_parameters(a) == count_parameters(b) == 1
+    if not curves or (isinstance(a, Straight) and isinstance(b, Straight)):
+        return None
+    return _rows(*(Tangent(a, b, k) for k in range(3)))
 
 
 def _rolling(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
-    """Where they touch, the two have one velocity."""
-    if not can_touch(a, b):
+    """Where they touch, the two have one velocity; along a line, everywhere on it."""
+    if _is_along_line(a, b):
+        assert isinstance(a, Flat) and isinstance(b, Straight) and b.radius is not None
+        still = (NoSlip(a, Ball(b.radius), k, planar) for k in range(2))
+        return _rows(*_lying(a, b), *still, NoSpin(a.axis))
+    if not can_touch(a, b, planar):
         return None
     ways = range(1 if planar else 2)
-    return _rows(Touching(a, b), *(NoSlip(a, b, k, planar) for k in ways))
+    touching = _touch(a, b)
+    return _rows(touching, *(NoSlip(a, b, k, planar, touching.followed) for k in ways))
 
 
 _Rule = Callable[[Figure, Figure, Options, bool], Pairing | None]
 
 _PLACED: Mapping[str, _Rule] = {
     "contact_ponctuel": _touching,
-    "courbe_courbe": _touching,
+    "courbe_courbe": _tangent,
     "fil": _rod,
     "lineaire_annulaire": _annular,
     "lineaire_rectiligne": _line_on_plane,

@@ -42,6 +42,7 @@ from frot.compiler.mechanics.text_of_motion import (
     chains_of_motion,
     first_values,
     friction_maker,
+    give_rates_of_tracks,
 )
 from frot.compiler.mechanics.variables import Variables
 from frot.dsl import Log
@@ -120,6 +121,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     text = chains_of_motion(mechanism, symbols)
     geometry = _geometry(mechanism, kinematics)
     variables = _variables(mechanism, kinematics, text, geometry)
+    give_rates_of_tracks(kinematics, text)
     conditions = Conditions()
     moving, looking = (
         Lowering(
@@ -292,7 +294,8 @@ def _variables(
         if flange.drives:
             effort = text.values[flange.effort]
             drives.setdefault(flange.liaison, []).append((flange.coordinate, effort))
-    return Variables(symbols, text.chains, kinematics, geometry, links, reactions, drives)
+    corners = mechanism.corners
+    return Variables(symbols, text.chains, kinematics, geometry, links, reactions, drives, corners)
 
 
 def _masses(

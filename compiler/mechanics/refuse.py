@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from frot.compiler.lowering.walk import follows_time, is_fixed, read_expressions, subexpressions
 from frot.compiler.mechanics.joints import JOINTS
 from frot.compiler.mechanics.locks import Touching
-from frot.compiler.mechanics.mechanism import Contact, Joint, owner_body, turns
+from frot.compiler.mechanics.mechanism import Contact, Joint, turns
 from frot.compiler.mechanics.placed import IN_PLANE, IN_SPACE
 from frot.dsl import Log
 from frot.dsl.checked import (
@@ -36,16 +36,9 @@ def refuse_unknown(model: Model, log: Log) -> None:
     shapes: tuple[Curve | Surface, ...] = (*model.curves, *model.surfaces)
     for shaped in shapes:
         for name, argument in shaped.arguments.items():
-            moved = (
-                name in ("through", "centre", "point") and owner_body(shaped.owner).shape is None
-            )
-            if is_fixed(argument):
-                continue
-            if name in ("point", "value"):
-                if not follows_time(argument, "uvxyz"):
-                    refuse(log, "a curve or surface that switches or follows", argument.span)
-            elif not (moved and follows_time(argument)):
-                refuse(log, f"'{name}' of a curve or surface that depends on time", argument.span)
+            if not is_fixed(argument) and not follows_time(argument, "uvxyz"):
+                what = f"'{name}' of a curve or surface that depends on other than time and place"
+                refuse(log, what, argument.span)
     for frame in model.frames:
         for value in (frame.origin, frame.angle):
             if value is None or is_fixed(value):

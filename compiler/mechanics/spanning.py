@@ -12,7 +12,6 @@ from frot.compiler.mechanics.mechanism import (
     Joint,
     Point,
     is_unilateral,
-    owner_body,
     point_body,
     turns,
 )
@@ -61,7 +60,7 @@ def span(model: Model, links: Iterable[Contact | Joint]) -> Tree:
     for contact in links:
         if isinstance(contact, Contact) and _can_carry(contact):
             group = groups.of(point_body(contact.point))
-            chain = _carriers(groups.of(owner_body(contact.line.owner)), carried, groups)
+            chain = _carriers(groups.of(point_body(contact.track.point)), carried, groups)
             if group is not groups.of(model.ground) and group not in carried and group not in chain:
                 carried[group] = contact
     builder = _Builder(model, groups, branches, carried)
@@ -209,7 +208,7 @@ def _carriers(group: Body, carried: dict[Body, Contact], groups: Groups) -> list
     """The group and those its coordinates hang on, one after another."""
     chain = [group]
     while group in carried:
-        group = groups.of(owner_body(carried[group].line.owner))
+        group = groups.of(point_body(carried[group].track.point))
         chain.append(group)
     return chain
 

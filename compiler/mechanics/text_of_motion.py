@@ -16,6 +16,7 @@ from frot.compiler.equations.text_symbols import (
 )
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.symbols import Symbols
+from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.dsl import Log
 from frot.dsl.checked import Call, Model, Reference, Variable
@@ -40,6 +41,17 @@ def chains_of_motion(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
     chains.forbid_rate(symbols.u, "the input", rest=True)
     chains.forbid_rate(symbols.lam, "the reaction of")
     return make_text_symbols(mechanism.model.variables, chains)
+
+
+def give_rates_of_tracks(kinematics: Kinematics, text: TextSymbols) -> None:
+    """What is followed where figures touch has rates that hold the speeds."""
+    speeds = kinematics.symbols.v
+    for liaison, track in kinematics.tracks.items():
+        rates = kinematics.track_rates[liaison]
+        inside = [k for k in range(speeds.numel()) if ca.depends_on(rates, speeds[k])]
+        text.chains.give_rates(
+            list(ca.vertsplit(track.unknowns)), list(ca.vertsplit(rates)), inside
+        )
 
 
 def first_values(

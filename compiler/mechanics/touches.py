@@ -7,7 +7,7 @@ outside, -1 inside; the gap grows away from it on that side.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.mechanics.figures import (
@@ -21,8 +21,8 @@ from frot.compiler.mechanics.figures import (
     Ring,
     Straight,
 )
-from frot.compiler.mechanics.moves import Lower, unit_vector
-from frot.compiler.mechanics.spatial import Pose, Z, beside, cross
+from frot.compiler.mechanics.moves import Lower, Moments, unit_vector
+from frot.compiler.mechanics.spatial import Pose, Z, beside, cross, nowhere
 from frot.dsl.checked import Expression
 
 
@@ -31,7 +31,8 @@ class Touch:
     """A gap, its unit normal, and the place on b that is nearest to a.
 
     `witness` has the sign of the side, `size` that of the lengths beside the way between the
-    figures' points.
+    figures' points. While neither body moves `own` is the rate of the gap, and `drift` (3) the
+    velocity of the material element of b from that of a, where curves and surfaces depend on time.
     """
 
     gap: ca.SX
@@ -39,6 +40,8 @@ class Touch:
     place: ca.SX
     witness: ca.SX
     size: ca.SX
+    own: ca.SX = field(default_factory=lambda: ca.SX(0))
+    drift: ca.SX = field(default_factory=nowhere)
 
 
 _Rule = Callable[..., Touch]
@@ -46,7 +49,15 @@ _Rule = Callable[..., Touch]
 
 def touch(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, side: ca.SX) -> Touch:
     """How the figure b stands to the figure a, at the poses of their points."""
-    return _TOUCHES[type(a), type(b)](a, b, *at, lower, side)
+    moments = Moments(lower)
+    found = _TOUCHES[type(a), type(b)](a, b, *at, moments, side)
+    if not moments.met:
+        return found
+    own = ca.jacobian(found.gap, moments.symbol)
+    gap, normal, place, witness, size, own = moments.back(
+        found.gap, found.normal, found.place, found.witness, found.size, own
+    )
+    return Touch(gap, normal, place, witness, size, own, own * normal)
 
 
 def length(value: Expression | None, lower: Lower) -> ca.SX:

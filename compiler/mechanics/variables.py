@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import casadi as ca
@@ -22,7 +23,8 @@ class Variables:
     """Gives the value of a variable by its owner and name.
 
     `geometry` and `links` hold every liaison, `reactions` the rows of those whose reaction is
-    computed, `drives` the efforts that keep prescribed coordinates, by their names.
+    computed, `drives` the efforts that keep prescribed coordinates, by their names; `corners` the
+    liaisons that one of faces stands for.
     """
 
     symbols: Symbols
@@ -32,6 +34,7 @@ class Variables:
     links: dict[Liaison, Contact | Joint]
     reactions: dict[Liaison, Rows]
     drives: dict[Liaison, list[tuple[str, ca.SX]]]
+    corners: Mapping[Liaison, tuple[Liaison, ...]]
 
     def quantity(self, node: Quantity) -> ca.SX:
         """Value of a variable named in the text."""
@@ -127,6 +130,11 @@ class Variables:
 
     def of_liaison(self, liaison: Liaison, name: str) -> ca.SX:
         """A variable of a liaison; its reaction is that of its first place on its second."""
+        if liaison in self.corners:
+            parts = [self.of_liaison(corner, name) for corner in self.corners[liaison]]
+            if name == "gap":
+                return ca.mmin(ca.vertcat(*parts))
+            return parts[0] if name == "slip" else sum(parts[1:], parts[0])
         geometry = self.geometry[liaison]
         if isinstance(geometry, JointGeometry):
             rows, planar = self.reactions.get(liaison), self.kinematics.planar
@@ -146,7 +154,7 @@ class Variables:
         tangent += lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
         couple = lam[rows.rolling] if rows.rolling >= 0 else ca.SX(0)
         assert isinstance(contact, Contact)
-        on_second = 1 if contact.line_first else -1
+        on_second = 1 if contact.track_first else -1
         match name:
             case "normal_force":
                 return normal

@@ -22,8 +22,10 @@ from frot.compiler.mechanics.locks import (
     Level,
     Lock,
     NoSlip,
+    NoSpin,
     Parallel,
     SameAngle,
+    Tangent,
     Thread,
     Touching,
     Way,
@@ -33,15 +35,16 @@ from frot.compiler.mechanics.motions import Axis, Follow, Motion, Screw, Slide, 
 from frot.compiler.mechanics.moves import (
     Column,
     Lower,
+    Moments,
     angle_about,
     arc,
-    rate_by_time,
     unit_vector,
     way_of,
 )
 from frot.compiler.mechanics.paths import parameter_of, point_of
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, beside, cross, nowhere
 from frot.compiler.mechanics.touches import Touch, touch
+from frot.compiler.mechanics.tracking import Meeting, Track, on_side
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,23 +80,60 @@ def act(
     side: ca.SX | None = None,
     tangent: ca.SX | None = None,
     turn: ca.SX | None = None,
+    track: Track | None = None,
 ) -> Action:
     """The lock between the places a and b.
 
     `side` is that of figures which touch, see there; `tangent` that of a curve which carries b;
-    `turn` the angle of a screw with its whole turns, else it is within half a turn.
+    `turn` the angle of a screw with its whole turns, else it is within half a turn;
+    `track` what is followed where they touch, or where b is on a curve.
     """
     if isinstance(lock, Thread):
         seen = angle_about(lock.axis, a, b, lower) if turn is None else turn
         return _thread(lock, seen, a, b, lower)
     if isinstance(lock, Across):
-        assert tangent is not None
-        return _push(beside(tangent / ca.norm_2(tangent))[lock.side], ca.SX(0))
+        return _across(lock, tangent, track)
+    if isinstance(lock, Tangent):
+        assert track is not None
+        return _tangent(track.meeting[lock.part])
     if isinstance(lock, Touching | NoSlip):
         outside = ca.SX(1) if side is None else side
-        found = touch(lock.a, lock.b, (a, b), lower, outside)
+        if lock.followed:
+            assert track is not None
+            found = on_side(track.touch, outside)
+        else:
+            found = touch(lock.a, lock.b, (a, b), lower, outside)
         return _touching(found) if isinstance(lock, Touching) else _no_slip(lock, found, a, lower)
-    return _ACTS[type(lock)](lock, a, b, lower)
+    moments = Moments(lower)
+    action = _ACTS[type(lock)](lock, a, b, moments)
+    if not moments.met:
+        return action
+    own = ca.jacobian(action.gap, moments.symbol)
+    force, couple, angular, linear, gap, own, measure = moments.back(
+        *(action.force, action.couple, action.column.angular, action.column.linear),
+        *(action.gap, own, ca.SX(0) if action.measure is None else action.measure),
+    )
+    measured = None if action.measure is None else measure
+    return Action(force, couple, Column(angular, linear), gap, own, measure=measured)
+
+
+def _tangent(found: Meeting) -> Action:
+    nothing = Column(nowhere(), nowhere())
+    return Action(found.force, found.couple, nothing, found.gap, found.own, found.place)
+
+
+def _across(lock: Across, tangent: ca.SX | None, track: Track | None) -> Action:
+    """Beside a tangent; what coordinates do not keep on its curve has a way to it."""
+    if tangent is not None:
+        return _push(_beside_curve(tangent, lock.side), ca.SX(0))
+    assert track is not None and track.trace is not None
+    force = _beside_curve(track.trace.slopes[0], lock.side)
+    own = ca.dot(force, track.touch.drift)
+    return replace(_push(force, ca.dot(force, track.touch.normal)), own=own)
+
+
+def _beside_curve(slope: ca.SX, side: int) -> ca.SX:
+    return beside(slope / ca.norm_2(slope))[side]
 
 
 def _push(way: ca.SX, gap: ca.SX) -> Action:
@@ -157,7 +197,7 @@ def _crossed(lock: Crossed, a: Pose, b: Pose, lower: Lower) -> Action:
 
 def _touching(found: Touch) -> Action:
     push = Column(nowhere(), found.normal)
-    return Action(found.normal, nowhere(), push, found.gap, at=found.place, touch=found)
+    return Action(found.normal, nowhere(), push, found.gap, found.own, found.place, found)
 
 
 def _no_slip(lock: NoSlip, found: Touch, a: Pose, lower: Lower) -> Action:
@@ -168,16 +208,20 @@ def _no_slip(lock: NoSlip, found: Touch, a: Pose, lower: Lower) -> Action:
         way = a.direction(beside(unit_vector(lock.a.axis.given, lower))[lock.side])
     else:
         way = beside(found.normal)[lock.side]
-    column = Column(nowhere(), way)
-    return Action(way, nowhere(), column, ca.SX(0), at=found.place, touch=found)
+    column, own = Column(nowhere(), way), ca.dot(way, found.drift)
+    return Action(way, nowhere(), column, ca.SX(0), own, found.place, found)
+
+
+def _no_spin(lock: NoSpin, a: Pose, b: Pose, lower: Lower) -> Action:
+    return _twist(_along(a, lock.axis, lower), ca.SX(0))
 
 
 def _apart(lock: Apart, a: Pose, b: Pose, lower: Lower) -> Action:
     """Places that coincide have no direction: no way is found out of there, which is told."""
     way, size = b.origin - a.origin, lower(lock.length)
     long = ca.sqrt(ca.sumsqr(way))
-    push = _push(way / ca.if_else(long > 0, long, 1), long - size)
-    return replace(push, own=-rate_by_time(size, lower), measure=long)
+    way = way / ca.if_else(long > 0, long, 1)
+    return replace(_push(way, long - size), measure=long)
 
 
 def _level(lock: Level, a: Pose, b: Pose, lower: Lower) -> Action:
@@ -212,12 +256,11 @@ def _drive(lock: Drive, a: Pose, b: Pose, lower: Lower) -> Action:
     The gap of an angle is within half a revolution.
     """
     motion, value = lock.driven.motion, lower(lock.driven.value)
-    own = -rate_by_time(value, lower)
     if isinstance(motion, Slide):
         way = a.direction(way_of(motion, lower))
-        return replace(_push(way, ca.dot(way, b.origin - a.origin) - value), own=own)
+        return _push(way, ca.dot(way, b.origin - a.origin) - value)
     if isinstance(motion, Follow):
-        return _led(motion, value, own, a, b, lower)
+        return _led(motion, value, a, b, lower)
     found = arc(motion, a, b, lower)
     c, s = ca.cos(value), ca.sin(value)
     apart = ca.atan2(found.sine * c - found.cosine * s, found.cosine * c + found.sine * s)
@@ -226,10 +269,10 @@ def _drive(lock: Drive, a: Pose, b: Pose, lower: Lower) -> Action:
     linear = nowhere()
     if isinstance(motion, Screw):
         linear = lower(motion.pitch) / (2 * ca.pi) * turn
-    return Action(nowhere(), found.about, Column(turn, linear), apart, own)
+    return Action(nowhere(), found.about, Column(turn, linear), apart)
 
 
-def _led(motion: Follow, value: ca.SX, own: ca.SX, a: Pose, b: Pose, lower: Lower) -> Action:
+def _led(motion: Follow, value: ca.SX, a: Pose, b: Pose, lower: Lower) -> Action:
     """Along a curve: to first order, and exact where the place is the one of the value."""
     u = ca.SX.sym("u")
     point = point_of(motion.curve, u, lower)
@@ -237,7 +280,7 @@ def _led(motion: Follow, value: ca.SX, own: ca.SX, a: Pose, b: Pose, lower: Lowe
     along, there = a.direction(slope), a.point(here)
     force = along / ca.sumsqr(along)
     gap = ca.dot(force, b.origin - there)
-    return Action(force, nowhere(), Column(nowhere(), along), gap, own)
+    return Action(force, nowhere(), Column(nowhere(), along), gap)
 
 
 _ACTS: dict[type, Callable[..., Action]] = {
@@ -250,4 +293,5 @@ _ACTS: dict[type, Callable[..., Action]] = {
     Drive: _drive,
     Apart: _apart,
     Level: _level,
+    NoSpin: _no_spin,
 }

@@ -91,7 +91,7 @@ class BodyPoint:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BodyGeometry:
-    """A named geometry of a body's shape: `hoop.rim`."""
+    """A named geometry of a body's shape: `hoop.rim`, or an item of one, `plate.sides[2]`."""
 
     body: Body
     name: str

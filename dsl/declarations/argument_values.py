@@ -74,7 +74,9 @@ def _nature(found: checked.Place | checked.SurfacePlace) -> str:
             return "surface"
         case checked.BodyGeometry(body=body, name=name):
             assert body.shape is not None
-            return body.shape.geometry[name]
+            item = name.split("[")
+            nature = body.shape.geometry[item[0]]
+            return nature.removesuffix("s") if len(item) > 1 else nature
     return "point"
 
 

@@ -10,7 +10,7 @@ from frot.dsl.catalogue.types import LENGTH
 from frot.dsl.checked.describe import describe
 from frot.dsl.checked.evaluation import constant
 from frot.dsl.declarations.arguments import bind
-from frot.dsl.declarations.user_kinds import check_shape
+from frot.dsl.declarations.user_kinds import stated_shape
 from frot.dsl.expressions.expression import agrees, expect, expression, fitting
 from frot.dsl.expressions.known import known, out_of_bounds
 from frot.dsl.expressions.names import resolve
@@ -75,8 +75,11 @@ def body(node: tree.Body, name: str, scope: Scope) -> checked.Body | None:
     if shape is None:
         defined = find_class(callee, scope)
         if defined is not None and defined.kind == "shape":
-            check_shape(defined, arguments, node.shape.span, scope)
-        elif scope.knows(kind):
+            given = stated_shape(defined, arguments, node.shape.span, scope)
+            if given is None:
+                return None
+            return checked.Body(name, SHAPES["solid"], given, node.span, node.doc)
+        if scope.knows(kind):
             help_text = did_you_mean(kind, spellings(SHAPES))
             scope.log.report("E0202", f"unknown shape {kind!r}", callee.span, help=help_text)
         return None

@@ -1,15 +1,18 @@
-"""Liaisons, laws and shapes of the user: their names and dimensions, where a model uses them.
+"""Liaisons, laws and shapes of the user: what they say where a model uses them.
 
-What they say is checked in the world of that model, planar or space, and then refused by name: the
-mechanics that would derive reactions from relations does not exist yet.
+It is checked in the world of that model, planar or space. A liaison is its relations, a shape the
+arguments of a `solid`; a law is checked and then refused by name.
 """
 
 from __future__ import annotations
 
+from typing import cast
+
 from frot.dsl import checked
-from frot.dsl.catalogue import LiaisonKind
-from frot.dsl.catalogue.types import FORCE, INERTIA, LENGTH, MASS, VELOCITY
+from frot.dsl.catalogue import SHAPES, LiaisonKind
+from frot.dsl.catalogue.types import FORCE, VELOCITY
 from frot.dsl.checked.describe import written_unit
+from frot.dsl.declarations.arguments import bind
 from frot.dsl.expressions.expression import expect, expression, fitting
 from frot.dsl.expressions.names import place
 from frot.dsl.messages.source import Source, Span
@@ -97,29 +100,40 @@ def check_law(of: Class, arguments: tuple[tree.Argument, ...], span: Span, scope
     here = of.definition.span
     local["slip"] = checked.Variable("slip", VELOCITY, here)
     local["normal"] = checked.Variable("normal", FORCE, here)
-    _values(of, {"tangential": FORCE}, inner.inside(**local), "law")
-    _refuse("laws", of, span, scope)
+    _values(of, {"tangential": FORCE}, inner.inside(**local))
+    _refuse(of, span, scope)
 
 
-def check_shape(of: Class, arguments: tuple[tree.Argument, ...], span: Span, scope: Scope) -> None:
-    """Check a shape of the user where it is used, then refuse it."""
+def stated_shape(
+    of: Class, arguments: tuple[tree.Argument, ...], span: Span, scope: Scope
+) -> dict[str, checked.Expression] | None:
+    """What a shape of the user gives where it is used: the arguments of a `solid`."""
     bound = _bind(of, arguments, span, scope)
     if bound is None:
-        return
+        return None
     inner, local = bound
-    point = Type("real", LENGTH.dimension, (scope.size,))
-    wanted = {"mass": MASS, "inertia": INERTIA, "com": point}
-    _values(of, wanted, inner.inside(**local), "shape")
-    _refuse("shapes", of, span, scope)
+    given: list[tree.Argument] = []
+    complete = True
+    for element in of.elements:
+        if isinstance(element, tree.Equation) and element.right is not None:
+            given.append(tree.Argument(element.left, element.right, element.span))
+        elif not isinstance(element, tree.Import | tree.Definition | tree.Alias | tree.Component):
+            complete = False
+            scope.log.report("E0501", "this cannot stand in a shape", element.span)
+    wanted = SHAPES["solid"].arguments
+    found = bind(given, wanted, of.name, span, inner.inside(**local), constants=True)
+    if not (complete and found.complete):
+        return None
+    return cast("dict[str, checked.Expression]", found.values)
 
 
-def _refuse(what: str, of: Class, span: Span, scope: Scope) -> None:
-    message = f"user-defined {what} are not supported yet ({of.name!r})"
+def _refuse(of: Class, span: Span, scope: Scope) -> None:
+    message = f"user-defined laws are not supported yet ({of.name!r})"
     scope.log.report("E0701", message, span)
 
 
-def _values(of: Class, wanted: dict[str, Type], at: Scope, what: str) -> None:
-    """Check the statements `name = value;` of a law or shape."""
+def _values(of: Class, wanted: dict[str, Type], at: Scope) -> None:
+    """Check the statements `name = value;` of a law."""
     for element in of.elements:
         if isinstance(element, tree.Equation) and element.right is not None:
             name = element.left.span.text
@@ -128,14 +142,14 @@ def _values(of: Class, wanted: dict[str, Type], at: Scope, what: str) -> None:
                 names = ", ".join(wanted)
                 at.log.report(
                     "E0501",
-                    f"a {what} gives values to: {names}",
+                    f"a law gives values to: {names}",
                     element.left.span,
                     help=did_you_mean(name, wanted),
                 )
                 continue
             expect(element.right, kind, at)
         elif isinstance(element, tree.Equation | tree.Relation | tree.When | tree.For):
-            at.log.report("E0501", f"this cannot stand in a {what}", element.span)
+            at.log.report("E0501", "this cannot stand in a law", element.span)
 
 
 def _bind(
@@ -221,4 +235,4 @@ def _formal(
     return checked.Parameter(formal.name.text, kind.type, value, formal.span, constant=True)
 
 
-__all__ = ["check_law", "check_shape", "stated_liaison"]
+__all__ = ["check_law", "stated_liaison", "stated_shape"]

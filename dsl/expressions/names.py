@@ -139,6 +139,8 @@ def _items(
     if not subscripts:
         return thing
     first, *rest = subscripts
+    if isinstance(thing, checked.BodyGeometry):
+        return _geometry_item(thing, first, node, scope)
     if isinstance(thing, Array):
         size = len(thing.items)
     elif isinstance(thing, checked.Expression) and thing.type.shape:
@@ -167,6 +169,35 @@ def _items(
         scope.log.report("E0306", "the range is empty", first.span)
         return None
     return gathered(found, node.span.text, node)
+
+
+def _geometry_item(
+    thing: checked.BodyGeometry, subscript: tree.Expression, node: tree.Index, scope: Scope
+) -> Thing | None:
+    """A corner, side or rim of a body's shape."""
+    shape = thing.body.shape
+    kind = "" if shape is None else shape.geometry.get(thing.name, "")
+    if not kind.endswith("s"):
+        scope.log.report("E0304", f"{kind_of(thing)} has no index", node.span)
+        return None
+    chosen = _chosen(subscript, _count(thing), scope)
+    if chosen is None:
+        return None
+    if len(chosen) != 1 or isinstance(subscript, tree.Range):
+        scope.log.report("E0306", "name one of them", subscript.span)
+        return None
+    name = f"{thing.name}[{chosen[0] + 1}]"
+    if kind == "points":
+        return checked.BodyPoint(thing.body, name, node.span)
+    return checked.BodyGeometry(thing.body, name, node.span)
+
+
+def _count(thing: checked.BodyGeometry) -> int:
+    """How many corners, sides or rims there are."""
+    given = thing.body.arguments
+    if "vertices" in given:
+        return given["vertices"].type.shape[0]
+    return 2 ** given["size"].type.shape[0] if "size" in given else 2
 
 
 def _chosen(node: tree.Expression, size: int, scope: Scope) -> list[int] | None:

@@ -30,7 +30,7 @@ FAULTS = {
         "contact_ponctuel(ground.line, hoop.rim)",
         "appui_faces(ground.line, hoop.rim)",
         "E0701",
-        "the liaison 'appui_faces' is not supported yet",
+        "the liaison 'appui_faces' between these two places is not supported yet",
         "8:3",
     ),
     "an unsupported law": (

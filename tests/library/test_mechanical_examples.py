@@ -88,3 +88,23 @@ def test_the_period_of_a_solid_on_a_pin() -> None:
     half = 2 * ellipk(np.sin(1.25) ** 2) / np.sqrt(9.81 * 0.5 * 3)
     at = result.at(half)
     assert [at["pin.angle"], at["pin.speed"]] == pytest.approx([-2.5, 0], abs=1e-10)
+
+
+def test_a_cone_on_an_incline_is_a_pendulum() -> None:
+    """L. Landau, E. Lifshitz, Mechanics, sect. 32, problem 7: the kinetic energy.
+
+    T = 3 m h^2 (1 + 5 cos^2 a) f'^2/40, V = -3/4 m g h cos a sin b cos f.
+    """
+    result = frot.load(MODELS / "rolling_cone.frot").simulate()
+    half, slope, height = 0.3, 0.2, 0.4
+    pull = 5 * 9.81 * np.cos(half) * np.sin(slope) / (height * (1 + 5 * np.cos(half) ** 2))
+    exact = solve_ivp(
+        lambda t, y: [y[1], -pull * np.sin(y[0])],
+        (0, 2),
+        [1, 0],
+        t_eval=result.time,
+        rtol=1e-12,
+        atol=1e-13,
+    )
+    assert np.abs(result["angle"] - exact.y[0]).max() < 1e-9
+    assert np.ptp(result["energy.kinetic"] + result["energy.potential"]) < 1e-9

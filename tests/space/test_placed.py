@@ -178,6 +178,26 @@ CASES = {
         point,
         "guess({0}.position = (0.4, 0.1, -0.6) m);",
     ),
+    "can_on_plane": Case(
+        "can",
+        "",
+        "contact_ponctuel(ground.plane, {0}.side, unilateral = false)",
+        lambda at, n: centre(at, n) - [0, 0, 0.2],
+        turn="(0.7, 0.65, 0.1, 0.1)",
+    ),
+    "rolling_can": Case(
+        "can",
+        "",
+        "roulement({0}.side, ground.plane)",
+        lambda at, n: centre(at, n) - [0, 0, 0.2],
+        turn="(0.7, 0.65, 0.1, 0.1)",
+    ),
+    "corner": Case(
+        "box",
+        "",
+        "point_surface({0}.corners[7], ground.plane)",
+        lambda at, n: centre(at, n) + axes(orientation(at, n)) @ np.array([0.2, 0.1, 0.15]),
+    ),
     "thread": Case(
         "box",
         P,
@@ -252,15 +272,15 @@ def test_every_liaison_of_figures_obeys_newton_and_euler() -> None:
     assert np.ptp(energy) < 1e-8
 
 
-def test_places_that_have_no_closed_form_are_told() -> None:
-    for liaison in ("contact_ponctuel(a.surface, b.surface, unilateral = false)",):
+def test_places_that_meet_by_more_than_one_relation_are_told() -> None:
+    for liaison in ("b.axis, ground.plane", "ground.plane, c"):
         with pytest.raises(frot.FrotError, match="between these two places"):
             frot.compile(
                 f"""
-model Two "Two ellipsoids"
-  body a: ellipsoid(mass = 1 kg, semi_axes = (1, 2, 3) m);
-  body b: ellipsoid(mass = 1 kg, semi_axes = (1, 2, 3) m);
-  liaison L: {liaison};
+model Two "A rod on a plane, two planes"
+  body b: rod(mass = 1 kg, length = 1 m);
+  surface c on b: plane(through = (0, 0, 0) m, normal = z);
+  liaison L: contact_ponctuel({liaison}, unilateral = false);
 end Two;
 """
             ).report()
@@ -280,7 +300,9 @@ end Corners;
 
 
 def test_what_is_said_to_touch_is_what_can_be_computed() -> None:
-    from frot.compiler.mechanics.figures import CLOSED_FORMS
+    from frot.compiler.mechanics.figures import CLOSED_FORMS, LEVELS
+    from frot.compiler.mechanics.levels import _FUNCTIONS
     from frot.compiler.mechanics.touches import _TOUCHES
 
     assert set(_TOUCHES) == CLOSED_FORMS
+    assert set(_FUNCTIONS) == set(LEVELS)

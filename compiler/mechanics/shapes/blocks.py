@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.mechanics.moves import Lower
-from frot.compiler.mechanics.shapes.shape import principal
+from frot.compiler.mechanics.shapes.shape import item_of, principal
 from frot.compiler.mechanics.spatial import X, Y, Z, nowhere
 from frot.dsl.checked import Body
 
@@ -27,7 +27,10 @@ class Cylinder:
 
 
 class Box:
-    """A homogeneous box; its points are the centres of its faces.
+    """A homogeneous box; its points are the centres of its faces, and its corners.
+
+    Corners go round counter-clockwise from the one where x and y are least, in space first those
+    of the bottom.
 
     In space `bottom` and `top` are those along z, `front` and `back` those along y; in the plane
     `bottom` and `top` are those along y. `left` and `right` are those along x.
@@ -42,8 +45,13 @@ class Box:
         return principal(*(mass * (p + q) / 12 for p, q in ((b, c), (c, a), (a, b))))
 
     def point(self, body: Body, name: str, lower: Lower) -> ca.SX:
-        """Half an edge from G."""
+        """Half an edge from G, of corners along all edges."""
         size = lower(body.arguments["size"])
+        corner = item_of(name, "corners")
+        if corner:
+            signs = corner_signs(corner)
+            halves = [sign * size[k] / 2 for k, sign in enumerate(signs[: size.numel()])]
+            return ca.sparsify(ca.vertcat(*halves, *(ca.SX(0) for _ in range(3 - len(halves)))))
         up = Z if size.numel() == 3 else Y
         ways = {
             "left": -X,
@@ -56,3 +64,9 @@ class Box:
         if name not in ways:
             return nowhere()
         return ca.sparsify(ways[name] * ca.dot(ca.fabs(ways[name])[: size.numel()], size) / 2)
+
+
+def corner_signs(corner: int) -> tuple[int, int, int]:
+    """On which side of G a corner of a box is, along x, y and z."""
+    x, y = ((-1, -1), (1, -1), (1, 1), (-1, 1))[(corner - 1) % 4]
+    return x, y, -1 if corner <= 4 else 1

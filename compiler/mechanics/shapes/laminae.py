@@ -8,7 +8,8 @@ from __future__ import annotations
 import casadi as ca
 from frot.compiler.mechanics.moves import Lower
 from frot.compiler.mechanics.shapes.particle import Particle
-from frot.compiler.mechanics.shapes.shape import principal
+from frot.compiler.mechanics.shapes.shape import item_of, principal
+from frot.compiler.mechanics.spatial import nowhere
 from frot.dsl.checked import Body
 
 
@@ -44,18 +45,33 @@ class Ellipse(Particle):
 class Polygon(Particle):
     """A homogeneous lamina; its corners in order, G is its centroid."""
 
+    def point(self, body: Body, name: str, lower: Lower) -> ca.SX:
+        """Its corners, from the centroid."""
+        corner = item_of(name, "corners")
+        if not corner:
+            return nowhere()
+        corners = lower(body.arguments["vertices"])
+        area, first_x, first_y, _ = _areas(corners)
+        x, y = corners[corner - 1, 0] - first_x / area, corners[corner - 1, 1] - first_y / area
+        return ca.sparsify(ca.vertcat(x, y, 0))
+
     def inertia(self, body: Body, lower: Lower) -> ca.SX:
         """About G: the second moments of the triangles between the origin and the sides, moved."""
-        corners = lower(body.arguments["vertices"])
-        count = corners.size1()
-        area, first_x, first_y, second = ca.SX(0), ca.SX(0), ca.SX(0), ca.SX(0)
-        for k in range(count):
-            p, q = corners[k, :], corners[(k + 1) % count, :]
-            part = p[0] * q[1] - p[1] * q[0]
-            area += part / 2
-            first_x += part * (p[0] + q[0]) / 6
-            first_y += part * (p[1] + q[1]) / 6
-            second += part * (ca.sumsqr(p) + ca.dot(p, q) + ca.sumsqr(q)) / 12
+        area, first_x, first_y, second = _areas(lower(body.arguments["vertices"]))
         mass = lower(body.arguments["mass"])
         away = (first_x**2 + first_y**2) / area**2
         return principal(ca.SX(0), ca.SX(0), mass * (second / area - away))
+
+
+def _areas(corners: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:
+    """Area of a polygon, its first moments by x and y, its polar second moment."""
+    count = corners.size1()
+    area, first_x, first_y, second = ca.SX(0), ca.SX(0), ca.SX(0), ca.SX(0)
+    for k in range(count):
+        p, q = corners[k, :], corners[(k + 1) % count, :]
+        part = p[0] * q[1] - p[1] * q[0]
+        area += part / 2
+        first_x += part * (p[0] + q[0]) / 6
+        first_y += part * (p[1] + q[1]) / 6
+        second += part * (ca.sumsqr(p) + ca.dot(p, q) + ca.sumsqr(q)) / 12
+    return area, first_x, first_y, second

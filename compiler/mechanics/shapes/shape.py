@@ -32,3 +32,8 @@ def given_inertia(value: ca.SX, planar: bool) -> ca.SX:
     if planar:
         return principal(ca.SX(0), ca.SX(0), value)
     return principal(*ca.vertsplit(value)) if value.numel() == 3 else value
+
+
+def item_of(name: str, what: str) -> int:
+    """The number k of the point `what[k]`, 0 for another."""
+    return int(name[len(what) + 1 : -1]) if name.startswith(f"{what}[") else 0

@@ -1,0 +1,349 @@
+"""Where two figures are nearest, where no formula says it: parameters that are solved for.
+
+Of a figure with points p(s) and one where F = 0, the place is where F along p is extremal; of two
+with points, where the way between these is along their common normal; of two functions, where their
+slopes are parallel. The parameters belong to the postures, as the solution of a few equations, and
+follow them without a jump: the search begins where it ended before. Curves are taken by their
+parameter, and closed surfaces by their function: none of these has a place that is singular.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.mechanics.figures import (
+    Dot,
+    Egg,
+    Figure,
+    Flat,
+    Oval,
+    Path,
+    Ring,
+    Sheet,
+    Straight,
+    count_parameters,
+    is_level,
+)
+from frot.compiler.mechanics.levels import level
+from frot.compiler.mechanics.moves import Lower
+from frot.compiler.mechanics.paths import Trace, parameter_of, point_of, trace
+from frot.compiler.mechanics.spatial import Pose, Z, beside, cross
+from frot.compiler.mechanics.touches import Touch
+
+TURN = 16  # beginnings looked at along a round curve
+LONG = 32  # along a curve given by its points
+ACROSS = 8  # along each parameter of a surface given by its points
+ROUNDS = 2  # of the nearest point on one figure to that on the other
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Track:
+    """Parameters `unknowns` that solve 0 = `residual`, whose terms have the `size`.
+
+    `start` is where the search begins, `names` those of the parameters; `touch` is how the figures
+    stand there, with the side +1. Of a curve that a point stays on there is `trace`, of tangent
+    curves `meeting`, by the parts of the lock.
+    """
+
+    unknowns: ca.SX
+    names: tuple[str, ...]
+    residual: ca.SX
+    size: ca.SX
+    start: ca.SX
+    touch: Touch
+    trace: Trace | None = None
+    meeting: tuple[Meeting, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Meeting:
+    """One relation of two tangent curves: its value, the wrench of its slope at a place.
+
+    `own` is its rate while neither body moves.
+    """
+
+    gap: ca.SX
+    force: ca.SX
+    couple: ca.SX
+    place: ca.SX
+    own: ca.SX
+
+
+def on_side(found: Touch, side: ca.SX) -> Touch:
+    """The touch seen from a side: outside +1, inside -1."""
+    return Touch(
+        side * found.gap,
+        side * found.normal,
+        found.place,
+        found.witness,
+        found.size,
+        side * found.own,
+        found.drift,
+    )
+
+
+def track(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
+    """The nearest places of two figures, in the order of `figures.is_tracked`."""
+    if not is_level(a):
+        return _of_points(a, b, at, lower, planar)
+    if is_level(b):
+        return _of_levels(a, b, at, lower)
+    return _of_level(a, b, at, lower)
+
+
+def _names(figure: Figure, of_b: bool) -> tuple[str, ...]:
+    end = "_b" if of_b else ""
+    return tuple(f"{name}{end}" for name in "uv"[: count_parameters(figure)])
+
+
+def _symbols(names: tuple[str, ...]) -> ca.SX:
+    return ca.vertcat(*(ca.SX.sym(name) for name in names)) if names else ca.SX.zeros(0)
+
+
+def _far(*vectors: ca.SX) -> ca.SX:
+    """The size of the lengths that a difference of places is made of."""
+    return sum((ca.norm_1(ca.densify(v)) for v in vectors), ca.SX(0))
+
+
+def _long(vector: ca.SX) -> ca.SX:
+    return ca.sqrt(ca.sumsqr(vector))
+
+
+def _of_level(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track:
+    """Points p(s) of b, of which the one is wanted where F_a is extremal: grad F . p_s = 0."""
+    (pa, pb), names = at, _names(b, False)
+    s = _symbols(names)
+    point = trace(b, s, pb, lower)
+    found = level(a, point.point, pa, lower)
+    steep, far = found.steep, _far(pa.origin, pb.origin, point.point - pb.origin)
+    own = (ca.dot(found.slope, point.drift) + found.rate) / steep
+    normal = found.slope / steep
+    touch = Touch(
+        found.value / steep, normal, point.point, level(a, pb.origin, pa, lower).value, far, own,
+        point.drift,
+    )  # fmt: skip
+    residual = [ca.dot(found.slope, x) for x in point.slopes]
+    size = [steep * _long(x) for x in point.slopes]
+
+    def value(x: ca.SX) -> ca.SX:
+        return level(a, trace(b, x, pb, lower).point, pa, lower).value
+
+    start = _extremal(b, value, pa.origin, pb, lower)
+    return Track(s, names, _column(residual), _column(size), start, touch)
+
+
+def _of_levels(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track:
+    """The place x with F_b = 0 where F_a is extremal: grad F_a + f grad F_b = 0."""
+    pa, pb = at
+    names = ("x", "y", "z", "factor")
+    s = _symbols(names)
+    place = pb.point(s[:3])
+    first, second = level(a, place, pa, lower), level(b, place, pb, lower)
+    steep, far = first.steep, _far(pa.origin, pb.origin, s[:3])
+    drift = -second.rate / ca.sumsqr(second.slope) * second.slope
+    own = (first.rate + ca.dot(first.slope, drift)) / steep
+    touch = Touch(
+        first.value / steep, first.slope / steep, place, level(a, pb.origin, pa, lower).value, far,
+        own, drift,
+    )  # fmt: skip
+    residual = ca.vertcat(first.slope + s[3] * second.slope, second.value)
+    size = ca.vertcat(*(steep for _ in range(3)), second.steep * far)
+    start = _beginning(a, b, at, lower)
+    return Track(s, names, residual, size, start, touch)
+
+
+def _of_points(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
+    """The way from p_a to p_b is along the common normal of both figures."""
+    (pa, pb), names = at, (*_names(a, False), *_names(b, True))
+    s, n = _symbols(names), count_parameters(a)
+    first, second = trace(a, s[:n], pa, lower), trace(b, s[n:], pb, lower)
+    way = second.point - first.point
+    far = _far(pa.origin, pb.origin, first.point - pa.origin, second.point - pb.origin)
+    residual = [ca.dot(way, x) for x in first.slopes]
+    size = [far * _long(x) for x in first.slopes]
+    if n == 1 and not planar:
+        normal = cross(first.slopes[0], second.slopes[0])
+        residual += [ca.dot(way, x) for x in second.slopes]
+        size += [far * _long(x) for x in second.slopes]
+    else:
+        normal = cross(Z, first.slopes[0]) if n == 1 else cross(*first.slopes)
+        residual += [ca.dot(normal, x) for x in second.slopes]
+        size += [_long(normal) * _long(x) for x in second.slopes]
+    normal = normal / _long(normal)
+    drift = second.drift - first.drift
+    touch = Touch(
+        ca.dot(normal, way), normal, second.point, ca.dot(normal, pb.origin - first.point), far,
+        ca.dot(normal, drift), drift,
+    )  # fmt: skip
+    start = _nearest_pair(a, b, at, lower)
+    return Track(s, names, _column(residual), _column(size), start, touch, first)
+
+
+def along(curve: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track:
+    """The point of a curve that is nearest to a place: the way there is beside the tangent."""
+    pa, pb = at
+    s = _symbols(("u",))
+    first = trace(curve, s, pa, lower)
+    way = pb.origin - first.point
+    far = _far(pa.origin, pb.origin, first.point - pa.origin)
+    (slope,) = first.slopes
+    touch = Touch(ca.SX(0), way, pb.origin, ca.SX(1), far, ca.SX(0), -first.drift)
+    start = _nearest(curve, pb.origin, pa, lower)
+    return Track(s, ("u",), ca.dot(way, slope), far * _long(slope), start, touch, first)
+
+
+def tangency(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track:
+    """Where two curves in space are tangent: b is along a in the plane in which they bend apart.
+
+    The wrench of the angle across that plane is its slope by small displacements of b, along with
+    which the place moves: value_d - value_s R_s^-1 R_d.
+    """
+    pa, pb = at
+    s, way, turn = _symbols(("u", "u_b")), ca.SX.sym("way", 3), ca.SX.sym("turn", 3)
+    axes = pb.axes + ca.skew(turn) @ pb.axes
+    moved = Pose(pb.origin + way, axes, pb.quaternion, pb.angle)
+    first, second = trace(a, s[0], pa, lower), trace(b, s[1], moved, lower)
+    one, bent = _bend(first.slopes[0], s[0])
+    other, bent_other = _bend(second.slopes[0], s[1])
+    apart, between = bent - bent_other, second.point - first.point
+    across = cross(one, apart) / _long(apart)
+    residual = ca.vertcat(ca.dot(between, first.slopes[0]), ca.dot(apart, other))
+    angle = ca.dot(across, other)
+    inside = ca.solve(ca.densify(ca.jacobian(residual, s)), ca.jacobian(residual, way))
+    inside_turn = ca.solve(ca.densify(ca.jacobian(residual, s)), ca.jacobian(residual, turn))
+    by_place = ca.jacobian(angle, s)
+    force = (ca.jacobian(angle, way) - by_place @ inside).T
+    couple = (ca.jacobian(angle, turn) - by_place @ inside_turn).T
+    zero = ca.SX.zeros(3)
+    values = [residual, angle, force, couple, between, second.point, one, apart]
+    residual, angle, force, couple, between, place, one, apart = (
+        ca.SX(x) for x in ca.substitute(values, [way, turn], [zero, zero])
+    )
+    couple = couple + cross(pb.origin - place, force)
+    directions = beside(one)
+    drift = trace(b, s[1], pb, lower).drift - first.drift
+    meeting = [
+        Meeting(ca.dot(e, between), e, ca.SX.zeros(3), place, ca.dot(e, drift)) for e in directions
+    ]
+    meeting.append(Meeting(angle, force, couple, place, ca.SX(0)))
+    far = _far(pa.origin, pb.origin)
+    size = ca.vertcat(far * _long(first.slopes[0]), _long(apart))
+    touch = Touch(ca.SX(0), directions[0], place, ca.SX(1), far)
+    start = _nearest_pair(a, b, at, lower)
+    names = ("u", "u_b")
+    return Track(s, names, residual, size, start, touch, meeting=tuple(meeting))
+
+
+def _bend(slope: ca.SX, parameter: ca.SX) -> tuple[ca.SX, ca.SX]:
+    """The unit tangent of a curve and its curvature, a vector beside it."""
+    square = ca.sumsqr(slope)
+    along, bend = slope / ca.sqrt(square), ca.jacobian(slope, parameter)
+    return along, (bend - ca.dot(bend, along) * along) / square
+
+
+def _column(values: list[ca.SX]) -> ca.SX:
+    return ca.vertcat(*values) if values else ca.SX.zeros(0)
+
+
+# ---------------------------------------------------------------------- where the search begins
+
+
+def _beginnings(figure: Figure, lower: Lower) -> list[ca.SX]:
+    if isinstance(figure, Ring | Oval):
+        return [ca.SX(2 * ca.pi * k / TURN - ca.pi) for k in range(TURN)]
+    if isinstance(figure, Path):
+        return _between(lower(figure.bounds), LONG)
+    assert isinstance(figure, Sheet)
+    first, second = (_between(lower(x), ACROSS) for x in figure.bounds)
+    return [ca.vertcat(u, v) for u in first for v in second]
+
+
+def _between(bounds: ca.SX, count: int) -> list[ca.SX]:
+    first, last = ca.vertsplit(ca.vec(bounds))
+    return [first + (last - first) * (k / count) for k in range(count + 1)]
+
+
+def _least(places: list[ca.SX], values: list[ca.SX]) -> ca.SX:
+    """The place of the least value."""
+    best, least = places[0], values[0]
+    for place, value in zip(places[1:], values[1:], strict=True):
+        lower_one = value < least
+        best, least = ca.if_else(lower_one, place, best), ca.if_else(lower_one, value, least)
+    return best
+
+
+def _all_values(places: list[ca.SX], value: Callable[[ca.SX], ca.SX]) -> list[ca.SX]:
+    s = ca.SX.sym("s", places[0].numel())
+    own = value(s)
+    return [ca.substitute(own, s, place) for place in places]
+
+
+def _extremal(
+    b: Figure, value: Callable[[ca.SX], ca.SX], towards: ca.SX, pb: Pose, lower: Lower
+) -> ca.SX:
+    """Where a function is least on b, or largest where it is negative on most of it."""
+    if isinstance(b, Dot):
+        return ca.SX.zeros(0)
+    if isinstance(b, Straight):
+        return parameter_of(b, towards - pb.origin, pb, lower)
+    places = _beginnings(b, lower)
+    values = _all_values(places, value)
+    sign = ca.if_else(sum(values, ca.SX(0)) < 0, -1, 1)
+    return _least(places, [sign * x for x in values])
+
+
+def _nearest(figure: Figure, place: ca.SX, pose: Pose, lower: Lower) -> ca.SX:
+    """The parameters of the point nearest to a place."""
+    if isinstance(figure, Dot):
+        return ca.SX.zeros(0)
+    if isinstance(figure, Straight):
+        return parameter_of(figure, place - pose.origin, pose, lower)
+    places, local = _beginnings(figure, lower), ca.SX.sym("local", 3)
+    far = _all_values(places, lambda s: ca.sumsqr(point_of(figure, s, lower) - local))
+    there = ca.densify(pose.axes.T @ (place - pose.origin))
+    return ca.substitute(_least(places, far), local, there)
+
+
+def _nearest_pair(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> ca.SX:
+    pa, pb = at
+    place = pb.origin
+    first = second = ca.SX.zeros(0)
+    for _ in range(ROUNDS):
+        first = _nearest(a, place, pa, lower)
+        place = trace(a, first, pa, lower).point
+        if isinstance(b, Dot):
+            break
+        second = _nearest(b, place, pb, lower)
+        place = trace(b, second, pb, lower).point
+    return ca.vertcat(first, second)
+
+
+def _beginning(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> ca.SX:
+    """Of an ellipsoid where its normal is along the slope of F_a, else down the slope of F_b."""
+    pa, pb = at
+    if isinstance(b, Egg):
+        x = ca.SX.zeros(3)
+        side = ca.if_else(level(a, pb.origin, pa, lower).value < 0, 1, -1)
+        squares = lower(b.semi_axes) ** 2
+        for _ in range(ROUNDS):
+            slope = pb.axes.T @ level(a, pb.point(x), pa, lower).slope
+            spread = squares * ca.densify(slope)
+            reach = ca.sqrt(ca.dot(spread, slope))
+            x = side * spread / ca.if_else(reach > 0, reach, 1)
+    else:
+        towards = pb.origin if isinstance(a, Flat) else pa.origin
+        found = level(a, towards, pa, lower)
+        place = towards
+        if isinstance(a, Flat):
+            place = towards - found.value * found.slope
+        for _ in range(2 * ROUNDS):
+            own = level(b, place, pb, lower)
+            square = ca.sumsqr(own.slope)
+            place = place - own.value * own.slope / ca.if_else(square > 0, square, 1)
+        x = ca.densify(pb.axes.T @ (place - pb.origin))
+    place = pb.point(x)
+    first, second = level(a, place, pa, lower).slope, level(b, place, pb, lower).slope
+    square = ca.sumsqr(second)
+    return ca.vertcat(x, -ca.dot(first, second) / ca.if_else(square > 0, square, 1))
