@@ -14,13 +14,14 @@
 #include "stages.h"
 #include "tolerances.h"
 
-/* Newton's method: passes, the part of a step's error that it may leave, change of a pass over that
- * of the one before at which it no longer converges, and the part of the error below which that is
- * rounding. */
+/* Newton's method: passes, the part of a step's error that it may leave, the rate (change of a pass
+ * over that of the one before) at which it no longer converges, how much it is slower than it was
+ * where rounding is all that is left, and the part of the error below which it may be. */
 #define PASSES 16
 #define LEFT 1e-3
 #define STALLED 0.9
-#define ROUNDED 0.3
+#define SLOWER 3
+#define ROUNDED 0.1
 /* How far beyond its end, in its lengths, the last step shows where the next one goes. */
 #define BEYOND 2
 
@@ -136,8 +137,10 @@ static double size_of_change(const frot_model *m, const frot_state *s, const fro
     int own = k < m->nq && m->q_speed[k] < 0;
     double size = fmax(own ? worth[k] : most[k], fabs(w->step.z0[k])), change = 0;
     for (int i = 0; i < RA_STAGES; i++) {
+      double sum = 0;
+      for (int r = 0; r < RA_STAGES; r++) sum += ra_T[i][r] * x->change[r * n + k];
       size = fmax(size, fabs(row(w, FROT_RADAU_MOVED + i)[k]));
-      change = fmax(change, fabs(x->change[i * n + k]));
+      change = fmax(change, fabs(sum));
     }
     if (change == 0) continue;
     if (!(change <= largest * fmax(size, change))) largest = change / fmax(size, change);
@@ -150,6 +153,7 @@ static double size_of_change(const frot_model *m, const frot_state *s, const fro
 static int iterate(const frot_model *m, frot_state *s, frot_work *w, const scratch *x, double t,
                    double h) {
   double error = fmax(FROT_IMPLICIT_SHARE * s->tolerance, FROT_LEAST_IMPLICIT), last = INFINITY;
+  double best = INFINITY;
   int n = frot_order(m);
   w->implicit.rate = 0;
   for (int pass = 0; pass < PASSES; pass++) {
@@ -160,11 +164,14 @@ static int iterate(const frot_model *m, frot_state *s, frot_work *w, const scrat
     if (!isfinite(change)) return FROT_DIVERGE;
     for (int k = 0; k < RA_STAGES * n; k++) x->moved[k] += x->change[k];
     if (change <= FROT_ROUNDING) return FROT_OK;
+    /* a rate that grows where little changes is that of rounding */
+    if (pass > 0 && rate >= fmin(STALLED, SLOWER * best) && change <= ROUNDED * error)
+      return FROT_OK;
     if (pass > 0 && rate >= STALLED) {
-      if (change <= ROUNDED * error) return FROT_OK;
       if (rate > 2 || pass > 2) return FROT_DIVERGE;
     } else if (pass > 0) {
-      if (last > LEFT * error) w->implicit.rate = fmax(w->implicit.rate, rate);
+      best = fmin(best, rate);
+      if (last > ROUNDED * error) w->implicit.rate = fmax(w->implicit.rate, rate);
       if (rate / (1 - rate) * change <= LEFT * error) return FROT_OK;
       if (pow(rate, PASSES - pass) * change > error) return FROT_DIVERGE;
     }

@@ -51,6 +51,7 @@
 #define MOST_GROWTH 6
 #define LEAST_PART (1.0 / 3)
 #define CUT 0.25
+#define HALF 0.5 /* of the implicit method, whose stages were not found */
 #define SAFETY 0.9
 #define SAFETY_OF_MOTION 0.7
 /* Part of its length at least to which a step is shortened in which a guard seems to fall and does
@@ -178,7 +179,9 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   if (a->ratio > 1 && a->ratio < 1e300)
     a->h *= fmax(change_of_length(m, s, w, a->ratio), LEAST_PART);
   else
-    a->h *= a->passed >= 0 ? fmin(fmax(NEARLY * part, 0.01), NEARLY) : CUT;
+    a->h *= a->passed >= 0                      ? fmin(fmax(NEARLY * part, 0.01), NEARLY)
+            : s->implicit && frot_has_motion(m) ? HALF
+                                                : CUT;
   if (s->weak && a->passed < 0) frot_shorten_passage(m, s, w, a, h);
   return status == FROT_OK ? FROT_DIVERGE : status;
 }

@@ -26,6 +26,8 @@
 /* Change of a pass of Newton's method over that of the one before that is best for its price; it
  * grows with the square of the step. */
 #define GOOD_RATE 0.2
+/* Growth of the step where the first guess was so good that no rate was seen. */
+#define UNTRIED 2
 /* Explicit steps past what the implicit method cannot pass, where the text wants that. */
 #define PASSING_STEPS 8
 /* Steps of the implicit method after which it was right to change. */
@@ -79,7 +81,7 @@ static double felt_rate(const frot_model *m, const frot_work *w) {
 
 double frot_stable_step(const frot_model *m, frot_state *s, const frot_work *w, double h) {
   if (s->implicit && frot_has_motion(m))
-    return w->implicit.rate > 0 ? h * sqrt(GOOD_RATE / w->implicit.rate) : INFINITY;
+    return h * (w->implicit.rate > 0 ? sqrt(GOOD_RATE / w->implicit.rate) : UNTRIED);
   if (!is_chosen(m) || s->implicit) return INFINITY;
   s->felt = fmax(REMEMBERED * s->felt, felt_rate(m, w));
   return s->felt > 0 ? STABLE / s->felt : INFINITY;

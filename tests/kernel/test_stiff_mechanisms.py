@@ -103,7 +103,7 @@ def steps(result: frot.Result) -> tuple[int, int]:
     return counts.steps, counts.implicit_steps
 
 
-@pytest.mark.parametrize("damping", [1e5, 1e8])
+@pytest.mark.parametrize("damping", [1e4, 1e8])
 def test_a_stiff_spring_follows_the_tolerance_and_is_found_by_itself(damping: float) -> None:
     model, k, soft = frot.compile(MASSES), 1e8, 10.0
     # x_a, x_b - x_a - 1, their rates; rates of modes from the inverse, which keeps slow ones exact
