@@ -148,15 +148,7 @@ static int goes_on(const frot_instant *in, const frot_group *g) {
   return 1;
 }
 
-static int has_law(const frot_instant *in, int i) {
-  for (int e = 0; e < in->m->n_elements; e++)
-    if (in->m->elements[e].contact == i &&
-        frot_element_mode(in->m, in->w->search.trial, e)->friction != FROT_NONE)
-      return 1;
-  return 0;
-}
-
-static int all_held(const frot_instant *in, int i) {
+int frot_all_held(const frot_instant *in, int i) {
   for (int e = 0; e < in->m->n_elements; e++)
     if (in->m->elements[e].contact == i &&
         frot_element_mode(in->m, in->w->search.trial, e)->friction > FROT_STICK)
@@ -175,8 +167,9 @@ static int contact_is_admissible(const frot_instant *in, int i) {
   }
   if (mode->unloaded) return is_still(in, row) && is_carried(in, row);
   /* held all round, the side follows from the reaction */
-  if (in->unilateral[i] == 0 && all_held(in, i)) mode->side = in->w->core.lam[row] < 0 ? -1 : 1;
-  if (in->unilateral[i] == 0 && !has_law(in, i)) return 1;
+  if (in->unilateral[i] == 0 && frot_all_held(in, i))
+    mode->side = in->w->core.lam[row] < 0 ? -1 : 1;
+  if (in->unilateral[i] == 0 && !frot_sign_matters(in->m, in->w->search.trial, i)) return 1;
   return pressure(in, i) >= -FROT_BOUND_SLACK;
 }
 

@@ -26,8 +26,7 @@ static int rests(const frot_instant *in, const frot_group *g) {
          frot_square_of(in->w, g, in->w->core.a) <= limit * limit;
 }
 
-/* Time in which the fastest coordinate of the group has gone its way; 0 when nothing moves. */
-static double time_of_way(const frot_instant *in, const frot_group *g) {
+double frot_time_of_way(const frot_instant *in, const frot_group *g) {
   const frot_model *m = in->m;
   double shortest = INFINITY;
   for (int k = 0; k < g->n_speeds; k++) {
@@ -59,7 +58,7 @@ int frot_look_ahead(const frot_instant *in, const frot_group *g) {
   double *q = w->step.z1, *v = q + m->nq;
   memset(w->search.ahead, 0, (size_t)m->n_elements);
   frot_accelerations(m, w, w->search.nothing_frozen);
-  double dt = rests(in, g) ? 0 : time_of_way(in, g);
+  double dt = rests(in, g) ? 0 : frot_time_of_way(in, g);
   if (!(dt > 0)) return FROT_OK;
   memcpy(q, in->q, sizeof(double) * (size_t)m->nq);
   memcpy(v, in->v, sizeof(double) * (size_t)m->nv);

@@ -7,8 +7,7 @@
 #include "reactions.h"
 #include "tolerances.h"
 
-/* Whether the sign of a bilateral reaction matters: friction follows it. */
-static int sign_matters(const frot_model *m, const frot_contact_mode *modes, int i) {
+int frot_sign_matters(const frot_model *m, const frot_contact_mode *modes, int i) {
   const frot_group *g = &m->groups[m->contact_group[i]];
   for (int k = 0; k < g->n_elements; k++) {
     int e = g->elements[k];
@@ -23,7 +22,7 @@ static int contact_has_guard(const frot_model *m, const frot_state *s, const fro
   if (m->contacts[i].row_n < 0) return 0;
   if (!modes[i].closed) return 1;
   if (modes[i].unloaded) return 0;
-  return s->data[w->layout.unilateral + i] != 0 || sign_matters(m, modes, i);
+  return s->data[w->layout.unilateral + i] != 0 || frot_sign_matters(m, modes, i);
 }
 
 static int count_element_guards(const frot_model *m, const frot_contact_mode *modes, int e) {

@@ -34,4 +34,7 @@ double frot_reaction_size(const frot_model *m, const frot_work *w, int row);
  * reaction along the reference, so that no step goes over the corner. */
 void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w);
 
+/* Whether the sign of a bilateral reaction matters: friction follows it. */
+int frot_sign_matters(const frot_model *m, const frot_contact_mode *modes, int contact);
+
 #endif

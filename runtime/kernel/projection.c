@@ -12,8 +12,6 @@
 
 #define PASSES 3 /* of Newton's method: it starts next to the solution */
 
-#define HELD 1e-13 /* part of a unit speed outside the span of the rows that hold it */
-
 static int is_kept(const frot_model *m, const frot_contact_mode *modes, int contact) {
   const frot_contact *c = &m->contacts[contact];
   return modes[contact].closed && c->row_n >= 0 && !c->reduced;
@@ -29,9 +27,8 @@ static int is_stuck(const frot_model *m, const frot_contact_mode *modes, const u
   return frot_element_mode(m, modes, element)->friction == FROT_STICK || (stuck && stuck[element]);
 }
 
-/* Rows of a group that hold into `rows`; returns their number. */
-static int rows_of_group(const frot_model *m, const frot_group *g, const frot_contact_mode *modes,
-                         const unsigned char *stuck, int normals_only, int *rows) {
+int frot_rows_of_group(const frot_model *m, const frot_group *g, const frot_contact_mode *modes,
+                       const unsigned char *stuck, int normals_only, int *rows) {
   int n = 0;
   for (int i = 0; i < g->n_contacts; i++) {
     int c = g->contacts[i];
@@ -47,8 +44,8 @@ int frot_holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode
                       const unsigned char *stuck, int normals_only) {
   int n = 0;
   for (int k = 0; k < w->awake.now->n_groups; k++)
-    n += rows_of_group(m, &m->groups[w->awake.now->groups[k]], modes, stuck, normals_only,
-                       w->relations.rows + n);
+    n += frot_rows_of_group(m, &m->groups[w->awake.now->groups[k]], modes, stuck, normals_only,
+                            w->relations.rows + n);
   return n;
 }
 
@@ -86,7 +83,7 @@ static int project_positions(const frot_model *m, frot_state *s, frot_work *w, d
     if (status != FROT_OK) return status;
     for (int k = 0; k < w->awake.now->n_groups; k++) {
       const frot_group *g = &m->groups[w->awake.now->groups[k]];
-      int n = rows_of_group(m, g, modes, NULL, 1, w->relations.rows), off = 0, at = 0;
+      int n = frot_rows_of_group(m, g, modes, NULL, 1, w->relations.rows), off = 0, at = 0;
       for (int i = 0; i < g->n_contacts; i++) {
         int c = g->contacts[i];
         if (!keeps_place(m, modes, c)) continue;
@@ -111,7 +108,7 @@ static int project_speeds(const frot_model *m, frot_state *s, frot_work *w, doub
     if (status != FROT_OK) return status;
     for (int k = 0; k < w->awake.now->n_groups; k++) {
       const frot_group *g = &m->groups[w->awake.now->groups[k]];
-      int n = rows_of_group(m, g, modes, stuck, 0, w->relations.rows), off = 0;
+      int n = frot_rows_of_group(m, g, modes, stuck, 0, w->relations.rows), off = 0;
       for (int i = 0; i < n; i++) {
         int row = w->relations.rows[i];
         w->relations.residual[i] = w->core.rate[row];
@@ -144,58 +141,4 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, moved);
   if (status == FROT_OK) status = project_speeds(m, s, w, t, q, v, d, modes, stuck, moved);
   return status;
-}
-
-/* Marks the speeds of a group that the rows which depend on frozen coordinates alone hold: the unit
- * vector of such a speed lies in their span. Columns are taken in units of their largest entry, so
- * that units do not matter: masses say nothing of what holds. */
-static int frozen_by_rows(const frot_model *m, frot_work *w, const frot_group *g, int n,
-                          const double *known, double *frozen) {
-  int ns = g->n_speeds, count = 0, columns = 0;
-  double *unit = w->core.rest, *scale = w->core.column;
-  for (int k = 0; k < ns; k++) {
-    scale[k] = 0;
-    for (int i = 0; i < n; i++)
-      scale[k] = fmax(scale[k], fabs(frot_entries(m, w->core.rows, w->relations.rows[i])[k]));
-  }
-  for (int i = 0; i < n; i++) {
-    int row = w->relations.rows[i], usable = !m->row_depends[row * (m->nq + 1) + m->nq];
-    for (int k = 0; k < m->nq; k++)
-      if (m->row_depends[row * (m->nq + 1) + k] && (m->q_speed[k] < 0 || known[m->q_speed[k]] == 0))
-        usable = 0;
-    if (!usable) continue;
-    double *x = w->span.basis + ns * columns;
-    const double *entries = frot_entries(m, w->core.rows, row);
-    for (int k = 0; k < ns; k++) x[k] = scale[k] > 0 ? entries[k] / scale[k] : 0;
-    double length = sqrt(frot_dot(x, x, ns)),
-           rest = frot_reject(x, w->span.basis, columns, ns, w->span.parts);
-    if (!(rest > 0.1 * FROT_DEPENDENT * length)) continue;
-    for (int k = 0; k < ns; k++) x[k] /= rest;
-    columns++;
-  }
-  for (int k = 0; k < ns; k++) {
-    int speed = g->unknowns[k];
-    for (int i = 0; i < ns; i++) unit[i] = i == k;
-    frozen[speed] =
-        known[speed] != 0 && frot_reject(unit, w->span.basis, columns, ns, w->span.parts) < HELD;
-    count += frozen[speed] != 0;
-  }
-  return count;
-}
-
-void frot_find_frozen(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                      double *frozen) {
-  double *known = w->core.load;
-  for (int k = 0; k < m->nv; k++) frozen[k] = 0;
-  for (int i = 0; i < m->n_groups; i++) {
-    const frot_group *g = &m->groups[i];
-    int n = rows_of_group(m, g, modes, NULL, 0, w->relations.rows), count = g->n_speeds + 1;
-    for (int k = 0; k < m->nv; k++) known[k] = m->speed_group[k] == i;
-    while (n > 0) {
-      int now = frozen_by_rows(m, w, g, n, known, frozen);
-      if (now == count || now == 0) break;
-      count = now;
-      for (int k = 0; k < g->n_speeds; k++) known[g->unknowns[k]] = frozen[g->unknowns[k]];
-    }
-  }
 }

@@ -1,4 +1,4 @@
-/* Motion on the relations: projection onto them, and speeds that they hold at zero. */
+/* Projection of a motion onto its relations. */
 #ifndef FROT_PROJECTION_H
 #define FROT_PROJECTION_H
 
@@ -18,10 +18,8 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
 int frot_holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                       const unsigned char *stuck, int normals_only);
 
-/* Speeds that the relations of `modes` hold at zero for as long as the mode lasts: frozen (nv).
- * A relation counts when it depends on frozen coordinates alone. Uses w->core.rows and w->factor.
- */
-void frot_find_frozen(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                      double *frozen);
+/* The same rows of one group into `rows`. */
+int frot_rows_of_group(const frot_model *m, const frot_group *g, const frot_contact_mode *modes,
+                       const unsigned char *stuck, int normals_only, int *rows);
 
 #endif

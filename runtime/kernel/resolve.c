@@ -5,6 +5,7 @@
 
 #include "blocks.h"
 #include "core.h"
+#include "frozen.h"
 #include "guards.h"
 #include "projection.h"
 #include "record.h"
@@ -155,16 +156,24 @@ static int note_departures(const frot_instant *in, const int *chosen, int count)
   return departed;
 }
 
+/* Motions in which what fired changes, or else any; those that last before those that do not. */
+static int search(const frot_instant *in, const int *chosen, int count, int *unsearched) {
+  for (int lasting = 1; lasting >= 0; lasting--)
+    for (int forced = 1; forced >= 0; forced--) {
+      int motions = frot_search(in, chosen, count, forced, lasting, unsearched);
+      if (motions > 0) return motions;
+    }
+  return 0;
+}
+
 /* Motions of a component, the one preferred into w->best. What departs has the friction of motion
  * at once, and what the others do follows from that: looked for again until nothing more departs.
  */
 static int look_for_motions(const frot_instant *in, const int *chosen, int count, int *unsearched) {
   if (frot_rest_goes_on(in, chosen, count)) return 1;
-  int motions = frot_search(in, chosen, count, 1, unsearched);
-  if (motions == 0) motions = frot_search(in, chosen, count, 0, unsearched);
+  int motions = search(in, chosen, count, unsearched);
   while (motions > 0 && note_departures(in, chosen, count)) {
-    int again = frot_search(in, chosen, count, 1, unsearched);
-    if (again == 0) again = frot_search(in, chosen, count, 0, unsearched);
+    int again = search(in, chosen, count, unsearched);
     if (again == 0) break; /* it departs, and is held at once: told as it was found */
     motions = again;
   }
@@ -260,7 +269,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   if (status != FROT_OK) return status;
   memcpy(modes, w->search.best, sizeof *modes * count);
   if (!first) frot_note_changes(m, s, t, w->search.before, modes, recorder);
-  frot_find_frozen(m, w, modes, frozen);
+  frot_find_frozen(m, s, w, modes, frozen);
   for (int k = 0; k < m->nv; k++)
     if (frozen[k] != 0) v[k] = 0;
   memset(fired, 0, sizeof(double) * (size_t)l.nf);

@@ -162,7 +162,7 @@ static void remember(const frot_instant *in, const int *chosen, int count) {
 
 /* Examine all combinations of the options; those of contacts that are `certain` (may be NULL) stay
  * as they are in w->trial. */
-static int enumerate(const frot_instant *in, const int *chosen, int count, int forced,
+static int enumerate(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
                      const unsigned char *certain) {
   frot_work *w = in->w;
   option lists[OPTIONS];
@@ -177,7 +177,7 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
   size_t modes = (size_t)(in->m->n_contacts + in->m->n_elements);
   memcpy(w->search.guess, w->search.trial, sizeof *w->search.trial * modes);
   for (;;) {
-    if (frot_is_admissible(in, chosen, count)) {
+    if (frot_is_admissible(in, chosen, count) && (!lasting || frot_lasts(in, chosen, count))) {
       int rank = preference(in, chosen, count);
       motions = count_motion(in, chosen, motions);
       if (!any || rank > best) best = rank, remember(in, chosen, count);
@@ -225,7 +225,7 @@ int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count) {
     }
   }
   if (frot_share_load(in, chosen, count) != FROT_SHARED) return 0;
-  if (!frot_is_admissible(in, chosen, count)) return 0;
+  if (!frot_is_admissible(in, chosen, count) || !frot_lasts(in, chosen, count)) return 0;
   remember(in, chosen, count);
   return 1;
 }
@@ -238,7 +238,8 @@ static int left_here(const frot_instant *in, int i) {
 }
 
 /* One motion by pivoting, and what it leaves in doubt examined. `ends`: a rest ends now. */
-static int search_near(const frot_instant *in, const int *chosen, int count, int forced, int ends) {
+static int search_near(const frot_instant *in, const int *chosen, int count, int forced,
+                       int lasting, int ends) {
   unsigned char *certain = in->w->search.certain;
   option lists[OPTIONS];
   double combinations = 1;
@@ -252,20 +253,21 @@ static int search_near(const frot_instant *in, const int *chosen, int count, int
     else
       combinations *= options;
   }
-  return enumerate(in, chosen, count, forced, certain);
+  return enumerate(in, chosen, count, forced, lasting, certain);
 }
 
-int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int *unsearched) {
+int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
+                int *unsearched) {
   frot_work *w = in->w;
   const frot_model *m = in->m;
   option lists[OPTIONS];
   double combinations = 1;
   for (int c = 0; c < count; c++) combinations *= contact_options(in, chosen[c], forced, lists);
   memset(w->search.trial, 0, sizeof *w->search.trial * (size_t)(m->n_contacts + m->n_elements));
-  if (combinations <= FROT_ENOUGH) return enumerate(in, chosen, count, forced, NULL);
+  if (combinations <= FROT_ENOUGH) return enumerate(in, chosen, count, forced, lasting, NULL);
   *unsearched = 1;
-  int motions = search_near(in, chosen, count, forced, forced);
+  int motions = search_near(in, chosen, count, forced, lasting, forced);
   /* the rest ends though what fired stays as it is: others carry what it carried */
-  if (motions == 0 && !forced) motions = search_near(in, chosen, count, 0, 1);
+  if (motions == 0 && !forced) motions = search_near(in, chosen, count, 0, lasting, 1);
   return motions;
 }

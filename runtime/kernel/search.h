@@ -26,6 +26,15 @@ int frot_bounds_something(const frot_model *m, const frot_work *w, int element);
  * that let the others carry. */
 int frot_is_admissible(const frot_instant *in, const int *chosen, int count);
 
+/* Whether every law of a contact holds in w->search.trial, so that the side it is pressed on
+ * follows from its reaction. */
+int frot_all_held(const frot_instant *in, int contact);
+
+/* Whether the motion of w->search.trial, which frot_is_admissible has found good, lasts: what is
+ * zero in it at the instant is not past its bound a little later (lasting.c). Gives a reaction that
+ * may have either sign the one it has then. */
+int frot_lasts(const frot_instant *in, const int *chosen, int count);
+
 /* Share the load of w->search.trial among the contacts `chosen` and their stuck elements, so that
  * reactions are unique and each within its bounds: sets those at their bounds and those without
  * load. FROT_SHARE_UNKNOWN: reactions are unique already, or friction follows what is no cone; then
@@ -45,11 +54,16 @@ int frot_find_growth(const frot_instant *in, const double *d);
  * (ahead.c). */
 int frot_look_ahead(const frot_instant *in, const frot_group *g);
 
+/* Time in which the fastest coordinate of the group has gone a small way; 0 when nothing moves. */
+double frot_time_of_way(const frot_instant *in, const frot_group *g);
+
 /* Looks for the modes of the contacts `chosen`, which act on each other only and are closed in
  * w->search.best; leaves those preferred in w->best. Every combination is examined where there are
  * few; else one motion is found by pivoting and only what stays ambiguous is examined, and
- * *unsearched is set. `forced`: what fired must change. Returns the number of motions. */
-int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int *unsearched);
+ * *unsearched is set. `forced`: what fired must change; `lasting`: what does not last is left out.
+ * Returns the number of motions. */
+int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
+                int *unsearched);
 
 /* A first guess of the modes of many contacts into w->search.trial, and into `certain` (n_contacts)
  * whether a contact's are beyond doubt (pivot.c). `ends`: a rest ends, so that what is just at its

@@ -5,6 +5,7 @@
 
 #include "blocks.h"
 #include "core.h"
+#include "inertia.h"
 #include "linear.h"
 #include "tolerances.h"
 #include "turns.h"
@@ -49,6 +50,24 @@ static double reach_of(const frot_opening *p, int i) {
   for (int k = 0; k < nx; k++)
     sum += fabs(p->w->relations.jacobian[nx * i + k]) * fmax(fabs(frot_opening_unknown(p)[k]), 1);
   return sum;
+}
+
+/* What equation i could change in a second, were all kinetic energy of the bodies it speaks of in
+ * the motion along it: what is stated of a body at rest, in a scene that moves, agrees with the
+ * rest of the scene to the digits of that. */
+static double speed_along(const frot_opening *p, int i) {
+  frot_work *w = p->w;
+  const double *row = w->relations.jacobian + frot_opening_count(p) * i;
+  double *half = w->core.rest, length = 0, motion = 0;
+  for (int k = 0; k < p->m->n_groups; k++) {
+    const frot_group *g = &p->m->groups[k];
+    int any = 0;
+    for (int j = 0; j < g->n_speeds; j++) half[j] = row[g->unknowns[j]], any |= half[j] != 0;
+    if (!any) continue;
+    frot_inwards(w, g, half);
+    length += frot_dot(half, half, g->n_speeds), motion += frot_square_of(w, g, p->v);
+  }
+  return sqrt(length * motion);
 }
 
 int frot_evaluate_statements(frot_opening *p) {
@@ -112,7 +131,8 @@ double frot_statement_size(const frot_opening *p, int i) {
 int frot_statement_agrees(const frot_opening *p, int i, double before) {
   double off = fabs(p->w->relations.residual[i]);
   return off <= FROT_AGREES * fmax(frot_statement_size(p, i), before) ||
-         off <= FROT_NO_DIGIT * reach_of(p, i);
+         off <= FROT_NO_DIGIT * reach_of(p, i) ||
+         (p->velocity && off <= FROT_AGREES * speed_along(p, i));
 }
 
 int frot_contradiction(const frot_opening *p) {

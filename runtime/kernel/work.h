@@ -161,12 +161,13 @@ typedef struct {
 
 /* The search for modes (search.h, admissible.c, ahead.c, pivot.c, resolve.c): modes tried, found
  * and before; of contacts: which are decided; of elements: whose motion is zero or at rest, where
- * it would go, and which slips no acceleration starts. */
+ * it would go, and which slips no acceleration starts; of both: what is left of their inequalities
+ * where that is little (lasting.c). */
 typedef struct {
   frot_contact_mode *trial, *best, *before, *guess, *guess_ahead;
   unsigned char *certain, *zero, *at_rest, *departs;
   signed char *ahead;
-  double *motions, *pivot_bound, *nothing_frozen;
+  double *motions, *pivot_bound, *nothing_frozen, *margin;
   int *choice, *component, *chosen;
 } frot_search_work;
 

@@ -1,0 +1,159 @@
+/* Whether an admissible motion lasts beyond its instant.
+ *
+ * Where an inequality is an equality for the instant, as at each event one is, the accelerations do
+ * not say whether it holds after it: a rest that ends at its bound goes on as slip where the slip
+ * then grows, and not where friction jams it (P. Painleve, Lecons sur le frottement, 1895); a
+ * reaction that is zero at the start has the sign of its rate. So the mechanism is moved on a
+ * little in these modes, and what was zero is looked at again. */
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "guards.h"
+#include "projection.h"
+#include "reactions.h"
+#include "search.h"
+#include "tolerances.h"
+#include "turns.h"
+
+#define LATER 1e-3   /* of the step that comes, how far the mechanism is moved on */
+#define CLEARLY 1e-8 /* part of its terms by which what was zero has fallen then */
+
+/* What is left of an inequality, over the size of its terms: of a contact. */
+static double margin_of_contact(const frot_instant *in, int i) {
+  const frot_work *w = in->w;
+  const frot_contact_mode *mode = &w->search.trial[i];
+  int row = in->m->contacts[i].row_n;
+  double size, value;
+  if (!frot_has_normal(&in->m->contacts[i]) || mode->unloaded) return 1;
+  if (!mode->closed) {
+    value = frot_acceleration(in->m, w, row, &size);
+    size += w->core.row_load[row];
+  } else {
+    if (in->unilateral[i] == 0 && !frot_sign_matters(in->m, w->search.trial, i)) return 1;
+    value = mode->side * w->core.lam[row];
+    size = fabs(value) + frot_reaction_size(in->m, w, row);
+  }
+  return size > 0 ? value / size : 0;
+}
+
+/* The same of an element. */
+static double margin_of_element(const frot_instant *in, int e) {
+  const frot_model *m = in->m;
+  const frot_work *w = in->w;
+  const frot_element *element = &m->elements[e];
+  const frot_contact_mode *mode = frot_element_mode(m, w->search.trial, e);
+  double size, value;
+  if (!w->search.trial[element->contact].closed || !in->zero[e] || element->prescribed) return 1;
+  if (mode->friction == FROT_STICK) {
+    if (!frot_is_held(m, w->search.trial, e)) return 1;
+    double bound = fabs(frot_bound_of_rest(m, w, e, w->search.trial));
+    double lam = fabs(w->core.lam[element->row]);
+    value = bound - lam, size = bound + lam + frot_reaction_size(m, w, element->row);
+  } else {
+    if (mode->friction == FROT_NONE) return 1;
+    value = frot_acceleration(m, w, element->row, &size);
+    if (mode->friction == FROT_SLIP_BACKWARD) value = -value;
+    size += w->core.row_load[element->row];
+  }
+  return size > 0 ? value / size : 0;
+}
+
+/* Margins of contacts and elements that are small, into w->search.margin; the others are 1. Returns
+ * whether there are any. */
+static int note_margins(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  double *margin = in->w->search.margin;
+  int any = 0;
+  for (int k = 0; k < m->n_contacts + m->n_elements; k++) margin[k] = 1;
+  for (int c = 0; c < count; c++) {
+    margin[chosen[c]] = margin_of_contact(in, chosen[c]);
+    for (int e = 0; e < m->n_elements; e++)
+      if (m->elements[e].contact == chosen[c]) margin[m->n_contacts + e] = margin_of_element(in, e);
+  }
+  for (int k = 0; k < m->n_contacts + m->n_elements; k++)
+    if (margin[k] < FROT_RESOLVED)
+      any = 1;
+    else
+      margin[k] = 1;
+  return any;
+}
+
+/* The kinematics and dynamics at t, q, v with what may be closed at the instant. */
+static int evaluate(const frot_instant *in, double t, double *q, double *v) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  const double *d = in->s->data + in->l.d;
+  frot_contact_mode *modes = w->search.guess_ahead;
+  memcpy(modes, w->search.trial, sizeof *modes * (size_t)(m->n_contacts + m->n_elements));
+  for (int i = 0; i < m->n_contacts; i++) modes[i].closed = w->search.component[i] >= 0;
+  int status = frot_kinematics(m, in->s, w, t, q, v, d);
+  if (status == FROT_OK) status = frot_dynamics(m, in->s, w, t, q, v, d, modes, FROT_LAWS);
+  if (status == FROT_OK) status = frot_metric(m, w);
+  if (status == FROT_OK) frot_row_loads(m, in->s, w, t, q, v, d);
+  return status;
+}
+
+/* Move on by dt: the group with its accelerations, all else with its speeds. */
+static int move_on(const frot_instant *in, const frot_group *own, double dt, double *q, double *v) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  int moved;
+  memcpy(q, in->q, sizeof(double) * (size_t)m->nq);
+  memcpy(v, in->v, sizeof(double) * (size_t)m->nv);
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    for (int i = 0; i < g->n_speeds; i++) {
+      double a = g == own ? w->core.a[g->unknowns[i]] : 0;
+      w->relations.step[i] = v[g->unknowns[i]] + 0.5 * dt * a;
+      v[g->unknowns[i]] += dt * a;
+    }
+    frot_displace(m, g, q, w->relations.step, dt);
+  }
+  return frot_project(m, in->s, w, in->t + dt, q, v, in->s->data + in->l.d, w->search.trial, NULL,
+                      &moved);
+}
+
+/* Whether nothing that was zero has fallen below in the meantime. A reaction that may have either
+ * sign and was zero shows it now. */
+static int still_holds(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  const double *margin = in->w->search.margin;
+  for (int c = 0; c < count; c++) {
+    int i = chosen[c];
+    frot_contact_mode *mode = &in->w->search.trial[i];
+    if (margin[i] < 1) {
+      double now = margin_of_contact(in, i);
+      if (now < 0 && mode->closed && in->unilateral[i] == 0 && frot_all_held(in, i))
+        mode->side = (signed char)-mode->side;
+      else if (now < 0 && now < margin[i] - CLEARLY)
+        return 0;
+    }
+    for (int e = 0; e < m->n_elements; e++) {
+      if (m->elements[e].contact != i || !(margin[m->n_contacts + e] < 1)) continue;
+      double now = margin_of_element(in, e);
+      if (now < 0 && now < margin[m->n_contacts + e] - CLEARLY) return 0;
+    }
+  }
+  return 1;
+}
+
+int frot_lasts(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
+  double *q = w->step.z, *v = q + m->nq;
+  if (!note_margins(in, chosen, count)) return 1;
+  frot_accelerations(m, w, w->search.nothing_frozen);
+  double dt = LATER * (in->s->h > 0 ? in->s->h : in->s->h_max), way = frot_time_of_way(in, g);
+  if (way > 0) dt = fmin(dt, way);
+  int lasts = 1;
+  if (move_on(in, g, dt, q, v) == FROT_OK && evaluate(in, in->t + dt, q, v) == FROT_OK &&
+      !frot_group_reactions(m, w, g, w->search.trial, in->at_rest))
+    lasts = still_holds(in, chosen, count);
+  memcpy(q, in->q, sizeof(double) * (size_t)m->nq);
+  memcpy(v, in->v, sizeof(double) * (size_t)m->nv);
+  evaluate(in, in->t, q, v);
+  frot_group_reactions(m, w, g, w->search.trial, in->at_rest);
+  return lasts;
+}

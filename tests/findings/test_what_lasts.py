@@ -1,0 +1,51 @@
+"""Where an instant leaves several motions, the one that lasts is taken."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import cos, sin
+
+import numpy as np
+import pytest
+
+import frot
+
+Finding = Callable[..., frot.Model]
+G = 9.81
+TILT, GRIP, LIGHT, PULL, ROUGH = -0.225, 0.3, 1e-3, 2.0, 0.4
+
+
+def let_go() -> float:
+    """When the friction that rolling needs of the ring is what the plank can give, T = -grip N.
+
+    With X the acceleration of the plank, of the ring along and across it and of the plank
+    2 T = m (X cos a + g sin a), N = m (g cos a - X sin a), M X = -F + N sin a - T cos a.
+    """
+    c, s = cos(TILT), sin(TILT)
+    x = -G * (GRIP * c + s / 2) / (c / 2 - GRIP * s)
+    normal = G * c - x * s
+    return (normal * s + GRIP * normal * c - LIGHT * x) / PULL
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-12])
+@pytest.mark.parametrize("across", [2.0, -2.0])
+def test_of_the_motions_of_an_instant_that_which_lasts_is_taken(
+    finding: Finding, across: float, tolerance: float
+) -> None:
+    model = finding("what_lasts")
+    result = model.simulate(tolerance=tolerance, stop=1.2, parameters={"across": across})
+    allowed = 10 * tolerance + 1e-12
+    # the disc: held by two cones of which one widens, then pushed the other way
+    assert np.abs(result["d.velocity.x"]).max() == np.abs(result["d.angular_velocity"]).max() == 0
+    # the bead: a = (3 - 0.4 * 2) t / m from the start, whatever the side
+    speed = (3 - ROUGH * 2) / 0.5 * 1.2**2 / 2
+    assert result.at(1.2)["c.velocity.x"] == pytest.approx(speed, rel=allowed)
+    assert np.sign(result.at(1.2)["W.normal_force"]) == -np.sign(across)
+    # the ring: Painleve's case, W_nn < grip W_nt, in which no slip follows the end of rolling
+    (gone,) = [e.time for e in result.events if e.liaison == "K" and e.kind == "separation"]
+    assert gone == pytest.approx(let_go(), rel=allowed)
+    assert not [e for e in result.events if e.liaison == "K" and e.kind == "slip"]
+    fall = result.at(1.2)["r.velocity.y"] - result.at(gone)["r.velocity.y"]
+    assert fall == pytest.approx(-G * (1.2 - gone), rel=allowed)
+    held = finding("what_lasts").simulate(parameters={"rough": 1.6, "across": across})
+    assert np.abs(held["c.velocity.x"]).max() == 0
