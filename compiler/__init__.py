@@ -6,14 +6,14 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from frot.compiler.driver import build, make_dae, make_report, print_stage
     from frot.compiler.product.dae import Dae
-    from frot.compiler.product.report import Report
+    from frot.compiler.report.report import Report
     from frot.compiler.toolchain.cache import find_program, program_key
     from frot.compiler.toolchain.compilers import Toolchain, find_toolchain
     from frot.compiler.toolchain.objects import compile_library
 
 _HOMES = {
     "Dae": "product.dae",
-    "Report": "product.report",
+    "Report": "report.report",
     "Toolchain": "toolchain.compilers",
     "build": "driver",
     "compile_library": "toolchain.objects",

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from frot.compiler.lowering.lower import Lowered
     from frot.compiler.mechanics.reduce import Reduced
     from frot.compiler.product.dae import Dae
-    from frot.compiler.product.report import Report
+    from frot.compiler.report.report import Report
     from frot.compiler.toolchain.compilers import Toolchain
 
 
@@ -68,9 +68,12 @@ def lowered_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) ->
         return None
     from frot.compiler.lowering.groups import make_groups
     from frot.compiler.lowering.lower import lower
+    from frot.compiler.report.first_integrals import first_integrals_of
 
+    tell("the first integrals")
+    integrals = first_integrals_of(system)
     tell("the functions")
-    return lower(system, make_groups(system), log)
+    return lower(system, make_groups(system), log, integrals)
 
 
 def text_of(lowered: Lowered, key: str) -> str:
@@ -128,11 +131,18 @@ def make_dae(model: Model, log: Log) -> Dae | None:
 
 
 def make_report(model: Model, log: Log) -> Report | None:
-    """What `frot check` says; needs no CasADi."""
-    from frot.compiler.product.report import report_of
+    """What `frot check` says; without bodies it needs no CasADi."""
+    from frot.compiler.report.report import report_of
 
     mechanism = _balanced(model, log)
-    return None if mechanism is None else report_of(mechanism)
+    if mechanism is None:
+        return None
+    if not model.bodies:
+        return report_of(mechanism, None)
+    from frot.compiler.report.analysis import analyse
+
+    system = assembled_of(model, log)
+    return None if system is None else report_of(mechanism, analyse(system))
 
 
 def _balanced(model: Model, log: Log) -> Mechanism | None:

@@ -15,7 +15,7 @@ from frot.dsl.messages.errors import FrotError, fail
 
 if TYPE_CHECKING:
     from frot.compiler.product.dae import Dae
-    from frot.compiler.product.report import Report
+    from frot.compiler.report.report import Report
     from frot.dsl import checked
     from frot.runtime.program import Program
     from frot.runtime.result import Result
@@ -102,7 +102,7 @@ class Model:
         )
 
     def report(self) -> Report:
-        """Mobility and liaisons; `str(report)` is what `frot check` prints."""
+        """Mobility, liaisons, first integrals; `str(report)` is what `frot check` prints."""
         from frot.compiler import make_report
 
         log = Log()

@@ -11,9 +11,13 @@ from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostic_data import log_data
 from frot.dsl.messages.errors import FrotError
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from frot.compiler.report.analysis import LoopLine, ParadoxLine
+
 
 def report_file(path: str, name: str | None) -> str:
-    """The report of a file and its warnings. Needs no C compiler and no CasADi."""
+    """The report of a file and its warnings. Needs no C compiler."""
     log = Log()
     report = _report(path, name, log)
     if report is None:
@@ -39,7 +43,7 @@ def _report(path: str, name: str | None, log: Log) -> Report | None:
 
 
 def _report_data(report: Report) -> dict[str, object]:
-    mobility = report.mobility
+    mobility, found = report.mobility, report.analysis
     return {
         "model": report.model,
         "variables": report.unknowns,
@@ -51,10 +55,32 @@ def _report_data(report: Report) -> dict[str, object]:
         ],
         "liaisons": [asdict(liaison) for liaison in report.liaisons],
         "freedoms": mobility.freedoms,
-        "relations": {"bilateral": mobility.bilateral, "unilateral": mobility.unilateral},
+        "relations": {
+            "bilateral": mobility.bilateral,
+            "unilateral": mobility.unilateral,
+            "by_class": {str(k): n for k, n in mobility.classes},
+            "independent": mobility.independent,
+            "independent_at_start": mobility.independent_at_start,
+            "touching": mobility.touching,
+            "touching_independent": mobility.touching_independent,
+        },
         "degrees_of_freedom": mobility.degrees_of_freedom,
+        "hyperstatic": mobility.hyperstatic,
+        "loops": [] if found is None else [_loop_data(loop) for loop in found.loops],
+        "first_integrals": [] if found is None else [asdict(x) for x in found.integrals],
+        "paradoxes": [] if found is None else [_paradox_data(x) for x in found.paradoxes],
+        "start_found": found is None or found.found,
         "unconnected": list(report.unconnected),
     }
+
+
+def _loop_data(loop: LoopLine) -> dict[str, object]:
+    changes = [{"liaison": name, "kind": kind or None} for name, kind in loop.cure]
+    return {**asdict(loop), "undetermined": dict(loop.undetermined), "cure": changes}
+
+
+def _paradox_data(paradox: ParadoxLine) -> dict[str, object]:
+    return {**asdict(paradox), "where": dict(paradox.where)}
 
 
 def emit_stage(path: str, name: str | None, stage: str) -> str:

@@ -72,6 +72,19 @@ class ExperimentInfo:
 
 
 @dataclass(frozen=True, slots=True)
+class IntegralInfo:
+    """A first integral of the motion: the sum of `variables`.
+
+    `always`: whatever the parameters are, else at their defaults.
+    """
+
+    text: str
+    variables: tuple[str, ...]
+    unit: Unit
+    always: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Program:
     """A compiled model in a folder: `model.c`, the shared library and this description.
 
@@ -101,6 +114,7 @@ class Program:
     conditions: tuple[str, ...] = ()
     fixed: tuple[tuple[str, str], ...] = ()
     file: str = ""
+    first_integrals: tuple[IntegralInfo, ...] = ()
     shown: str = ""
     hold: object = field(default=None, compare=False, repr=False)
 
@@ -144,6 +158,16 @@ def read_program(folder: Path) -> Program:
             "experiment": ExperimentInfo(**data["experiment"]),
             "compiler": tuple(data["compiler"]),
             "flags": tuple(data["flags"]),
+            "first_integrals": tuple(
+                IntegralInfo(
+                    **{
+                        **entry,
+                        "unit": _unit(entry["unit"]),
+                        "variables": tuple(entry["variables"]),
+                    }
+                )
+                for entry in data.get("first_integrals", ())
+            ),
             "fixed": tuple((name, why) for name, why in data.get("fixed", ())),
             "folder": folder,
         }

@@ -69,6 +69,24 @@ class Balance:
 
 
 @dataclass(frozen=True, slots=True)
+class Drift:
+    """A first integral in a run: its `value` at the start, how far it went from that, in `unit`.
+
+    `largest` is the largest size it had, or what it is the sum of.
+    """
+
+    value: float
+    drift: float
+    largest: float
+    unit: str
+
+    @property
+    def relative(self) -> float:
+        """Drift over the largest size; 0 where that is zero."""
+        return self.drift / self.largest if self.largest > 0 else 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Figures:
     """What the run took: accepted and rejected steps, evaluations, wall time of the kernel (s).
 
@@ -147,6 +165,24 @@ class Result(Mapping[str, Floats]):
 
     def __len__(self) -> int:
         return len(self._values) + 1
+
+    @property
+    def first_integrals(self) -> dict[str, Drift]:
+        """What the motion keeps, by its name in the report, with its drift on the output grid.
+
+        Integrals that are known for the default parameters only are left out where these differ.
+        """
+        own = [p.default == self.parameters[p.name] for p in self.program.parameters]
+        found: dict[str, Drift] = {}
+        for one in self.program.first_integrals:
+            if not (one.always or all(own)):
+                continue
+            parts = [self[name] for name in one.variables]
+            values = np.sum(parts, axis=0)
+            largest = max(float(np.max(np.abs(part))) for part in parts)
+            drift = float(np.max(np.abs(values - values[0])))
+            found[one.text] = Drift(float(values[0]), drift, largest, one.unit.name)
+        return found
 
     def at(self, t: float | Floats) -> Values:
         """Values at time t (s), or at each of an array of times; ValueError outside the run."""
@@ -235,7 +271,13 @@ class Result(Mapping[str, Floats]):
                 f"  at {figures.unsearched} instants one motion was found; with so many contacts, "
                 "others were not looked for"
             )
+        kept = [
+            f"  kept to {drift.drift:.1e} of {drift.largest:.6g} {drift.unit}: {name}"
+            for name, drift in self.first_integrals.items()
+            if name != "energy"
+        ]
         if not self.program.balanced:
+            lines += kept
             if balance.dissipated > 0:
                 lines.append(f"  dissipated in friction {balance.dissipated:.6g} J")
             return "\n".join(lines)
@@ -243,6 +285,7 @@ class Result(Mapping[str, Floats]):
             f"  energy balance: {balance.residual:.2e} J, {balance.relative:.1e} of "
             f"{balance.scale:.6g} J (dissipated {balance.dissipated:.6g} J)"
         )
+        lines += kept
         # Where nothing ever moves, all energies are rounding, and so is their balance.
         kinetic = self.get("energy.kinetic")
         moved = kinetic is None or bool(np.any(kinetic))

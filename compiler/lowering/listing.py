@@ -20,6 +20,10 @@ from frot.dsl.checked import Body, CurvePlace, Liaison, Variable
 from frot.dsl.names.members import parameter_type
 from frot.dsl.quantities.dimensions import Dimension, dimension
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from frot.compiler.report.first_integrals import FirstIntegral
+
 AXES = ("x", "y", "z")
 
 
@@ -42,14 +46,32 @@ RATE, RATE_OF_RATE, NUMBER = dimension(s=-1), dimension(s=-2), dimension()
 FORCE, ENERGY, POWER = dimension(m=1, kg=1, s=-2), dimension(2, 1, -2), dimension(2, 1, -3)
 
 
-def list_variables(system: Assembled, looking: Lowering) -> tuple[Listed, ...]:
+MOST_INTEGRALS = 16
+
+
+def integral_name(number: int) -> str:
+    """The variable of a first integral, numbered from 1."""
+    return f"first_integrals[{number}]"
+
+
+def listed_integrals(integrals: tuple[FirstIntegral, ...]) -> tuple[FirstIntegral, ...]:
+    """Those with a variable of their own: the energy has those of its parts."""
+    return tuple(x for x in integrals if x.text != "energy")[:MOST_INTEGRALS]
+
+
+def list_variables(
+    system: Assembled, looking: Lowering, integrals: tuple[FirstIntegral, ...] = ()
+) -> tuple[Listed, ...]:
     """Modes first, in the kernel's order; then outputs, variables, bodies, liaisons, energies.
+
+    Last the first integrals.
 
     A name that occurs twice (an output called as a body's variable) keeps its first meaning.
     """
     seen: set[str] = set()
     variables: list[Listed] = []
-    for variable in _all(system, looking):
+    whole = itertools.chain(_all(system, looking), _of_integrals(integrals))
+    for variable in whole:
         if variable.name not in seen:
             seen.add(variable.name)
             variables.append(variable)
@@ -94,6 +116,11 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
     yield Listed("energy.potential", reduced.potential, ENERGY, "gravity, springs, attractions")
     yield Listed("energy.dissipated", dissipated, ENERGY, "lost in friction since the start")
     yield Listed("energy.work", work, ENERGY, "work done by the other forces since the start")
+
+
+def _of_integrals(integrals: tuple[FirstIntegral, ...]) -> Iterator[Listed]:
+    for k, one in enumerate(listed_integrals(integrals)):
+        yield Listed(integral_name(k + 1), one.value, one.dimension, f"constant: {one.text}")
 
 
 def _components(name: str, value: ca.SX) -> Iterator[tuple[str, ca.SX]]:

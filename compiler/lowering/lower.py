@@ -27,6 +27,10 @@ from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.mechanics.supports import Carried, carried_bodies
 from frot.dsl import Log
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from frot.compiler.report.first_integrals import FirstIntegral
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lowered:
@@ -55,28 +59,37 @@ class Lowered:
     dependent: tuple[bool, ...]
     jacobian: Jacobian | None
     watched: tuple[Origin, ...]
+    integrals: tuple[FirstIntegral, ...]
 
 
-def lower(system: Assembled, grouping: Grouping, log: Log) -> Lowered | None:
-    """Build every function; what cannot be built is reported."""
-    reduced = system.reduced
-    s, resolve = reduced.symbols, system.resolve
-    explicit, chains = make_explicit(system), reduced.text.chains
-    settled = reduced.variables.settled
+def looking_at(system: Assembled, log: Log) -> tuple[Lowering, Callable[[ca.SX], ca.SX]]:
+    """Lowers what is only looked at; with it, what writes out the formulas of unknowns."""
+    reduced, explicit = system.reduced, make_explicit(system)
+    chains, settled = reduced.text.chains, reduced.variables.settled
 
     def formula(value: ca.SX) -> ca.SX:
-        return explicit(resolve(settled(value)))
+        return explicit(system.resolve(settled(value)))
 
     looking = Lowering(
-        s,
+        reduced.symbols,
         reduced.variables.quantity,
         lambda value: chains.rate(formula(value)),
         log,
         variable=reduced.text.values.__getitem__,
         without_rate=lambda value: chains.without_rate(formula(value)),
     )
+    return looking, explicit
+
+
+def lower(
+    system: Assembled, grouping: Grouping, log: Log, integrals: tuple[FirstIntegral, ...] = ()
+) -> Lowered | None:
+    """Build every function; what cannot be built is reported. `integrals` are listed too."""
+    reduced = system.reduced
+    s, resolve, settled = reduced.symbols, system.resolve, reduced.variables.settled
+    looking, explicit = looking_at(system, log)
     initial = lower_initial(system, looking, log)
-    variables = list_variables(system, looking)
+    variables = list_variables(system, looking, integrals)
     conditions, timers = sort_conditions(system, _conditions(system, explicit, log))
     watched, watched_origins = watch_numbers(system)
     checks = parameter_checks(reduced.mechanism, s.parameters, system.pivots)
@@ -165,6 +178,7 @@ def lower(system: Assembled, grouping: Grouping, log: Log) -> Lowered | None:
         dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
         jacobian=jacobian,
         watched=tuple(watched_origins),
+        integrals=integrals,
     )
 
 

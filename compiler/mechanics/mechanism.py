@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -196,20 +197,6 @@ class Mechanism:
         return moved
 
 
-@dataclass(frozen=True, slots=True)
-class Mobility:
-    """Counts for the report: freedoms of the bodies, relations, and what is left."""
-
-    freedoms: int
-    bilateral: int
-    unilateral: int
-
-    @property
-    def degrees_of_freedom(self) -> int:
-        """Freedoms less bilateral relations, which is exact where these are independent."""
-        return self.freedoms - self.bilateral
-
-
 def is_unilateral(liaison: Liaison) -> bool:
     """Whether the liaison may part at all (its option is not the word `false`)."""
     from frot.dsl.checked import Literal
@@ -218,36 +205,63 @@ def is_unilateral(liaison: Liaison) -> bool:
     return not (isinstance(option, Literal) and option.value is False)
 
 
-def mobility(mechanism: Mechanism) -> Mobility:
-    """Count freedoms and relations (planar: 3 a body, 2 a particle; space: 3 l + 5 m + 6 n)."""
-    model = mechanism.model
-    liaisons = model.liaisons
-    freedoms = sum(freedoms_of(b, model.planar) for b in model.bodies)
-    unilateral = [x for x in liaisons if is_unilateral(x)]
-    relations = {x: relations_of(x, model.planar) for x in liaisons}
-    for link in mechanism.contacts:
-        # what touches along a line keeps more than the table says of its kind
-        joint = link.joint if isinstance(link, Relation) else link
-        if isinstance(joint, Joint) and not joint.carries and joint.liaison in relations:
-            relations[joint.liaison] = len(joint.locks)
-    return Mobility(
-        freedoms,
-        sum(n for x, n in relations.items() if x not in unilateral),
-        sum(n for x, n in relations.items() if x in unilateral),
-    )
+def is_slender(body: Body, model: Model) -> bool:
+    """Whether nothing gives inertia to, or sees, a turn about the body's own x axis."""
+    if body.shape is None or body.shape.name != "rod" or "inertia" in body.arguments:
+        return False
+    own = [
+        x
+        for x in model.liaisons
+        for place in (x.a, x.b)
+        if isinstance(place, BodyPoint | Frame) and point_body(place) is body
+    ]
+    return all(x.kind.name in _OF_POINTS for x in own)
 
 
-def freedoms_of(body: Body, planar: bool) -> int:
-    """The number of speeds of the body alone."""
+# Liaisons that hold a point and leave every orientation.
+_OF_POINTS = (
+    *("spherique", "lineaire_annulaire", "tige", "fil", "point_courbe", "point_surface"),
+    "contact_ponctuel",
+)
+
+
+def freedoms_of(body: Body, model: Model) -> int:
+    """The number of speeds of the body alone: 3, 5 or 6 in space, 2 or 3 in the plane.
+
+    A rod has five where nothing sees its turn about itself (P. Painlevé 1895, p. 32), else six.
+    """
     if body.shape is None:
         return 0
-    return body.shape.freedoms_planar if planar else body.shape.freedoms_space
+    if model.planar:
+        return body.shape.freedoms_planar
+    return body.shape.freedoms_space if is_slender(body, model) or not _is_rod(body) else 6
 
 
-def relations_of(liaison: Liaison, planar: bool) -> int:
-    """The number of scalar relations of a liaison."""
-    kind = liaison.kind
-    return (kind.relations_planar or 0) if planar else kind.relations_space
+def _is_rod(body: Body) -> bool:
+    return body.shape is not None and body.shape.name == "rod"
+
+
+def relations_of(mechanism: Mechanism) -> dict[Liaison, int]:
+    """The number of scalar relations of each liaison of the text, in its order.
+
+    With those that prescribe a coordinate, by a value of time or by an equation.
+    """
+    found: dict[Liaison, int] = dict.fromkeys(mechanism.model.liaisons, 0)
+    for link in (*mechanism.contacts, *mechanism.ideal):
+        joint = link.joint if isinstance(link, Relation) else link
+        if joint.liaison in found:
+            found[joint.liaison] = len(joint.locks) if isinstance(joint, Joint) else 1
+    for liaison, count in prescribed(mechanism).items():
+        found[liaison] += count
+    return found
+
+
+def prescribed(mechanism: Mechanism) -> Counter[Liaison]:
+    """How many coordinates of each liaison equations prescribe."""
+    flanges = mechanism.model.flanges
+    return Counter(
+        x.liaison for x in flanges if x.effort.name.startswith(f"{x.liaison.name}.drive.")
+    )
 
 
 def point_body(point: Point) -> Body:

@@ -56,7 +56,7 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     if log.failed:
         return None
     model = free_drives(model)
-    links = [e for x in model.liaisons if (e := _link(x, model.planar, log)) is not None]
+    links = [e for x in model.liaisons if (e := link_of(x, model.planar, log)) is not None]
     refuse_surface(model, links, log)
     if log.failed:
         return None
@@ -110,7 +110,8 @@ def _law(liaison: Liaison, kind: str) -> Law | None:
     return next((law for law in liaison.laws if law.kind.name == kind), None)
 
 
-def _link(liaison: Liaison, planar: bool, log: Log) -> Contact | Joint | None:
+def link_of(liaison: Liaison, planar: bool, log: Log) -> Contact | Joint | None:
+    """What a liaison joins and how, kept by nothing yet; None where that is reported."""
     if liaison.relations:
         return _stated(liaison, planar, log)
     if liaison.kind.name in JOINTS:

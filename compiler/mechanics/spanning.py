@@ -11,6 +11,7 @@ from frot.compiler.mechanics.mechanism import (
     Hanging,
     Joint,
     Point,
+    is_slender,
     is_unilateral,
     point_body,
     turns,
@@ -29,7 +30,7 @@ from frot.compiler.mechanics.motions import (
     Turn,
     bare,
 )
-from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Model
+from frot.dsl.checked import Body, Liaison, Model
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -154,19 +155,7 @@ class _Builder:
             return Steady()
         if self.model.planar:
             return Heading()
-        return Pointing() if self._is_slender(body) else Attitude()
-
-    def _is_slender(self, body: Body) -> bool:
-        """Whether nothing gives inertia to, or sees, a turn about the own x axis."""
-        if body.shape is None or body.shape.name != "rod" or "inertia" in body.arguments:
-            return False
-        own = [
-            x
-            for x in self.model.liaisons
-            for place in (x.a, x.b)
-            if isinstance(place, BodyPoint | Frame) and point_body(place) is body
-        ]
-        return all(x.kind.name in _OF_POINTS for x in own)
+        return Pointing() if is_slender(body, self.model) else Attitude()
 
     def _named(
         self,
@@ -185,13 +174,6 @@ class _Builder:
             rates = [f"der({owner}.{name})" for name in motion.coordinates]
             speeds += [f"{owner}.{name}" for name in motion.speeds] or rates
         return Hanging(body, link, base, own, motions, tuple(names), tuple(speeds))
-
-
-# Liaisons that hold a point and leave every orientation.
-_OF_POINTS = (
-    *("spherique", "lineaire_annulaire", "tige", "fil", "point_courbe", "point_surface"),
-    "contact_ponctuel",
-)
 
 
 def reverse(motion: Motion) -> Motion:

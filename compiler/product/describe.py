@@ -5,14 +5,23 @@ from __future__ import annotations
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from frot.compiler.lowering.listing import integral_name, listed_integrals
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.product.units import unit_of
+from frot.compiler.report.first_integrals import FirstIntegral
 from frot.compiler.toolchain.compilers import FLAGS, Toolchain
 from frot.dsl import default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
 from frot.dsl.quantities.dimensions import dimension
-from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo
+from frot.runtime.program import (
+    ExperimentInfo,
+    IntegralInfo,
+    ParameterInfo,
+    Program,
+    Unit,
+    VariableInfo,
+)
 
 # An older installation has no metadata while it is being built.
 try:
@@ -55,6 +64,21 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
         conditions=tuple(reduced.conditions.texts),
         fixed=tuple((p.name, p.structural) for p in model.parameters if p.structural),
         file=file,
+        first_integrals=_integrals(lowered.integrals),
+    )
+
+
+def _integrals(integrals: tuple[FirstIntegral, ...]) -> tuple[IntegralInfo, ...]:
+    listed = listed_integrals(integrals)
+    found = [
+        IntegralInfo(x.text, (integral_name(k + 1),), unit_of(x.dimension), x.always)
+        for k, x in enumerate(listed)
+    ]
+    energy = [x for x in integrals if x.text == "energy"]
+    parts = ("energy.kinetic", "energy.potential")
+    return (
+        *(IntegralInfo(x.text, parts, unit_of(x.dimension), x.always) for x in energy),
+        *found,
     )
 
 

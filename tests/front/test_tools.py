@@ -171,7 +171,9 @@ class TestCheck:
         assert report["bodies"] == [{"name": "block", "shape": "particle", "freedoms": 2}]
         assert [x["name"] for x in report["liaisons"]] == ["support"]
         assert report["freedoms"] == 2
-        assert report["relations"] == {"bilateral": 1, "unilateral": 0}
+        assert (report["relations"]["bilateral"], report["relations"]["unilateral"]) == (1, 0)
+        assert report["relations"]["by_class"] == {"1": 1}
+        assert (report["hyperstatic"], report["loops"], report["first_integrals"]) == (0, [], [])
         assert report["degrees_of_freedom"] == 1
 
     def test_messages_as_data(self, door: Door) -> None:

@@ -1,0 +1,253 @@
+"""What numbers tell of a mechanism: freedoms, redundant relations, integrals, paradoxes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.mechanics.free import free
+from frot.compiler.mechanics.mechanism import (
+    Link,
+    Mechanism,
+    is_unilateral,
+    relations_of,
+)
+from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.report.candidates import place_body
+from frot.compiler.report.cure import find_cure
+from frot.compiler.report.first_integrals import find_first_integrals
+from frot.compiler.report.holonomy import non_holonomic
+from frot.compiler.report.paradox import find_paradoxes
+from frot.compiler.report.redundancy import Loop, find_loops, find_ranks
+from frot.compiler.report.relations import make_relations
+from frot.compiler.report.start import Start, find_start, may_part, posture_of
+from frot.dsl import default_values
+from frot.dsl.checked import Body, Liaison
+
+# Ranks of more relations than these take long: they are counted, and nothing more is said.
+MOST_RELATIONS = 1200
+
+
+@dataclass(frozen=True, slots=True)
+class LoopLine:
+    """Liaisons that keep what others keep: `degree` too many, in the loop `path` (ground, A, ...).
+
+    `undetermined`: how many components of each one's reaction equilibrium does not tell. `cure`:
+    liaisons and what they may be replaced by ("" where they may be left out); `left` relations are
+    too many still.
+    """
+
+    degree: int
+    path: tuple[str, ...]
+    undetermined: tuple[tuple[str, int], ...]
+    cure: tuple[tuple[str, str], ...]
+    left: int
+
+
+@dataclass(frozen=True, slots=True)
+class IntegralLine:
+    """A first integral in words; `always`: for all parameters, else at their defaults."""
+
+    text: str
+    always: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ParadoxLine:
+    """A liaison with friction `mu` that may have no motion, or several, from a coefficient on.
+
+    From `at_start` at the posture of the start, from `least` in the worst posture that was found,
+    which has the coordinates `where`; None is: at no coefficient, or not looked for.
+    """
+
+    liaison: str
+    mu: float
+    at_start: float | None
+    least: float | None
+    where: tuple[tuple[str, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Analysis:
+    """What is found; `found`: whether the posture of the start was, without which little is said.
+
+    It is not looked for where figures touch that have no closed form.
+
+    `independent` relations in general position near the start, `independent_at_start` there;
+    `touching` contacts touch at the start, `touching_independent` of them independently.
+    `holonomic` of the liaisons with relations between velocities: None where it was not looked at.
+    """
+
+    found: bool
+    independent: int
+    independent_at_start: int
+    touching: int
+    touching_independent: int
+    loops: tuple[LoopLine, ...]
+    holonomic: tuple[tuple[str, bool | None], ...]
+    integrals: tuple[IntegralLine, ...] = ()
+    paradoxes: tuple[ParadoxLine, ...] = ()
+
+
+def analyse(system: Assembled) -> Analysis:
+    """Look at the mechanism of a system."""
+    reduced = system.reduced
+    mechanism = reduced.mechanism
+    whole = _count(mechanism)
+    if reduced.variables.kinematics.tracks:
+        return Analysis(False, whole, whole, 0, 0, (), ())
+    start = find_start(system)
+    if start is None or not start.found:
+        return Analysis(False, whole, whole, 0, 0, (), ())
+    found = _Found()
+    for part in _parts(mechanism):
+        _look(part, system, start, found)
+    integrals = find_first_integrals(reduced, start.posture)
+    return Analysis(
+        found=True,
+        independent=whole - found.dependent,
+        independent_at_start=whole - found.dependent_at_start,
+        touching=found.touching,
+        touching_independent=found.touching_independent,
+        loops=tuple(found.loops),
+        holonomic=tuple(found.holonomic),
+        integrals=tuple(IntegralLine(x.text, x.always) for x in integrals),
+        paradoxes=tuple(_paradoxes(reduced, start)),
+    )
+
+
+@dataclass(slots=True)
+class _Found:
+    """What the parts of a mechanism add up to."""
+
+    dependent: int = 0
+    dependent_at_start: int = 0
+    touching: int = 0
+    touching_independent: int = 0
+    loops: list[LoopLine] = field(default_factory=list)
+    holonomic: list[tuple[str, bool | None]] = field(default_factory=list)
+
+
+def _count(mechanism: Mechanism) -> int:
+    """All relations that always hold."""
+    return sum(n for x, n in relations_of(mechanism).items() if not is_unilateral(x))
+
+
+def _ends(liaison: Liaison) -> tuple[Body, Body]:
+    return place_body(liaison.a), place_body(liaison.b)
+
+
+def looped(mechanism: Mechanism) -> list[Liaison]:
+    """The liaisons whose relations may depend on others.
+
+    One by which a body hangs that nothing else holds is left out, and so on from the ends of trees.
+    """
+    left = {x: _ends(x) for x in mechanism.model.liaisons}
+    simple = {
+        x for x in left if not (x.relations or x.kind.name == "roulement" or is_unilateral(x))
+    }
+    while True:
+        held: dict[Body, list[Liaison]] = {}
+        for liaison, ends in left.items():
+            for body in set(ends):
+                held.setdefault(body, []).append(liaison)
+        leaves = {
+            own[0]
+            for body, own in held.items()
+            if body.shape is not None and len(own) == 1 and own[0] in simple
+        }
+        if not leaves:
+            return list(left)
+        for liaison in leaves:
+            del left[liaison]
+
+
+def _parts(mechanism: Mechanism) -> Iterator[list[Liaison]]:
+    """Liaisons in the groups that bodies, but for the ground, connect; those that part together."""
+    wanted = looped(mechanism)
+    parting: list[Liaison] = []
+    while wanted:
+        part = _connected(wanted[0], wanted)
+        inside = set(part)
+        wanted = [x for x in wanted if x not in inside]
+        if all(is_unilateral(x) for x in part):
+            parting += part
+        else:
+            yield part
+    if parting:
+        yield parting
+
+
+def _look(part: list[Liaison], system: Assembled, start: Start, found: _Found) -> None:
+    """Ranks in general position and at the start, loops, holonomy of one part."""
+    mechanism = system.reduced.mechanism
+    counts = relations_of(mechanism)
+    if sum(counts[x] for x in part) > MOST_RELATIONS:
+        return
+    freed = free(mechanism, part)
+    relations = make_relations(freed, _parting(freed))
+    if relations is None:
+        return
+    here = posture_of(relations, system, start)
+    relations = relations.measured(here)
+    closed = {
+        link.liaison: bool(touches)
+        for link, touches in zip(mechanism.contacts, start.closed, strict=True)
+    }
+    touching = {x: closed.get(x.liaison, False) for x in freed.contacts}
+    ranks = find_ranks(relations, here, touching)
+    found.dependent += ranks.count - ranks.general
+    found.dependent_at_start += ranks.count - ranks.start
+    found.touching += ranks.touching - ranks.count
+    found.touching_independent += ranks.touching_rank - ranks.start
+    for loop in find_loops(relations, ranks.posture):
+        cure = find_cure(relations, ranks.posture, loop)
+        found.loops.append(
+            LoopLine(
+                loop.degree,
+                tuple(_path(loop)),
+                tuple((x.name, n) for x, n in zip(loop.liaisons, loop.spare, strict=True)),
+                tuple((x.liaison.name, x.kind) for x in cure.changes),
+                cure.left,
+            )
+        )
+    for one, broken in non_holonomic(relations, ranks.posture).items():
+        found.holonomic.append((one.name, None if broken is None else not broken))
+
+
+def _parting(mechanism: Mechanism) -> dict[Link, bool]:
+    values = default_values(mechanism.model, {})
+    return {x: may_part(x, values) for x in mechanism.contacts}
+
+
+def _path(loop: Loop) -> Iterator[str]:
+    """Round a simple loop, body and liaison in turn; else all bodies, then all liaisons."""
+    around = len(loop.bodies) == len(loop.liaisons)
+    if not around:
+        yield from (b.name for b in loop.bodies)
+        return
+    for body, liaison in zip(loop.bodies, loop.liaisons, strict=True):
+        yield from (body.name, liaison.name)
+    yield loop.bodies[0].name
+
+
+def _connected(liaison: Liaison, among: list[Liaison]) -> list[Liaison]:
+    """The liaisons that bodies, but for the ground, connect with one."""
+    bodies = {b for b in _ends(liaison) if b.shape is not None}
+    while True:
+        more = {b for x in among if bodies & set(_ends(x)) for b in _ends(x) if b.shape is not None}
+        if more <= bodies:
+            return [x for x in among if bodies & set(_ends(x))]
+        bodies |= more
+
+
+def _paradoxes(reduced: Reduced, start: Start) -> Iterator[ParadoxLine]:
+    for one in find_paradoxes(reduced, start.posture):
+        yield ParadoxLine(
+            one.liaison.name,
+            one.mu,
+            one.start if one.start < float("inf") else None,
+            one.least if one.least is not None and one.least < float("inf") else None,
+            one.where,
+        )

@@ -1,0 +1,136 @@
+"""What would make a loop isostatic: liaisons that lock less, and still let nothing else move."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from frot.compiler.mechanics.joints import JOINTS, Pairing, make_joint
+from frot.compiler.mechanics.locks import LEFT, WayAlong
+from frot.compiler.mechanics.mechanism import Joint, Link, Relation
+from frot.compiler.mechanics.motions import Axis
+from frot.compiler.report.redundancy import Loop
+from frot.compiler.report.relations import Posture, Relations, make_relations, rank
+from frot.dsl.checked import Expression, Liaison
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Change:
+    """A liaison to be replaced: by `kind`, or to be left out where that is empty."""
+
+    liaison: Liaison
+    kind: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cure:
+    """Changes that take away redundant relations and no others; `left` are still too many."""
+
+    changes: tuple[Change, ...]
+    left: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Option:
+    """What a liaison may become, and the options of the other whose axis it keeps."""
+
+    kind: str
+    axes: tuple[tuple[str, str, str], ...] = ()
+
+
+_KEEPS_AXIS = (("axis", "axis", "z"),)
+_KEEPS_SLIDE = (("axis", "axis", "x"),)
+# Those that lock least less first stand last: engineers keep what guides.
+_SOFTER: Mapping[str, tuple[_Option, ...]] = {
+    "rotoide": (
+        _Option("spherique"),
+        _Option("verrou", _KEEPS_AXIS),
+        _Option("lineaire_annulaire", _KEEPS_AXIS),
+    ),
+    "prismatique": (
+        _Option("verrou", _KEEPS_SLIDE),
+        _Option("lineaire_annulaire", _KEEPS_SLIDE),
+    ),
+    "verrou": (_Option("lineaire_annulaire", _KEEPS_AXIS),),
+    "cardan": (_Option("spherique"),),
+    "encastrement": (_Option("spherique"),),
+    "appui_plan": (_Option("point_surface", (("axis", "normal", "z"),)),),
+}
+_PLANAR: Mapping[str, tuple[_Option, ...]] = {
+    "rotoide": (_Option("point_courbe along x"), _Option("point_courbe along y")),
+    "encastrement": (_Option("rotoide"),),
+}
+
+
+def find_cure(relations: Relations, posture: Posture, loop: Loop) -> Cure:
+    """Liaisons of the loop that may lock less, one after another, until nothing is too much.
+
+    A change counts where the relations that are left still make up all that the loop keeps.
+    """
+    inside = set(loop.liaisons)
+    rows = {k: x.liaison for k, x in enumerate(relations.links) if x.liaison in inside}
+    offered = [
+        (x, kind, locks)
+        for x in sorted(loop.liaisons, key=lambda one: bool(one.laws))
+        for kind, locks in _offers(x, relations)
+    ]
+    extra = tuple(lock for _, _, locks in offered for lock in locks)
+    more = replace(relations.mechanism, contacts=(*relations.links, *extra))
+    whole = make_relations(more, dict.fromkeys(more.contacts, False))
+    assert whole is not None
+    whole = replace(whole, size=relations.size)
+    sides = np.concatenate([posture.sides, np.ones(len(extra))])
+    values = whole.scaled(whole.at(replace(posture, sides=sides)).rows)
+    count = len(relations.links)
+    own = {x: [k for k, y in rows.items() if y is x] for x in loop.liaisons}
+    needed = rank(values[list(rows)])
+    left = len(rows) - needed
+    changes: list[Change] = []
+    changed: set[Liaison] = set()
+    for liaison, kind, locks in offered:
+        places = list(range(count, count + len(locks)))
+        count += len(locks)
+        saved = len(own[liaison]) - len(places)
+        if liaison in changed or not 0 < saved <= left:
+            continue
+        after = [r for x, r in own.items() if x is not liaison]
+        chosen = [*(k for some in after for k in some), *places]
+        if rank(values[chosen]) < needed:
+            continue
+        changed.add(liaison)
+        own[liaison], left = places, left - saved
+        changes.append(Change(liaison, kind))
+    return Cure(tuple(changes), left)
+
+
+def _offers(liaison: Liaison, relations: Relations) -> Iterator[tuple[str, list[Link]]]:
+    """What may take the place of a liaison, best first, with its relations."""
+    link = next(x for x in relations.links if x.liaison is liaison)
+    if liaison.driven or not isinstance(link, Relation):
+        if not liaison.driven:
+            yield "", []
+        return
+    joint, planar = link.joint, relations.mechanism.model.planar
+    for option in (_PLANAR if planar else _SOFTER).get(liaison.kind.name, ()):
+        yield option.kind, _relations(joint, _pairing(option, liaison.options, planar))
+    if len(joint.locks) == 1:
+        yield "", []
+
+
+def _pairing(option: _Option, given: Mapping[str, Expression], planar: bool) -> Pairing:
+    axes = {new: given.get(old, default) for new, old, default in option.axes}
+    axis = Axis(axes.get("axis", "z"))
+    match option.kind.split(" "):
+        case ["lineaire_annulaire"]:
+            return Pairing((), (WayAlong(axis, 0), WayAlong(axis, 1)))
+        case ["point_surface"]:
+            return Pairing((), (WayAlong(axis),))
+        case ["point_courbe", _, way]:
+            return Pairing((), (WayAlong(Axis(way), LEFT),))
+    return JOINTS[option.kind](axes, planar)  # type: ignore[arg-type]
+
+
+def _relations(joint: Joint, pairing: Pairing) -> list[Link]:
+    other = make_joint(joint.liaison, joint.a, joint.b, replace(pairing, motions=()), {})
+    return [Relation(other, lock, k == 0) for k, lock in enumerate(other.locks)]

@@ -1,0 +1,191 @@
+"""From which coefficient of friction a liaison may have no motion, or several (P. Painlevé 1895).
+
+A reaction N bounds the friction f that acts with it, and friction changes the reaction:
+N = N0 + c f with everything else held. With f = mu |N| against the slip this has one solution,
+whatever N0 is, as long as mu |c| < 1. Of a contact c = (n M^-1 t)/(n M^-1 n), so that
+n M^-1 (n - mu t) = 0 at the coefficient named here; of a pin, whose couple is mu r |R|, c is
+|dR/df| and r counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import casadi as ca
+import numpy as np
+from frot.compiler.lowering.symbols import scalars_of
+from frot.compiler.mechanics.mechanism import Contact, is_unilateral
+from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.report.dynamics import Dynamics, State, closes, make_dynamics
+from frot.compiler.report.relations import Floats, Posture
+from frot.dsl.checked import Liaison
+from numpy.typing import NDArray
+
+# Of mu c: friction that does not change its reaction.
+_NONE = 1e-9
+_MOST_SPEEDS, _MOST_LIAISONS = 8, 4
+_DRAWN = 12
+# Of the steps uphill (rad, m).
+_FIRST, _LAST = 0.3, 1e-3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Paradox:
+    """A liaison whose friction may leave no motion, or several, from a coefficient on.
+
+    `start`: from which one at the posture of the start, `least` in the worst posture that was found
+    (None where none was looked for), `where` its coordinates that matter; `mu` is the coefficient
+    that the text has at the start. Infinite: at none.
+    """
+
+    liaison: Liaison
+    mu: float
+    start: float
+    least: float | None
+    where: tuple[tuple[str, float], ...] = ()
+
+
+def find_paradoxes(reduced: Reduced, start: Posture) -> tuple[Paradox, ...]:
+    """Liaisons with friction in which a paradox is possible, each with the others frictionless.
+
+    Contacts that may part are looked at one by one, the others open.
+    """
+    links = reduced.mechanism.contacts
+    dry = [k for k, x in enumerate(links) if x.mu is not None]
+    if not (dry and reduced.symbols.v.numel()):
+        return ()
+    dynamics = make_dynamics(reduced)
+    state = _still(dynamics, start)
+    wide = reduced.symbols.v.numel() <= _MOST_SPEEDS and len(dry) <= _MOST_LIAISONS
+    found: list[Paradox] = []
+    for k in dry:
+        one = _Watched(dynamics, k)
+        here = one.coupling(state)
+        mu = one.coefficient(state)
+        worst = one.worst(state) if wide and here is not None else None
+        least = None if worst is None else _inverse(worst[0])
+        at_start = np.inf if here is None else _inverse(here)
+        if min(at_start, np.inf if least is None else least) < np.inf:
+            where = () if worst is None else tuple(one.posture(worst[1]))
+            found.append(Paradox(links[k].liaison, mu, at_start, least, where))
+    return tuple(found)
+
+
+def _inverse(coupling: float) -> float:
+    return 1 / coupling if coupling > _NONE else float("inf")
+
+
+def _still(dynamics: Dynamics, start: Posture) -> State:
+    nothing = np.zeros(dynamics.others.numel())
+    v = np.zeros(dynamics.reduced.symbols.v.numel())
+    return State(start.t, start.q, v, start.u, start.p, start.sides, nothing)
+
+
+class _Watched:
+    """One liaison with friction."""
+
+    def __init__(self, dynamics: Dynamics, index: int) -> None:
+        reduced = dynamics.reduced
+        links = reduced.mechanism.contacts
+        self.dynamics, self.link = dynamics, links[index]
+        self.rows = reduced.contact_rows[index]
+        self.used: NDArray[np.bool_] = np.array(
+            [
+                closes(x) and (k == index or not is_unilateral(x.liaison))
+                for k, x in enumerate(links)
+            ]
+        )
+        radius = getattr(self.link, "radius", None)
+        self.radius = (
+            ca.SX(1) if radius is None else reduced.variables.kinematics.fixed.lower(radius)
+        )
+        before = sum(1 for x in links[:index] for law in (x.mu, x.delta) if law is not None)
+        self.alone = not self.dynamics.held(self.used & (np.arange(len(links)) != index))
+        self._numbers = ca.Function(
+            "coefficient",
+            dynamics.arguments,
+            [reduced.coefficients[2 * before], self.radius],
+        )
+
+    def coefficient(self, state: State) -> float:
+        """That of the text."""
+        value, radius = (float(x) for x in self._numbers(*state.arguments))
+        return value / radius if radius else float("nan")
+
+    def coupling(self, state: State) -> float | None:
+        """The |c| of the liaison, times the radius of a pin."""
+        (mass, rows), held = self.dynamics.masses(state), self.dynamics.held(self.used)
+        nv = self.dynamics.reduced.symbols.v.numel()
+        push = rows[self.rows.tangent]
+        solved = _response(mass[:nv, :nv], rows[held, :nv], push[:nv])
+        if solved is None:
+            return None
+        acceleration, reactions = solved
+        _, radius = (float(x) for x in self._numbers(*state.arguments))
+        if isinstance(self.link, Contact) and not self.link.reduced:
+            return abs(float(reactions[held.index(self.rows.reaction[0])])) * radius
+        read = mass[nv:, :nv] @ acceleration - rows[held, nv:].T @ reactions - push[nv:]
+        places = [int(np.argmax(np.abs(rows[r, nv:]))) for r in self.rows.reaction]
+        return float(np.linalg.norm(read[places])) * radius
+
+    def worst(self, state: State) -> tuple[float, State] | None:
+        """The posture with the largest |c| that is found: uphill from the best of some."""
+        random = np.random.default_rng(5)
+        drawn = (state.q + 2 * random.standard_normal(state.q.size) for _ in range(_DRAWN))
+        best = max((self._at(state, q) for q in drawn), key=lambda x: x[0])
+        telling = [k for k in range(state.q.size) if self._matters(best, k)]
+        step = _FIRST
+        while step > _LAST:
+            before = best[0]
+            for k in telling:
+                for way in (step, -step):
+                    q = best[1].q.copy()
+                    q[k] += way
+                    best = max(best, self._at(best[1], q), key=lambda x: x[0])
+            if best[0] <= before:
+                step /= 2
+        return best if best[0] >= 0 else None
+
+    def _at(self, state: State, q: Floats) -> tuple[float, State]:
+        """The |c| at the posture near `q` that the relations allow, -1 where there is none."""
+        there = self.dynamics.allowed(replace(state, q=q), self.used)
+        value = None if there is None else self.coupling(there)
+        if there is None or value is None or not np.isfinite(value):
+            return -1.0, state
+        return value, there
+
+    def _matters(self, best: tuple[float, State], k: int) -> bool:
+        q = best[1].q.copy()
+        q[k] += _FIRST
+        return abs(self._at(best[1], q)[0] - best[0]) > 1e-9 * max(best[0], _NONE)
+
+    def posture(self, state: State) -> Iterator[tuple[str, float]]:
+        """The coordinates on which |c| hangs, angles within a turn; none where loops close."""
+        if not self.alone:
+            return
+        here = self.coupling(state) or 0.0
+        for k, symbol in enumerate(scalars_of(self.dynamics.reduced.symbols.q)):
+            q = state.q.copy()
+            q[k] += 0.1
+            there = self.coupling(replace(state, q=q))
+            if there is not None and abs(there - here) > 1e-6 * max(here, 1.0):
+                name = symbol.name()
+                turns = name.rpartition(".")[2].startswith("angle")
+                value = float(q[k] - 0.1)
+                yield (
+                    name,
+                    float(np.remainder(value + np.pi, 2 * np.pi) - np.pi) if turns else value,
+                )
+
+
+def _response(mass: Floats, rows: Floats, push: Floats) -> tuple[Floats, Floats] | None:
+    """Accelerations and reactions of the held rows under one unit of a push."""
+    try:
+        factor = np.linalg.cholesky(mass)
+    except np.linalg.LinAlgError:
+        return None
+    own = np.linalg.solve(factor, push)
+    even = np.linalg.solve(factor, rows.T)
+    reactions = -np.linalg.lstsq(even, own, rcond=1e-9)[0] if len(rows) else np.zeros(0)
+    return np.linalg.solve(factor.T, own + even @ reactions), reactions

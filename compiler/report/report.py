@@ -1,0 +1,321 @@
+"""What `frot check` says of a mechanism, as data and in words."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from frot.compiler.lowering.walk import has_time, subexpressions
+from frot.compiler.mechanics.mechanism import (
+    Mechanism,
+    Relation,
+    freedoms_of,
+    is_unilateral,
+    relations_of,
+)
+from frot.dsl.checked import (
+    Body,
+    BodyGeometry,
+    BodyPoint,
+    CurvePlace,
+    Equation,
+    Expression,
+    Frame,
+    Input,
+    Liaison,
+    Model,
+    Place,
+    Reference,
+    SurfacePlace,
+)
+from frot.dsl.statements.connections import UNCONNECTED
+from frot.dsl.statements.equations import count
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from frot.compiler.report.analysis import Analysis, LoopLine, ParadoxLine
+
+
+@dataclass(frozen=True, slots=True)
+class LiaisonLine:
+    """One liaison in words: its relations and how they are kept.
+
+    `kinematic` of its relations are between velocities; `holonomic`: whether these are the rates of
+    relations between places all the same, in this mechanism (None: not known); `moves_with_time`:
+    whether they hang on time or inputs.
+    """
+
+    name: str
+    text: str
+    relations: int
+    unilateral: bool
+    kept: str
+    kinematic: int
+    holonomic: bool | None
+    moves_with_time: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Mobility:
+    """Free coordinates of the bodies, their relations by number, and what is left.
+
+    `classes` are the numbers of liaisons that keep one, two, ... relations, of those that always
+    hold. `independent` of these relations are so in general position near the start,
+    `independent_at_start` there. `touching` contacts that may part touch at the start,
+    `touching_independent` of them are independent there.
+    """
+
+    freedoms: int
+    bilateral: int
+    unilateral: int
+    classes: tuple[tuple[int, int], ...]
+    independent: int
+    independent_at_start: int
+    touching: int
+    touching_independent: int
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Of all motions that the relations leave which always hold."""
+        return self.freedoms - self.independent
+
+    @property
+    def hyperstatic(self) -> int:
+        """The number of redundant relations."""
+        return self.bilateral - self.independent
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """Mobility, liaisons and what is constant; `str()` gives the text.
+
+    `bodies` with their shapes and freedoms. `unconnected` are connectors through which nothing
+    flows, because nothing is connected there. `analysis` is None where there are no bodies.
+    """
+
+    model: str
+    world: str
+    unknowns: int
+    equations: int
+    events: int
+    bodies: tuple[tuple[str, str, int], ...]
+    liaisons: tuple[LiaisonLine, ...]
+    mobility: Mobility
+    unconnected: tuple[str, ...] = ()
+    analysis: Analysis | None = None
+
+    def __str__(self) -> str:
+        if not (self.bodies or self.liaisons):
+            return "\n".join([f"{self.model}: equations only", *self._counts()])
+        lines = [
+            f"{self.model}: {self.world}, bodies {len(self.bodies)}, liaisons {len(self.liaisons)}"
+        ]
+        lines += self._mobility()
+        if self.analysis is not None:
+            lines += _found(self.analysis)
+        lines += self._counts()
+        width = max((len(x.name) for x in self.liaisons), default=0)
+        for liaison in self.liaisons:
+            lines.append(f"  {liaison.name:<{width}}  {liaison.text}")
+            lines.append(f"  {'':<{width}}  {_nature(liaison)}; {liaison.kept}")
+        return "\n".join(lines)
+
+    def _mobility(self) -> Iterator[str]:
+        m = self.mobility
+        freedoms = ", ".join(f"{name} {count}" for name, _, count in self.bodies) or "none"
+        kinds = sorted(Counter(n for _, _, n in self.bodies).items())
+        summed = " + ".join(f"{k}*{n}" for k, n in kinds)
+        yield f"  free coordinates        {m.freedoms}" + (f"  = {summed}" if summed else "")
+        yield f"                          {freedoms}"
+        sums = " + ".join(f"{k}*{n}" for k, n in m.classes)
+        yield f"  bilateral relations     {m.bilateral}" + (f"  = {sums}" if sums else "")
+        yield f"  unilateral relations    {m.unilateral}"
+        closed = ""
+        if m.touching:
+            left = m.freedoms - m.independent_at_start - m.touching_independent
+            closed = f"  ({left} with the contacts that touch at the start)"
+        yield f"  degrees of freedom      {m.degrees_of_freedom}{closed}"
+        if m.independent_at_start < m.independent:
+            more = m.freedoms - m.independent_at_start
+            yield f"  singular start          {more} degrees of freedom there"
+        if m.touching > m.touching_independent:
+            spare = m.touching - m.touching_independent
+            yield f"  hyperstatic contacts    {spare} of the {m.touching} that touch at the start"
+
+    def _counts(self) -> list[str]:
+        """The line on the text's own equations, where there are some."""
+        if not (self.unknowns or self.equations or self.events):
+            return []
+        events = f", events {self.events}" if self.events else ""
+        lines = [f"  variables {self.unknowns}, equations {self.equations}{events}"]
+        if self.unconnected:
+            lines.append(f"  connected to nothing: {', '.join(self.unconnected)}")
+        return lines
+
+
+def _found(analysis: Analysis) -> Iterator[str]:
+    """What numbers tell, in words."""
+    if not analysis.found:
+        yield "  no more is told: the start was not found, or touching figures are followed"
+        return
+    for loop in analysis.loops:
+        yield from _loop(loop)
+    texts = [
+        x.text if x.always else f"{x.text} (with these parameters)" for x in analysis.integrals
+    ]
+    yield f"  first integrals         {texts[0] if texts else 'none found'}"
+    yield from (f"                          {text}" for text in texts[1:])
+    for k, paradox in enumerate(analysis.paradoxes):
+        yield f"  {'paradox possible' if k == 0 else '':<22}  {_paradox(paradox)}"
+
+
+def _loop(loop: LoopLine) -> Iterator[str]:
+    too_many = f"{loop.degree} relation{'s' if loop.degree > 1 else ''} too many"
+    yield f"  hyperstatic             {too_many}: {' - '.join(loop.path)}"
+    parts = ", ".join(f"{name} {n}" for name, n in loop.undetermined)
+    yield f"    undetermined components of the reactions: {parts}"
+    if loop.cure:
+        changes = [f"{name} as {kind}" if kind else f"no {name}" for name, kind in loop.cure]
+        then = f"{loop.left} too many" if loop.left else "isostatic"
+        yield f"    {then} with {', '.join(changes)}"
+
+
+def _paradox(one: ParadoxLine) -> str:
+    parts = []
+    if one.at_start is not None:
+        parts.append(f"from mu = {one.at_start:.4g} at the start")
+    if one.least is not None:
+        where = ", ".join(f"{name} = {value:.4g}" for name, value in one.where)
+        parts.append(
+            f"from {one.least:.4g} in the worst posture" + (f" ({where})" if where else "")
+        )
+    return f"{one.liaison} {', '.join(parts)}; it is {one.mu:.4g}"
+
+
+def _nature(line: LiaisonLine) -> str:
+    many = f"{line.relations} relation{'' if line.relations == 1 else 's'}"
+    parts = [f"{many}, {'unilateral' if line.unilateral else 'bilateral'}"]
+    if line.kinematic:
+        between = "" if line.kinematic == line.relations else f"{line.kinematic} "
+        known = {True: "holonomic", False: "not holonomic", None: "holonomic or not"}
+        parts.append(f"{between}kinematic, {known[line.holonomic]}")
+    else:
+        parts.append("geometric")
+    if line.moves_with_time:
+        parts.append("time-dependent")
+    return ", ".join(parts)
+
+
+def report_of(mechanism: Mechanism, analysis: Analysis | None) -> Report:
+    """The report of a mechanism and the equations of its text."""
+    model = mechanism.model
+    unknowns = sum(v.type.count for v in model.variables if not v.discrete)
+    counts = unknowns, sum(count(e) for e in model.equations), len(model.whens)
+    counted = relations_of(mechanism)
+    return Report(
+        model.name,
+        "planar" if model.planar else "space",
+        *counts,
+        tuple(
+            (b.name, b.shape.name, freedoms_of(b, model))
+            for b in model.bodies
+            if b.shape is not None
+        ),
+        tuple(_line(x, n, mechanism, analysis) for x, n in counted.items()),
+        _mobility(model, counted, analysis),
+        tuple(dict.fromkeys(_unconnected(model))),
+        analysis,
+    )
+
+
+def _mobility(model: Model, counted: dict[Liaison, int], analysis: Analysis | None) -> Mobility:
+    held = [n for x, n in counted.items() if not is_unilateral(x)]
+    bilateral = sum(held)
+    ranks = (bilateral, bilateral, 0, 0)
+    if analysis is not None:
+        ranks = (
+            *(analysis.independent, analysis.independent_at_start),
+            *(analysis.touching, analysis.touching_independent),
+        )
+    return Mobility(
+        sum(freedoms_of(b, model) for b in model.bodies),
+        bilateral,
+        sum(n for x, n in counted.items() if is_unilateral(x)),
+        tuple(sorted(Counter(n for n in held if n).items())),
+        *ranks,
+    )
+
+
+def _unconnected(model: Model) -> Iterator[str]:
+    for equation in model.equations:
+        if isinstance(equation, Equation) and equation.connection.startswith(UNCONNECTED):
+            yield equation.connection.removeprefix(UNCONNECTED)
+
+
+def _line(
+    liaison: Liaison, relations: int, mechanism: Mechanism, analysis: Analysis | None
+) -> LiaisonLine:
+    laws = ", ".join(
+        f"{law.kind.name}({', '.join(f'{k} = {v.span.text}' for k, v in law.arguments.items())})"
+        for law in liaison.laws
+    )
+    text = f"{liaison.kind.name}({_place(liaison.a)}, {_place(liaison.b)})"
+    ideal = any(c.liaison is liaison for c in mechanism.ideal)
+    reduced = ideal or any(c.liaison is liaison and c.reduced for c in mechanism.contacts)
+    kept = "built into the coordinates" if reduced else "kept by its reaction and projection"
+    if is_unilateral(liaison):
+        kept = "opens and closes by events"
+    kinematic = sum(
+        isinstance(x, Relation) and x.liaison is liaison and bool(x.lock.kinematic)
+        for x in mechanism.contacts
+    )
+    known = dict(analysis.holonomic) if analysis is not None else {}
+    return LiaisonLine(
+        liaison.name,
+        f"{text} with {laws}" if laws else f"{text}, without friction",
+        relations,
+        is_unilateral(liaison),
+        kept,
+        kinematic,
+        known.get(liaison.name) if kinematic else True,
+        any(_changes(x) for x in _expressions(liaison)),
+    )
+
+
+def _changes(value: Expression) -> bool:
+    """Whether time or an input is in an expression."""
+    return has_time(value) or any(
+        isinstance(node, Reference) and isinstance(node.target, Input)
+        for node in subexpressions(value)
+    )
+
+
+def _expressions(liaison: Liaison) -> Iterator[Expression]:
+    """What the relations of a liaison are made of, with its places."""
+    yield from liaison.driven.values()
+    yield from liaison.options.values()
+    for relation in liaison.relations:
+        yield from (relation.left, relation.right)
+    for place in (liaison.a, liaison.b):
+        owner: Body | Frame | None = place if isinstance(place, Frame) else None
+        if isinstance(place, CurvePlace):
+            owner = place.curve.owner
+            yield from place.curve.arguments.values()
+        elif isinstance(place, SurfacePlace):
+            owner = place.surface.owner
+            yield from place.surface.arguments.values()
+        while isinstance(owner, Frame):
+            yield from (x for x in (owner.origin, owner.angle) if x is not None)
+            owner = owner.owner
+
+
+def _place(place: Place) -> str:
+    match place:
+        case BodyPoint() | BodyGeometry():
+            return f"{place.body.name}.{place.name}"
+        case CurvePlace():
+            owner = place.curve.owner.name
+            return f"{owner}.{place.curve.name}" if place.curve.span is None else place.curve.name
+        case _:
+            return place.name

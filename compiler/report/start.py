@@ -1,0 +1,172 @@
+"""The posture at which a run starts, as the report sees it: found without a compiled program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.lowering.initial_values import lower_initial
+from frot.compiler.lowering.lower import looking_at, state_arguments
+from frot.compiler.lowering.symbols import column, scalars_of
+from frot.compiler.lowering.walk import as_number
+from frot.compiler.mechanics.mechanism import Contact, Link, Relation
+from frot.compiler.report.relations import Floats, Posture, Relations, is_kinematic
+from frot.dsl import Log, default_values, evaluate
+from numpy.typing import NDArray
+
+_STEPS = 60
+_HOLDS, _SLIGHT = 1e-10, 1e-3
+_TOUCHES = 1e-9
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Start:
+    """Where a run starts, in the coordinates of the reduced mechanism and in those of the system.
+
+    `found`: the statements and relations hold there. `flags` are the conditions of the text there,
+    `closed` the contacts that touch.
+    """
+
+    posture: Posture
+    system_q: Floats
+    flags: Floats
+    discrete: Floats
+    y: Floats
+    closed: NDArray[np.bool_]
+    found: bool
+
+
+def may_part(link: Link, values: object) -> bool:
+    """Whether a link is unilateral, at the default parameters."""
+    return as_number(evaluate(link.unilateral, values)) != 0  # type: ignore[arg-type]
+
+
+def find_start(system: Assembled) -> Start | None:
+    """The posture that the statements of `initial` and the relations leave nearest to the guesses.
+
+    As the kernel finds it (runtime/kernel/initial.c), with fewer ways out: where it is not found,
+    `found` is false. None where the statements themselves are at fault.
+    """
+    reduced, symbols = system.reduced, system.reduced.symbols
+    log = Log()
+    looking, _ = looking_at(system, log)
+    initial = lower_initial(system, looking, log)
+    if log.failed:
+        return None
+    state = state_arguments(system)
+    model = reduced.mechanism.model
+    values = default_values(model, {})
+    u = _numbers(evaluate(i.start, values) for i in symbols.inputs)
+    p = _numbers(evaluate(k.value, values) for k in symbols.parameters)
+    begin = model.experiment.start
+    t = 0.0 if begin is None else as_number(evaluate(begin, values))
+    guess = ca.Function("guess", [symbols.t, symbols.u, symbols.p], initial.start)
+    q, v, y, discrete = (np.array(x).ravel() for x in guess(t, u, p))
+
+    links = reduced.mechanism.contacts
+    parts = np.array([may_part(x, values) for x in links], dtype=bool)
+    kept = np.array([_has_gap(x) for x in links], dtype=bool)
+    gap = system.resolve(reduced.gap)
+    stated, slope, size, _ = initial.position
+    outputs = [stated, slope.T, size, gap, ca.jacobian(gap, system.q)]
+    located = column(reduced.conditions.values)
+    witness = system.resolve(reduced.witness)
+    look = ca.Function("look", state, [ca.densify(x) for x in (witness, system.resolve(located))])
+    function = ca.Function("position", state, [ca.densify(x) for x in outputs])
+    flags = np.zeros(len(reduced.conditions.flags))
+    sides = np.ones(len(links))
+    none = np.ones(len(system.elements))
+
+    def arguments() -> list[ca.DM]:
+        d = np.concatenate([flags, sides, none, discrete])
+        return [ca.DM(x) for x in (t, q, v, u, p, d, y)]
+
+    def settle(used: NDArray[np.bool_]) -> bool:
+        nonlocal q
+        if not q.size:
+            return True
+        for _ in range(_STEPS):
+            value, slopes, sizes, gaps, rows = (np.array(x) for x in function(*arguments()))
+            short = np.concatenate([value.ravel(), gaps.ravel()[used]])
+            down = np.vstack([slopes.reshape(-1, q.size), rows[used].reshape(-1, q.size)])
+            scale = np.concatenate([sizes.ravel(), np.abs(rows[used]) @ (np.abs(q) + 1)])
+            if not (np.all(np.isfinite(short)) and np.all(np.isfinite(down))):
+                return False
+            if np.all(np.abs(short) <= _HOLDS * (scale + _SLIGHT)):
+                return True
+            step = np.linalg.lstsq(down, -short, rcond=1e-10)[0]
+            longest = np.max(np.abs(step) / (1 + np.abs(q)), initial=0.0)
+            q = q + step / max(1.0, longest / 0.7)
+        return False
+
+    def choose_sides() -> None:
+        three = np.array(look.call(arguments())[0]).reshape(-1, 3)
+        for k, one in enumerate(three[: len(links)]):
+            known = one[np.abs(one) > _TOUCHES]
+            sides[k] = np.sign(known[0]) if known.size else 1.0
+
+    used = np.zeros(len(links), dtype=bool)
+    settle(used)
+    choose_sides()
+    used = kept & ~parts
+    found = settle(used)
+    choose_sides()
+    lengths = 1 + np.max(np.abs(q), initial=0.0)
+    for _ in range(len(links) + 1):
+        found = settle(used)
+        gaps = np.array(function.call(arguments())[3]).ravel()
+        below = kept & ~used & (gaps < -_TOUCHES * lengths)
+        if not below.any():
+            break
+        used |= below
+    flags = (np.array(look.call(arguments())[1]).ravel() > 0).astype(float)
+    gaps = np.array(function.call(arguments())[3]).ravel()
+    own = ca.Function("own", state, [system.resolve(symbols.q)])
+    posture = Posture(t, np.array(own(*arguments())).ravel(), u, p, sides)
+    closed = kept & (np.abs(gaps) <= _TOUCHES * lengths)
+    return Start(posture, q, flags, discrete, y, closed, found)
+
+
+def _has_gap(link: Link) -> bool:
+    """Whether a row keeps its gap."""
+    if isinstance(link, Contact):
+        return not link.reduced
+    return isinstance(link, Relation) and not is_kinematic(link)
+
+
+def _numbers(values: Iterable[object]) -> Floats:
+    return np.array([as_number(x) for x in values], dtype=np.float64)
+
+
+def posture_of(relations: Relations, system: Assembled, start: Start) -> Posture:
+    """The same posture in the coordinates of bodies that are free of each other."""
+    variables, own = system.reduced.variables, system.reduced.symbols
+    known = {x.name(): x for x in scalars_of(own.q)}
+    values: list[ca.SX] = []
+    for hanging in relations.mechanism.coordinates:
+        for name in hanging.names:
+            if name in known:
+                values.append(known[name])
+                continue
+            part, place = _component(name.removeprefix(f"{hanging.body.name}."))
+            values.append(scalars_of(variables.of_body(hanging.body, part))[place])
+    for link, k in relations.mechanism.counters:
+        values.append(variables.coordinate(link.liaison, k)[0])
+    there = start.posture
+    now = [own.t, own.q, own.u, own.p, own.sides]
+    function = ca.Function("free", now, [ca.densify(column(values))])
+    q = np.array(function(*there.arguments)).ravel()
+    sides = np.ones(len(relations.links))
+    return relations.sided(Posture(there.t, q, there.u, there.p, sides))
+
+
+def _component(name: str) -> tuple[str, int]:
+    """`position.y` is the second item of `position`, `orientation[3]` the third of its own."""
+    head, _, axis = name.partition(".")
+    if axis:
+        return head, "xyz".index(axis)
+    head, _, number = name.partition("[")
+    return head, int(number.rstrip("]")) - 1 if number else 0

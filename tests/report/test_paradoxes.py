@@ -1,0 +1,68 @@
+"""Coefficients from which friction may leave no motion, against Painlevé's own."""
+
+import numpy as np
+import pytest
+
+import frot
+
+ROD = """
+planar model Rod "Painlevé 1895, p. 99: one end of a rod on a rough line"
+  body rod: rod(mass = 1 kg, length = 2 m);
+  liaison foot: contact_ponctuel(ground.line, rod.start) with coulomb(0.5);
+initial
+  rod.start.position = (0, 0) m;
+  rod.angle = 1.1 rad;
+end Rod;
+"""
+DUMBBELL = """
+planar model Dumbbell "Painlevé 1895, p. 13-16: two points on a rod, one on a rough line"
+  body a: particle(mass = 1 kg);
+  body b: particle(mass = 1 kg);
+  liaison line: point_courbe(a, ground.line) with coulomb(0.5);
+  liaison bar: tige(a, b, length = 1 m);
+initial
+  a.position.x = 0 m;
+  b.position = (0.6, 0.8) m;
+end Dumbbell;
+"""
+PENDULUM = """
+planar model Pendulum "The friction couple changes the reaction of the pin by h m/(I + m h^2)"
+  body rod: rod(mass = 1 kg, length = 2 m);
+  liaison pin: rotoide(ground, rod.start) with coulomb(0.1, radius = 20 cm);
+end Pendulum;
+"""
+
+
+def test_a_rod_and_a_dumbbell_from_four_thirds_and_from_the_root_of_eight() -> None:
+    """At an angle: (1 + 3 cos^2)/(3 sin cos), and (1 + cos^2)/(sin cos); the least over all."""
+    (rod,) = frot.compile(ROD).report().analysis.paradoxes
+    s, c = np.sin(1.1), np.cos(1.1)
+    assert rod.at_start == pytest.approx((1 + 3 * c * c) / (3 * s * c), rel=1e-12)
+    assert rod.least == pytest.approx(4 / 3, rel=1e-5)
+    # upright is where the rod stands at the cotangent of one half
+    ((name, angle),) = rod.where
+    assert name == "rod.angle" and abs(np.tan(angle)) == pytest.approx(2, rel=1e-2)
+    (bar,) = frot.compile(DUMBBELL).report().analysis.paradoxes
+    assert bar.at_start == pytest.approx((1 + 0.36) / (0.6 * 0.8), rel=1e-12)
+    assert bar.least == pytest.approx(np.sqrt(8), rel=1e-5)
+    assert (rod.mu, bar.mu) == (0.5, 0.5)
+
+
+def test_a_pin_counts_with_its_radius() -> None:
+    """C acts on the rod alone: R changes by m h C/I about the end, I = m (2 h)^2/3, h = 1 m."""
+    report = frot.compile(PENDULUM).report()
+    (pin,) = report.analysis.paradoxes
+    assert pin.at_start == pytest.approx(4 / 3 / 0.2, rel=1e-12)
+    assert "pin from mu = 6.667 at the start" in str(report)
+
+
+def test_where_friction_does_not_change_its_reaction_there_is_no_paradox() -> None:
+    text = """
+planar model Hoop "The friction of a hoop turns it, and does not lift it"
+  body hoop: ring(mass = 1 kg, radius = 0.5 m);
+  liaison floor: contact_ponctuel(ground.line, hoop.rim) with coulomb(3);
+initial
+  hoop.position = (0, 0.5) m;
+end Hoop;
+"""
+    assert frot.compile(text).report().analysis.paradoxes == ()
