@@ -7,11 +7,12 @@ from functools import partial
 
 import casadi as ca
 from frot.compiler.lowering.symbols import Rows
+from frot.compiler.mechanics.figures import Egg, Implicit
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.locks import Across, Stated, Tangent, Thread, Touching
 from frot.compiler.mechanics.mechanism import Joint, Relation, point_body
 from frot.compiler.mechanics.motions import name_of
-from frot.compiler.mechanics.spatial import Z, conjugate, cross, product
+from frot.compiler.mechanics.spatial import Moving, Z, conjugate, cross, product
 from frot.compiler.mechanics.stated import state, value_of
 from frot.compiler.mechanics.touches import Touch
 from frot.compiler.mechanics.tracking import Track, along, tangency, track
@@ -142,12 +143,28 @@ def relation_geometry(relation: Relation, kinematics: Kinematics, side: ca.SX) -
         (point_body(joint.b), kinematics.local_point(joint.b)),
     )
     if isinstance(relation.lock, Tangent) and relation.lock.part == 2:
-        return RelationGeometry(action.gap, kinematics.rate(action.gap), ca.SX.ones(3), ca.SX(1))
+        exact = _exact_rate(action, a, b, kinematics)
+        return RelationGeometry(action.gap, exact, ca.SX.ones(3), ca.SX(1))
     reach = ca.SX(1) if relation.lock.turns else ca.dot(ca.fabs(action.force), sizes)
     witness = ca.SX.ones(3)
     if action.touch is not None:
         reach, witness[0] = reach + action.touch.size, action.touch.witness
-    return RelationGeometry(action.gap, action.rate(a, b), witness, reach)
+    rate = action.rate(a, b)
+    if isinstance(relation.lock, Touching) and isinstance(relation.lock.a, Egg | Implicit):
+        rate = _exact_rate(action, a, b, kinematics)
+    return RelationGeometry(action.gap, rate, witness, reach)
+
+
+def _exact_rate(action: Action, a: Moving, b: Moving, kinematics: Kinematics) -> ca.SX:
+    """The rate of a gap that is a distance to first order only, beside its relation too.
+
+    Auxiliary speeds, which displace nothing, move along the wrench.
+    """
+    rate, auxiliary = action.rate(a, b), kinematics.symbols.sw
+    if not auxiliary.numel():
+        return kinematics.rate(action.gap)
+    still = ca.substitute(rate, auxiliary, ca.SX.zeros(auxiliary.shape))
+    return kinematics.rate(action.gap) + rate - still
 
 
 def _beside(found: Touch, vector: ca.SX, planar: bool) -> ca.SX:
