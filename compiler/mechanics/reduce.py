@@ -183,7 +183,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         force_size=settled(motion.size + loads.size),
         load_sizes=settled(column(loads.sizes)),
         rows=_without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry),
-        bias=kinematics.rate(settled(rates)),
+        bias=settled(_agreeing(kinematics.rate(settled(rates)), mechanism, kinematics, geometry)),
         rate=settled(rates),
         gap=settled(column(g.gap for g in geometry)),
         witness=settled(column(g.witness for g in geometry)),
@@ -236,6 +236,33 @@ def _without_rounding(
             least = _ROUNDING * sizes[row]
             entries[k] = ca.if_else(ca.fabs(entries[k]) > least, entries[k], 0)
     return ca.SX(rows.sparsity(), ca.vertcat(*entries)) if entries else rows
+
+
+def _agreeing(
+    bias: ca.SX,
+    mechanism: Mechanism,
+    kinematics: Kinematics,
+    geometry: list[Geometry | JointGeometry | RelationGeometry],
+) -> ca.SX:
+    """The rows' accelerations by time and speeds, where what drives cancel out is zero.
+
+    Two drives that say the same differ by rounding, which no speed tells the kernel the size of.
+    """
+    if not mechanism.is_driven:
+        return bias
+    bias = ca.SX(bias)
+    for rows_of, link, own in zip(
+        link_rows(mechanism.contacts), mechanism.contacts, geometry, strict=True
+    ):
+        if not isinstance(link, Relation) or isinstance(link.lock, Stated):
+            continue
+        size, row = ca.SX(0), rows_of.reaction[0]
+        for place in (link.joint.a, link.joint.b):
+            there = kinematics.moving(place)
+            turns = ca.norm_1(there.angular_bias) + ca.sumsqr(there.angular)
+            size += ca.norm_1(there.linear_bias) + (1 + own.reach) * turns
+        bias[row] = ca.if_else(ca.fabs(bias[row]) > _ROUNDING * size, bias[row], 0)
+    return bias
 
 
 def _with_counters(symbols: Symbols, mechanism: Mechanism, variables: Variables) -> Symbols:

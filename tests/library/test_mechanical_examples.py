@@ -108,3 +108,39 @@ def test_a_cone_on_an_incline_is_a_pendulum() -> None:
     )
     assert np.abs(result["angle"] - exact.y[0]).max() < 1e-9
     assert np.ptp(result["energy.kinetic"] + result["energy.potential"]) < 1e-9
+
+
+def test_beads_on_a_line_that_is_turned_and_in_a_tube_that_turns() -> None:
+    """The tube, s = sin(b): r'' = r s^2 theta'^2 - g cos(b), (A + m r^2 s^2) theta' = C."""
+    result = frot.load(MODELS / "turning_tube.frot").simulate()
+    k = 2 * np.sin(np.radians(60))
+    at, b = result.at(2), np.radians(70)
+    want = np.cosh(2 * k) + 0.1 / k * np.sinh(2 * k)
+    assert at["slides.displacement"] == pytest.approx(want, rel=1e-10)
+    kept = (2 + (0.6 * np.sin(b)) ** 2) * 6
+    assert np.ptp(result["spin"]) < 1e-9
+
+    def rate(t: float, y: np.ndarray) -> list[float]:
+        turns = kept / (2 + (y[0] * np.sin(b)) ** 2)
+        return [y[1], y[0] * (np.sin(b) * turns) ** 2 - 9.81 * np.cos(b), turns]
+
+    r, speed, angle = solved(rate, [0.6, 1.5, 0], 2)
+    found = [at["runs.displacement"], at["runs.speed"], at["axle.angle"]]
+    assert found == pytest.approx([r, speed, angle], abs=1e-9)
+    turns = kept / (2 + (r * np.sin(b)) ** 2)
+    spin_up = -2 * r * speed * np.sin(b) ** 2 * turns / (2 + (r * np.sin(b)) ** 2)
+    across = np.sin(b) * (2 * speed * turns + r * spin_up)
+    upright = np.sin(b) * (9.81 + r * np.cos(b) * turns**2)
+    assert at["presses"] == pytest.approx(np.hypot(across, upright), rel=1e-9)
+
+
+def test_a_point_on_a_sphere_runs_a_great_circle() -> None:
+    result = frot.load(MODELS / "great_circle.frot").simulate()
+    t, lean = result.time, 0.4
+    for name, want in (
+        ("x", np.cos(2 * t)),
+        ("y", np.sin(2 * t) * np.cos(lean)),
+        ("z", np.sin(2 * t) * np.sin(lean)),
+    ):
+        assert np.abs(result[f"point.position.{name}"] - want).max() < 1e-9
+    assert np.abs(result["held"] - 4).max() < 1e-9

@@ -1,83 +1,11 @@
-"""Prescribed coordinates: in the tree, in loops, alone; supports that time moves."""
+"""Prescribed coordinates in loops and alone, by switches and inputs; supports that time moves."""
 
 import numpy as np
 import pytest
 
 import frot
-from tests.space.newton_euler import Link, Place, box, residual, vector
+from tests.space.newton_euler import vector
 from tests.space.test_loops import AXES, ring
-
-# Of each liaison: its options and the coordinate that is driven.
-DRIVEN = {
-    "rotoide": (", axis = (0.2, 1, 0.3)", "angle"),
-    "prismatique": (", axis = (1, 0.3, -0.5)", "displacement"),
-    "verrou": (", axis = (0.5, 1, 0.1)", "displacement"),
-    "helicoidale": (", axis = (0.1, 1, 0.2), pitch = 300 mm", "angle"),
-    "cardan": (", axis_a = y, axis_b = x", "angle_b"),
-    "appui_plan": (", normal = (0.3, 0.1, 1)", "angle"),
-}
-TIMES = (0.0, 0.31, 0.77, 1.5)
-
-
-def value(coordinate: str) -> str:
-    """A motion of the coordinate, as the text writes it."""
-    swing = "0.3*sin(3*time/(1 s)) + 0.4*(time/(1 s))^2"
-    return f"({swing})*(1 m)" if coordinate == "displacement" else swing
-
-
-def swing(t: float) -> float:
-    """The same motion."""
-    return 0.3 * np.sin(3 * t) + 0.4 * t**2
-
-
-def pair(kind: str, back: bool) -> str:
-    """Two boxes, the first driven from the ground; `back` exchanges its places."""
-    options, coordinate = DRIVEN[kind]
-    first, sign = (f"g_{kind}, f0", "-") if back else (f"f0, g_{kind}", "")
-    if back and kind == "cardan":
-        options, coordinate = ", axis_a = x, axis_b = y", "angle_a"
-    return f"""
-  body p_{kind}: box(mass = 2 kg, size = (0.3, 0.5, 0.7) m);
-  body q_{kind}: box(mass = 1 kg, size = (0.4, 0.2, 0.3) m);
-  frame g_{kind} on p_{kind} at (0.15, 0.1, 0.35) m rotated(axis = (1, 0, 1), angle = -30 deg);
-  frame h_{kind} on p_{kind} at (-0.15, 0.1, -0.35) m rotated(axis = x, angle = 10 deg);
-  frame k_{kind} on q_{kind} at (0.2, 0.1, 0.1) m rotated(axis = z, angle = 40 deg);
-  liaison A_{kind}: {kind}({first}{options}) driven({coordinate} = {sign}({value(coordinate)}));
-  liaison B_{kind}: spherique(h_{kind}, k_{kind});
-  output Real a_{kind} = A_{kind}.force.x/(1 N) + B_{kind}.torque.z/(1 N.m);
-"""
-
-
-# Those whose places are exchanged.
-BACK = ("prismatique", "helicoidale", "cardan")
-
-
-def test_each_liaison_driven_obeys_newton_and_euler() -> None:
-    """With every reaction, that of the drive among them, and the value that is prescribed."""
-    parts = "".join(pair(kind, kind in BACK) for kind in DRIVEN)
-    result = frot.compile(
-        f"""
-model Driven "Two boxes for each liaison"
-  frame f0 on ground at (0.1, 0.2, 0.3) m rotated(axis = (1, 2, 3), angle = 20 deg);{parts}
-  experiment(stop = 1.5 s, tolerance = 1e-11);
-end Driven;
-"""
-    ).simulate()
-    bodies, links = [], []
-    base = Place(None, (0.1, 0.2, 0.3))
-    for kind, (_, coordinate) in DRIVEN.items():
-        back = kind in BACK
-        p, q = f"p_{kind}", f"q_{kind}"
-        bodies += [box(p, 2, (0.3, 0.5, 0.7)), box(q, 1, (0.4, 0.2, 0.3))]
-        first = Place(p, (0.15, 0.1, 0.35))
-        links.append(Link(f"A_{kind}", *((first, base) if back else (base, first))))
-        far = Place(p, (-0.15, 0.1, -0.35)), Place(q, (0.2, 0.1, 0.1))
-        links.append(Link(f"B_{kind}", *far))
-        name = "angle_a" if back and kind == "cardan" else coordinate
-        for t in TIMES:
-            want = -swing(t) if back else swing(t)
-            assert result.at(t)[f"A_{kind}.{name}"] == pytest.approx(want, abs=1e-13)
-    assert residual(result, bodies, links, TIMES) < 1e-11
 
 
 def test_a_drive_that_closes_a_loop_moves_as_one_in_the_tree() -> None:
@@ -157,3 +85,74 @@ end Wrong;
     ):
         with pytest.raises(frot.FrotError, match=said):
             frot.compile(text.format(drive=drive)).report()
+
+
+FOLLOWS = """
+planar model Follows "Drives by an input, by another motion, by a switch"
+  input Real target(start = 0.2);
+  parameter AngularVelocity jump = 0 rad/s;
+  body a: rod(mass = 1 kg, length = 1 m);
+  body b: rod(mass = 1 kg, length = 1 m);
+  body c: rod(mass = 1 kg, length = 1 m);
+  body d: particle(mass = 2 kg);
+  frame f on b at (0.1 m*sin(3*time/(1 s)), 0 m);
+  liaison A: rotoide(ground, a.start) driven(angle = target);
+  liaison B: rotoide(ground, b.start);
+  liaison C: rotoide(ground, c.start) driven(angle = 0.5*B.angle);
+  liaison D: point_courbe(d, ground.line)
+    driven(u = if time > 0.5 s then 1 m*(time/(1 s) - 0.5)^3 + jump*(time - 0.5 s)*(1 m) else 0 m);
+  output Torque holds = A.torque;
+  output Torque turns = C.torque;
+  output Force pulls = D.tangential_force;
+  output Length moved = dot(f.position, b.ex);
+  experiment(stop = 1 s, tolerance = 1e-11);
+end Follows;
+"""
+
+
+def test_a_drive_follows_inputs_motions_and_switches() -> None:
+    """Each couple is I a + m g cos(angle)/2 of its rod; a speed that would jump is told."""
+    model = frot.compile(FOLLOWS)
+    result = model.simulate()
+    t, down = result.time, 0.5 * 9.81
+    assert np.abs(result["holds"] - down * np.cos(0.2)).max() < 1e-12
+    assert np.abs(result["C.angle"] - 0.5 * result["B.angle"]).max() < 1e-12
+    assert np.ptp(result["C.angle"]) > 0.5
+    want = result["c.angular_acceleration"] / 3 + down * np.cos(result["C.angle"])
+    assert np.abs(result["turns"] - want).max() < 1e-11
+    late = np.maximum(t - 0.5, 0)
+    assert np.abs(result["D.u"] - late**3).max() < 1e-11
+    assert np.abs(result["pulls"] - 12 * late).max() < 1e-9
+    assert np.abs(result["moved"] - 0.5 - 0.1 * np.sin(3 * t)).max() < 1e-12
+    with pytest.raises(frot.SimulationError, match="a switch moves at once"):
+        model.simulate(parameters={"jump": 1.0})
+
+
+TURNS = """
+model Turns "Pins and screws that close loops, in tilted frames"
+  parameter Angle tilt = 0.3;
+  frame g on ground rotated(axis = (1, 2, 3), angle = tilt);
+  frame far on g at (0.5, 0.1, 0) m;
+  body wheel: box(mass = 1 kg, size = (1, 1, 1) m);
+  frame w on wheel at (0.3, 0.2, 0.1) m rotated(axis = (1, 2, 3), angle = tilt);
+  frame v on w at (0.5, 0.1, 0) m;
+  liaison A: rotoide(g, w, axis = (1, 0.2, 0));
+  liaison B: rotoide(far, v, axis = (1, 0.2, 0));
+  body nut: box(mass = 1 kg, size = (1, 1, 1) m);
+  frame n on nut rotated(axis = (1, 2, 3), angle = tilt);
+  liaison C: verrou(g, n, axis = (1, 0.2, 0)) driven(angle = 7*time/(1 s));
+  liaison D: helicoidale(g, n, axis = (1, 0.2, 0), pitch = 0.3 m);
+initial
+  A.speed = 9 rad/s;
+  experiment(stop = 3 s, tolerance = 1e-11);
+end Turns;
+"""
+
+
+def test_what_closes_a_loop_counts_its_turns_and_holds_nothing_that_is_free() -> None:
+    """Two pins on one shaft, whatever its direction; a screw that goes on for many turns."""
+    result = frot.compile(TURNS).simulate()
+    assert result["A.angle"][-1] > 20
+    assert np.abs(result["A.angle"] - result["B.angle"]).max() < 1e-10
+    assert np.abs(result["D.angle"] - 7 * result.time).max() < 1e-10
+    assert np.abs(result["C.displacement"] - 0.3 * 7 * result.time / (2 * np.pi)).max() < 1e-10
