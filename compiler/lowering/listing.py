@@ -239,6 +239,7 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
     geometry = variables.geometry[liaison]
     reacts = liaison in variables.reactions
     if isinstance(geometry, JointGeometry):
+        reacts |= liaison in reduced.variables.drives and not geometry.actions
         for name in coordinates_of(liaison.kind, reduced.mechanism.model.planar):
             if name in _COORDINATES:
                 yield from one(name, *_COORDINATES[name])
