@@ -131,8 +131,14 @@ def _drag(arguments: Mapping[str, Argument], kinematics: Kinematics, lowering: L
     velocity = end.velocity
     factor = lowering.lower(_value(arguments["c"]))
     if _literal(arguments["exponent"]) == 2:
-        factor *= ca.sqrt(ca.sumsqr(velocity))
+        factor *= _size(velocity)
     return Load((end.under(-factor * velocity),), None)
+
+
+def _size(vector: ca.SX) -> ca.SX:
+    """The vector's length; its derivative is zero where it has none, at zero."""
+    square = ca.sumsqr(vector)
+    return ca.if_else(square > 0, ca.sqrt(ca.if_else(square > 0, square, 1)), 0)
 
 
 def _unit(vector: ca.SX) -> ca.SX:

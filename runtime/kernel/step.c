@@ -327,11 +327,24 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   return FROT_OK;
 }
 
+/* What the implicit method cannot do here the explicit one is to do, if there is one. */
+static int go_explicitly(const frot_model *m, frot_state *s) {
+  if (!s->implicit || (!frot_has_motion(m) && m->method != FROT_AUTO)) return 0;
+  frot_pass_explicitly(s);
+  return 1;
+}
+
 /* Find the step's length and its end, and take it. */
 static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   int guard, status = find_length(m, s, w, a);
   if (status != FROT_OK || s->pending) return status;
   status = cut_at_event(m, s, w, a, &guard);
+  if (status == FROT_DIVERGE && go_explicitly(m, s)) { /* no stages of a step that ends there */
+    a->h = a->first, a->to_due = a->h >= s->due - a->t, a->guard = -1, a->looks = 0;
+    status = find_length(m, s, w, a);
+    if (status != FROT_OK || s->pending) return status;
+    status = cut_at_event(m, s, w, a, &guard);
+  }
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, a->t, a->h);
   return s->pending ? FROT_OK : keep(m, s, w, a, guard);
 }
@@ -346,6 +359,7 @@ static int step(const frot_model *m, frot_state *s, frot_work *w) {
     return FROT_OK;
   }
   int status = begin(m, s, w, &a);
+  if (status == FROT_NAN && go_explicitly(m, s)) status = begin(m, s, w, &a); /* no Jacobian */
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, a.t, 0);
   frot_follow_spare(m, s, w);
   status = take(m, s, w, &a);

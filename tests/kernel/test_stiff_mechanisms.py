@@ -189,3 +189,33 @@ def test_the_governor_keeps_its_moment_of_momentum() -> None:
     momentum = result["turn.speed"] * (3 * 0.02 / 12 + 0.3 * 2e-4 / 12 + 2 * arms)
     assert np.abs(momentum / momentum[0] - 1).max() < 1e-8
     assert abs(result.balance.relative) < 1e-9
+
+# From rest, where the square of the speed has no slope but zero; a user's root has none at all.
+THICK = """planar model Thick
+  parameter Mass m = 1 g;
+  body ball: particle(mass = m);
+  body sled: particle(mass = 1 kg);
+  liaison on_a: prismatique(ground, ball, axis = x);
+  liaison on_b: prismatique(ground, sled, axis = x);
+  force oil: drag(ball, c = 100 kg/m, exponent = 2);
+  force push: on(ball, value = (10 N, 0 N));
+  force pull: on(sled, value = (-sqrt(abs(sled.position.x)/(1 m))*(1 N), 0 N));
+initial
+  ball.position = (0, 0) m;
+  sled.position = (0, 0) m;
+  sled.velocity = (1, 0) m/s;
+  experiment(stop = 0.5 s, method = {});
+end Thick;
+"""
+
+
+@pytest.mark.parametrize("method", ["implicit", "auto"])
+def test_what_has_no_slope_at_rest_starts_all_the_same(method: str) -> None:
+    model = frot.compile(THICK.format(method))
+    limit, pace = 10**-0.5, (10 * 100 / 1e-6) ** 0.5  # F/c = v^2; m v' = F - c v^2
+    for tolerance in (1e-4, 1e-7, 1e-10):
+        result = model.simulate(tolerance=tolerance)
+        speed = limit * np.tanh(pace * result.time)
+        assert np.abs(result["ball.velocity.x"] - speed).max() < 10 * tolerance * limit
+        energy = result["sled.velocity.x"] ** 2 / 2 + result["sled.position.x"] ** 1.5 * 2 / 3
+        assert np.abs(energy - 0.5).max() < 10 * tolerance
