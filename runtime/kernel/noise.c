@@ -9,13 +9,14 @@
 #include "stages.h"
 #include "tolerances.h"
 
-/* Accelerations that are nothing but rounding of their terms in all stages of the step: what they
- * bring is noise, however small the values moved (a value that is zero shows none by being moved).
- */
+/* Accelerations that are nothing but rounding of their terms, at the place z, in all stages of the
+ * step: what they bring is noise, however small the values moved (a value that is zero shows none
+ * by being moved). */
 static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, double t,
-                         const double *largest) {
+                         const double *z, const double *largest) {
   double *noise = s->data + w->layout.noise, *size = w->relations.residual;
-  frot_acceleration_sizes(m, s, w, t, w->step.z0, w->step.z0 + m->nq, s->data + w->layout.d, size);
+  if (frot_slope(m, s, w, t, z, frot_stage(w, 1)) != FROT_OK) return;
+  frot_acceleration_sizes(m, s, w, t, z, z + m->nq, s->data + w->layout.d, size);
   for (int j = 0; j < w->awake.n - FROT_QUADRATURES; j++) {
     int state = w->awake.now->states[j];
     if (state < m->nq) continue;
@@ -71,7 +72,8 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
       *own = fmax(*own, sensitivity + rounding);
     }
   }
-  if (frot_slope(m, s, w, t, w->step.z0, base) == FROT_OK) add_rounding(m, s, w, t, largest);
+  add_rounding(m, s, w, t, w->step.z0, largest);
+  add_rounding(m, s, w, t, w->step.z1, largest); /* where the terms no longer vanish by symmetry */
   /* a position can be no better than its speed */
   for (int j = 0; j < m->nq; j++) {
     if (m->q_speed[j] < 0) continue;
