@@ -220,16 +220,26 @@ class Kinematics:
         if isinstance(owner, Body):
             return self.bodies[owner]
         if isinstance(owner, BodyPoint):
-            own = self.bodies[owner.body]
-            local = self.local_point(owner)
-            return own.shifted(own.pose.direction(local)) if local.nnz() else own
+            return self._shifted(self.bodies[owner.body], self.local_point(owner))
         base = self.moving(owner.owner)
+        if isinstance(owner.owner, Body):
+            base = self._shifted(base, self._home(owner.owner))
         if owner.origin is not None:
             base = carried(whole(self.fixed.lower(owner.origin)), base, self.fixed.lower)
         if owner.angle is None:
             return base
         angle = self.fixed.lower(owner.angle)
         return turned_by_time(owner.axis, angle, base, self.fixed.lower)
+
+    def _shifted(self, at: Moving, local: ca.SX) -> Moving:
+        """The same axes at a place given in them."""
+        return at.shifted(at.pose.direction(local)) if local.nnz() else at
+
+    def _home(self, body: Body) -> ca.SX:
+        """From where places on a body are given (3), in its axes at G."""
+        if body.shape is None or body.shape.home == "G":
+            return nowhere()
+        return shape_of(body).point(body, body.shape.home, self.fixed.lower)
 
     def pose(self, owner: Body | Frame | BodyPoint) -> Pose:
         """Pose of a body (at G), frame or point."""
@@ -252,7 +262,7 @@ class Kinematics:
             if frame.origin is not None:
                 local = local + whole(self.fixed.lower(frame.origin))
             frame = frame.owner
-        return local
+        return local + self._home(frame)
 
     def arm(self, body: Body, local: ca.SX) -> ca.SX:
         """Sizes in ground axes (3) of a vector given in a body's axes, however the body turns."""

@@ -163,3 +163,25 @@ end Bead;
         assert result.figures.steps < 200
         assert np.abs(result["p.displacement"]).max() < 1e-13
         assert np.abs(result["b.position.z"] + 9.81 / 2 * result.time**2).max() < 10 * tolerance
+
+
+def test_places_on_a_solid_are_given_from_its_origin() -> None:
+    """A solid swings about a frame; as the same solid does with its G at the origin."""
+    text = """
+model Swings
+  body s: solid(mass = 2 kg, inertia = (1, 2, 3) kg.m^2, com = {com} m);
+  frame f on s at {f} m rotated(axis = x, angle = 0.3 rad);
+  frame g on f at (0, 0, 0.1) m;
+  curve c on s: circle(radius = 1 m, centre = {f} m);
+  liaison pin: rotoide(ground, g, axis = y);
+  output Length far = norm(g.position - s.origin.position);
+initial
+  pin.angle = 0.4 rad;
+  experiment(stop = 1 s, tolerance = 1e-11);
+end Swings;
+"""
+    given = frot.compile(text.format(com="(0.1, -0.2, 0.3)", f="(0.5, 0.6, 0.7)")).simulate()
+    moved = frot.compile(text.format(com="(0, 0, 0)", f="(0.4, 0.8, 0.4)")).simulate()
+    assert given["pin.angle"] == pytest.approx(moved["pin.angle"], abs=1e-10)
+    corner = np.array([0.5, 0.6 - 0.1 * np.sin(0.3), 0.7 + 0.1 * np.cos(0.3)])
+    assert given["far"] == pytest.approx(np.linalg.norm(corner), abs=1e-12)
