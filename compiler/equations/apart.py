@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import casadi as ca
-from frot.compiler.equations.differentiate import find_incidence
+from frot.compiler.equations.differentiate import components_of, find_incidence
 from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.index import find_unbalanced, reduce_index
-from frot.compiler.equations.order import closure, find_components
+from frot.compiler.equations.order import closure
 from frot.compiler.equations.text_symbols import TextSymbols
 from frot.compiler.lowering.symbols import Symbols, column
 
@@ -44,14 +44,7 @@ def moved_by_forces(
     if find_unbalanced([tuple(row) for row in incidence], len(everything)) is not None:
         return frozenset()
     index = reduce_index(incidence, len(everything))
-    uses = [
-        [j for j, order in row.items() if order + times == index.unknowns[j]]
-        for row, times in zip(incidence, index.equations, strict=True)
-    ]
-    solves = [-1] * len(values)
-    for j, i in enumerate(index.solver):
-        solves[i] = j
-    components = find_components(uses, solves)
+    components = components_of(incidence, index)
     needs = [c.needs for c in components]
     holder = {i: k for k, c in enumerate(components) for i in c.equations}
     reactions = ca.vertcat(symbols.lam, column(e.force for e in text.elements))

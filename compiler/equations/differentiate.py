@@ -13,7 +13,7 @@ import casadi as ca
 from frot.compiler.equations.balance import report_unbalanced
 from frot.compiler.equations.chains import Chains
 from frot.compiler.equations.eliminate import Residuals
-from frot.compiler.equations.index import find_unbalanced, reduce_index
+from frot.compiler.equations.index import Index, find_unbalanced, reduce_index
 from frot.compiler.equations.order import Component, find_components
 from frot.compiler.equations.origins import Origin, Unknown
 from frot.compiler.equations.slopes import symbols_inside
@@ -71,14 +71,7 @@ def differentiate(
             due, ca.vertsplit(chains.rate(column(values[i] for i in due))), strict=True
         ):
             values[i] = value
-    uses = [
-        [j for j, order in row.items() if order + times == index.unknowns[j]]
-        for row, times in zip(incidence, index.equations, strict=True)
-    ]
-    solves = [-1] * len(values)
-    for j, i in enumerate(index.solver):
-        solves[i] = j
-    components = find_components(uses, solves)
+    components = components_of(incidence, index)
     users: list[list[int]] = [[] for _ in components]
     for k, component in enumerate(components):
         for n in component.needs:
@@ -99,6 +92,18 @@ def differentiate(
             (left[j], index.unknowns[j]): k for k, c in enumerate(components) for j in c.unknowns
         },
     )
+
+
+def components_of(incidence: Sequence[dict[int, int]], index: Index) -> list[Component]:
+    """The strong components of equations that are differentiated as the index says."""
+    uses = [
+        [j for j, order in row.items() if order + times == index.unknowns[j]]
+        for row, times in zip(incidence, index.equations, strict=True)
+    ]
+    solves = [-1] * len(incidence)
+    for j, i in enumerate(index.solver):
+        solves[i] = j
+    return find_components(uses, solves)
 
 
 def is_balanced(

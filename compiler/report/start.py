@@ -48,11 +48,11 @@ def find_start(system: Assembled) -> Start | None:
     """The posture that the statements of `initial` and the relations leave nearest to the guesses.
 
     As the kernel finds it (runtime/kernel/initial.c), with fewer ways out: where it is not found,
-    `found` is false. None where the statements themselves are at fault.
+    `found` is false. None where the statements or conditions of the text are at fault.
     """
     reduced, symbols = system.reduced, system.reduced.symbols
     log = Log()
-    looking, _ = looking_at(system, log)
+    looking, explicit = looking_at(system, log)
     initial = lower_initial(system, looking, log)
     if log.failed:
         return None
@@ -72,9 +72,12 @@ def find_start(system: Assembled) -> Start | None:
     gap = system.resolve(reduced.gap)
     stated, slope, size, _ = initial.position
     outputs = [stated, slope.T, size, gap, ca.jacobian(gap, system.q)]
-    located = column(reduced.conditions.values)
+    located = explicit(system.resolve(column(reduced.conditions.values)))
+    later = ca.vertcat(system.z, system.lam, system.y[system.early :])
+    if later.numel() and located.numel() and ca.depends_on(located, later):
+        return None
     witness = system.resolve(reduced.witness)
-    look = ca.Function("look", state, [ca.densify(x) for x in (witness, system.resolve(located))])
+    look = ca.Function("look", state, [ca.densify(x) for x in (witness, located)])
     function = ca.Function("position", state, [ca.densify(x) for x in outputs])
     flags = np.zeros(len(reduced.conditions.flags))
     sides = np.ones(len(links))

@@ -190,6 +190,7 @@ def test_the_governor_keeps_its_moment_of_momentum() -> None:
     assert np.abs(momentum / momentum[0] - 1).max() < 1e-8
     assert abs(result.balance.relative) < 1e-9
 
+
 # From rest, where the square of the speed has no slope but zero; a user's root has none at all.
 THICK = """planar model Thick
   parameter Mass m = 1 g;

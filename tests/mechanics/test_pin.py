@@ -381,7 +381,7 @@ def test_the_report_counts_two_relations_a_pin_and_says_how_they_are_kept() -> N
     for line in report.liaisons:
         assert (line.relations, line.unilateral) == (2, False)
         assert line.kept == "built into the coordinates"
-    assert "2 relations, bilateral; built into the coordinates" in str(report)
+    assert "2 relations, bilateral, geometric; built into the coordinates" in str(report)
 
 
 HINGE = "liaison hinge: rotoide(ground, arm.start)"
