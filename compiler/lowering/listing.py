@@ -11,7 +11,7 @@ from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.symbols import column
-from frot.compiler.mechanics.joint_geometry import JointGeometry
+from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
 from frot.compiler.mechanics.mechanism import Relation
 from frot.compiler.mechanics.names import component_names
 from frot.compiler.mechanics.reduce import Reduced

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.lowering.flatten import T, by_input, tunable
+from frot.compiler.mechanics.liaisons.motions import Motion, count_speeds
 from frot.compiler.mechanics.mechanism import Link, Mechanism
-from frot.compiler.mechanics.motions import Motion, count_speeds
 from frot.dsl.checked import Input, Liaison, Parameter
 
 
@@ -170,7 +170,7 @@ def _rates(motions: list[Motion], q: ca.SX, v: ca.SX) -> ca.SX:
     """Q' = N(q) v."""
     if not any(motion.quaternion for motion in motions):
         return v
-    from frot.compiler.mechanics.moves import rates
+    from frot.compiler.mechanics.liaisons.moves import rates
 
     return column(rates(motion, q[i], v[k]) for motion, i, k in _places(motions))
 

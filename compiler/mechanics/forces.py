@@ -9,8 +9,8 @@ import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.dynamics import Push
-from frot.compiler.mechanics.efforts import Effort
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.efforts import Effort
 from frot.compiler.mechanics.mechanism import point_body
 from frot.compiler.mechanics.spatial import about_z, nowhere, whole
 from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Liaison, Literal, Place

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import replace
 
-from frot.compiler.mechanics.figures import Ball, Flat
-from frot.compiler.mechanics.locks import Across
+from frot.compiler.mechanics.geometry.figures import Ball, Flat
+from frot.compiler.mechanics.liaisons.locks import Across
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,

@@ -13,7 +13,18 @@ from dataclasses import dataclass, replace
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
-from frot.compiler.mechanics.figures import Flat, Placed
+from frot.compiler.mechanics.geometry.figures import Flat, Placed
+from frot.compiler.mechanics.geometry.tracking import Track
+from frot.compiler.mechanics.liaisons.motions import Follow, count_speeds
+from frot.compiler.mechanics.liaisons.moves import (
+    Column,
+    carried,
+    counted,
+    move,
+    seen,
+    turned_by_time,
+)
+from frot.compiler.mechanics.liaisons.wrenches import act
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Hanging,
@@ -22,16 +33,6 @@ from frot.compiler.mechanics.mechanism import (
     Point,
     point_body,
     turns,
-)
-from frot.compiler.mechanics.motions import Follow, count_speeds
-from frot.compiler.mechanics.moves import (
-    Column,
-    carried,
-    counted,
-    move,
-    seen,
-    turned_by_time,
-    unit_vector,
 )
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.spatial import (
@@ -44,8 +45,7 @@ from frot.compiler.mechanics.spatial import (
     turn_about,
     whole,
 )
-from frot.compiler.mechanics.tracking import Track
-from frot.compiler.mechanics.wrenches import act
+from frot.compiler.mechanics.values import unit_vector
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison
 
 

@@ -9,9 +9,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from frot.compiler.lowering.walk import has_time, is_fixed
-from frot.compiler.mechanics.figures import Ball, Figure, Placed
-from frot.compiler.mechanics.locks import Lock
-from frot.compiler.mechanics.motions import Motion, comes_round
+from frot.compiler.mechanics.geometry.figures import Ball, Figure, Placed
+from frot.compiler.mechanics.liaisons.locks import Lock
+from frot.compiler.mechanics.liaisons.motions import Motion, comes_round
 from frot.dsl.checked import (
     Body,
     BodyPoint,

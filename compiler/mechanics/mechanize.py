@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
-from frot.compiler.mechanics.drives import free_drives, told_by_time
-from frot.compiler.mechanics.faces import part_faces
-from frot.compiler.mechanics.figures import Dot, Flat, Placed, can_touch, figure_of
-from frot.compiler.mechanics.halves import halve
-from frot.compiler.mechanics.joints import JOINTS, Pairing, make_joint
-from frot.compiler.mechanics.locks import Lock, Stated
+from frot.compiler.mechanics.geometry.faces import part_faces
+from frot.compiler.mechanics.geometry.figures import Dot, Flat, Placed, can_touch, figure_of
+from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE, pair
+from frot.compiler.mechanics.liaisons.drives import free_drives, told_by_time
+from frot.compiler.mechanics.liaisons.halves import halve
+from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, make_joint
+from frot.compiler.mechanics.liaisons.locks import Lock, Stated
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
@@ -22,7 +23,6 @@ from frot.compiler.mechanics.mechanism import (
     point_body,
     turns,
 )
-from frot.compiler.mechanics.placed import IN_PLANE, IN_SPACE, pair
 from frot.compiler.mechanics.refuse import (
     REACTION,
     refuse,

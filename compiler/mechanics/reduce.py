@@ -23,7 +23,6 @@ from frot.compiler.equations.text_symbols import (
 )
 from frot.compiler.lowering.expressions import Conditions, Lowering
 from frot.compiler.lowering.symbols import Rows, Symbols, column, link_rows, make_symbols
-from frot.compiler.mechanics.contacts import Geometry, gravity, link_geometry, row_rates
 from frot.compiler.mechanics.dynamics import (
     Push,
     Step,
@@ -32,10 +31,11 @@ from frot.compiler.mechanics.dynamics import (
     speeds_by_tree,
     write_out,
 )
-from frot.compiler.mechanics.joint_geometry import JointGeometry, RelationGeometry
+from frot.compiler.mechanics.geometry.contacts import Geometry, gravity, link_geometry, row_rates
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, RelationGeometry
+from frot.compiler.mechanics.liaisons.locks import Stated
 from frot.compiler.mechanics.loads import applied_loads, sum_loads
-from frot.compiler.mechanics.locks import Stated
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Mechanism, Relation
 from frot.compiler.mechanics.text_of_motion import (
     add_slip_accelerations,

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from frot.compiler.lowering.walk import follows_time, is_fixed, read_expressions, subexpressions
-from frot.compiler.mechanics.joints import JOINTS
-from frot.compiler.mechanics.locks import Touching
+from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE
+from frot.compiler.mechanics.liaisons.joints import JOINTS
+from frot.compiler.mechanics.liaisons.locks import Touching
 from frot.compiler.mechanics.mechanism import Contact, Joint, turns
-from frot.compiler.mechanics.placed import IN_PLANE, IN_SPACE
 from frot.dsl import Log
 from frot.dsl.checked import (
     BodyPoint,

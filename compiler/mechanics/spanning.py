@@ -5,18 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
-from frot.compiler.mechanics.figures import Figure, Flat
-from frot.compiler.mechanics.mechanism import (
-    Contact,
-    Hanging,
-    Joint,
-    Point,
-    is_slender,
-    is_unilateral,
-    point_body,
-    turns,
-)
-from frot.compiler.mechanics.motions import (
+from frot.compiler.mechanics.geometry.figures import Figure, Flat
+from frot.compiler.mechanics.liaisons.motions import (
     Attitude,
     Axis,
     Driven,
@@ -29,6 +19,16 @@ from frot.compiler.mechanics.motions import (
     Steady,
     Turn,
     bare,
+)
+from frot.compiler.mechanics.mechanism import (
+    Contact,
+    Hanging,
+    Joint,
+    Point,
+    is_slender,
+    is_unilateral,
+    point_body,
+    turns,
 )
 from frot.dsl.checked import Body, Liaison, Model
 

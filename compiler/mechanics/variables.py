@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import casadi as ca
 from frot.compiler.equations.chains import Chains
 from frot.compiler.lowering.symbols import Rows, Symbols
-from frot.compiler.mechanics.contacts import Geometry
-from frot.compiler.mechanics.efforts import Effort, effort_along
-from frot.compiler.mechanics.joint_geometry import JointGeometry, joint_variable
+from frot.compiler.mechanics.geometry.contacts import Geometry
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.efforts import Effort, effort_along
+from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, joint_variable
 from frot.compiler.mechanics.mechanism import Contact, Joint, point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere

@@ -6,8 +6,8 @@ import casadi as ca
 from frot.compiler.lowering.groups import Group
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.mechanics.elements import Bound, Element
+from frot.compiler.mechanics.liaisons.motions import count_speeds
 from frot.compiler.mechanics.mechanism import Joint, Relation
-from frot.compiler.mechanics.motions import count_speeds
 from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import place as _place
 from frot.compiler.product.c_tables import record as _record

@@ -11,7 +11,7 @@ from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.symbols import Rows, column, scalars_of
 from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.locks import Way
+from frot.compiler.mechanics.liaisons.locks import Way
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Relation
 from frot.dsl import default_values, evaluate
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from frot.compiler.mechanics.joints import JOINTS, Pairing, make_joint
-from frot.compiler.mechanics.locks import LEFT, WayAlong
+from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, make_joint
+from frot.compiler.mechanics.liaisons.locks import LEFT, WayAlong
+from frot.compiler.mechanics.liaisons.motions import Axis
 from frot.compiler.mechanics.mechanism import Joint, Link, Relation
-from frot.compiler.mechanics.motions import Axis
 from frot.compiler.report.redundancy import Loop
 from frot.compiler.report.relations import Posture, Relations, make_relations, rank
 from frot.dsl.checked import Expression, Liaison

@@ -9,10 +9,10 @@ import casadi as ca
 import numpy as np
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.symbols import Symbols, column, make_symbols
-from frot.compiler.mechanics.contacts import link_geometry, row_rates
+from frot.compiler.mechanics.geometry.contacts import link_geometry, row_rates
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.motions import Follow, Motion, Slide, count_speeds
 from frot.compiler.mechanics.mechanism import Contact, Link, Mechanism
-from frot.compiler.mechanics.motions import Follow, Motion, Slide, count_speeds
 from frot.dsl import Log
 from frot.dsl.checked import Quantity
 from numpy.typing import NDArray

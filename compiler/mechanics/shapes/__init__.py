@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import casadi as ca
-from frot.compiler.mechanics.moves import Lower
 from frot.compiler.mechanics.shapes.blocks import Box, Cylinder
 from frot.compiler.mechanics.shapes.laminae import Disc, Ellipse, Polygon, Ring
 from frot.compiler.mechanics.shapes.particle import Particle
@@ -13,6 +12,7 @@ from frot.compiler.mechanics.shapes.rod import Rod
 from frot.compiler.mechanics.shapes.round import Ellipsoid, Shell, Sphere
 from frot.compiler.mechanics.shapes.shape import Shape, given_inertia
 from frot.compiler.mechanics.shapes.solid import Solid
+from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import Body
 
 SHAPES: Mapping[str, Shape] = {

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.moves import Lower
 from frot.compiler.mechanics.shapes.shape import item_of, principal
 from frot.compiler.mechanics.spatial import X, Y, Z, nowhere
+from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import Body
 
 

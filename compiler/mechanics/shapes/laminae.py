@@ -6,10 +6,10 @@ For all of them the moment about z is the sum of those about x and y, for z is z
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.moves import Lower
 from frot.compiler.mechanics.shapes.particle import Particle
 from frot.compiler.mechanics.shapes.shape import item_of, principal
 from frot.compiler.mechanics.spatial import nowhere
+from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import Body
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.moves import Lower
 from frot.compiler.mechanics.shapes.particle import Particle
 from frot.compiler.mechanics.shapes.shape import principal
 from frot.compiler.mechanics.spatial import whole
+from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import Body
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 import casadi as ca
-from frot.compiler.mechanics.moves import Lower
+from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import Body
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.moves import Lower
 from frot.compiler.mechanics.spatial import nowhere, whole
+from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import Body
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from frot.compiler.mechanics.figures import (
+from frot.compiler.mechanics.geometry.figures import (
     Ball,
     Dot,
     Figure,
@@ -25,8 +25,8 @@ from frot.compiler.mechanics.figures import (
     is_closed,
     is_level,
 )
-from frot.compiler.mechanics.joints import Options, Pairing
-from frot.compiler.mechanics.locks import (
+from frot.compiler.mechanics.liaisons.joints import Options, Pairing
+from frot.compiler.mechanics.liaisons.locks import (
     Across,
     Apart,
     Level,
@@ -37,7 +37,7 @@ from frot.compiler.mechanics.locks import (
     Touching,
     WayAlong,
 )
-from frot.compiler.mechanics.motions import Attitude, Axis, Follow, Heading, Motion, Slide
+from frot.compiler.mechanics.liaisons.motions import Attitude, Axis, Follow, Heading, Motion, Slide
 
 
 def _rows(*locks: Lock) -> Pairing:

@@ -9,9 +9,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.mechanics.figures import Ball, Egg, Figure, Flat, Implicit, Straight
-from frot.compiler.mechanics.moves import Lower, rate_by_time, unit_vector
+from frot.compiler.mechanics.geometry.figures import Ball, Egg, Figure, Flat, Implicit, Straight
 from frot.compiler.mechanics.spatial import Pose, Z, cross
+from frot.compiler.mechanics.values import Lower, rate_by_time, unit_vector
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.mechanics.contacts import Geometry
-from frot.compiler.mechanics.figures import Flat
-from frot.compiler.mechanics.joint_geometry import JointGeometry
+from frot.compiler.mechanics.geometry.contacts import Geometry
+from frot.compiler.mechanics.geometry.figures import Flat
+from frot.compiler.mechanics.geometry.paths import point_of
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
+from frot.compiler.mechanics.liaisons.motions import bare, name_of
+from frot.compiler.mechanics.liaisons.wrenches import wrench_along
 from frot.compiler.mechanics.mechanism import Contact, Joint
-from frot.compiler.mechanics.motions import bare, name_of
-from frot.compiler.mechanics.paths import point_of
 from frot.compiler.mechanics.spatial import nowhere
-from frot.compiler.mechanics.wrenches import wrench_along
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from frot.compiler.mechanics.joints import JOINTS, make_joint
+from frot.compiler.mechanics.liaisons.joints import JOINTS, make_joint
 from frot.compiler.mechanics.mechanism import Contact, Joint, Point, point_body, turns
 from frot.compiler.mechanics.spanning import Groups, in_order
 from frot.dsl.catalogue import LIAISONS

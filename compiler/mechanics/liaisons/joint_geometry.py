@@ -7,16 +7,16 @@ from functools import partial
 
 import casadi as ca
 from frot.compiler.lowering.symbols import Rows
-from frot.compiler.mechanics.figures import Egg, Implicit
+from frot.compiler.mechanics.geometry.figures import Egg, Implicit
+from frot.compiler.mechanics.geometry.touches import Touch
+from frot.compiler.mechanics.geometry.tracking import Track, along, tangency, track
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.locks import Across, Stated, Tangent, Thread, Touching
+from frot.compiler.mechanics.liaisons.locks import Across, Stated, Tangent, Thread, Touching
+from frot.compiler.mechanics.liaisons.motions import name_of
+from frot.compiler.mechanics.liaisons.stated import state, value_of
+from frot.compiler.mechanics.liaisons.wrenches import Action, act
 from frot.compiler.mechanics.mechanism import Joint, Relation, point_body
-from frot.compiler.mechanics.motions import name_of
 from frot.compiler.mechanics.spatial import Moving, Z, conjugate, cross, product
-from frot.compiler.mechanics.stated import state, value_of
-from frot.compiler.mechanics.touches import Touch
-from frot.compiler.mechanics.tracking import Track, along, tangency, track
-from frot.compiler.mechanics.wrenches import Action, act
 
 
 @dataclass(frozen=True, slots=True, eq=False)

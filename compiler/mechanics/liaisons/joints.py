@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from frot.compiler.mechanics.locks import (
+from frot.compiler.mechanics.liaisons.locks import (
     LEFT,
     Aligned,
     Apart,
@@ -23,8 +23,7 @@ from frot.compiler.mechanics.locks import (
     Way,
     WayAlong,
 )
-from frot.compiler.mechanics.mechanism import Joint, Point, is_particle, point_body
-from frot.compiler.mechanics.motions import (
+from frot.compiler.mechanics.liaisons.motions import (
     Attitude,
     Axis,
     Driven,
@@ -35,6 +34,7 @@ from frot.compiler.mechanics.motions import (
     Turn,
     name_of,
 )
+from frot.compiler.mechanics.mechanism import Joint, Point, is_particle, point_body
 from frot.dsl.checked import Expression, Liaison
 
 Options = Mapping[str, Expression]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from frot.compiler.lowering.walk import has_time, subexpressions
-from frot.compiler.mechanics.motions import Axis
+from frot.compiler.mechanics.liaisons.motions import Axis
 from frot.dsl.checked import (
     Binary,
     BodyGeometry,

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.mechanics.figures import (
+from frot.compiler.mechanics.geometry.figures import (
     Dot,
     Egg,
     Figure,
@@ -26,11 +26,11 @@ from frot.compiler.mechanics.figures import (
     count_parameters,
     is_level,
 )
-from frot.compiler.mechanics.levels import level
-from frot.compiler.mechanics.moves import Lower
-from frot.compiler.mechanics.paths import Trace, parameter_of, point_of, trace
+from frot.compiler.mechanics.geometry.levels import level
+from frot.compiler.mechanics.geometry.paths import Trace, parameter_of, point_of, trace
+from frot.compiler.mechanics.geometry.touches import Touch
 from frot.compiler.mechanics.spatial import Pose, Z, beside, cross
-from frot.compiler.mechanics.touches import Touch
+from frot.compiler.mechanics.values import Lower
 
 TURN = 16  # beginnings looked at along a round curve
 LONG = 32  # along a curve given by its points

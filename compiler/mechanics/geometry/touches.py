@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import casadi as ca
-from frot.compiler.mechanics.figures import (
+from frot.compiler.mechanics.geometry.figures import (
     Ball,
     Dot,
     Egg,
@@ -21,8 +21,9 @@ from frot.compiler.mechanics.figures import (
     Ring,
     Straight,
 )
-from frot.compiler.mechanics.moves import Lower, Moments, unit_vector
+from frot.compiler.mechanics.liaisons.moves import Moments
 from frot.compiler.mechanics.spatial import Pose, Z, beside, cross, nowhere
+from frot.compiler.mechanics.values import Lower, unit_vector
 from frot.dsl.checked import Expression
 
 

@@ -11,8 +11,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import casadi as ca
-from frot.compiler.mechanics.figures import Flat
-from frot.compiler.mechanics.locks import (
+from frot.compiler.mechanics.geometry.figures import Flat
+from frot.compiler.mechanics.geometry.paths import parameter_of, point_of
+from frot.compiler.mechanics.geometry.touches import Touch, touch
+from frot.compiler.mechanics.geometry.tracking import Meeting, Track, on_side
+from frot.compiler.mechanics.liaisons.locks import (
     LEFT,
     Across,
     Aligned,
@@ -31,20 +34,10 @@ from frot.compiler.mechanics.locks import (
     Way,
     WayAlong,
 )
-from frot.compiler.mechanics.motions import Axis, Follow, Motion, Screw, Slide, Turn
-from frot.compiler.mechanics.moves import (
-    Column,
-    Lower,
-    Moments,
-    angle_about,
-    arc,
-    unit_vector,
-    way_of,
-)
-from frot.compiler.mechanics.paths import parameter_of, point_of
+from frot.compiler.mechanics.liaisons.motions import Axis, Follow, Motion, Screw, Slide, Turn
+from frot.compiler.mechanics.liaisons.moves import Column, Moments, angle_about, arc, way_of
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, beside, cross, nowhere
-from frot.compiler.mechanics.touches import Touch, touch
-from frot.compiler.mechanics.tracking import Meeting, Track, on_side
+from frot.compiler.mechanics.values import Lower, unit_vector
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from frot.compiler.mechanics.figures import Flat, corners_of, figure_of
+from frot.compiler.mechanics.geometry.figures import Flat, corners_of, figure_of
 from frot.compiler.mechanics.refuse import refuse
 from frot.dsl import Log
 from frot.dsl.catalogue import LIAISONS

@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import casadi as ca
-from frot.compiler.mechanics.motions import (
+from frot.compiler.mechanics.geometry.paths import parameter_of, point_of
+from frot.compiler.mechanics.liaisons.motions import (
     Attitude,
     Axis,
     Driven,
@@ -40,14 +41,9 @@ from frot.compiler.mechanics.spatial import (
     turn_about,
     turn_in_plane,
     turning,
-    whole,
 )
-from frot.dsl.catalogue import TYPES
-from frot.dsl.checked import Expression, Literal, Time
-from frot.dsl.messages.source import Source, Span
-
-Lower = Callable[[Expression], ca.SX]
-NOW = Time(TYPES["Time"], Span(Source("", ""), 0, 0))
+from frot.compiler.mechanics.values import NOW, Lower, rate_by_time, unit_vector
+from frot.dsl.checked import Expression
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,25 +96,9 @@ class Moments:
         return [ca.SX(x) for x in ca.substitute(list(values), [self.symbol], [self._now])]
 
 
-def unit_vector(given: Expression | str, lower: Lower) -> ca.SX:
-    """The unit vector of `x`, `-x`, `y`, ... or of a vector of the text."""
-    name = given.value if isinstance(given, Literal) else given
-    if isinstance(name, str):
-        along = {"x": X, "y": Y, "z": Z}[name[-1]]
-        return -along if name[0] == "-" else along
-    assert not isinstance(given, str)
-    vector = whole(lower(given))
-    return ca.sparsify(vector / ca.norm_2(vector))
-
-
 def move(motion: Motion, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     """The axes after the motion, the columns of its speeds, the way of their origin."""
     return _MOVES[type(motion)](motion, base, q, v, lower)
-
-
-def rate_by_time(value: ca.SX, lower: Lower) -> ca.SX:
-    """The rate of what time alone changes."""
-    return ca.sparsify(ca.jacobian(value, lower(NOW)).reshape(value.shape))
 
 
 def seen(motion: Motion, a: Moving, b: Moving, lower: Lower) -> Seen:
@@ -256,8 +236,6 @@ def _move_driven(motion: Driven, base: Moving, q: ca.SX, v: ca.SX, lower: Lower)
 
 def _move_follow(motion: Follow, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     """The material element of the curve may move too: its parameter stays with it."""
-    from frot.compiler.mechanics.paths import point_of
-
     u = ca.SX.sym("u")
     point = motion.sign * point_of(motion.curve, u, lower)
     along, drift = ca.jacobian(point, u), rate_by_time(point, lower)
@@ -346,8 +324,6 @@ def _see_turn(motion: Turn | Screw, a: Moving, b: Moving, lower: Lower) -> Seen:
 
 def _see_follow(motion: Follow, a: Moving, b: Moving, lower: Lower) -> Seen:
     """By the place of b, whose way along the curve has the rate v . c_u/|c_u|^2."""
-    from frot.compiler.mechanics.paths import parameter_of, point_of
-
     there = b.pose.origin
     at = parameter_of(motion.curve, there - a.pose.origin, a.pose, lower)
     u = ca.SX.sym("u")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.mechanics.figures import (
+from frot.compiler.mechanics.geometry.figures import (
     Ball,
     Dot,
     Figure,
@@ -16,8 +16,8 @@ from frot.compiler.mechanics.figures import (
     Sheet,
     Straight,
 )
-from frot.compiler.mechanics.moves import Lower, rate_by_time, unit_vector
 from frot.compiler.mechanics.spatial import Pose, X, Y, beside, nowhere, whole
+from frot.compiler.mechanics.values import Lower, rate_by_time, unit_vector
 from frot.dsl.checked import Expression
 
 

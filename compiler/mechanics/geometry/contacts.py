@@ -5,14 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.mechanics.figures import Ball, Flat, Oval, count_parameters, is_closed
-from frot.compiler.mechanics.joint_geometry import (
+from frot.compiler.mechanics.geometry.figures import Ball, Flat, Oval, count_parameters, is_closed
+from frot.compiler.mechanics.geometry.paths import parameter_of
+from frot.compiler.mechanics.geometry.touches import spread_of, touch
+from frot.compiler.mechanics.geometry.tracking import on_side, track
+from frot.compiler.mechanics.kinematics import Kinematics, Line
+from frot.compiler.mechanics.liaisons.joint_geometry import (
     JointGeometry,
     RelationGeometry,
     joint_geometry,
     relation_geometry,
 )
-from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
@@ -20,10 +23,7 @@ from frot.compiler.mechanics.mechanism import (
     is_unilateral,
     point_body,
 )
-from frot.compiler.mechanics.paths import parameter_of
 from frot.compiler.mechanics.spatial import X, Y, Z, cross, nowhere
-from frot.compiler.mechanics.touches import spread_of, touch
-from frot.compiler.mechanics.tracking import on_side, track
 from frot.dsl.checked import World
 
 STANDARD_GRAVITY = 9.81

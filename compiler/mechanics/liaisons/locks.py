@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from frot.compiler.mechanics.figures import Figure
-from frot.compiler.mechanics.motions import Axis, Driven
+from frot.compiler.mechanics.geometry.figures import Figure
+from frot.compiler.mechanics.liaisons.motions import Axis, Driven
 from frot.dsl.checked import Expression
 
 LEFT = 2

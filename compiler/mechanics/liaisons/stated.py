@@ -12,11 +12,11 @@ from dataclasses import replace
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.locks import Stated
+from frot.compiler.mechanics.liaisons.locks import Stated
+from frot.compiler.mechanics.liaisons.moves import Column
+from frot.compiler.mechanics.liaisons.wrenches import Action
 from frot.compiler.mechanics.mechanism import Joint, point_body
-from frot.compiler.mechanics.moves import Column
 from frot.compiler.mechanics.spatial import Moving, Pose, cross, nowhere, product
-from frot.compiler.mechanics.wrenches import Action
 from frot.dsl.checked import Liaison, Quantity
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from frot.dsl.checked import Expression
 
 if TYPE_CHECKING:
-    from frot.compiler.mechanics.figures import Figure
+    from frot.compiler.mechanics.geometry.figures import Figure
 
 
 @dataclass(frozen=True, slots=True, eq=False)

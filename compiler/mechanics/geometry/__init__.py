@@ -1,0 +1,1 @@
+"""Figures, curves and surfaces of bodies, and where they touch."""
