@@ -21,14 +21,16 @@ from frot.compiler.lowering.symbols import Symbols, column
 
 def moved_by_forces(
     trees: Sequence[Sequence[int]],
+    large: frozenset[int],
     forces: ca.SX,
     equations: Residuals,
     text: TextSymbols,
     symbols: Symbols,
 ) -> frozenset[int]:
-    """The speeds of those among `trees`, each given by the places of its speeds.
+    """The speeds of those large trees.
 
-    `forces` are all that the text applies.
+    `trees` are all, each given by the places of its speeds, `large` the speeds of large ones,
+    `forces` all that the text applies.
     """
     nv = symbols.v.numel()
     tree_of = {k: n for n, own in enumerate(trees) for k in own if k < nv}
@@ -72,4 +74,6 @@ def moved_by_forces(
             and not inside.intersection(reads)
         )
 
-    return frozenset(k for n, own in enumerate(trees) if is_apart(n) for k in own)
+    return frozenset(
+        k for n, own in enumerate(trees) if not large.isdisjoint(own) and is_apart(n) for k in own
+    )

@@ -161,8 +161,8 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     plain = not has_text and not _reads_solution(forces, symbols)
     large = large_speeds(kinematics.nodes, symbols.v.numel())
     if large and not plain:
-        trees = [own for own in speeds_by_tree(kinematics.nodes) if not large.isdisjoint(own)]
-        large = moved_by_forces(trees, forces, equations, text, symbols)
+        trees = speeds_by_tree(kinematics.nodes)
+        large = moved_by_forces(trees, large, forces, equations, text, symbols)
     loads = sum_loads(mechanism, variables, applied, large)
     steps, potential = _masses(mechanism, variables, loads.pushes)
     motion = write_out(steps, symbols.v.numel(), speeds.numel(), large)

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "crossing.h"
-#include "crossing.h"
 #include "jacobian.h"
 #include "mechanics.h"
 #include "radau.h"

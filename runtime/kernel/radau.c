@@ -5,7 +5,6 @@
 
 #include "complex_lu.h"
 #include "crossing.h"
-#include "crossing.h"
 #include "jacobian.h"
 #include "mechanics.h"
 #include "radau_table.h"

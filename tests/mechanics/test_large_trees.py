@@ -154,14 +154,15 @@ when b2.angle > 0.1 rad then gain = 2; end when;
 slipping = friction(w1 - w2, 0.4 N.m);
 2 kg.m^2*der(w1) = -slipping + 0.5 N.m*cos(b3.angle);
 1 kg.m^2*der(w2) = slipping;
-seen = b5.tip.acceleration.x + b7.tip.acceleration.y;
+seen = b5.tip.acceleration.x + b7.tip.acceleration.y + p.tip.acceleration.x;
 read = norm(l3.force);
 """
 
 
 def plane_with_equations(rng: random.Random, count: int) -> str:
-    """A random tree in the plane that equations drive by forces and look at."""
-    whole = f"{EQUATIONS}equation\n{RELATIONS}initial\n"
+    """A random tree in the plane that equations drive by forces and look at, beside a small one."""
+    small = "body p: rod(mass = 1 kg, length = 1 m);\nliaison q: rotoide(ground, p.start);\n"
+    whole = f"{small}{EQUATIONS}equation\n{RELATIONS}initial\n"
     return plane(rng, count).replace("initial\n", whole)
 
 
