@@ -14,6 +14,7 @@ from frot.compiler.mechanics.mechanism import (
     Mechanism,
     Relation,
     point_body,
+    relinked,
 )
 from frot.compiler.mechanics.mechanize import link_of
 from frot.compiler.mechanics.spanning import span
@@ -44,12 +45,9 @@ def free(mechanism: Mechanism, wanted: Collection[Liaison]) -> Mechanism:
         else:
             rows += [Relation(link, lock, k == 0) for k, lock in enumerate(link.locks)]
     kept = {x.liaison: x for x in ideal}
-    coordinates = tuple(
-        h if h.link is None else replace(h, link=kept[h.link.liaison]) for h in tree.coordinates
-    )
     return Mechanism(
         model=own,
-        coordinates=coordinates,
+        coordinates=relinked(tree.coordinates, kept),
         contacts=tuple(rows),
         ideal=tuple(ideal),
         forces=(),

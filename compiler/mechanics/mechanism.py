@@ -5,8 +5,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 
 from frot.compiler.lowering.walk import has_time, is_fixed
 from frot.compiler.mechanics.geometry.figures import Ball, Figure, Placed
@@ -143,6 +143,15 @@ class Hanging:
     def carries_b(self) -> bool:
         """Whether the body is that of the place `b` of its joint."""
         return isinstance(self.link, Joint) and self.own is self.link.b
+
+
+def relinked(
+    coordinates: Iterable[Hanging], links: Mapping[Liaison, Contact | Joint]
+) -> tuple[Hanging, ...]:
+    """The same coordinates by these links, which stand for those of the same liaisons."""
+    return tuple(
+        h if h.link is None else replace(h, link=links[h.link.liaison]) for h in coordinates
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -21,6 +21,7 @@ from frot.compiler.mechanics.mechanism import (
     Relation,
     is_unilateral,
     point_body,
+    relinked,
     turns,
 )
 from frot.compiler.mechanics.refuse import (
@@ -79,12 +80,9 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     if log.failed:
         return None
     kept = {x.liaison: x for x in (*chosen, *ideal) if not isinstance(x, Relation)}
-    coordinates = tuple(
-        h if h.link is None else replace(h, link=kept[h.link.liaison]) for h in tree.coordinates
-    )
     return Mechanism(
         model=model,
-        coordinates=coordinates,
+        coordinates=relinked(tree.coordinates, kept),
         contacts=tuple(chosen),
         ideal=tuple(ideal),
         forces=model.forces,
