@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from importlib.resources import files
 from pathlib import Path
 
 from frot.compiler.mechanics.mechanism import Mechanism
@@ -99,8 +98,8 @@ def build(
     """
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.cache import store, write_manifest
-    from frot.compiler.toolchain.compilers import FLAGS, compile_objects, link_library
-    from frot.compiler.toolchain.objects import kept_objects
+    from frot.compiler.toolchain.compilers import compile_objects, link_library
+    from frot.compiler.toolchain.objects import kept_kernel, kernel_folder
 
     lowered = lowered_of(model, log, tell)
     if lowered is None:
@@ -108,7 +107,7 @@ def build(
     tell("its C text")
     text = text_of(lowered, key)
     tell(f"the C compiler, {len(text) // 1000} kB")
-    kernel = kept_objects(toolchain, kernel_sources(), [kernel_folder()], FLAGS)
+    kernel = kept_kernel(toolchain)
 
     def fill(folder: Path) -> None:
         source = folder / MODEL_SOURCE
@@ -171,13 +170,3 @@ def print_stage(model: Model, stage: str, log: Log) -> str | None:
     if stage == "c":
         return text_of(lowered, "")
     return print_cost(lowered) if stage == "cost" else print_equations(lowered)
-
-
-def kernel_folder() -> Path:
-    """Where the kernel's sources lie."""
-    return Path(str(files("frot.runtime.kernel")))
-
-
-def kernel_sources() -> list[Path]:
-    """The kernel's C files."""
-    return sorted(kernel_folder().glob("*.c"))

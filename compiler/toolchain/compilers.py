@@ -17,7 +17,6 @@ from frot.dsl.messages.errors import fail
 
 FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off")
 LINK_FLAGS = ("-shared", "-lm")
-HIDDEN = "-fvisibility=hidden"
 TIMEOUT = 600.0
 _OTHER = "set FROT_CC to another compiler, or report this with the model"
 
@@ -141,7 +140,9 @@ def compile_objects(
     return objects
 
 
-def link_library(toolchain: Toolchain, objects: Sequence[Path], target: Path) -> None:
-    """Link objects to a shared library."""
+def link_library(
+    toolchain: Toolchain, objects: Sequence[Path], target: Path, words: Sequence[str] = ()
+) -> None:
+    """Link objects to a shared library, with further words for the linker."""
     with Keeper() as keeper:
-        run_compiler(toolchain, [*objects, *LINK_FLAGS], target, keeper)
+        run_compiler(toolchain, [*objects, *words, *LINK_FLAGS], target, keeper)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import hashlib
+import sys
 import tempfile
 from collections.abc import Sequence
+from importlib.resources import files
 from pathlib import Path
 
 from frot.compiler.toolchain.cache import Kept, store, stored
 from frot.compiler.toolchain.compilers import (
     FLAGS,
-    HIDDEN,
     Toolchain,
     compile_objects,
     link_library,
@@ -40,15 +41,47 @@ def kept_objects(
     return stored("kernels", key) or store("kernels", key, fill)
 
 
+def kernel_folder() -> Path:
+    """Where the kernel's sources lie."""
+    return Path(str(files("frot.runtime.kernel")))
+
+
+def kernel_sources() -> list[Path]:
+    """The kernel's C files."""
+    return sorted(kernel_folder().glob("*.c"))
+
+
+def kept_kernel(toolchain: Toolchain) -> Kept:
+    """The folder of the kernel's objects: the same ones in every program and every FMU."""
+    return kept_objects(toolchain, kernel_sources(), [kernel_folder()], FLAGS)
+
+
 def compile_library(
     toolchain: Toolchain, sources: Sequence[Path], include: Sequence[Path], target: Path
 ) -> None:
-    """Compile the sources of an FMU to a shared library of which only marked functions are seen."""
+    """Compile the sources of an FMU to a shared library of which only FMI's functions are seen."""
     from frot.runtime.fmi.sources import TABLE_SOURCE
 
-    flags = (*FLAGS, HIDDEN)
+    kernel = {source.name for source in kernel_sources()}
     own = [source for source in sources if source.name in (MODEL_SOURCE, TABLE_SOURCE)]
-    kept = kept_objects(toolchain, [s for s in sources if s not in own], include, flags)
-    with tempfile.TemporaryDirectory(prefix="frot-") as folder, Keeper(Path(folder)):
-        objects = compile_objects(toolchain, own, include, Path(folder), flags)
-        link_library(toolchain, [*objects, *sorted(kept.folder.glob("*.o"))], target)
+    face = [source for source in sources if source not in own and source.name not in kernel]
+    kept = [kept_kernel(toolchain), kept_objects(toolchain, face, include, FLAGS)]
+    with tempfile.TemporaryDirectory(prefix="frot-") as name, Keeper(Path(name)):
+        folder = Path(name)
+        objects = compile_objects(toolchain, own, include, folder)
+        objects += sorted(part for one in kept for part in one.folder.glob("*.o"))
+        link_library(toolchain, objects, target, only_seen(folder))
+
+
+def only_seen(folder: Path) -> list[str]:
+    """Words for the linker, so that no FMU lends its kernel to another in the same process.
+
+    On Windows what FMI's headers export is seen, and nothing else, without a word.
+    """
+    if sys.platform == "win32":
+        return []
+    if sys.platform == "darwin":
+        return ["-Wl,-exported_symbol,_fmi*"]
+    script = folder / "seen.map"
+    script.write_text("{ global: fmi*; local: *; };\n", encoding="ascii")
+    return [f"-Wl,--version-script={script}"]

@@ -82,3 +82,13 @@ def test_simulate_sees_each_tick_on_its_grid(instance) -> None:
         result = model.simulate(stop=stop, interval=PERIOD)
         assert list(result["k"]) == list(range(round(stop / PERIOD) + 1))
         assert len(result.events) == round(stop / PERIOD)
+
+
+def test_the_library_shows_the_functions_of_fmi_alone(instance) -> None:
+    """Kernels of other versions may be in the same process."""
+    _, make = instance
+    host, _ = make()
+    seen = "fmi2DoStep" if host.version == 2 else "fmi3DoStep"
+    assert hasattr(host.library, seen)
+    assert not any(hasattr(host.library, name) for name in ("frot_advance", "frot_the_model"))
+    host.free()

@@ -99,8 +99,8 @@ def test_the_compilers_of_an_fmu_end_too(
     notes, temporary = folder / "pids", folder / "tmp"
     temporary.mkdir()
     shell("simulate", HOOP).succeeds()
-    # A compiler that sleeps where a flag of FMUs is among its words.
-    sleeps = f'*visibility=hidden*) echo $$ >> "{notes}"; sleep 600'
+    # A compiler that sleeps where the table of an FMU's variables is among its words.
+    sleeps = f'*fmu_table.c*) echo $$ >> "{notes}"; sleep 600'
     slow = f'case "$*" in {sleeps};; esac\nexec cc "$@" -O0'
     changes = {"FROT_CC": script(folder / "slow-cc", slow), "TMPDIR": temporary}
     process = shell.start("fmu", HOOP, "-o", "hoop.fmu", changes=changes)

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import casadi as ca
 from c_objects import c_objects
-from frot.compiler.driver import kernel_folder, kernel_sources
 from frot.compiler.toolchain.compilers import FLAGS, find_toolchain, link_library
+from frot.compiler.toolchain.objects import kernel_folder, kernel_sources
 from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo
 
 NONE = ca.SX(0, 1)

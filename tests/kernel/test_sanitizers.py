@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from c_objects import SANITIZED, c_objects
-from frot.compiler.driver import kernel_folder, kernel_sources
+from frot.compiler.toolchain.objects import kernel_folder, kernel_sources
 from frot.runtime.program import Program
 from patience import PATIENCE
 from small_models import Small, source
