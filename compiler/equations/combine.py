@@ -18,9 +18,8 @@ from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.index import Index, find_unbalanced, reduce_index
 from frot.compiler.equations.order import find_components
 from frot.compiler.equations.slopes import slopes, symbols_inside
+from frot.compiler.equations.sparse import pivots
 from frot.compiler.lowering.symbols import column
-from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import splu
 
 NEGLIGIBLE = 1e-10  # of numbers of order one that should be nothing but rounding
 PLAIN = 1e-6  # pivots above it, in the largest, tell a matrix that has an inverse
@@ -136,12 +135,8 @@ def _has_inverse(matrix: np.ndarray) -> bool:
     sizes = np.abs(matrix).max(axis=0)
     if not sizes.all():
         return False
-    try:
-        factors = splu(csc_matrix(matrix / sizes))
-    except RuntimeError:
-        return False
-    pivots = np.abs(factors.U.diagonal())
-    return bool(pivots.min() > PLAIN * pivots.max())
+    found = pivots(matrix / sizes)
+    return found is not None and bool(found.min() > PLAIN * found.max())
 
 
 def _sparsest(basis: np.ndarray) -> np.ndarray:

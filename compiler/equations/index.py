@@ -8,9 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import maximum_bipartite_matching
+from frot.compiler.equations.sparse import match, pattern
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,17 +40,16 @@ def find_unbalanced(incidence: Sequence[Sequence[int]], count: int) -> Unbalance
     rows = len(incidence)
     if rows == 0 and count == 0:
         return None
-    matrix = _matrix(incidence, count)
-    of_row = maximum_bipartite_matching(matrix, perm_type="column") if rows and count else []
+    of_row = match(incidence, count)
     row_of = [-1] * count
     for i, j in enumerate(of_row):
         if j >= 0:
-            row_of[int(j)] = i
-    free_rows = [i for i in range(rows) if not len(of_row) or of_row[i] < 0]
+            row_of[j] = i
+    free_rows = [i for i in range(rows) if of_row[i] < 0]
     free_columns = [j for j in range(count) if row_of[j] < 0]
     if not free_rows and not free_columns:
         return None
-    by_column = matrix.tocsc()
+    by_column = pattern(incidence, count).tocsc()
     too_many: set[int] = set(free_rows)
     pending = list(free_rows)
     while pending:
@@ -66,18 +63,11 @@ def find_unbalanced(incidence: Sequence[Sequence[int]], count: int) -> Unbalance
     while pending:
         at = pending.pop()
         for i in by_column.indices[by_column.indptr[at] : by_column.indptr[at + 1]]:
-            j = int(of_row[i])
+            j = of_row[i]
             if j >= 0 and j not in lacking:
                 lacking.add(j)
                 pending.append(j)
     return Unbalanced(tuple(sorted(lacking)), tuple(sorted(too_many)))
-
-
-def _matrix(incidence: Sequence[Sequence[int]], count: int) -> csr_matrix:
-    pointers = np.cumsum([0, *(len(row) for row in incidence)])
-    indices = np.array([j for row in incidence for j in row], dtype=np.int32)
-    ones = np.ones(len(indices), dtype=np.int8)
-    return csr_matrix((ones, indices, pointers), shape=(len(incidence), count))
 
 
 def reduce_index(incidence: Sequence[dict[int, int]], count: int) -> Index:
@@ -114,11 +104,9 @@ def _match_highest(
     """
     solver, solves = [-1] * len(highest), [-1] * len(incidence)
     rows = [[j for j, order in row.items() if order == highest[j]] for row in incidence]
-    if rows and highest:
-        matching = maximum_bipartite_matching(_matrix(rows, len(highest)), perm_type="column")
-        for i, j in enumerate(matching.tolist()):
-            if j >= 0:
-                solver[j], solves[i] = i, j
+    for i, j in enumerate(match(rows, len(highest))):
+        if j >= 0:
+            solver[j], solves[i] = i, j
     return solver, solves
 
 

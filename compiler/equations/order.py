@@ -6,9 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from graphlib import TopologicalSorter
 
-import numpy as np
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import connected_components
+from frot.compiler.equations.sparse import strong_components
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,15 +29,12 @@ def find_components(uses: Sequence[Sequence[int]], solves: Sequence[int]) -> lis
         return []
     solver = {j: i for i, j in enumerate(solves)}
     edges = [[solver[j] for j in row if solver[j] != i] for i, row in enumerate(uses)]
-    pointers = np.cumsum([0, *(len(row) for row in edges)])
-    indices = np.array([k for row in edges for k in row], dtype=np.int32)
-    graph = csr_matrix((np.ones(len(indices), dtype=np.int8), indices, pointers), (count, count))
-    number, labels = connected_components(graph, directed=True, connection="strong")
+    number, labels = strong_components(edges)
     members: list[list[int]] = [[] for _ in range(number)]
     needs: list[set[int]] = [set() for _ in range(number)]
     for i in range(count):
         members[labels[i]].append(i)
-        needs[labels[i]].update(int(labels[k]) for k in edges[i] if labels[k] != labels[i])
+        needs[labels[i]].update(labels[k] for k in edges[i] if labels[k] != labels[i])
     order = list(TopologicalSorter(dict(enumerate(needs))).static_order())
     place = {label: k for k, label in enumerate(order)}
     return [

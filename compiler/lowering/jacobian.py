@@ -7,8 +7,12 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.sparsity import Factors, factor_pattern
 from frot.compiler.lowering.symbols import column
+
+# What knows sparse matrices loads SciPy: only where there is one.
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from frot.compiler.lowering.sparsity import Factors
 
 # States up to which the matrix of equations alone is dense, and pivots are chosen by size.
 FEW_STATES = 12
@@ -56,6 +60,8 @@ def make_jacobian(system: Assembled, state: list[ca.SX], *, divided: bool) -> Ja
     rows, columns = (tuple(x) for x in slope.sparsity().get_triplet())
     if n <= FEW_STATES:
         return Jacobian(state, [slope, rate], (), (), None)
+    from frot.compiler.lowering.sparsity import factor_pattern
+
     factors = factor_pattern(np.array(rows, dtype=np.intp), np.array(columns, dtype=np.intp), n)
     return Jacobian(state, [column(ca.vertsplit(slope.nz[:])), rate], rows, columns, factors)
 
