@@ -98,7 +98,7 @@ def build(
     """
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.cache import store, write_manifest
-    from frot.compiler.toolchain.compilers import compile_objects, link_library
+    from frot.compiler.toolchain.compilers import MODEL_FLAGS, compile_objects, link_library
     from frot.compiler.toolchain.objects import kept_kernel, kernel_folder
 
     lowered = lowered_of(model, log, tell)
@@ -112,7 +112,7 @@ def build(
     def fill(folder: Path) -> None:
         source = folder / MODEL_SOURCE
         source.write_text(text, encoding="utf-8")
-        made = compile_objects(toolchain, [source], [kernel_folder()], folder)
+        made = compile_objects(toolchain, [source], [kernel_folder()], folder, MODEL_FLAGS)
         link_library(toolchain, [*made, *sorted(kernel.folder.glob("*.o"))], folder / LIBRARY)
         made[0].unlink()
         write_manifest(describe(lowered, file, key, toolchain, folder), folder)

@@ -10,7 +10,7 @@ from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.product.units import unit_of
 from frot.compiler.report.first_integrals import FirstIntegral
-from frot.compiler.toolchain.compilers import FLAGS, Toolchain
+from frot.compiler.toolchain.compilers import MODEL_FLAGS, Toolchain
 from frot.dsl import default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
 from frot.dsl.quantities.dimensions import dimension
@@ -58,7 +58,7 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
         ),
         experiment=_experiment(model),
         compiler=toolchain.command,
-        flags=FLAGS,
+        flags=MODEL_FLAGS,
         folder=folder,
         balanced=bool(model.bodies) and not lowered.system.elements and not mechanism.is_driven,
         conditions=tuple(reduced.conditions.texts),

@@ -17,7 +17,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from frot.compiler.toolchain.cache_size import UNFINISHED, read_limit, shrink, sweep, used_now
-from frot.compiler.toolchain.compilers import FLAGS, Toolchain
+from frot.compiler.toolchain.compilers import KERNEL_FLAGS, MODEL_FLAGS, Toolchain
 from frot.compiler.toolchain.hold import Hold, hold
 from frot.compiler.toolchain.keeper import Keeper
 from frot.dsl.messages.errors import fail
@@ -76,8 +76,8 @@ def _sources(folder: Traversable) -> Iterator[Traversable]:
 
 def program_key(text: str, model: str | None, toolchain: Toolchain) -> str:
     """What a program is made from, as a hexadecimal digest."""
-    digest = hashlib.sha256()
-    for part in (text, model or "", own_identity(), toolchain.identity, " ".join(FLAGS)):
+    digest, flags = hashlib.sha256(), " ".join((*KERNEL_FLAGS, *MODEL_FLAGS))
+    for part in (text, model or "", own_identity(), toolchain.identity, flags):
         digest.update(part.encode("utf-8", "surrogatepass"))
         digest.update(b"\0")
     return digest.hexdigest()

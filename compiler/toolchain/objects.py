@@ -11,7 +11,8 @@ from pathlib import Path
 
 from frot.compiler.toolchain.cache import Kept, store, stored
 from frot.compiler.toolchain.compilers import (
-    FLAGS,
+    KERNEL_FLAGS,
+    MODEL_FLAGS,
     Toolchain,
     compile_objects,
     link_library,
@@ -53,7 +54,7 @@ def kernel_sources() -> list[Path]:
 
 def kept_kernel(toolchain: Toolchain) -> Kept:
     """The folder of the kernel's objects: the same ones in every program and every FMU."""
-    return kept_objects(toolchain, kernel_sources(), [kernel_folder()], FLAGS)
+    return kept_objects(toolchain, kernel_sources(), [kernel_folder()], KERNEL_FLAGS)
 
 
 def compile_library(
@@ -65,10 +66,10 @@ def compile_library(
     kernel = {source.name for source in kernel_sources()}
     own = [source for source in sources if source.name in (MODEL_SOURCE, TABLE_SOURCE)]
     face = [source for source in sources if source not in own and source.name not in kernel]
-    kept = [kept_kernel(toolchain), kept_objects(toolchain, face, include, FLAGS)]
+    kept = [kept_kernel(toolchain), kept_objects(toolchain, face, include, KERNEL_FLAGS)]
     with tempfile.TemporaryDirectory(prefix="frot-") as name, Keeper(Path(name)):
         folder = Path(name)
-        objects = compile_objects(toolchain, own, include, folder)
+        objects = compile_objects(toolchain, own, include, folder, MODEL_FLAGS)
         objects += sorted(part for one in kept for part in one.folder.glob("*.o"))
         link_library(toolchain, objects, target, only_seen(folder))
 

@@ -150,5 +150,5 @@ def test_an_interrupt_while_compilers_are_being_started_ends_them(
     monkeypatch.setattr(ThreadPoolExecutor, "submit", interrupted)
     sources = [tmp_path / "a.c", tmp_path / "b.c"]
     with pytest.raises(KeyboardInterrupt):
-        compile_objects(Toolchain((str(slow),), "slow"), sources, [], tmp_path)
+        compile_objects(Toolchain((str(slow),), "slow"), sources, [], tmp_path, ())
     assert not any(alive(int(word)) for word in notes.read_text().split())

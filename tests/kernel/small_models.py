@@ -8,7 +8,7 @@ from pathlib import Path
 
 import casadi as ca
 from c_objects import c_objects
-from frot.compiler.toolchain.compilers import FLAGS, find_toolchain, link_library
+from frot.compiler.toolchain.compilers import KERNEL_FLAGS, find_toolchain, link_library
 from frot.compiler.toolchain.objects import kernel_folder, kernel_sources
 from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo
 
@@ -399,7 +399,7 @@ def build(m: Small, folder: Path) -> Program:
     toolchain = find_toolchain()
     (folder / "model.c").write_text(source(m, folder))
     sources = [folder / "model.c", *kernel_sources()]
-    objects = c_objects(sources, [kernel_folder()], FLAGS)
+    objects = c_objects(sources, [kernel_folder()], KERNEL_FLAGS)
     link_library(toolchain, objects, folder / "program.so")
     one = Unit("1")
     modes = [f"element {i + 1}" for i in range(len(m.elements))]
@@ -413,6 +413,6 @@ def build(m: Small, folder: Path) -> Program:
         ),
         contacts=tuple(modes),
         experiment=ExperimentInfo(0.0, m.stop, 1e-10, None, "rest"),
-        compiler=toolchain.command, flags=FLAGS, folder=folder,
+        compiler=toolchain.command, flags=KERNEL_FLAGS, folder=folder,
         conditions=tuple(f"condition {k + 1}" for k in range(m.n_conditions)),
     )  # fmt: skip
