@@ -11,7 +11,6 @@
 
 /* Weight of a stage in the step, which what is doubtful in its slope has. */
 #define DOUBTED 0.001
-
 double frot_step_tolerance(const frot_state *s) {
   return fmax(FROT_EXPLICIT_SHARE * s->tolerance, FROT_LEAST_TOLERANCE);
 }
@@ -55,7 +54,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
   double guard_tolerance = frot_guard_tolerance(s->tolerance);
   double e5[FROT_CHUNK], e3[FROT_CHUNK];
   int end = frot_width(w), n = w->awake.n, states = n - FROT_QUADRATURES;
-  w->step.worst = -1;
+  w->step.worst = -1, w->step.noisy = 0;
   for (int j = 0; j < end; j++) {
     int at = j % FROT_CHUNK, size = end - j < FROT_CHUNK ? end - j : FROT_CHUNK;
     if (at == 0) {
@@ -71,7 +70,8 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
         fifth -= w->step.excused[state - m->nq];
         third -= w->step.excused[m->nv + state - m->nq];
       }
-      noise = (plain ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN) * h * s->data[l->noise + state];
+      noise = (plain ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN) * h *
+              frot_noise_of_rate(m, s, w, state, h);
       bound = tolerance * size_at_start(m, s, w, state, h);
       if (plain) bound = fmax(bound, noise), noise = 0; /* no inertia smooths it */
     } else {
@@ -83,10 +83,11 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
     double error = joint > 0 ? fifth * fifth / joint : joint;
     error += DOUBTED * h * w->step.doubt[j];
-    /* what rounding makes grows with the step as its bound does: it is no reason for a shorter one
-     */
-    double ratio = error <= noise ? 0 : (error - noise) / bound;
-    if (!(ratio <= worst)) worst = ratio, w->step.worst = j < states ? w->awake.now->states[j] : -1;
+    double ratio = error / (bound + noise);
+    if (!(ratio <= worst)) {
+      worst = ratio, w->step.worst = j < states ? w->awake.now->states[j] : -1;
+      w->step.noisy = noise / error;
+    }
     if (isnan(worst)) break;
   }
   return worst;

@@ -15,6 +15,10 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
  * without end. The stages of the step are lost. */
 void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t);
 
+/* The same of a state's rate in a step h, where a coordinate is no better than its speed. */
+double frot_noise_of_rate(const frot_model *m, const frot_state *s, const frot_work *w, int state,
+                          double h);
+
 /* What rounding does to guard j during a step h: to its value, and to a slip by the speeds it is
  * made of. */
 double frot_guard_noise(const frot_model *m, const frot_state *s, const frot_work *w, int j,

@@ -9,9 +9,9 @@
 #include "stages.h"
 #include "tolerances.h"
 
-/* Accelerations that are nothing but rounding of their terms, at the place z, in all stages of the
- * step: what they bring is noise, however small the values moved (a value that is zero shows none
- * by being moved). */
+/* What rounding of their terms brings to accelerations at the place z, however small they are:
+ * where terms cancel, it is not seen by moving the values. Those with a `largest` above it are
+ * left. */
 static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, double t,
                          const double *z, const double *largest) {
   double *noise = s->data + w->layout.noise, *size = w->relations.residual;
@@ -21,7 +21,30 @@ static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, doubl
     int state = w->awake.now->states[j];
     if (state < m->nq) continue;
     double rounding = FROT_ROUNDING * size[state - m->nq];
-    if (largest[j] <= FROT_NOISE_MARGIN * rounding) noise[state] = fmax(noise[state], rounding);
+    if (largest && largest[j] > FROT_NOISE_MARGIN * rounding) continue;
+    noise[state] = fmax(noise[state], rounding);
+  }
+}
+
+/* Sizes of what rounding moves: of a value itself, and of a coordinate or speed the largest of its
+ * kind among those that its inertia is shared with. For bodies carried by bodies are placed by sums
+ * of these, in which a small one is no better than the largest. */
+static void note_neighbours(const frot_model *m, frot_work *w, double *size) {
+  for (int j = 0; j < m->nq + m->nv; j++) size[j] = fabs(w->step.z0[j]);
+  for (int i = 0; i < w->awake.now->n_groups; i++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[i]];
+    double *column = w->core.rest;
+    for (int k = 0; k < g->n_speeds && !g->general; k++) {
+      int carrier = g->unknowns[k], from = m->speed_coordinate[carrier];
+      frot_whole_column(w, g, k, column);
+      for (int l = 0; l < g->n_speeds; l++) {
+        int carried = g->unknowns[l], to = m->speed_coordinate[carried];
+        if (column[l] == 0 || m->speed_turns[carrier] != m->speed_turns[carried]) continue;
+        double *speed = &size[m->nq + carried];
+        *speed = fmax(*speed, fabs(w->step.z0[m->nq + carrier]));
+        if (from >= 0 && to >= 0) size[to] = fmax(size[to], fabs(w->step.z0[from]));
+      }
+    }
   }
 }
 
@@ -43,9 +66,16 @@ double frot_guard_noise(const frot_model *m, const frot_state *s, const frot_wor
   return own + h * frot_row_size(m, w, m->elements[e].row, noise + m->nq);
 }
 
+double frot_noise_of_rate(const frot_model *m, const frot_state *s, const frot_work *w, int state,
+                          double h) {
+  const double *noise = s->data + w->layout.noise;
+  if (state >= m->nq || m->q_speed[state] < 0) return noise[state];
+  return noise[state] + fabs(h) * noise[m->nq + m->q_speed[state]];
+}
+
 void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
   double *base = frot_stage(w, 1), *forth = frot_stage(w, 2), *back = frot_stage(w, 3);
-  double *noise = s->data + w->layout.noise, *largest = w->step.f;
+  double *noise = s->data + w->layout.noise, *largest = w->step.f, *size = largest + w->layout.nz;
   double *guards = noise + m->nq + m->nv;
   const int *states = w->awake.now->states;
   int n = m->nq + m->nv, packed = w->awake.n, moving = packed - FROT_QUADRATURES;
@@ -56,12 +86,14 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
       largest[j] = fmax(largest[j], fabs(frot_stage(w, i)[j]));
   }
   if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return;
+  note_neighbours(m, w, size);
   memset(noise, 0, sizeof(double) * (size_t)(n + w->layout.ng));
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {
       double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
       memcpy(w->step.z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
-      for (int j = 0; j < n; j++) w->step.z[j] *= 1 + (((j >> pattern) & 1) != 0 ? moved : -moved);
+      for (int j = 0; j < n; j++)
+        w->step.z[j] += (((j >> pattern) & 1) != 0 ? moved : -moved) * size[j];
       if (slope_from_start(m, s, w, t * (1 + moved), w->step.z, there) != FROT_OK) return;
     }
     for (int j = 0; j < frot_width(w); j++) {
@@ -72,13 +104,11 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
       *own = fmax(*own, sensitivity + rounding);
     }
   }
-  add_rounding(m, s, w, t, w->step.z0, largest);
-  add_rounding(m, s, w, t, w->step.z1, largest); /* where the terms no longer vanish by symmetry */
-  /* a position can be no better than its speed */
-  for (int j = 0; j < m->nq; j++) {
-    if (m->q_speed[j] < 0) continue;
-    int speed = m->nq + m->q_speed[j];
-    noise[j] =
-        fmax(noise[j], fmax(FROT_NUDGE * fabs(w->step.z0[speed]), fabs(s->h) * noise[speed]));
-  }
+  add_rounding(m, s, w, t, w->step.z0, NULL);
+  /* where terms no longer vanish by symmetry: a step that is far too long ends where all is large
+   */
+  add_rounding(m, s, w, t, w->step.z1, largest);
+  for (int j = 0; j < m->nq; j++)
+    if (m->q_speed[j] >= 0)
+      noise[j] = fmax(noise[j], FROT_NUDGE * fabs(w->step.z0[m->nq + m->q_speed[j]]));
 }

@@ -44,6 +44,8 @@
  * of that measure a step later. */
 #define PATIENCE 2
 #define FORGET 0.99
+/* Part of an error from which on what is left of an older measure is measured again at once. */
+#define NOISY 0.01
 /* Rejections after which the sizes of states no longer shrink with the step. */
 #define HOLD 6
 #define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
@@ -174,7 +176,9 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   }
   s->statistics.rejected++;
   a->to_due = 0;
-  if (++a->rejections % PATIENCE == 0 && a->ratio > 1) frot_measure_noise(m, s, w, t + h);
+  a->rejections++;
+  if (a->ratio > 1 && (a->rejections % PATIENCE == 0 || w->step.noisy > NOISY))
+    frot_measure_noise(m, s, w, t + h);
   if (a->rejections % HOLD == 0) frot_hold_worth(s, w);
   if (a->ratio > 1 && a->ratio < 1e300)
     a->h *= fmax(change_of_length(m, s, w, a->ratio), LEAST_PART);
@@ -232,6 +236,8 @@ static int find_length(const frot_model *m, frot_state *s, frot_work *w, frot_at
   double factor = a->ratio > 0 ? change_of_length(m, s, w, a->ratio) : MOST_GROWTH;
   factor = fmin(factor, trend(m, s, a));
   factor = fmin(fmax(factor, LEAST_PART), a->rejections ? 1 : MOST_GROWTH);
+  if (w->step.noisy >= 1)
+    factor = fmax(factor, 1); /* noise grows with the step as its bound does */
   s->h = fmin(a->h * factor, fmin(a->longest, a->stable));
   if (s->weak) s->h = fmax(a->h, a->want); /* noise does not show how long it may be */
   if (a->to_due) s->h = fmax(s->h, planned);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ import frot
 
 Finding = Callable[..., frot.Model]
 G = 9.81
+MODELS = Path(__file__).parents[2] / "models"
 
 
 def trammel_rates(y: np.ndarray, mu: float, tilt: float, sense: int) -> tuple[list[float], float]:
@@ -99,12 +101,16 @@ def test_friction_of_a_rod_on_two_lines_brakes_and_the_energy_is_told(
     assert np.all(friction * np.sign(result["A.slip"]) <= 1e-10 * largest)
 
 
-def chain_reference(n: int) -> np.ndarray:
-    """The angles of n uniform rods after 1 s: Lagrange's equations in absolute angles."""
+def chain_masses(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Of n uniform rods in absolute angles: the metric where all are aligned, and the weights."""
     links = np.arange(n)
     after = n - 1 - np.maximum.outer(links, links)
-    masses = np.where(np.eye(n, dtype=bool), 1 / 3, 1 / 2) + after
-    weights = 0.5 + n - 1 - links
+    return np.where(np.eye(n, dtype=bool), 1 / 3, 1 / 2) + after, 0.5 + n - 1 - links
+
+
+def chain_reference(n: int, first: float, apart: float) -> np.ndarray:
+    """The angles of n uniform rods after 1 s: Lagrange's equations in absolute angles."""
+    masses, weights = chain_masses(n)
 
     def rates(_: float, y: np.ndarray) -> np.ndarray:
         angle, rate = y[:n], y[n:]
@@ -112,16 +118,46 @@ def chain_reference(n: int) -> np.ndarray:
         pull = masses * np.sin(apart) @ rate**2 + G * weights * np.cos(angle)
         return np.concatenate([rate, -np.linalg.solve(masses * np.cos(apart), pull)])
 
-    start = np.concatenate([-np.pi / 2 + 0.5 + 0.2 * links, np.zeros(n)])
+    start = np.concatenate([first + apart * np.arange(n), np.zeros(n)])
     return solve_ivp(rates, (0, 1), start, method="DOP853", rtol=2.3e-14, atol=1e-14).y[:n, -1]
 
 
-@pytest.mark.parametrize("n", [2, 5, 10, 20])
+def chain_angles(result: frot.Result, n: int) -> np.ndarray:
+    """The absolute angles after 1 s."""
+    at = result.at(1.0)
+    return np.cumsum([float(at[f"{j}.angle"]) for j in ["o", *(f"j[{k}]" for k in range(1, n))]])
+
+
+@pytest.mark.parametrize("n", [2, 5, 20, 40])
 def test_the_tolerance_has_its_effect_on_a_long_chain(finding: Finding, n: int) -> None:
+    """Also from the horizontal, where accelerations of the outer joints begin as rounding."""
     model = finding("chain", {"n = 20;": f"n = {n};"})
-    exact = chain_reference(n)
-    for tolerance in (1e-4, 1e-6, 1e-8, 1e-10, 1e-12):
-        at = model.simulate(tolerance=tolerance).at(1.0)
-        joints = [f"j[{k}]" for k in range(1, n)]
-        angles = np.cumsum([float(at[f"{joint}.angle"]) for joint in ["o", *joints]])
-        assert np.abs(angles - exact).max() < 10 * tolerance + 1e-12
+    for first, apart in ((-np.pi / 2 + 0.5, 0.2), (0.0, 0.0)):
+        exact, start = chain_reference(n, first, apart), {"first": first, "apart": apart}
+        for tolerance in (1e-4, 1e-6, 1e-8, 1e-10, 1e-12):
+            result = model.simulate(tolerance=tolerance, parameters=start)
+            assert np.abs(chain_angles(result, n) - exact).max() < 10 * tolerance + 1e-12
+            assert result.figures.steps < 400
+
+
+@pytest.mark.parametrize("n", [2, 5, 20, 40])
+def test_a_chain_upright_moves_as_rounding_makes_it(finding: Finding, n: int) -> None:
+    """A difference of rounding grows as exp(rate t) at most, and no step is spent on it."""
+    model = finding("chain", {"n = 20;": f"n = {n};"})
+    masses, weights = chain_masses(n)
+    rate = np.sqrt(np.linalg.eigvals(np.linalg.solve(masses, np.diag(G * weights))).real.max())
+    for tolerance in (1e-4, 1e-8, 1e-12):
+        start = {"first": np.pi / 2, "apart": 0}
+        result = model.simulate(tolerance=tolerance, parameters=start)
+        moved = np.abs(chain_angles(result, n) - np.pi / 2).max()
+        assert moved < 10 * np.finfo(float).eps * np.exp(rate)
+        assert result.figures.steps < 100
+
+
+def test_a_small_swing_is_followed_to_its_own_size() -> None:
+    """Rounding is no excuse where there is none: 1e-10 rad cos(w t), w^2 = m g l / J."""
+    model = frot.load(MODELS / "physical_pendulum.frot")
+    for tolerance in (1e-4, 1e-8, 1e-12):
+        result = model.simulate(tolerance=tolerance, parameters={"start": 1e-10})
+        exact = 1e-10 * np.cos(np.sqrt(1.5 * G) * result.time)
+        assert np.abs(result["pin.angle"] - exact).max() < 1e-10 * (10 * tolerance + 1e-13)
