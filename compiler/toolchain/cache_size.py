@@ -10,6 +10,7 @@ import shutil
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from stat import S_ISDIR
 
 from frot.compiler.toolchain.hold import hold
 from frot.dsl.messages.errors import fail
@@ -135,8 +136,17 @@ def _folders(parent: Path, unfinished: bool = False) -> list[Path]:
 def _entry(path: Path) -> Entry | None:
     """None if it has gone meanwhile."""
     try:
-        used = path.stat().st_mtime
-        files = [path] if path.is_file() else [p for p in path.rglob("*") if p.is_file()]
-        return Entry(path, sum(file.stat().st_size for file in files), used)
+        about = path.stat()
+        size = _bytes_in(path) if S_ISDIR(about.st_mode) else about.st_size
     except OSError:
         return None
+    return Entry(path, size, about.st_mtime)
+
+
+def _bytes_in(folder: str | os.PathLike[str]) -> int:
+    """Asked of every entry whenever one is added, so that it must not take long."""
+    with os.scandir(folder) as found:
+        return sum(
+            _bytes_in(entry.path) if entry.is_dir(follow_symlinks=False) else entry.stat().st_size
+            for entry in found
+        )
