@@ -15,8 +15,8 @@ from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.finite import watch_numbers
 from frot.compiler.lowering.groups import Grouping
 from frot.compiler.lowering.initial_values import Statement, lower_initial
-from frot.compiler.lowering.islands import Island, divide
-from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, why_explicit
+from frot.compiler.lowering.islands import divide
+from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, too_full, why_explicit
 from frot.compiler.lowering.listing import Listed, list_variables
 from frot.compiler.lowering.lower_events import lower_update
 from frot.compiler.lowering.lower_parameters import lower_parameters, parameters_needed
@@ -100,10 +100,7 @@ def lower(
     given, is_set = ca.SX.sym("given", s.p.numel()), ca.SX.sym("set", s.p.numel())
     state = state_arguments(system)
     solution = [*state, system.z, system.lam]
-    implicit = reduced.mechanism.model.experiment.method == "implicit"
-    islands: tuple[Island, ...] = ()
-    if not implicit:
-        grouping, islands = divide(system, grouping, conditions, state)
+    grouping, islands = divide(system, grouping, conditions, state)
     outputs: dict[str, tuple[list[ca.SX], list[ca.SX]]] = {
         "parameters": (
             [given, is_set, s.u],
@@ -130,11 +127,12 @@ def lower(
     pace = make_pace(system, conditions[: reduced.conditions.located])
     if pace is not None:
         outputs["pace"] = (state, list(pace))
-    jacobian = make_jacobian(system, state, divided=bool(islands))
-    if implicit and jacobian is None:
+    jacobian = make_jacobian(system, grouping, state)
+    if reduced.mechanism.model.experiment.method == "implicit" and jacobian is None:
+        why = why_explicit(system) or too_full(system)
         log.report(
             "E0701",
-            f"the method 'implicit' is not supported for {why_explicit(system, divided=False)}",
+            f"the method 'implicit' is not supported for {why}",
             reduced.mechanism.model.experiment.span,
             help="`auto` and `explicit` are supported",
         )

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import casadi as ca
@@ -31,7 +32,8 @@ _UNASKED = re.compile(r"if \(res\[\d+\]!=0\) (?=res\[)")
 _LONG = 100_000
 _QUICK = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("O1")\n#endif\n'
 
-# The tables of frot_pattern, in its order.
+# The tables of frot_lines and of frot_pattern, in their order.
+_LINES = ("line", "column", "first", "direction", "group_start", "group_column")
 _PATTERN = ("order", "start", "column", "diagonal", "entry_row", "entry_column", "place")
 
 
@@ -159,6 +161,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "method": _METHODS[reduced.mechanism.model.experiment.method],
         "has_jacobian": int(lowered.jacobian is not None),
         "pattern": _pattern(lowered),
+        "lines": _lines(lowered),
         "general": int(not lowered.grouping.is_mass_matrix),
         "late_rates": int(system.late),
         "n_conditions": len(reduced.conditions.flags),
@@ -224,22 +227,42 @@ def _states(system: Assembled) -> Iterator[tuple[str, str]]:
 
 def _pattern(lowered: Lowered) -> str:
     jacobian = lowered.jacobian
-    if jacobian is None or not jacobian.rows:
+    if jacobian is None or jacobian.factors is None:
         return "{0}"
-    order = len(jacobian.factors.order) if jacobian.factors else 0
+    order = len(jacobian.factors.order)
     return _record(order, len(jacobian.rows), *(f"pattern_{name}" for name in _PATTERN))
 
 
 def _pattern_arrays(lowered: Lowered) -> list[str]:
     jacobian = lowered.jacobian
-    if jacobian is None or not jacobian.rows:
+    if jacobian is None:
         return []
-    f = jacobian.factors
-    before = (f.order, f.starts, f.columns, f.diagonal) if f else ((),) * 4
-    tables = (*before, jacobian.rows, jacobian.columns, f.places if f else ())
+    arrays = []
+    if jacobian.factors:
+        f = jacobian.factors
+        places = (jacobian.rows, jacobian.columns, f.places)
+        tables = [f.order, f.starts, f.columns, f.diagonal, *places]
+        arrays = _integers("pattern", _PATTERN, tables)
+    if jacobian.lines:
+        x = jacobian.lines
+        starts = itertools.accumulate((len(c) for c in x.of_groups), initial=0)
+        columns = itertools.chain(*x.of_groups)
+        tables = [x.rows, x.columns, x.first, x.directions, tuple(starts), tuple(columns)]
+        arrays += _integers("lines", _LINES, tables)
+    return arrays
+
+
+def _lines(lowered: Lowered) -> str:
+    lines = lowered.jacobian.lines if lowered.jacobian else None
+    if lines is None:
+        return "{0}"
+    return _record(lines.n_directions, *(f"lines_{name}" for name in _LINES))
+
+
+def _integers(prefix: str, names: Sequence[str], tables: Sequence[tuple[int, ...]]) -> list[str]:
     return [
-        _array("int", f"pattern_{name}", [str(k) for k in table])
-        for name, table in zip(_PATTERN, tables, strict=True)
+        _array("int", f"{prefix}_{name}", [str(k) for k in table])
+        for name, table in zip(names, tables, strict=True)
     ]
 
 

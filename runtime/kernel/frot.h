@@ -246,13 +246,26 @@ enum frot_method { FROT_AUTO = 0, FROT_EXPLICIT = 1, FROT_IMPLICIT = 2 };
 /* Pattern of a Jacobian J (n x n) and of the factors L + U of shift I - J, whose row and column k
  * are those of state order[k]. Row k of the factors has the columns column[start[k]] .. up to
  * start[k + 1], ascending; its diagonal stands at diagonal[k]. Entry e of J is in row entry_row[e]
- * and column entry_column[e], and goes to place[e] of the factors. n = 0: the matrix that is
- * factored is dense; of a motion the entries are those of the function `jacobian`. */
+ * and column entry_column[e], and goes to place[e] of the factors. n = 0: the matrix is dense. */
 typedef struct {
   int n, entries;
   const int *order, *start, *column, *diagonal;
   const int *entry_row, *entry_column, *place;
 } frot_pattern;
+
+/* What the function `jacobian` of a motion gives: derivatives of lines, in q, v and the unknowns y
+ * of the early blocks. The lines are those of owners in order: q' (nq), then of each group A z - E
+ * lam - h (n), J z + c (n_rows) and the coefficients of its elements (2 each), last the residuals
+ * of the early blocks. Entry e is in line[e] and column[e]; those of owner k begin at first[k]
+ * (n_groups + 3 items). Group k depends on the columns group_column[group_start[k]] .. up to
+ * group_start[k + 1]. directions: 0, or the function gives all lines' derivatives in the direction
+ * that is its last argument: it is called for each, with one in the columns of that direction, no
+ * two of which meet in a line. With a `pattern` the Jacobian's entries are those of q', then group
+ * after group, by the columns of the group, those of its speeds. */
+typedef struct {
+  int directions;
+  const int *line, *column, *first, *direction, *group_start, *group_column;
+} frot_lines;
 
 /* One scalar variable. */
 enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 3 };
@@ -286,7 +299,7 @@ typedef struct {
   int late_rates;     /* q' or the power depend on y of late blocks, z or lam: `rates` gives them */
   int time_dependent; /* forces, coefficients or located conditions depend on time */
   int method;         /* frot_method of the text */
-  int has_jacobian;   /* 1: the implicit method can run: one island, q' not late */
+  int has_jacobian;   /* 1: the implicit method can run: q' not late */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
   /* the first variables are the modes of the contacts that have one, the others are real */
 
@@ -329,13 +342,12 @@ typedef struct {
   /* jacobian -> where there are no speeds and no rows dq'/dq, dq'/dt (nq), at fixed y. The first
    *   holds the entries of `pattern`, or is dense (nq x nq). With early blocks r = 0 of the
    * unknowns y (ny), which take a dense one, also dq'/dy (nq x ny), dr/dq (ny x nq), dr/dt (ny),
-   * dr/dy (ny x ny). jacobian(..., y, z (nw), lam (n_rows)) -> else the entries of `pattern`:
-   * derivatives of q' (nq), A z - E lam - h (nw), J z + c (n_rows), coefficients (2 n_elements) and
-   * the residuals of the early blocks, in q, v and the unknowns y of these. Where `pattern` has
-   *   none: (..., lam, direction) -> their derivatives in that direction.
+   * dr/dy (ny x ny). jacobian(..., y, z (nw), lam (n_rows)) -> else the entries of `lines`, at
+   *   fixed y, z and lam, or jacobian(..., lam, direction) -> their values in a direction.
    * Where `has_jacobian`. */
   frot_callable jacobian;
   frot_pattern pattern;
+  frot_lines lines;
   /* invariants -> residual (n_invariants), its transposed Jacobian in (q, v) ((nq + nv) x
    *   n_invariants), size of its terms (n_invariants): relations between states that index
    *   reduction brought to light and that every accepted step is projected onto */

@@ -131,13 +131,13 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
   double tolerance = fmax(FROT_IMPLICIT_SHARE * s->tolerance, FROT_LEAST_IMPLICIT), worst = 0;
   const double *error =
       row(l, w, frot_has_motion(m) ? FROT_RADAU_ERROR : FIRST_ROW + RO_STAGES - 1);
+  const double *damping = frot_jacobian_damping(m, w, h);
   w->step.worst = -1, w->step.noisy = 0;
   for (int k = 0; k < frot_order(m); k++) {
     if (error[k] == 0) continue;
     double bound = fmax(tolerance * w->sizes.own[k], DBL_MIN);
     double noise = frot_noise_of_rate(m, s, w, k, h);
-    if (noise > 0)
-      bound = fmax(bound, FROT_NOISE_OF_RATES * h * noise / frot_jacobian_damping(m, w, k, h));
+    if (noise > 0) bound = fmax(bound, FROT_NOISE_OF_RATES * h * noise / damping[k]);
     double ratio = fabs(error[k]) / bound;
     if (!(ratio <= worst)) worst = ratio, w->step.worst = k;
     if (isnan(worst)) break;

@@ -37,15 +37,15 @@ frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *
   int *integer = doubles ? NULL : w->implicit.pivot + (motion ? frot_radau_integers(m) : 0);
   frot_jacobian j;
   j.entries = take(base, &used, entries);
+  j.slope_y = take(base, &used, n * ny); /* what follows the entries in frot_linearize */
   j.rate = take(base, &used, n);
   j.factors = take(base, &used, factors);
   j.scale = take(base, &used, 2 * n);
   j.scratch = take(base, &used, 2 * n);
   j.misfit = take(base, &used, m->n_contacts + 2 * m->n_elements + m->n_located);
-  j.slope_y = take(base, &used, n * ny);
   j.block_q = take(base, &used, ny * n);
+  j.block_y = take(base, &used, ny * ny); /* and so here */
   j.block_t = take(base, &used, ny);
-  j.block_y = take(base, &used, ny * ny);
   j.block_scale = take(base, &used, 2 * ny);
   j.growth = integer;
   j.pivot = doubles ? NULL : j.growth + 1;
@@ -54,6 +54,7 @@ frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *
   if (motion)
     j.linearize = frot_linearize_scratch(m, base ? base + used : NULL,
                                          doubles ? NULL : j.block_pivot + ny, &own, &more);
+  j.linearize.rates = j.entries, j.linearize.residual = j.block_q;
   if (doubles) *doubles = used + own;
   if (integers) *integers = (size_t)(1 + n + ny) + places + more;
   return j;
@@ -84,14 +85,11 @@ int frot_jacobian_at(const frot_model *m, frot_state *s, frot_work *w, double t,
   if (frot_has_motion(m)) {
     status = frot_linearize(m, s, w, t, z, d, &j.linearize, slope);
     if (status != FROT_OK) return status;
-    memcpy(j.entries, j.linearize.rates, sizeof(double) * (size_t)(n * n));
-    memcpy(j.slope_y, j.linearize.rates + n * n, sizeof(double) * (size_t)(n * ny));
-    memcpy(j.block_q, j.linearize.residual, sizeof(double) * (size_t)(ny * n));
-    memcpy(j.block_y, j.linearize.residual + ny * n, sizeof(double) * (size_t)(ny * ny));
     memset(j.rate, 0, sizeof(double) * (size_t)n);
     memset(j.block_t, 0, sizeof(double) * (size_t)ny);
     if (ny > 0 && (status = condense(m, &j, ny)) != FROT_OK) return status;
-    return frot_all_finite(j.entries, n * n) ? FROT_OK : FROT_NAN;
+    return frot_all_finite(j.entries, is_sparse(m) ? m->pattern.entries : n * n) ? FROT_OK
+                                                                                 : FROT_NAN;
   }
   frot_inputs(m, s, w, &t, z, z + n, d);
   double *res[] = {j.entries, j.rate, j.slope_y, j.block_q, j.block_t, j.block_y};
@@ -137,15 +135,23 @@ double frot_jacobian_error(const frot_model *m, const frot_work *w, double shift
                            j.scratch + frot_order(m));
 }
 
-double frot_jacobian_damping(const frot_model *m, const frot_work *w, int state, double h) {
+const double *frot_jacobian_damping(const frot_model *m, const frot_work *w, double h) {
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
   const frot_pattern *p = &m->pattern;
-  int n = frot_order(m), coordinate = state < m->nq ? -1 : m->speed_coordinate[state - m->nq];
-  double damping = 1;
-  if (coordinate >= 0) damping += h * h * fabs(j.entries[n * coordinate + state]);
-  if (!is_sparse(m)) return damping + h * fabs(j.entries[(n + 1) * state]);
-  for (int e = 0; e < p->entries; e++)
-    if (p->entry_row[e] == state && p->entry_column[e] == state) damping += h * fabs(j.entries[e]);
+  int n = frot_order(m);
+  double *damping = j.scratch;
+  for (int k = 0; k < n; k++) damping[k] = 1;
+  for (int k = 0; k < n && !is_sparse(m); k++) {
+    int own = k < m->nq ? -1 : m->speed_coordinate[k - m->nq];
+    damping[k] += h * fabs(j.entries[(n + 1) * k]);
+    if (own >= 0) damping[k] += h * h * fabs(j.entries[n * own + k]);
+  }
+  for (int e = 0; e < p->entries && is_sparse(m); e++) {
+    int row = p->entry_row[e], column = p->entry_column[e];
+    if (column == row) damping[row] += h * fabs(j.entries[e]);
+    if (row >= m->nq && column == m->speed_coordinate[row - m->nq])
+      damping[row] += h * h * fabs(j.entries[e]);
+  }
   return damping;
 }
 

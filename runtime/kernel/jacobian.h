@@ -46,9 +46,9 @@ void frot_jacobian_solve(const frot_model *m, const frot_work *w, const double *
 double frot_jacobian_error(const frot_model *m, const frot_work *w, double shift, const double *b,
                            const double *x);
 
-/* Part by which an implicit step h lets an error of a state's rate be felt less: one more than the
- * change by damping, and of a speed by stiffness, in the step. */
-double frot_jacobian_damping(const frot_model *m, const frot_work *w, int state, double h);
+/* For each state the part by which an implicit step h lets an error of its rate be felt less: one
+ * more than the change by damping, and of a speed by stiffness, in the step. In scratch. */
+const double *frot_jacobian_damping(const frot_model *m, const frot_work *w, double h);
 
 /* A bound of the eigenvalues' sizes: the least norm by rows that is found with states in units of
  * size[j] and of sizes that follow from these by |J| (L. Collatz, H. Wielandt). */

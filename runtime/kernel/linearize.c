@@ -10,32 +10,31 @@
 #include "reactions.h"
 #include "spare.h"
 
-/* Lines of the generated derivatives, in the order of frot.h. */
+/* Sizes: columns (q, v, y), lines and entries of the generated function; most that a group has of
+ * equations, unknowns, columns and lines. */
 typedef struct {
-  int rates, balance, motion, law, residual, count;
-  int columns; /* q, v, y */
-} lines;
+  int columns, lines, entries;
+  int equations, unknowns, most_columns, most_lines;
+} extent;
 
-static lines lines_of(const frot_model *m) {
+static int larger(int a, int b) { return a > b ? a : b; }
+
+static int lines_of(const frot_group *g) { return g->n + g->n_rows + 2 * g->n_elements; }
+
+static extent extent_of(const frot_model *m) {
   int early = frot_layout_of(m).early;
-  lines l = {.columns = m->nq + m->nv + early};
-  l.balance = m->nq;
-  l.motion = l.balance + m->nv + m->na + m->nc;
-  l.law = l.motion + m->n_rows;
-  l.residual = l.law + 2 * m->n_elements;
-  l.count = l.residual + early;
-  return l;
-}
-
-/* The largest system of a group: its equations and its unknowns. */
-static void extent_of(const frot_model *m, int *equations, int *unknowns) {
-  *equations = *unknowns = 0;
+  extent x = {.columns = m->nq + m->nv + early,
+              .lines = m->nq + early,
+              .entries = m->lines.first[m->n_groups + 2]};
   for (int k = 0; k < m->n_groups; k++) {
     const frot_group *g = &m->groups[k];
-    int rows = g->n + 2 * g->n_rows, columns = g->n + g->n_rows;
-    if (rows > *equations) *equations = rows;
-    if (columns > *unknowns) *unknowns = columns;
+    x.lines += lines_of(g);
+    x.equations = larger(x.equations, g->n + 2 * g->n_rows);
+    x.unknowns = larger(x.unknowns, g->n + g->n_rows);
+    x.most_columns = larger(x.most_columns, m->lines.group_start[k + 1] - m->lines.group_start[k]);
+    x.most_lines = larger(x.most_lines, lines_of(g));
   }
+  return x;
 }
 
 static double *take(double *base, size_t *used, int count) {
@@ -46,24 +45,22 @@ static double *take(double *base, size_t *used, int count) {
 
 frot_linearize_work frot_linearize_scratch(const frot_model *m, double *doubles, int *integers,
                                            size_t *n_doubles, size_t *n_integers) {
-  lines l = lines_of(m);
-  int rows, columns;
-  extent_of(m, &rows, &columns);
+  extent x = extent_of(m);
+  int rows = x.equations, columns = x.unknowns, directions = m->lines.directions;
   size_t used = 0;
-  frot_linearize_work w;
-  int early = frot_layout_of(m).early;
-  w.rates = take(doubles, &used, (m->nq + m->nv) * l.columns);
-  w.residual = take(doubles, &used, early * l.columns);
-  w.entries = take(doubles, &used, m->pattern.entries > 0 ? m->pattern.entries : l.columns);
-  w.partial = take(doubles, &used, l.count * l.columns);
+  frot_linearize_work w = {.rates = NULL, .residual = NULL};
+  w.partial = take(doubles, &used, directions > 0 ? x.lines * directions : x.entries);
+  w.seed = take(doubles, &used, x.columns);
+  w.block = take(doubles, &used, x.most_lines * x.most_columns);
   w.matrix = take(doubles, &used, rows * columns);
   w.lu = take(doubles, &used, rows * columns);
-  w.right = take(doubles, &used, rows * l.columns);
+  w.right = take(doubles, &used, rows * x.most_columns);
   w.least = take(doubles, &used, rows + (rows > columns ? rows : columns) * (columns + 6));
   w.scale = take(doubles, &used, 2 * columns);
   w.pivot = integers;
   w.unknown = integers ? integers + columns : NULL;
-  *n_doubles = used, *n_integers = (size_t)(columns + m->n_rows);
+  w.place = integers ? w.unknown + m->n_rows : NULL;
+  *n_doubles = used, *n_integers = (size_t)(columns + m->n_rows + x.columns);
   return w;
 }
 
@@ -76,7 +73,8 @@ typedef struct {
   const frot_group *g;
   const frot_contact_mode *modes;
   const frot_linearize_work *scratch;
-  lines l;
+  const int *columns; /* on which the group depends */
+  int n_columns, lines;
   int rows, equations, unknowns;
 } problem;
 
@@ -88,8 +86,9 @@ static double *right_of(const problem *p, int column) {
   return p->scratch->right + (size_t)column * (size_t)p->rows;
 }
 
-static const double *partial_of(const problem *p, int line, int column) {
-  return p->scratch->partial + (size_t)column * (size_t)p->l.count + line;
+/* Derivative of a line of the group in its column. */
+static double *partial_of(const problem *p, int line, int column) {
+  return p->scratch->block + (size_t)column * (size_t)p->lines + line;
 }
 
 /* Whether the row is left to others that it depends on. */
@@ -97,11 +96,17 @@ static int is_left(const problem *p, int row) {
   return !p->g->general && p->w->reactions.carried[row];
 }
 
-/* The element of a row, or -1 for the row of a normal. */
-static int element_of(const problem *p, int row) {
+/* The number in the group of the element of a row, or -1 for the row of a normal. */
+static int number_of(const problem *p, int row) {
   for (int i = 0; i < p->g->n_elements; i++)
-    if (p->m->elements[p->g->elements[i]].row == row) return p->g->elements[i];
+    if (p->m->elements[p->g->elements[i]].row == row) return i;
   return -1;
+}
+
+/* The element itself. */
+static int element_of(const problem *p, int row) {
+  int number = number_of(p, row);
+  return number < 0 ? -1 : p->g->elements[number];
 }
 
 static int contact_of(const problem *p, int row) {
@@ -172,21 +177,19 @@ static void balance(problem *p) {
     const double *effect = (g->general ? w->core.effect : w->core.rows) + g->entries + i * n;
     for (int k = 0; k < n; k++) *entry(p, k, at) = -effect[k];
   }
-  for (int c = 0; c < p->l.columns; c++)
-    for (int k = 0; k < n; k++)
-      right_of(p, c)[k] = -*partial_of(p, p->l.balance + g->unknowns[k], c);
+  for (int c = 0; c < p->n_columns; c++)
+    for (int k = 0; k < n; k++) right_of(p, c)[k] = -*partial_of(p, k, c);
   p->equations = n;
 }
 
 /* J z + c = 0. */
 static void keep(problem *p, int i) {
   const frot_group *g = p->g;
-  int line = p->equations++, row = g->rows[i], after = g->n_speeds + g->n_auxiliary;
+  int line = p->equations++, after = g->n_speeds + g->n_auxiliary;
   const double *own = p->w->core.rows + g->entries + i * g->n;
   for (int k = 0; k < g->n; k++)
     if (k < g->n_speeds || k >= after) *entry(p, line, k) = own[k];
-  for (int c = 0; c < p->l.columns; c++)
-    right_of(p, c)[line] = -*partial_of(p, p->l.motion + row, c);
+  for (int c = 0; c < p->n_columns; c++) right_of(p, c)[line] = -*partial_of(p, g->n + i, c);
 }
 
 /* Takes `by` times the derivative of the reaction of a row from the equation `line`. */
@@ -196,11 +199,12 @@ static void take_reaction(problem *p, int line, int row, double by) {
   if (at >= 0) *entry(p, line, at) -= by;
 }
 
-/* lam = ratio * bounding. */
-static void follow(problem *p, int i, int e, int sign, int which) {
+/* lam = ratio * bounding, for the row i of the group and its element number k, e of the model. */
+static void follow(problem *p, int i, int k, int sign, int which) {
+  int e = p->g->elements[k];
   const frot_element *element = &p->m->elements[e];
   const double *lam = p->w->core.lam;
-  int line = p->equations++;
+  int line = p->equations++, law = p->g->n + p->g->n_rows + 2 * k + which;
   double ratio = sign * p->w->core.coefficient[2 * e + which], bounding = 1;
   *entry(p, line, p->scratch->unknown[i]) = 1;
   if (element->bound == FROT_BY_NORMAL) {
@@ -214,8 +218,8 @@ static void follow(problem *p, int i, int e, int sign, int which) {
       take_reaction(p, line, element->bounded_by[1], ratio * second / bounding);
     }
   }
-  for (int c = 0; c < p->l.columns; c++)
-    right_of(p, c)[line] = sign * bounding * *partial_of(p, p->l.law + 2 * e + which, c);
+  for (int c = 0; c < p->n_columns; c++)
+    right_of(p, c)[line] = sign * bounding * *partial_of(p, law, c);
 }
 
 /* Solve for all columns; the solutions stand in the places of the right sides. */
@@ -226,13 +230,13 @@ static void solve(problem *p) {
     for (int k = 0; k < n; k++)
       memcpy(scratch->lu + n * k, entry(p, 0, k), sizeof(double) * (size_t)n);
     if (!frot_lu(scratch->lu, n, scratch->pivot, scratch->scale)) {
-      for (int c = 0; c < p->l.columns; c++)
+      for (int c = 0; c < p->n_columns; c++)
         frot_lu_apply(scratch->lu, n, scratch->pivot, scratch->scale, right_of(p, c));
       return;
     }
   }
   double *x = scratch->least, *work = x + n;
-  for (int c = 0; c < p->l.columns; c++) {
+  for (int c = 0; c < p->n_columns; c++) {
     for (int k = 0; k < n; k++)
       memcpy(scratch->lu + rows * k, entry(p, 0, k), sizeof(double) * (size_t)rows);
     frot_least_norm(scratch->lu, right_of(p, c), rows, n, x, work, scratch->pivot);
@@ -249,7 +253,7 @@ static void solve_group(problem *p) {
     int row = g->rows[i], e = element_of(p, row), which = 0;
     if (frot_is_reading(p->m, row) || is_left(p, row)) continue;
     int sign = e >= 0 ? follows(p, e, &which) : 0;
-    if (sign != 0) follow(p, i, e, sign, which);
+    if (sign != 0) follow(p, i, number_of(p, row), sign, which);
     if (is_kept(p, row, e)) keep(p, i);
   }
   solve(p);
@@ -257,25 +261,48 @@ static void solve_group(problem *p) {
 
 /* Derivatives of the lines: all entries at once, or direction after direction. */
 static int find_partials(const frot_model *m, frot_work *w, const frot_linearize_work *scratch,
-                         const lines *l) {
-  const frot_pattern *pattern = &m->pattern;
-  double *partial = scratch->partial, *entries = scratch->entries;
-  if (pattern->entries > 0) {
-    w->call.res[0] = entries;
+                         const extent *x) {
+  const frot_lines *lines = &m->lines;
+  double *partial = scratch->partial, *seed = scratch->seed;
+  if (lines->directions == 0) {
+    w->call.res[0] = partial;
     frot_call(w, &m->jacobian);
-    memset(partial, 0, sizeof(double) * (size_t)(l->count * l->columns));
-    for (int e = 0; e < pattern->entries; e++)
-      partial[pattern->entry_column[e] * l->count + pattern->entry_row[e]] = entries[e];
-  } else {
-    memset(entries, 0, sizeof(double) * (size_t)l->columns);
-    for (int c = 0; c < l->columns; c++) {
-      w->call.arg[9] = entries, w->call.res[0] = partial + l->count * c;
-      entries[c] = 1;
-      frot_call(w, &m->jacobian);
-      entries[c] = 0;
-    }
+    return frot_all_finite(partial, x->entries);
   }
-  return frot_all_finite(partial, l->count * l->columns);
+  for (int k = 0; k < lines->directions; k++) {
+    for (int c = 0; c < x->columns; c++) seed[c] = lines->direction[c] == k;
+    w->call.arg[9] = seed, w->call.res[0] = partial + x->lines * k;
+    frot_call(w, &m->jacobian);
+  }
+  return frot_all_finite(partial, x->lines * lines->directions);
+}
+
+static double entry_value(const frot_model *m, const frot_linearize_work *scratch, const extent *x,
+                          int e) {
+  const frot_lines *lines = &m->lines;
+  if (lines->directions == 0) return scratch->partial[e];
+  return scratch->partial[x->lines * lines->direction[lines->column[e]] + lines->line[e]];
+}
+
+/* The derivatives of the lines of group k, the first of which is `first`. */
+static void gather(problem *p, const extent *x, int k, int first) {
+  const frot_lines *lines = &p->m->lines;
+  int *place = p->scratch->place;
+  p->g = &p->m->groups[k], p->lines = lines_of(p->g);
+  p->columns = lines->group_column + lines->group_start[k];
+  p->n_columns = lines->group_start[k + 1] - lines->group_start[k];
+  memset(p->scratch->block, 0, sizeof(double) * (size_t)p->lines * (size_t)p->n_columns);
+  for (int c = 0; c < p->n_columns; c++) place[p->columns[c]] = c;
+  for (int e = lines->first[1 + k]; e < lines->first[2 + k]; e++)
+    *partial_of(p, lines->line[e] - first, place[lines->column[e]]) =
+        entry_value(p->m, p->scratch, x, e);
+}
+
+/* Entries in dense columns of `height` items, the lines beginning at `first`. */
+static void spread(const frot_model *m, const frot_linearize_work *scratch, const extent *x,
+                   int owner, int first, int height, double *to) {
+  for (int e = m->lines.first[owner]; e < m->lines.first[owner + 1]; e++)
+    to[height * m->lines.column[e] + m->lines.line[e] - first] = entry_value(m, scratch, x, e);
 }
 
 int frot_linearize(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z,
@@ -283,28 +310,39 @@ int frot_linearize(const frot_model *m, frot_state *s, frot_work *w, double t, c
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   int status = frot_slope(m, s, w, t, z, slope);
   if (status != FROT_OK) return status;
-  problem p = {.m = m, .w = w, .scratch = scratch, .l = lines_of(m)};
-  int order = m->nq + m->nv, early = w->layout.early, unknowns;
+  extent x = extent_of(m);
+  problem p = {.m = m, .w = w, .scratch = scratch, .rows = x.equations};
+  int order = m->nq + m->nv, early = w->layout.early, sparse = m->pattern.n > 0, first = m->nq;
   p.modes = (const void *)(s->data + w->layout.modes);
   frot_inputs(m, s, w, &t, z, z + m->nq, d);
   w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
-  if (!find_partials(m, w, scratch, &p.l)) return FROT_NAN;
-  memset(scratch->rates, 0, sizeof(double) * (size_t)(order * p.l.columns));
-  for (int c = 0; c < p.l.columns; c++) {
-    memcpy(scratch->rates + order * c, partial_of(&p, p.l.rates, c),
-           sizeof(double) * (size_t)m->nq);
-    memcpy(scratch->residual + early * c, partial_of(&p, p.l.residual, c),
-           sizeof(double) * (size_t)early);
+  if (!find_partials(m, w, scratch, &x)) return FROT_NAN;
+  int count = sparse ? m->pattern.entries : order * x.columns;
+  double *at = scratch->rates;
+  if (!sparse) {
+    memset(at, 0, sizeof(double) * (size_t)count);
+    spread(m, scratch, &x, 0, 0, order, at);
   }
-  extent_of(m, &p.rows, &unknowns);
+  for (int e = 0; sparse && e < m->lines.first[1]; e++) *at++ = entry_value(m, scratch, &x, e);
   const double *frozen = s->data + w->layout.frozen;
   for (int k = 0; k < m->n_groups; k++) {
-    const frot_group *g = p.g = &m->groups[k];
+    gather(&p, &x, k, first);
     solve_group(&p);
-    for (int c = 0; c < p.l.columns; c++)
-      for (int i = 0; i < g->n_speeds; i++)
-        if (frozen[g->unknowns[i]] == 0)
-          scratch->rates[order * c + m->nq + g->unknowns[i]] = right_of(&p, c)[i];
+    for (int c = 0; c < p.n_columns; c++)
+      for (int i = 0; i < p.g->n_speeds; i++) {
+        int speed = p.g->unknowns[i];
+        double value = frozen[speed] == 0 ? right_of(&p, c)[i] : 0;
+        if (sparse)
+          *at++ = value;
+        else
+          at[order * p.columns[c] + m->nq + speed] = value;
+      }
+    first += p.lines;
   }
-  return frot_all_finite(scratch->rates, order * p.l.columns) ? FROT_OK : FROT_NAN;
+  memset(scratch->residual, 0, sizeof(double) * (size_t)(early * x.columns));
+  spread(m, scratch, &x, m->n_groups + 1, first, early, scratch->residual);
+  return frot_all_finite(scratch->rates, count) &&
+                 frot_all_finite(scratch->residual, early * x.columns)
+             ? FROT_OK
+             : FROT_NAN;
 }

@@ -10,6 +10,7 @@
 #include "radau_table.h"
 #include "segment.h"
 #include "sizes.h"
+#include "sparse_complex.h"
 #include "stages.h"
 #include "tolerances.h"
 
@@ -29,20 +30,26 @@ typedef char frot_radau_rows_suffice[FROT_RADAU_ERROR < DP_STAGES ? 1 : -1];
 typedef struct {
   double *moved;   /* RA_STAGES x n: w, where what the stages have moved is T w */
   double *change;  /* RA_STAGES x n: right sides, then changes of w */
-  double *factors; /* RA_PAIRS x 2 n x n */
+  double *factors; /* RA_PAIRS x 2 x as many as a factor has */
+  double *sparse;  /* 2 n */
   int *pivot;      /* RA_PAIRS x n */
 } scratch;
+
+/* Items of a factor. */
+static int items_of(const frot_model *m) {
+  int n = frot_order(m);
+  return m->pattern.n > 0 ? m->pattern.start[n] : n * n;
+}
 
 static scratch scratch_of(const frot_model *m, const frot_work *w) {
   int n = frot_order(m);
   double *base = w->implicit.items;
-  scratch x = {base, base + RA_STAGES * n, base + 2 * RA_STAGES * n, w->implicit.pivot};
-  return x;
+  double *factors = base + 2 * RA_STAGES * n, *sparse = factors + 2 * RA_PAIRS * items_of(m);
+  return (scratch){base, base + RA_STAGES * n, factors, sparse, w->implicit.pivot};
 }
 
 size_t frot_radau_doubles(const frot_model *m) {
-  size_t n = (size_t)frot_order(m);
-  return 2 * RA_STAGES * n + 2 * RA_PAIRS * n * n;
+  return (size_t)(2 * (RA_STAGES + 1) * frot_order(m) + 2 * RA_PAIRS * items_of(m));
 }
 
 size_t frot_radau_integers(const frot_model *m) { return (size_t)(RA_PAIRS * frot_order(m)); }
@@ -52,12 +59,18 @@ static double *row(const frot_work *w, int i) { return frot_stage(w, i); }
 /* Factor (a + i b)/h I - J for each pair, and ra_gamma/h I - J. */
 static int factor(const frot_model *m, frot_work *w, const scratch *x, double h) {
   if (frot_jacobian_factor(m, w, ra_gamma / h)) return 1;
-  int n = frot_order(m);
+  int n = frot_order(m), items = items_of(m);
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
   for (int p = 0; p < RA_PAIRS; p++) {
-    double *re = x->factors + 2 * p * n * n, *im = re + n * n;
+    double *re = x->factors + 2 * p * items, *im = re + items;
+    if (m->pattern.n > 0) {
+      if (frot_sparse_complex_factor(&m->pattern, j.entries, ra_a[p] / h, ra_b[p] / h, re,
+                                     x->sparse))
+        return 1;
+      continue;
+    }
     for (int i = 0; i < n * n; i++) re[i] = -j.entries[i];
-    memset(im, 0, sizeof(double) * (size_t)(n * n));
+    memset(im, 0, sizeof(double) * (size_t)items);
     for (int i = 0; i < n; i++) re[(n + 1) * i] += ra_a[p] / h, im[(n + 1) * i] = ra_b[p] / h;
     if (frot_complex_lu(re, im, n, x->pivot + p * n, j.scale)) return 1;
   }
@@ -102,7 +115,7 @@ static int evaluate(const frot_model *m, frot_state *s, frot_work *w, const scra
 
 /* One pass of Newton's method: the change of w. */
 static void improve(const frot_model *m, const frot_work *w, const scratch *x, double h) {
-  int n = frot_order(m);
+  int n = frot_order(m), items = items_of(m);
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
   for (int r = 0; r < RA_STAGES; r++) {
     double *right = x->change + r * n;
@@ -115,14 +128,17 @@ static void improve(const frot_model *m, const frot_work *w, const scratch *x, d
   for (int k = 0; k < n; k++) x->change[k] -= ra_gamma / h * x->moved[k];
   frot_jacobian_solve(m, w, x->change, x->change);
   for (int p = 0; p < RA_PAIRS; p++) {
-    const double *u = x->moved + (1 + 2 * p) * n, *v = u + n, *re = x->factors + 2 * p * n * n;
+    const double *u = x->moved + (1 + 2 * p) * n, *v = u + n, *re = x->factors + 2 * p * items;
     double *first = x->change + (1 + 2 * p) * n, *second = first + n, a = ra_a[p] / h,
            b = ra_b[p] / h;
     for (int k = 0; k < n; k++) {
       first[k] -= a * u[k] - b * v[k];
       second[k] -= b * u[k] + a * v[k];
     }
-    frot_complex_apply(re, re + n * n, n, x->pivot + p * n, j.scale, first, second);
+    if (m->pattern.n > 0)
+      frot_sparse_complex_apply(&m->pattern, re, x->sparse, first, second);
+    else
+      frot_complex_apply(re, re + items, n, x->pivot + p * n, j.scale, first, second);
   }
 }
 
@@ -196,16 +212,18 @@ static void finish(const frot_model *m, frot_work *w, const scratch *x, double h
   for (int k = 0; k < n + FROT_QUADRATURES; k++) w->step.z1[k] = w->step.z0[k] + last[k];
 }
 
-static void estimate(const frot_model *m, frot_work *w, double h) {
+/* The error. 0, or 1 where the factors without pivoting do not give it. */
+static int estimate(const frot_model *m, frot_work *w, const scratch *x, double h) {
   int n = frot_order(m);
-  double *error = row(w, FROT_RADAU_ERROR);
+  double *error = row(w, FROT_RADAU_ERROR), *right = x->change;
   const double *slope = row(w, 0);
   for (int k = 0; k < n; k++) {
     double sum = 0;
     for (int i = 0; i < RA_STAGES; i++) sum += ra_e[i] * row(w, FROT_RADAU_MOVED + i)[k];
-    error[k] = slope[k] + ra_gamma / h * sum;
+    right[k] = slope[k] + ra_gamma / h * sum;
   }
-  frot_jacobian_solve(m, w, error, error);
+  frot_jacobian_solve(m, w, right, error);
+  return !(frot_jacobian_error(m, w, ra_gamma / h, right, error) < FROT_GROWN);
 }
 
 int frot_radau_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
@@ -223,7 +241,7 @@ int frot_radau_stages(const frot_model *m, frot_state *s, frot_work *w, double t
   status = frot_slope(m, s, w, t + h, w->step.z1, row(w, DP_STAGES));
   memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)m->ny);
   if (status == FROT_OK && frot_has_jammed(s, w)) status = FROT_DIVERGE;
-  if (status == FROT_OK) estimate(m, w, h);
+  if (status == FROT_OK && estimate(m, w, &x, h)) status = FROT_DIVERGE;
   return status;
 }
 

@@ -45,10 +45,12 @@ int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w) {
 void frot_motion_sizes(const frot_model *m, const frot_state *s, frot_work *w, double h,
                        const double *slope, int stiff) {
   const double *most = s->data + w->layout.scale_x;
-  for (int j = 0; j < m->nq + m->nv; j++) {
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n - FROT_QUADRATURES; k++) {
+    int j = now->states[k];
     if (j < m->nq && is_own(m, j)) continue;
-    double change = h * fabs(slope[j]), gone = fabs(w->step.z1[j] - w->step.z0[j]);
-    if (j < m->nq) change += h * h * fabs(slope[m->nq + m->q_speed[j]]);
+    double change = h * fabs(slope[k]), gone = fabs(w->step.z1[j] - w->step.z0[j]);
+    if (j < m->nq) change += h * h * fabs(slope[now->place[m->nq + m->q_speed[j]]]);
     if (stiff && gone < change) change = gone;
     double size = larger(larger(most[j], fabs(w->step.z0[j])), change);
     w->sizes.own[j] = size > 0 ? size : gone;

@@ -108,6 +108,7 @@ static double change_of_length(const frot_model *m, const frot_state *s, const f
 static int begin(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   a->longest = frot_longest_step(m, s, a->t, 0);
   a->h = fmin(s->h, a->longest);
+  frot_see_anew(w);
   int status = frot_start_slope(m, s, w, a->t);
   if (status == FROT_OK && is_still(w)) {
     a->longest = frot_longest_step(m, s, a->t, 1);
@@ -120,6 +121,7 @@ static int begin(const frot_model *m, frot_state *s, frot_work *w, frot_attempt 
   a->to_due = a->h >= s->due - a->t;
   if (a->to_due) a->h = s->due - a->t;
   a->first = a->h;
+  if (status == FROT_OK) frot_follow_spare(m, s, w);
   return status;
 }
 
@@ -190,13 +192,22 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   return status == FROT_OK ? FROT_DIVERGE : status;
 }
 
+/* Implicit steps are of all states: nothing sleeps in them. */
+static void wake_all(const frot_model *m, frot_state *s, frot_work *w) {
+  if (s->asleep == 0) return;
+  frot_wake_state(m, s, w);
+  frot_wake(w);
+  s->has_slope = 0; /* other guards are listed */
+}
+
 /* The step has become too short. FROT_OK where it can go on with the other method, or an event is
  * at its start (s->pending), else the status of the fault. */
 static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a, int status) {
   int ends = frot_condition_at_zero(m, s, w);
   int over = a->passed >= 0 && ends >= 0; /* no method has a value beyond it */
   if (!over && !a->changed && frot_change_method(m, s)) {
-    int begun = s->implicit ? frot_implicit_begin(m, s, w, a->t) : FROT_OK;
+    if (s->implicit) wake_all(m, s, w);
+    int begun = s->implicit ? begin(m, s, w, a) : FROT_OK;
     a->changed = 1, a->h = a->first;
     if (begun == FROT_OK) return FROT_OK;
   }
@@ -327,8 +338,10 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   s->has_slope = !moved && !s->pending;
   if (s->has_slope) frot_turn_at_end(m, s, w, slope);
   if (!s->implicit) frot_keep_crossings(m, s, w, a->t, a->h);
-  if (!s->pending && frot_note_still(m, s, w, x)) s->has_slope = 0; /* other guards are listed */
+  if (!s->pending && !s->implicit && frot_note_still(m, s, w, x))
+    s->has_slope = 0; /* other guards are listed */
   frot_choose_next(m, s, a->stiff);
+  if (s->implicit) wake_all(m, s, w);
   if (end > s->crowded_since + CROWDED * s->h_max) s->crowded_since = end, s->crowded = 0;
   return FROT_OK;
 }
@@ -367,7 +380,6 @@ static int step(const frot_model *m, frot_state *s, frot_work *w) {
   int status = begin(m, s, w, &a);
   if (status == FROT_NAN && go_explicitly(m, s)) status = begin(m, s, w, &a); /* no Jacobian */
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, a.t, 0);
-  frot_follow_spare(m, s, w);
   status = take(m, s, w, &a);
   frot_see_anew(w);
   return status;

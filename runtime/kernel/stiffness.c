@@ -48,11 +48,14 @@ typedef struct {
   double place, speed, other;
 } lengths;
 
-static lengths distance(const frot_model *m, const frot_work *w, const double *x, const double *y) {
+/* `packed`: x and y hold the awake states alone. */
+static lengths distance(const frot_model *m, const frot_work *w, const double *x, const double *y,
+                        int packed) {
   lengths sum = {0, 0, 0};
-  for (int j = 0; j < frot_order(m); j++) {
+  for (int k = 0; k < w->awake.n - FROT_QUADRATURES; k++) {
+    int j = w->awake.now->states[k], at = packed ? k : j;
     if (w->sizes.own[j] == 0) continue;
-    double part = (x[j] - y[j]) / w->sizes.own[j];
+    double part = (x[at] - y[at]) / w->sizes.own[j];
     double *of = j >= m->nq ? &sum.speed : m->q_speed[j] >= 0 ? &sum.place : &sum.other;
     *of += part * part;
   }
@@ -76,7 +79,7 @@ static double rate_of(lengths slope, lengths state) {
  * that their slopes differ by the Jacobian alone. */
 static double felt_rate(const frot_model *m, const frot_work *w) {
   const double *last = frot_stage(w, DP_STAGES - 1), *end = frot_stage(w, DP_STAGES);
-  return rate_of(distance(m, w, end, last), distance(m, w, w->step.z1, w->step.z));
+  return rate_of(distance(m, w, end, last, 1), distance(m, w, w->step.z1, w->step.z, 0));
 }
 
 double frot_stable_step(const frot_model *m, frot_state *s, const frot_work *w, double h) {
@@ -93,9 +96,9 @@ int frot_is_stiff(const frot_model *m, const frot_state *s, frot_work *w, double
   const double *start = frot_stage(w, 0), *end = frot_stage(w, DP_STAGES);
   frot_motion_sizes(m, s, w, h, start, 0);
   double fastest = h * felt_rate(m, w);
-  lengths way = distance(m, w, w->step.z1, w->step.z0);
+  lengths way = distance(m, w, w->step.z1, w->step.z0, 0);
   if (!(way.place + way.speed + way.other > 0)) return 0;
-  double own = h * rate_of(distance(m, w, end, start), way);
+  double own = h * rate_of(distance(m, w, end, start, 1), way);
   return fastest > NEAR_LIMIT || (fastest > FELT && fastest > APART * own);
 }
 

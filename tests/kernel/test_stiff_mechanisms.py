@@ -220,3 +220,87 @@ def test_what_has_no_slope_at_rest_starts_all_the_same(method: str) -> None:
         assert np.abs(result["ball.velocity.x"] - speed).max() < 10 * tolerance * limit
         energy = result["sled.velocity.x"] ** 2 / 2 + result["sled.position.x"] ** 1.5 * 2 / 3
         assert np.abs(energy - 0.5).max() < 10 * tolerance
+
+
+# Two pairs as above, a block that slides to its stop, one that never moves, and a driven row.
+APART = """planar model Apart
+  parameter Stiffness k = 1e8 N/m;
+  parameter Damping c = 1e4 N.s/m;
+  curve floor on ground: line(through = (0, 0) m, direction = (1, 0));
+{bodies}initial
+{starts}  experiment(stop = 3 s, tolerance = 1e-8);
+end Apart;
+"""
+
+
+def pair(name: str, soft: float) -> tuple[str, str]:
+    a, b = f"a{name}", f"b{name}"
+    return (
+        f"  body {a}: particle(mass = 1 kg);\n  body {b}: particle(mass = 2 kg);\n"
+        f"  liaison on_{a}: prismatique(ground, {a}, axis = x);\n"
+        f"  liaison on_{b}: prismatique(ground, {b}, axis = x);\n"
+        f"  force soft{name}: spring(ground, {a}, k = {soft} N/m, length = 0.5 m);\n"
+        f"  force stiff{name}: spring({a}, {b}, k = k, length = 1 m);\n"
+        f"  force brake{name}: damper({a}, {b}, c = c);\n"
+    ), f"  {a}.position = (1, 0) m;\n  {b}.position = (2, 0) m;\n"
+
+
+def block(name: str, speed: float) -> tuple[str, str]:
+    return (
+        f"  body {name}: particle(mass = 1 kg);\n"
+        f"  liaison on_{name}: point_courbe({name}, floor) with coulomb(0.3);\n"
+    ), f"  {name}.position = (0, 0) m;\n  {name}.velocity = ({speed}, 0) m/s;\n"
+
+
+def test_stiff_islands_run_implicitly_beside_blocks_that_stop_and_rest() -> None:
+    """A rigid pair swings with the square of its rate soft/3 kg; the block stops at v/(mu g)."""
+    parts = [pair("", 10.0), block("runs", 4.0), pair("2", 30.0), block("rests", 0.0)]
+    text = APART.format(bodies="".join(p[0] for p in parts), starts="".join(p[1] for p in parts))
+    model = frot.compile(text)
+    result = model.simulate()
+    count, implicit = steps(result)
+    assert 0.5 * count < implicit < count < 500
+    for name, soft in (("a", 10.0), ("a2", 30.0)):
+        # the soft spring stretches the stiff one: terms of soft/k = 1e-7
+        exact = 0.5 + 0.5 * np.cos(np.sqrt(soft / 3) * result.time)
+        assert np.abs(result[f"{name}.position.x"] - exact).max() < 2e-6
+    (stop,) = (e for e in result.events if e.liaison == "on_runs")
+    assert stop.kind == "stick"
+    assert abs(stop.time - 4 / (0.3 * 9.81)) < 1e-8
+    assert abs(result["runs.position.x"][-1] - 16 / (2 * 0.3 * 9.81)) < 1e-7
+    assert np.all(result["rests.velocity.x"] == 0)
+    assert np.all(result["rests.position.x"] == 0)
+
+
+def test_a_long_chain_of_stiff_springs_runs_implicitly() -> None:
+    """30 masses, pushed from rest by a constant force: the sum of its modes."""
+    count, k, c, push, end = 30, 1e6, 1.9e3, 100.0, 0.3
+    bodies, starts = "", ""
+    for j in range(count):
+        before = f"b{j - 1}" if j else "ground"
+        bodies += (
+            f"  body b{j}: particle(mass = 1 kg);\n"
+            f"  liaison on{j}: prismatique(ground, b{j}, axis = x);\n"
+            f"  force s{j}: spring({before}, b{j}, k = {k} N/m, length = 1 m);\n"
+            f"  force d{j}: damper({before}, b{j}, c = {c} N.s/m);\n"
+        )
+        starts += f"  b{j}.position = ({j + 1}, 0) m;\n"
+    model = frot.compile(
+        f"planar model Chain\n{bodies}  force push: on(b{count - 1}, value = ({push} N, 0 N));\n"
+        f"initial\n{starts}  experiment(stop = {end} s);\nend Chain;\n"
+    )
+    joined = 2 * np.eye(count) - np.eye(count, k=1) - np.eye(count, k=-1)
+    joined[-1, -1] = 1
+    squares, modes = np.linalg.eigh(joined)
+    damping, rates = c * squares / 2, k * squares
+    fast = np.sqrt((damping**2 - rates).astype(complex))
+    slow, quick = fast - damping, -fast - damping
+    left = ((slow * np.exp(quick * end) - quick * np.exp(slow * end)) / (slow - quick)).real
+    force = push * modes[-1]
+    moved = modes @ (force / rates * (1 - left))
+    for tolerance in (1e-5, 1e-8):
+        result = model.simulate(tolerance=tolerance)
+        count_of_steps, implicit = steps(result)
+        assert 0.3 * count_of_steps < implicit < count_of_steps < 400
+        last = result[f"b{count - 1}.position.x"][-1] - count
+        assert abs(last - moved[-1]) < 20 * tolerance * np.abs(moved).max()
