@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from frot.compiler.lowering.lower import Lowered
     from frot.compiler.mechanics.reduce import Reduced
     from frot.compiler.product.dae import Dae
+    from frot.compiler.report.first_integrals import FirstIntegral
     from frot.compiler.report.report import Report
     from frot.compiler.toolchain.compilers import Toolchain
 
@@ -60,17 +61,25 @@ def assembled_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) 
     return assemble(reduced, log)
 
 
-def lowered_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) -> Lowered | None:
-    """The functions of the kernel's contract and their tables."""
+def lowered_of(
+    model: Model, log: Log, tell: Callable[[str], None] = _silent, *, search: bool = True
+) -> Lowered | None:
+    """The functions of the kernel's contract and their tables.
+
+    `search`: also for the first integrals, whose drift the results of a program carry.
+    """
     system = assembled_of(model, log, tell)
     if system is None:
         return None
     from frot.compiler.lowering.groups import make_groups
     from frot.compiler.lowering.lower import lower
-    from frot.compiler.report.first_integrals import first_integrals_of
 
-    tell("the first integrals")
-    integrals = first_integrals_of(system)
+    integrals: tuple[FirstIntegral, ...] = ()
+    if search:
+        from frot.compiler.report.first_integrals import first_integrals_of
+
+        tell("the first integrals")
+        integrals = first_integrals_of(system)
     tell("the functions")
     return lower(system, make_groups(system), log, integrals)
 
@@ -125,7 +134,7 @@ def make_dae(model: Model, log: Log) -> Dae | None:
     """The DAE with its switching, from the same functions as the program."""
     from frot.compiler.product.dae import dae_of
 
-    lowered = lowered_of(model, log)
+    lowered = lowered_of(model, log, search=False)
     return None if lowered is None else dae_of(lowered)
 
 
@@ -164,7 +173,7 @@ def print_stage(model: Model, stage: str, log: Log) -> str | None:
     if stage == "reduced":
         reduced = reduced_of(model, log)
         return None if reduced is None else print_reduced(reduced)
-    lowered = lowered_of(model, log)
+    lowered = lowered_of(model, log, search=stage != "equations")
     if lowered is None:
         return None
     if stage == "c":

@@ -70,6 +70,9 @@ def _report_data(report: Report) -> dict[str, object]:
         "first_integrals": [] if found is None else [asdict(x) for x in found.integrals],
         "paradoxes": [] if found is None else [_paradox_data(x) for x in found.paradoxes],
         "start_found": found is None or found.found,
+        "missing": "" if found is None else found.missing,
+        "uncounted": {} if found is None else dict(found.uncounted),
+        "energy_alone": 0 if found is None else found.energy_alone,
         "unconnected": list(report.unconnected),
     }
 

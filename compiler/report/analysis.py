@@ -16,7 +16,7 @@ from frot.compiler.mechanics.mechanism import (
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.report.candidates import place_body
 from frot.compiler.report.cure import find_cure
-from frot.compiler.report.first_integrals import find_first_integrals
+from frot.compiler.report.first_integrals import MOST_SPEEDS, find_first_integrals
 from frot.compiler.report.holonomy import non_holonomic
 from frot.compiler.report.paradox import find_paradoxes
 from frot.compiler.report.redundancy import Loop, find_loops, find_ranks
@@ -70,16 +70,18 @@ class ParadoxLine:
 
 @dataclass(frozen=True, slots=True)
 class Analysis:
-    """What is found; `found`: whether the posture of the start was, without which little is said.
+    """What is found; `missing`: why little is said, or "".
 
-    It is not looked for where figures touch that have no closed form.
+    `uncounted`: parts of too many relations, by their first liaison, with that number: all are
+    taken as independent. `energy_alone`: the number of speeds where they are so many that no other
+    first integral is looked for, else 0.
 
     `independent` relations in general position near the start, `independent_at_start` there;
     `touching` contacts touch at the start, `touching_independent` of them independently.
     `holonomic` of the liaisons with relations between velocities: None where it was not looked at.
     """
 
-    found: bool
+    missing: str
     independent: int
     independent_at_start: int
     touching: int
@@ -88,6 +90,13 @@ class Analysis:
     holonomic: tuple[tuple[str, bool | None], ...]
     integrals: tuple[IntegralLine, ...] = ()
     paradoxes: tuple[ParadoxLine, ...] = ()
+    uncounted: tuple[tuple[str, int], ...] = ()
+    energy_alone: int = 0
+
+    @property
+    def found(self) -> bool:
+        """Whether the posture of the start was, without which little is said."""
+        return not self.missing
 
 
 def analyse(system: Assembled) -> Analysis:
@@ -95,17 +104,22 @@ def analyse(system: Assembled) -> Analysis:
     reduced = system.reduced
     mechanism = reduced.mechanism
     whole = _count(mechanism)
-    if reduced.variables.kinematics.tracks:
-        return Analysis(False, whole, whole, 0, 0, (), ())
+    tracks = reduced.variables.kinematics.tracks
+    if tracks:
+        names = ", ".join(liaison.name for liaison in tracks)
+        return Analysis(
+            f"where these touch has no closed form: {names}", whole, whole, 0, 0, (), ()
+        )
     start = find_start(system)
     if start is None or not start.found:
-        return Analysis(False, whole, whole, 0, 0, (), ())
+        return Analysis("the start was not found", whole, whole, 0, 0, (), ())
     found = _Found()
     for part in _parts(mechanism):
         _look(part, system, start, found)
     integrals = find_first_integrals(reduced, start.posture)
+    speeds = int(reduced.symbols.v.numel())
     return Analysis(
-        found=True,
+        missing="",
         independent=whole - found.dependent,
         independent_at_start=whole - found.dependent_at_start,
         touching=found.touching,
@@ -114,6 +128,8 @@ def analyse(system: Assembled) -> Analysis:
         holonomic=tuple(found.holonomic),
         integrals=tuple(IntegralLine(x.text, x.always) for x in integrals),
         paradoxes=tuple(_paradoxes(reduced, start)),
+        uncounted=tuple(found.uncounted),
+        energy_alone=speeds if speeds > MOST_SPEEDS else 0,
     )
 
 
@@ -127,6 +143,7 @@ class _Found:
     touching_independent: int = 0
     loops: list[LoopLine] = field(default_factory=list)
     holonomic: list[tuple[str, bool | None]] = field(default_factory=list)
+    uncounted: list[tuple[str, int]] = field(default_factory=list)
 
 
 def _count(mechanism: Mechanism) -> int:
@@ -183,7 +200,9 @@ def _look(part: list[Liaison], system: Assembled, start: Start, found: _Found) -
     """Ranks in general position and at the start, loops, holonomy of one part."""
     mechanism = system.reduced.mechanism
     counts = relations_of(mechanism)
-    if sum(counts[x] for x in part) > MOST_RELATIONS:
+    count = sum(counts[x] for x in part)
+    if count > MOST_RELATIONS:
+        found.uncounted.append((part[0].name, count))
         return
     freed = free(mechanism, part)
     relations = make_relations(freed, _parting(freed))

@@ -157,8 +157,10 @@ class Report:
 def _found(analysis: Analysis) -> Iterator[str]:
     """What numbers tell, in words."""
     if not analysis.found:
-        yield "  no more is told: the start was not found, or touching figures are followed"
+        yield f"  no more is told         {analysis.missing}"
         return
+    for name, number in analysis.uncounted:
+        yield f"  taken as independent    the {number} relations that {name} belongs to: too many"
     for loop in analysis.loops:
         yield from _loop(loop)
     texts = [
@@ -166,6 +168,8 @@ def _found(analysis: Analysis) -> Iterator[str]:
     ]
     yield f"  first integrals         {texts[0] if texts else 'none found'}"
     yield from (f"                          {text}" for text in texts[1:])
+    if speeds := analysis.energy_alone:
+        yield f"                          (of {speeds} speeds no other is looked for)"
     for k, paradox in enumerate(analysis.paradoxes):
         yield f"  {'paradox possible' if k == 0 else '':<22}  {_paradox(paradox)}"
 

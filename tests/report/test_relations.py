@@ -228,6 +228,29 @@ def test_frobenius_looks_at_brackets_of_brackets() -> None:
     assert all(x.holonomic for x in report.liaisons)
 
 
+def test_what_is_not_looked_at_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    from frot.compiler.report import analysis
+
+    text = """
+planar model Hung "A rod on two pins"
+  body arm: rod(mass = 1 kg, length = 1 m);
+  liaison left: rotoide(ground, arm.start);
+  frame wall on ground at (1, 0) m;
+  liaison right: rotoide(wall, arm.tip);
+end Hung;
+"""
+    found = str(frot.compile(text).report())
+    assert "hyperstatic" in found
+    assert "taken as independent" not in found
+    assert "looked for" not in found
+    monkeypatch.setattr(analysis, "MOST_RELATIONS", 3)
+    monkeypatch.setattr(analysis, "MOST_SPEEDS", 0)
+    told = frot.compile(text).report()
+    assert "taken as independent    the 4 relations that left belongs to" in str(told)
+    assert "(of 1 speeds no other is looked for)" in str(told)
+    assert told.mobility.independent == 4
+
+
 def test_what_is_no_mechanism_has_no_more_than_its_counts() -> None:
     text = """
 model Rc "A circuit without bodies"
