@@ -170,6 +170,7 @@ class System:
         at = self.index[name, word]
         if rest == 0:  # a law that bounds nothing
             self.matrix[at, at] = 1
+            self.sizes[at] = weight  # what is zero is so to the rounding of the others
             return
         if way == 0:
             self._rest(at, joint, word)

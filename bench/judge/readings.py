@@ -10,6 +10,7 @@ from judge.mechanics import Floats, Joint, Mechanics, left
 from judge.scene import Contact, Pin, Scene
 
 FORMED = 1e-4
+NOTHING = 1e-30  # part of the largest force of a scene below which one is none
 
 
 class Loads:
@@ -48,6 +49,7 @@ class Loads:
         for k in range(0, now.n, 3):
             size[k : k + 2] = np.max(size[k : k + 2])
             size[k + 2] = max(size[k + 2], size[k] * arms[k + 2])
+        size = np.maximum(size, NOTHING * np.max(size, initial=0.0))
         self.rest, self.size = rest, size + self._formed(size)
         self.acceleration_size = self._acceleration_size()
 
