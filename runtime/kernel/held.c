@@ -60,6 +60,7 @@ static void add_kept_rows(frot_problem *p) {
       w->span.bias[rank] = bias / rest, w->span.bias_size[rank] = size / rest;
       w->span.rank++;
     }
+  p->kept = w->span.rank - p->equations;
   p->equations = w->span.rank;
 }
 
@@ -90,7 +91,8 @@ static int orthonormalize(frot_problem *p) {
     if (!(rest > frot_least_length(m, w, row, length))) {
       w->reactions.dependent = w->reactions.carried[row] = 1;
       w->span.left[row] = 0;
-      if (!(fabs(bias) <= FROT_AGREES * (size + frot_free_size(m, w, row)))) return 1;
+      double agrees = FROT_AGREES * (size + frot_free_size(m, w, row));
+      if (!(fabs(bias) <= agrees + frot_free_rounding(m, w, row))) return 1;
       continue;
     }
     w->span.left[row] = rest;
@@ -100,7 +102,7 @@ static int orthonormalize(frot_problem *p) {
     w->span.bias_size[rank] = size / rest;
     w->span.bias[rank++] = bias / rest;
   }
-  w->span.rank = rank;
+  w->span.rank = p->equations = rank;
   add_kept_rows(p);
   return 0;
 }
@@ -124,6 +126,7 @@ int frot_hold_rows(frot_problem *p) {
     return 0;
   }
   if (orthonormalize(p)) return 1;
+  int own = p->equations - p->kept;
   double *x = w->core.rest;
   for (int c = -1; c < n; c++) {
     frot_unknown_column(p, c, x);
@@ -131,10 +134,13 @@ int frot_hold_rows(frot_problem *p) {
     if (c >= 0) w->reactions.unit_of[c] = unit;
     for (int r = 0; r < p->equations; r++) {
       double part = frot_dot(w->span.basis + ns * r, x, ns);
-      if (c < 0)
+      if (c < 0) {
         w->linear.right[r] = -(part + w->span.bias[r]);
-      else
-        w->linear.matrix[c * n + r] = unit * part;
+        continue;
+      }
+      /* no reaction of its own acts in a row that is kept by others: perhaps none does */
+      int none = r >= own && fabs(unit * part) <= FROT_SINGULAR_PIVOT;
+      w->linear.matrix[c * n + r] = none ? 0 : unit * part;
     }
   }
   return 0;

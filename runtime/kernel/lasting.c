@@ -47,9 +47,9 @@ static double margin_of_element(const frot_instant *in, int e) {
   if (!w->search.trial[element->contact].closed || !in->zero[e] || element->prescribed) return 1;
   if (mode->friction == FROT_STICK) {
     if (!frot_is_held(m, w->search.trial, e)) return 1;
-    double bound = fabs(frot_bound_of_rest(m, w, e, w->search.trial));
+    double bound = frot_bound_of_rest(m, w, e, w->search.trial);
     double lam = fabs(w->core.lam[element->row]);
-    value = bound - lam, size = bound + lam + frot_reaction_size(m, w, element->row);
+    value = bound - lam, size = fabs(bound) + lam + frot_reaction_size(m, w, element->row);
   } else {
     if (mode->friction == FROT_NONE) return 1;
     value = frot_acceleration(m, w, element->row, &size);
@@ -59,17 +59,28 @@ static double margin_of_element(const frot_instant *in, int e) {
   return size > 0 ? value / size : 0;
 }
 
-/* Margins of contacts and elements that are small, into w->search.margin; the others are 1. Returns
- * whether there are any. */
+/* Whether a guard of element e has fired. */
+static int fired(const frot_instant *in, int e) {
+  int guard = frot_element_guard(in->m, e);
+  return in->fired[guard] != 0 || in->fired[guard + 1] != 0;
+}
+
+/* Margins of contacts and elements that are small, into w->search.margin; the others are 1. What
+ * has fired is zero, however small its terms are at the instant. Returns whether there are any. */
 static int note_margins(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   double *margin = in->w->search.margin;
   int any = 0;
   for (int k = 0; k < m->n_contacts + m->n_elements; k++) margin[k] = 1;
   for (int c = 0; c < count; c++) {
-    margin[chosen[c]] = margin_of_contact(in, chosen[c]);
-    for (int e = 0; e < m->n_elements; e++)
-      if (m->elements[e].contact == chosen[c]) margin[m->n_contacts + e] = margin_of_element(in, e);
+    double *own = margin + chosen[c];
+    *own = margin_of_contact(in, chosen[c]);
+    if (in->fired[chosen[c]] != 0 && *own < 1) *own = fmin(*own, 0);
+    for (int e = 0; e < m->n_elements; e++) {
+      if (m->elements[e].contact != chosen[c]) continue;
+      own = margin + m->n_contacts + e, *own = margin_of_element(in, e);
+      if (fired(in, e) && *own < 1) *own = fmin(*own, 0);
+    }
   }
   for (int k = 0; k < m->n_contacts + m->n_elements; k++)
     if (margin[k] < FROT_RESOLVED)
@@ -115,7 +126,7 @@ static int move_on(const frot_instant *in, const frot_group *own, double dt, dou
 }
 
 /* Whether nothing that was zero has fallen below in the meantime. A reaction that may have either
- * sign and was zero shows it now. */
+ * sign and was zero shows it now; one that was only small comes to zero at an event of its own. */
 static int still_holds(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   const double *margin = in->w->search.margin;
@@ -125,7 +136,7 @@ static int still_holds(const frot_instant *in, const int *chosen, int count) {
     if (margin[i] < 1) {
       double now = margin_of_contact(in, i);
       if (now < 0 && mode->closed && in->unilateral[i] == 0 && frot_all_held(in, i))
-        mode->side = (signed char)-mode->side;
+        mode->side = (signed char)(margin[i] <= FROT_ZERO ? -mode->side : mode->side);
       else if (now < 0 && now < margin[i] - CLEARLY)
         return 0;
     }

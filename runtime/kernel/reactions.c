@@ -77,11 +77,23 @@ double frot_size_of_motion(const frot_model *m, const frot_work *w, const frot_g
   return motion;
 }
 
-double frot_row_rounding(const frot_model *m, const frot_work *w, int row) {
+/* What rounding of a motion of that length can do to a row's acceleration. */
+static double rounding_in_row(const frot_model *m, const frot_work *w, int row, double motion) {
   const frot_group *g = frot_group_of(m, row);
   int count = g->general ? g->n : g->n_speeds;
   const double *own = frot_entries(m, g->general ? w->core.rows : w->core.half, row);
-  return 4 * FROT_ROUNDING * sqrt(frot_dot(own, own, count)) * frot_size_of_motion(m, w, g);
+  return 4 * FROT_ROUNDING * sqrt(frot_dot(own, own, count)) * motion;
+}
+
+double frot_row_rounding(const frot_model *m, const frot_work *w, int row) {
+  return rounding_in_row(m, w, row, frot_size_of_motion(m, w, frot_group_of(m, row)));
+}
+
+double frot_free_rounding(const frot_model *m, const frot_work *w, int row) {
+  const frot_group *g = frot_group_of(m, row);
+  const double *force = w->core.force + g->vector;
+  int count = g->general ? g->n : g->n_speeds;
+  return rounding_in_row(m, w, row, sqrt(frot_dot(force, force, count)));
 }
 
 /* Whether the held rows do not accelerate and friction follows its reaction. */
@@ -171,7 +183,7 @@ static int solve(frot_problem *p, int *regular) {
 
 int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
                          const frot_contact_mode *modes, const unsigned char *at_rest) {
-  frot_problem p = {m, w, g, modes, 0, 0, 0, 0};
+  frot_problem p = {m, w, g, modes, 0, 0, 0, 0, 0};
   w->reactions.dependent = w->reactions.sign[g - m->groups] = 0;
   if (g->n_rows == 0) return 0;
   frot_list_unknowns(&p, at_rest);

@@ -1,13 +1,15 @@
 /* How a load is shared among more rests than it needs.
  *
  * A contact at rest carries any sum of the edges of its cone, each times a number that is not
- * negative: of a coefficient mu the reactions (1, mu) and (1, -mu). Whether such sums hold all rows
- * that are held is a linear program, solved here by the first phase of the simplex method on a
- * dense tableau (G. Dantzig, Linear Programming and Extensions, 1963, ch. 5; R. Bland's rule
- * against circles, Math. of Operations Research 2, 1977). Its basic solutions have as many edges as
- * rows: a contact with both edges is free inside its cone, one with a single edge is at its bound,
- * one with none carries nothing. These are modes with unique reactions, which last until an edge
- * comes to zero; then another basic solution is looked for, and where there is none the rest ends.
+ * negative: of a coefficient mu the reactions (1, mu) and (1, -mu). Where it has two laws, the
+ * edges (1, mu, 0), (1, -mu, 0) of the one and (0, 0, delta), (0, 0, -delta) of the other, with one
+ * more row by which there is as much of these as of those. Whether such sums hold all rows that are
+ * held is a linear program, solved here by the first phase of the simplex method on a dense tableau
+ * (G. Dantzig, Linear Programming and Extensions, 1963, ch. 5; R. Bland's rule against circles,
+ * Math. of Operations Research 2, 1977). Its basic solutions have as many edges as rows: a contact
+ * with both edges is free inside its cone, one with a single edge is at its bound, one with none
+ * carries nothing. These are modes with unique reactions, which last until an edge comes to zero;
+ * then another basic solution is looked for, and where there is none the rest ends.
  */
 #include <float.h>
 #include <math.h>
@@ -28,13 +30,15 @@
 #define LATER 1e-4  /* steps after which loads are looked at again */
 #define ALONE (-1)  /* of a column that is no edge: its row has a reaction of either sign */
 
-/* Column j < columns of the tableau belongs to `contact` with the signs of its laws, or to a row of
- * its own. Row r has the basic column basic[r], columns + r while that is what is left of it. */
+/* Column j < columns of the tableau belongs to an edge of `contact`, or to a row of its own: that
+ * of its law i in the direction s, 1 for backward, is edge 2 i + s. The first `held` rows are those
+ * that hold, the others those of contacts with two laws. Row r has the basic column basic[r],
+ * columns + r while that is what is left of it. */
 typedef struct {
   const frot_instant *in;
   const frot_group *g;
   frot_share_work *share;
-  int rows, columns;
+  int held, rows, columns;
 } program;
 
 static double *entry(const program *p, int r, int j) {
@@ -57,39 +61,51 @@ static int has_cone(const frot_instant *in, int contact) {
   return frot_is_loaded(in->m, in->w->search.trial, contact) && in->unilateral[contact] != 0;
 }
 
-/* One more column: what the reaction x (n_speeds) does to the rows that hold, of length one. */
-static void add_column(program *p, const double *x, int contact, int signs) {
+/* One more column: what the reaction x (n_speeds) does to the rows that hold, and `balance` of it
+ * to the row of its contact, of length one. */
+static void add_column(program *p, const double *x, int contact, int edge, double balance,
+                       int row) {
   const frot_work *w = p->in->w;
   int ns = p->g->n_speeds, j = p->columns++;
-  double length = sqrt(frot_dot(x, x, ns)), unit = length > 0 ? 1 / length : 0;
+  double length = fmax(sqrt(frot_dot(x, x, ns)), row < 0 ? 0 : fabs(balance));
+  double unit = length > 0 ? 1 / length : 0;
+  double *column = p->share->columns + j * p->rows;
   for (int r = 0; r < p->rows; r++)
-    p->share->columns[j * p->rows + r] = unit * frot_dot(w->span.basis + ns * r, x, ns);
-  p->share->contact[j] = contact, p->share->signs[j] = (signed char)signs;
+    column[r] = r < p->held ? unit * frot_dot(w->span.basis + ns * r, x, ns)
+                : r == row  ? unit * balance
+                            : 0;
+  p->share->contact[j] = contact, p->share->edge[j] = (signed char)edge;
 }
 
-/* The edges of a contact: its normal, the friction of what slips on it, and that of each stuck law
- * in one direction or the other. */
-static void add_edges(program *p, int contact) {
+/* x (n_speeds) <- x + part of what the reaction of a row does. */
+static void add_reaction(const program *p, int row, double part, double *x) {
+  const double *half = frot_entries(p->in->m, p->in->w->core.half, row);
+  for (int i = 0; part != 0 && i < p->g->n_speeds; i++) x[i] += part * half[i];
+}
+
+/* The edges of a contact: its normal, the friction of what slips on it, and that of its stuck laws
+ * in one direction or the other. `row` is that of a contact with two laws. */
+static void add_edges(program *p, int contact, int row) {
   const frot_instant *in = p->in;
   const frot_model *m = in->m;
   const frot_work *w = in->w;
-  int ns = p->g->n_speeds, e[2], laws = laws_of(in, contact, e);
-  double *x = w->core.rest;
-  for (int signs = 0; signs < 1 << laws; signs++) {
-    memcpy(x, frot_entries(m, w->core.half, m->contacts[contact].row_n),
-           sizeof(double) * (size_t)ns);
-    for (int k = 0; k < m->n_elements; k++) {
-      const frot_element *element = &m->elements[k];
-      double part = 0;
-      if (element->contact != contact || element->bound != FROT_BY_NORMAL) continue;
-      for (int i = 0; i < laws; i++)
-        if (e[i] == k) part = ((signs >> i) & 1 ? -1 : 1) * w->core.coefficient[2 * k + 1];
-      if (part == 0) part = w->reactions.ratio[k];
-      const double *half = frot_entries(m, w->core.half, element->row);
-      for (int i = 0; part != 0 && i < ns; i++) x[i] += part * half[i];
+  int e[2], laws = laws_of(in, contact, e);
+  size_t size = sizeof(double) * (size_t)p->g->n_speeds;
+  double *normal = p->share->normal, *x = w->core.rest, length;
+  memset(normal, 0, size);
+  add_reaction(p, m->contacts[contact].row_n, 1, normal);
+  for (int k = 0; k < m->n_elements; k++)
+    if (m->elements[k].contact == contact && m->elements[k].bound == FROT_BY_NORMAL)
+      add_reaction(p, m->elements[k].row, w->reactions.ratio[k], normal);
+  length = sqrt(frot_dot(normal, normal, p->g->n_speeds));
+  for (int i = 0; i < (laws > 0 ? laws : 1); i++)
+    for (int s = 0; s < (laws > 0 ? 2 : 1); s++) {
+      memset(x, 0, size);
+      if (i == 0) memcpy(x, normal, size);
+      if (laws > 0)
+        add_reaction(p, m->elements[e[i]].row, (s ? -1 : 1) * w->core.coefficient[2 * e[i] + 1], x);
+      add_column(p, x, contact, 2 * i + s, i == 0 ? length : -length, row);
     }
-    add_column(p, x, contact, signs);
-  }
 }
 
 /* A reaction of either sign: two columns. */
@@ -99,7 +115,7 @@ static void add_free(program *p, int row) {
   for (int sign = 1; sign >= -1; sign -= 2) {
     const double *half = frot_entries(p->in->m, w->core.half, row);
     for (int i = 0; i < p->g->n_speeds; i++) x[i] = sign * half[i];
-    add_column(p, x, ALONE, 0);
+    add_column(p, x, ALONE, 0, 0, -1);
   }
 }
 
@@ -109,10 +125,11 @@ static int add_columns(program *p) {
   const frot_instant *in = p->in;
   const frot_model *m = in->m;
   const frot_contact_mode *trial = in->w->search.trial;
+  int row = p->held, e[2];
   for (int i = 0; i < p->g->n_contacts; i++) {
     int contact = p->g->contacts[i];
     if (has_cone(in, contact))
-      add_edges(p, contact);
+      add_edges(p, contact, laws_of(in, contact, e) == 2 ? row++ : -1);
     else if (frot_is_loaded(m, trial, contact))
       add_free(p, m->contacts[contact].row_n);
   }
@@ -133,7 +150,7 @@ static void add_load(program *p) {
   int ns = p->g->n_speeds, n = p->columns;
   const double *growth = w->share.growth + p->g->vector;
   double largest = 0, grows = 0;
-  for (int r = 0; r < p->rows; r++) {
+  for (int r = 0; r < p->held; r++) {
     const double *q = w->span.basis + ns * r;
     double load = -frot_dot(q, w->core.force + p->g->vector, ns) - w->span.bias[r];
     largest = fmax(largest, fabs(load));
@@ -143,7 +160,7 @@ static void add_load(program *p) {
   double part = grows > 0 ? AHEAD * largest / grows : 0, unit = largest > 0 ? 1 / largest : 0;
   for (int r = 0; r < p->rows; r++) {
     const double *q = w->span.basis + ns * r;
-    double load = unit * (*entry(p, r, n) - part * frot_dot(q, growth, ns));
+    double load = r < p->held ? unit * (*entry(p, r, n) - part * frot_dot(q, growth, ns)) : 0;
     double sign = load < 0 ? -1 : 1;
     for (int j = 0; j < n; j++) *entry(p, r, j) = sign * w->share.columns[j * p->rows + r];
     *entry(p, r, n) = sign * load;
@@ -225,21 +242,28 @@ static int take_load(program *p) {
   return 1;
 }
 
-/* The modes of a contact from its basic edges: a law at whose bound all of them lie is there. */
+/* The modes of a contact from its basic edges: a law of which one alone is basic is at its bound.
+ */
 static void read_contact(const program *p, int contact) {
   const frot_instant *in = p->in;
   frot_contact_mode *trial = in->w->search.trial;
-  int e[2], laws = laws_of(in, contact, e), edges = 0, plus[2] = {0, 0};
+  int e[2], laws = laws_of(in, contact, e), has[4] = {0, 0, 0, 0};
   for (int r = 0; r < p->rows; r++) {
     int j = p->share->basic[r];
-    if (p->share->contact[j] != contact) continue;
-    edges++;
-    for (int i = 0; i < laws; i++) plus[i] += !((p->share->signs[j] >> i) & 1);
+    if (p->share->contact[j] == contact) has[p->share->edge[j]] = 1;
   }
+  trial[contact].unloaded = !has[0] && !has[1];
   for (int i = 0; i < laws; i++)
-    if (edges > 0 && (plus[i] == 0 || plus[i] == edges))
-      trial[in->m->n_contacts + e[i]].at_bound = plus[i] > 0 ? 1 : -1;
-  trial[contact].unloaded = edges == 0;
+    if (!trial[contact].unloaded && has[2 * i] != has[2 * i + 1])
+      trial[in->m->n_contacts + e[i]].at_bound = has[2 * i] ? 1 : -1;
+}
+
+/* Contacts of a group with two stuck laws that their normals bound. */
+static int count_with_two(const program *p) {
+  int n = 0, e[2];
+  for (int i = 0; i < p->g->n_contacts; i++)
+    n += has_cone(p->in, p->g->contacts[i]) && laws_of(p->in, p->g->contacts[i], e) == 2;
+  return n;
 }
 
 enum frot_share frot_share_load(const frot_instant *in, const int *chosen, int count) {
@@ -247,15 +271,15 @@ enum frot_share frot_share_load(const frot_instant *in, const int *chosen, int c
   frot_work *w = in->w;
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
   frot_contact_mode *trial = w->search.trial;
-  program p = {in, g, &w->share, 0, 0};
+  program p = {in, g, &w->share, 0, 0, 0};
   enum frot_share found = FROT_SHARE_UNKNOWN;
   size_t modes = sizeof *trial * (size_t)(m->n_contacts + m->n_elements);
   memcpy(w->share.before, trial, modes);
   for (int c = 0; c < count; c++) trial[chosen[c]].unloaded = 0;
   for (int i = 0; i < g->n_elements; i++) trial[m->n_contacts + g->elements[i]].at_bound = 0;
   if (!g->general && !frot_group_reactions(m, w, g, trial, in->at_rest)) {
-    p.rows = w->span.rank;
-    if (w->reactions.dependent && p.rows > 0 && add_columns(&p)) {
+    p.held = w->span.rank, p.rows = p.held + count_with_two(&p);
+    if (w->reactions.dependent && p.held > 0 && add_columns(&p)) {
       add_load(&p);
       found = take_load(&p) ? FROT_SHARED : FROT_NO_SHARE;
     }

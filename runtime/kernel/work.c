@@ -214,10 +214,10 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
 static void bind_share(const frot_model *m, const frot_layout *l, const extent *e,
                        frot_share_work *w, arena *a) {
   /* of a contact four edges at most, of another row two columns */
-  int columns = 4 * m->n_contacts + 2 * m->n_rows;
-  TAKE(w->tableau, e->widest * (columns + 1)), TAKE(w->columns, e->widest * columns);
-  TAKE(w->growth, l->nw), TAKE(w->basic, e->widest), TAKE(w->contact, columns);
-  TAKE(w->signs, columns), TAKE(w->read, m->n_contacts);
+  int columns = 4 * m->n_contacts + 2 * m->n_rows, rows = e->widest + m->n_contacts;
+  TAKE(w->tableau, rows * (columns + 1)), TAKE(w->columns, rows * columns);
+  TAKE(w->growth, l->nw), TAKE(w->normal, e->widest), TAKE(w->basic, rows);
+  TAKE(w->contact, columns), TAKE(w->edge, columns), TAKE(w->read, m->n_contacts);
   TAKE(w->before, m->n_contacts + m->n_elements);
 }
 

@@ -174,11 +174,12 @@ typedef struct {
 } frot_search_work;
 
 /* share.c: the tableau and its basic columns; the columns as they were, whose they are; of contacts
- * whether they are read; growth of the loads where all rests (nw); the modes before. */
+ * whether they are read; growth of the loads where all rests (nw); a normal reaction with the
+ * friction that goes with it; the modes before. */
 typedef struct {
-  double *tableau, *columns, *growth;
+  double *tableau, *columns, *growth, *normal;
   int *basic, *contact;
-  signed char *signs;
+  signed char *edge;
   unsigned char *read;
   frot_contact_mode *before;
 } frot_share_work;

@@ -1,0 +1,93 @@
+"""Reactions that others share, that vanish for an instant, or that act on nothing: one text."""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pytest
+
+import frot
+
+
+@functools.cache
+def scenes() -> frot.Model:
+    """A rod with two laws at one contact beside a smooth one; a bead on a rough rail, whose loads
+    all vanish at some instants; a point where a rough rail and a smooth line meet, with a plate
+    that is drawn off it."""
+    return frot.compile("""
+planar model Shared
+  world(gravity = 0 m/s^2);
+  parameter Length size = 1 m;
+  parameter Mass heavy = 1 kg;
+  parameter Real mu = 0.5;
+  parameter Real delta = 0.8;
+  parameter Real bend = 0.9;
+  parameter Angle turn = 0;
+  parameter Angle ahead = 1.4;
+  parameter Angle other = 0.05;
+  parameter AngularVelocity w = 2 rad/s;
+  parameter Acceleration g = 1 m/s^2;
+  curve floor on ground: line(through = (0, 0) m, direction = (cos(turn), sin(turn)));
+  parameter Angle slope = turn + other;
+  curve wedge on ground: line(through = (0, 0) m, direction = (cos(slope), sin(slope)));
+  body rod: rod(mass = heavy, length = 2*size);
+  liaison smooth: contact_ponctuel(rod.tip, floor);
+  liaison rough: contact_ponctuel(rod, floor) with coulomb(mu), rolling_resistance(delta*size);
+  Real grows = time/(1 s);
+  force pull: on(rod, value = heavy*g*grows*(cos(turn), sin(turn)));
+  force press: on(rod, value = heavy*g*(sin(turn), -cos(turn)));
+  force turned: couple(rod, value = -bend*heavy*g*size);
+  body bead: particle(mass = heavy);
+  liaison rail: point_courbe(bead, floor, unilateral = false) with coulomb(0.3);
+  force shake: on(bead, value = heavy*g*sin(w*time + 0.4)*(cos(turn + ahead), sin(turn + ahead)));
+  body point: particle(mass = heavy);
+  body plate: particle(mass = 3*heavy);
+  curve top on plate: line(through = (0, 0) m, direction = (cos(turn + 1), sin(turn + 1)));
+  liaison corner: contact_ponctuel(point, floor, unilateral = false) with coulomb(0.4);
+  liaison stop: contact_ponctuel(point, wedge);
+  liaison touch: point_courbe(point, top, unilateral = true) with coulomb(0.1);
+  force away: on(plate, value = 3*heavy*g*(sin(turn + 1), -cos(turn + 1)));
+  force down: on(point, value = heavy*g*cos(w*time)*(-sin(turn), cos(turn)));
+initial
+  rod.position = (0, 0) m;
+  rod.angle = turn;
+  bead.position = 2*size*(cos(turn), sin(turn));
+  point.position = (0, 0) m;
+  plate.position = (0, 0) m;
+  experiment(stop = 1 s, tolerance = 1e-9);
+end Shared;
+""")
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_rest_lasts_as_long_as_any_share_holds(seed: int) -> None:
+    """Of the couple the smooth tip takes s, rolling resistance the rest; n + s is the load, so that
+    n - (1 - bend) <= delta n bounds n, and friction holds a pull up to mu n."""
+    random = np.random.default_rng(seed)
+    mu, delta = random.uniform(0.2, 0.8), random.uniform(0.3, 0.9)
+    bend = random.uniform(1 - 0.9 * (1 - delta), 1)
+    g, heavy, size = (
+        10 ** random.uniform(-1, 1),
+        10 ** random.uniform(-6, 6),
+        10 ** random.uniform(-4, 4),
+    )
+    turn, ahead = random.uniform(-np.pi, np.pi), np.pi / 2 + random.uniform(-0.28, 0.28)
+    values = {"turn": turn, "mu": mu, "delta": delta, "bend": bend, "g": g, "heavy": heavy}
+    values |= {"size": size, "ahead": ahead, "w": random.uniform(5, 40)}
+    values |= {"other": random.uniform(-0.1, 0.1)}
+    result = scenes().simulate(parameters=values, tolerance=10 ** random.uniform(-11, -3))
+    t = np.array([0.05, 0.31, 0.5, 0.98])
+    at = result.at(t)
+    ends = mu * (1 - bend) / (1 - delta)
+    left = [e.time for e in result.events if e.liaison == "rough" and e.kind == "slip"]
+    assert left[:1] == pytest.approx([ends], rel=1e-9)
+    for name in ("bead", "point"):
+        for axis in "xy":
+            assert np.all(at[f"{name}.velocity.{axis}"] == 0)
+    force = heavy * g * np.sin(values["w"] * t + 0.4) * np.sin(ahead)
+    normal = at["rail.force.y"] * np.cos(turn) - at["rail.force.x"] * np.sin(turn)
+    assert np.abs(normal) == pytest.approx(np.abs(force), rel=1e-9, abs=1e-12 * heavy * g)
+    for k, x in (("x", np.sin(turn + 1)), ("y", -np.cos(turn + 1))):
+        assert at[f"plate.position.{k}"] == pytest.approx(g * x * t**2 / 2, rel=1e-8)
+    assert not [e for e in result.events if e.kind == "several"]
