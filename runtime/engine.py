@@ -77,6 +77,7 @@ class Fault(ct.Structure):
         ("other", ct.c_int),
         ("t", ct.c_double),
         ("value", ct.c_double),
+        ("where", ct.c_double * 3),
     )
 
 

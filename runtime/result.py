@@ -256,20 +256,21 @@ class Result(Mapping[str, Floats]):
         if not self.events:
             lines.append("  no events")
         lines.append(
-            f"  {figures.steps} steps ({figures.rejected} rejected), {figures.evaluations} "
-            f"evaluations, {1e3 * figures.wall_time:.3g} ms in the kernel"
+            f"  {_counted(figures.steps, 'step')} ({figures.rejected} rejected), "
+            f"{_counted(figures.evaluations, 'evaluation')}, "
+            f"{1e3 * figures.wall_time:.3g} ms in the kernel"
         )
         if figures.crossings:
             lines.append(
-                f"  {figures.crossings} passages through postures in which the relations of a loop "
-                "depend on each other: it goes straight on there"
+                f"  {_counted(figures.crossings, 'passage')} through postures in which the "
+                "relations of a loop depend on each other: it goes straight on there"
             )
         if figures.blurred:
             lines.append(f"  rounding made errors of {figures.blurred:.1e} there")
         if figures.unsearched:
             lines.append(
-                f"  at {figures.unsearched} instants one motion was found; with so many contacts, "
-                "others were not looked for"
+                f"  at {_counted(figures.unsearched, 'instant')} one motion was found; with so "
+                "many contacts, others were not looked for"
             )
         kept = [
             f"  kept to {drift.drift:.1e} of {drift.largest:.6g} {drift.unit}: {name}"
@@ -294,3 +295,7 @@ class Result(Mapping[str, Floats]):
                 "  warning: energy is not kept, do not trust this run; try a smaller tolerance"
             )
         return "\n".join(lines)
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"

@@ -46,6 +46,7 @@ CODES = {
     25: "E0908",
     30: "E0909",
     31: "E0910",
+    32: "E0911",
 }
 
 
@@ -239,6 +240,8 @@ _HELP = {
     23: "look at what leads there, or weaken the assertion",
     30: "write the event so that it says one thing",
     31: "give it more speed there, or keep it away from there by a stop or by other lengths",
+    32: "state or guess another place, keep the motion away from there, or give the figure another "
+    "form",
     19: "give every body a mass and an inertia of a usual size",
     20: "leave friction out of some of the liaisons that act on each other",
 }

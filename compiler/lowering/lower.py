@@ -23,6 +23,7 @@ from frot.compiler.lowering.lower_parameters import lower_parameters, parameters
 from frot.compiler.lowering.pace import make_pace
 from frot.compiler.lowering.symbols import column
 from frot.compiler.lowering.timing import sort_conditions
+from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.mechanics.supports import Carried, carried_bodies
 from frot.dsl import Log
@@ -50,6 +51,7 @@ class Lowered:
     conditions: ca.SX
     blocks: tuple[ca.Function, ...]
     carried: tuple[Carried, ...]
+    vanishing: tuple[Vanishing, ...]
     checks: tuple[Check, ...]
     variables: tuple[Listed, ...]
     statements: tuple[Statement, ...]
@@ -124,6 +126,10 @@ def lower(
     carried = carried_bodies(system)
     if carried:
         outputs["places"] = (state, [column(body.value for body in carried)])
+    lost = _vanishing(reduced)
+    if lost:
+        told = column(x.distance for x in lost), ca.horzcat(*(x.where for x in lost))
+        outputs["vanishing"] = (state, [resolve(settled(x)) for x in told])
     pace = make_pace(system, conditions[: reduced.conditions.located])
     if pace is not None:
         outputs["pace"] = (state, list(pace))
@@ -167,6 +173,7 @@ def lower(
         conditions=conditions,
         blocks=tuple(_block(k, b, system) for k, b in enumerate(system.blocks)),
         carried=carried,
+        vanishing=lost,
         checks=checks,
         variables=variables,
         statements=initial.statements,
@@ -206,6 +213,12 @@ def _whole(
     if not grouping.is_mass_matrix:
         outputs["spread"] = (state, [grouping.spread, grouping.metric])
     return outputs
+
+
+def _vanishing(reduced: Reduced) -> tuple[Vanishing, ...]:
+    """What the figures of the liaisons may lose."""
+    own = reduced.variables
+    return tuple(find_vanishing(own.links, own.geometry, own.kinematics))
 
 
 def _sides(system: Assembled) -> tuple[ca.SX, ca.SX]:

@@ -13,6 +13,7 @@ from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.efforts import Effort
 from frot.compiler.mechanics.mechanism import point_body
 from frot.compiler.mechanics.spatial import about_z, nowhere, whole
+from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Liaison, Literal, Place
 
 Argument = Expression | Place | Liaison
@@ -131,14 +132,10 @@ def _drag(arguments: Mapping[str, Argument], kinematics: Kinematics, lowering: L
     velocity = end.velocity
     factor = lowering.lower(_value(arguments["c"]))
     if _literal(arguments["exponent"]) == 2:
-        factor *= _size(velocity)
+        size = FUNCTIONS["norm"].form
+        assert size is not None
+        factor *= size(ca, velocity)
     return Load((end.under(-factor * velocity),), None)
-
-
-def _size(vector: ca.SX) -> ca.SX:
-    """The vector's length; its derivative is zero where it has none, at zero."""
-    square = ca.sumsqr(vector)
-    return ca.if_else(square > 0, ca.sqrt(ca.if_else(square > 0, square, 1)), 0)
 
 
 def _unit(vector: ca.SX) -> ca.SX:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from frot.compiler.lowering.walk import has_time, is_fixed
 from frot.compiler.mechanics.geometry.figures import Ball, Figure, Placed
-from frot.compiler.mechanics.liaisons.locks import Lock
+from frot.compiler.mechanics.liaisons.locks import Lock, NoSlip
 from frot.compiler.mechanics.liaisons.motions import Motion, comes_round
 from frot.dsl.checked import (
     Body,
@@ -204,6 +204,11 @@ class Mechanism:
             moved |= bool(liaison.driven)
             moved |= any(has_time(x) for r in liaison.relations for x in (r.left, r.right))
         return moved
+
+
+def rolls(joint: Joint) -> bool:
+    """Whether its figures touch without slip, whatever acts on them."""
+    return any(isinstance(lock, NoSlip) for lock in joint.locks)
 
 
 def is_unilateral(liaison: Liaison) -> bool:

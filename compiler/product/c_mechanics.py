@@ -7,12 +7,13 @@ from frot.compiler.lowering.groups import Group
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.mechanics.elements import Bound, Element
 from frot.compiler.mechanics.liaisons.motions import count_speeds
-from frot.compiler.mechanics.mechanism import Joint, Relation
+from frot.compiler.mechanics.mechanism import Joint, Relation, rolls
 from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import place as _place
 from frot.compiler.product.c_tables import record as _record
 from frot.compiler.product.c_tables import text as _text
 
+_NEVER_SLIPS = -2  # FROT_NEVER_SLIPS
 # The packed arrays of groups in the order of frot_group, and the tables of the mechanics.
 _PACKED = ("vector", "matrix", "metric", "entries", "square")
 MECHANICAL_TABLES = (
@@ -35,6 +36,9 @@ def mechanical_arrays(lowered: Lowered) -> list[str]:
     """Contacts, elements and groups, and where rows, contacts and speeds stand in their groups."""
     reduced, grouping, system = lowered.reduced, lowered.grouping, lowered.system
     sliding = {e.contact: k for k, e in enumerate(grouping.elements) if not e.rolling}
+    for k, link in enumerate(reduced.mechanism.contacts):
+        if isinstance(link, Relation) and rolls(link.joint):
+            sliding[k] = _NEVER_SLIPS
     joints = zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
     contacts = [
         (x.liaison.name, x.liaison.span, -1 if isinstance(x, Joint) else r.reaction[0], x.reduced)

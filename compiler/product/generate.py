@@ -76,6 +76,14 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             [_record(_text(o.text), _text(_place(o.span))) for o in lowered.watched],
         ),
         _array(
+            "frot_vanishing",
+            "vanishings",
+            [
+                _record(_text(x.text), _text(_where(x.names)), _text(_place(x.liaison.span)))
+                for x in lowered.vanishing
+            ],
+        ),
+        _array(
             "frot_held",
             "held",
             [_record(_text(h.name), _text(_place(h.span))) for h in reduced.text.held],
@@ -151,6 +159,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         **packed_sizes(lowered),
         "n_discrete": system.discrete.numel(),
         "n_watched": len(lowered.watched),
+        "n_vanishing": len(lowered.vanishing),
         "n_held": len(reduced.text.held),
         "n_located": reduced.conditions.located,
         "n_timed": reduced.conditions.timed,
@@ -188,6 +197,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "loads",
             "states",
             "held",
+            "vanishings",
             "equations",
             "position_statement",
             "velocity_statement",
@@ -213,6 +223,12 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         f"  .name = {_text(model.name)},\n  .key = {_text(key)},\n"
         f"{numbers}\n{callables}\n{pointers}\n}};\n"
     )
+
+
+def _where(names: tuple[str, ...]) -> str:
+    """The words for the numbers of a place, with their form."""
+    told = ", ".join(f"{name} = %.6g" for name in names)
+    return f" at {told}" if told else ""
 
 
 def _states(system: Assembled) -> Iterator[tuple[str, str]]:

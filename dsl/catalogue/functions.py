@@ -143,11 +143,13 @@ def _modulo_form(ca: Any, x: Any, y: Any) -> Any:
 
 
 def _hypot_form(ca: Any, x: Any, y: Any) -> Any:
-    return ca.sqrt(x * x + y * y)
+    return _length_form(ca, ca.vertcat(x, y))
 
 
 def _length_form(ca: Any, x: Any) -> Any:
-    return ca.sqrt(ca.sumsqr(x))
+    """The slope is zero where there is none, at zero: no derivative is without a number there."""
+    square = ca.sumsqr(x)
+    return ca.if_else(square > 0, ca.sqrt(ca.if_else(square > 0, square, 1)), 0)
 
 
 def _usual(

@@ -133,6 +133,20 @@ TOOLS: Mapping[str, Row] = {
         "Give it more speed there, or keep it away from there by a stop or by other lengths.",
         "",
     ),
+    "E0911": (
+        "a figure without a tangent or a normal",
+        "Where the liaison stands, the slope of its curve or surface is zero, as in a cusp or in the "
+        "apex of a cone, or no place of it is the nearest, as in the centre of a sphere: nothing tells "
+        "in which direction it acts.",
+        "State or guess another place, keep the motion away from there, or give the figure another "
+        "form: a parameter that grows as its length does.",
+        snippet(
+            "curve wire on ground: parametric((1 m*u^3, 1 m*u^2), u = (-1, 1));\n"
+            "body bead: particle(mass = 1 kg);\n"
+            "liaison guide: point_courbe(bead, wire);",
+            "guide.u = 0;",
+        ),
+    ),
     "E0907": (
         "equations without a solution",
         "The equations named do not determine their unknowns at this instant: no solution was "

@@ -1,9 +1,13 @@
 #include "blame.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "blocks.h"
 #include "core.h"
+
+/* Distance in m from where a figure has no tangent or normal at which a failure is that of it. */
+#define VANISHED 1e-6
 
 /* The applied force that is no number at the last evaluation (values w->step.z1), or -1. */
 static int wrong_load(const frot_model *m, frot_state *s, frot_work *w) {
@@ -63,4 +67,37 @@ int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status,
     if (own || blamed < 0) state = w->step.worst;
   }
   return frot_fail(s, status, t, blamed, load, state, h);
+}
+
+/* What the figures of a liaison have lost at the states z, or -1: the nearest to it. */
+static int lost_at(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z) {
+  double *distance = w->call.values, *where = distance + m->n_vanishing, least = VANISHED;
+  int lost = -1;
+  if (!frot_all_finite(z, m->nq + m->nv) || !frot_all_finite(w->blocks.y, m->ny)) return -1;
+  frot_inputs(m, s, w, &t, z, z + m->nq, s->data + w->layout.d);
+  w->call.res[0] = distance, w->call.res[1] = where;
+  frot_call(w, &m->vanishing);
+  for (int i = 0; i < m->n_vanishing; i++) {
+    double far = isfinite(distance[i]) ? distance[i] : 0;
+    if (far < least) least = far, lost = i;
+  }
+  return lost;
+}
+
+int frot_name_vanished(const frot_model *m, frot_state *s, frot_work *w, int status,
+                       const double *z) {
+  int unnamed = status == FROT_NAN && s->fault.item < 0 && s->fault.contact < 0;
+  int lost = -1;
+  if (m->n_vanishing == 0) return status;
+  if (!unnamed && status != FROT_SINGULAR && status != FROT_DIVERGE && status != FROT_ALGEBRAIC)
+    return status;
+  for (int k = 0; k < 4 && lost < 0; k++) {
+    if (k == 2) memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+    lost = lost_at(m, s, w, s->fault.t, k % 2 ? z : s->data + w->layout.x);
+  }
+  if (lost < 0) return status;
+  const double *where = w->call.values + m->n_vanishing + FROT_WHERE * lost;
+  frot_fail(s, FROT_VANISHED, s->fault.t, -1, lost, -1, 0);
+  memcpy(s->fault.where, where, sizeof s->fault.where);
+  return FROT_VANISHED;
 }

@@ -43,6 +43,7 @@ enum frot_status {
   FROT_ASSERT = 23,      /* an `assert` of the text does not hold */
   FROT_REFUSED = 24,     /* a change from outside cannot be made in a run; the old values stay */
   FROT_EVENT_FAULT = 30, /* an event of the text cannot do what it says */
+  FROT_VANISHED = 32,    /* a curve or surface has no tangent or normal where a liaison needs it */
   FROT_POSTURE = 31,     /* relations of a loop do not tell how it goes on */
   FROT_JUMP = 25         /* a `reinit` or a switch moves a body against what holds it */
 };
@@ -98,13 +99,16 @@ enum frot_bound { FROT_BY_NORMAL = 0, FROT_BY_PIN = 1, FROT_BY_VALUE = 2 };
  * its column of E. A reading is a row without a motion: its lam is the reaction of a liaison that
  * coordinates keep (row_reads). */
 
+/* Of a liaison that rolls, whatever acts on it: it has no law, and its mode is stick. */
+enum { FROT_NEVER_SLIPS = -2 };
+
 /* A liaison or an element of the text, as the user names it. */
 typedef struct {
   const char *name;  /* the liaison, or the element */
   const char *place; /* file:line:column */
   int row_n;         /* row of the normal, -1 where it has none: it is never open */
   int reduced;       /* 1: the relation is built into the coordinates: row_n is a reading */
-  int sliding;       /* the element that its variable `mode` tells of, or -1 */
+  int sliding; /* the element that its variable `mode` tells of, FROT_NEVER_SLIPS, or -1 */
   int power;         /* its variable `power`, zero where all its elements hold, or -1 */
   int mode;          /* its variable `mode`, or -1: one relation of many of a liaison */
   int kinematic;     /* 1: a relation between velocities alone, which has no gap */
@@ -188,6 +192,7 @@ typedef struct {
 
 /* A body whose place depends on parameters, inputs or unknowns of blocks at given states. `by`: the
  * liaison that carries it, or "" where the equations of the text prescribe its motion. */
+#define FROT_WHERE 3 /* numbers that tell a place of a figure */
 #define FROT_PLACE 9 /* place and turn of the body, velocity of what carries it: 3 each */
 typedef struct {
   const char *body, *by, *place;
@@ -197,6 +202,12 @@ typedef struct {
 typedef struct {
   const char *text, *place, *unit; /* unit of its two sides */
 } frot_statement;
+
+/* What the figures of a liaison may lose: words with the liaison, and those of the numbers that tell
+ * where, " at u = %.6g"; place of the liaison. */
+typedef struct {
+  const char *text, *where, *place;
+} frot_vanishing;
 
 /* An applied force, or a state. */
 typedef struct {
@@ -290,6 +301,7 @@ typedef struct {
    * and depend on nothing else that moves; the rest change at events only */
   int n_located, n_timed;
   int n_watched; /* equations of `watched` */
+  int n_vanishing;
   int n_held;    /* the last n_held discrete values are what others were before: see `update` */
   int n_turns;   /* orientations among the coordinates */
   int n_groups;
@@ -327,6 +339,10 @@ typedef struct {
   frot_callable sides;
   /* places -> FROT_PLACE values of each carried body. Called where n_carried > 0. */
   frot_callable places;
+  /* vanishing -> distance from where each has no tangent or normal (n_vanishing), no number where it
+   * has none; numbers that tell where (FROT_WHERE x n_vanishing). Called after a failure, where
+   * n_vanishing > 0. */
+  frot_callable vanishing;
   /* pace -> what depends on time at given states (n_paced), and its rates by time alone (n_paced).
    * Called where n_paced > 0. */
   frot_callable pace;
@@ -397,6 +413,7 @@ typedef struct {
   const frot_load *loads;
   const frot_load *states;       /* nq + nv: names and places of q and v; may be NULL */
   const frot_held *held;         /* n_held */
+  const frot_vanishing *vanishings; /* n_vanishing */
   const frot_load *equations;    /* n_watched: their words and places */
   const int *position_statement; /* n_position: statement of each scalar equation */
   const int *velocity_statement; /* n_velocity */
@@ -423,6 +440,7 @@ typedef struct {
    * statement or condition: -1 where none */
   int contact, item, other;
   double t, value;
+  double where[FROT_WHERE]; /* of FROT_VANISHED */
 } frot_fault;
 
 typedef struct {

@@ -57,9 +57,8 @@ static double energy_now(const frot_model *m, frot_state *s, frot_work *w, const
   return energy[0] + energy[1];
 }
 
-int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
-               const frot_options *options) {
-  frot_bind_work(m, w);
+static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
+                 const frot_options *options) {
   frot_layout l = frot_layout_of(m);
   s->phase = FROT_CLEARED;
   s->fault = (frot_fault){FROT_OK, -1, -1, -1, t, 0};
@@ -112,6 +111,13 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
   if (status != FROT_OK) return status;
   s->phase = FROT_RUNNING;
   return FROT_OK;
+}
+
+int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
+               const frot_options *options) {
+  frot_bind_work(m, w);
+  int status = start(m, s, w, t, options);
+  return frot_name_vanished(m, s, w, status, s->data + w->layout.x);
 }
 
 /* Conditions whose value has changed sign without the motion passing through it. */
@@ -243,7 +249,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
     if (status == FROT_OK) status = frot_step(m, s, w);
     if (status != FROT_OK) {
       s->t = *g.t1;
-      return status;
+      return frot_name_vanished(m, s, w, status, w->step.z1);
     }
     if (s->statistics.steps == steps) continue;
     if (recorder && recorder->segments) frot_record(m, s, w, recorder);

@@ -90,6 +90,7 @@ void frot_open(const frot_model *m, frot_contact_mode *modes, int contact) {
 int frot_mode_value(const frot_model *m, const frot_contact_mode *modes, int contact) {
   int sliding = m->contacts[contact].sliding;
   if (!modes[contact].closed) return FROT_MODE_OPEN;
+  if (sliding == FROT_NEVER_SLIPS) return FROT_MODE_STICK;
   if (sliding < 0) return FROT_MODE_SLIP;
   return modes[m->n_contacts + sliding].friction == FROT_STICK ? FROT_MODE_STICK : FROT_MODE_SLIP;
 }

@@ -105,6 +105,14 @@ static void block_text(const frot_model *m, const frot_fault *f, char *text, siz
              name, f->t);
 }
 
+/* A figure without a tangent or a normal. */
+static void vanished_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
+  const frot_vanishing *lost = &m->vanishings[f->item];
+  char where[128];
+  snprintf(where, sizeof where, lost->where, f->where[0], f->where[1], f->where[2]);
+  snprintf(text, size, "%s%s at t = %.17g", lost->text, where, f->t);
+}
+
 /* Words of a condition or, counted on from them, of a value that depends on what it was before. */
 static const char *cause_name(const frot_model *m, int item) {
   if (item < m->n_conditions) return m->conditions[item].text;
@@ -244,6 +252,9 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                "(jamming) or a force is singular there",
                f->contact >= 0 ? "liaison '" : "", name, f->contact >= 0 ? "'" : "", f->t);
       return;
+    case FROT_VANISHED:
+      vanished_text(m, f, text, size);
+      return;
     case FROT_POSTURE:
       snprintf(
           text, size,
@@ -290,6 +301,7 @@ void frot_fault_places(const frot_model *m, const frot_state *s, char *text, siz
   if (f->status == FROT_ALGEBRAIC && f->item >= 0) places[0] = m->blocks[f->item].place;
   if ((f->status == FROT_ASSERT || f->status == FROT_EVENT_FAULT) && f->item >= 0)
     places[0] = m->outcomes[f->item].place;
+  if (f->status == FROT_VANISHED) places[0] = m->vanishings[f->item].place;
   if (f->status == FROT_REFUSED) places[0] = frot_refusal_place(m, f);
   if (f->status == FROT_INITIAL) {
     if (f->item >= 0) places[0] = m->statements[f->item].place;

@@ -63,7 +63,8 @@ static frot_callable scratch_of_all(const frot_model *m) {
                                   &m->variables,
                                   &m->energy,
                                   &m->timers,
-                                  &m->watched};
+                                  &m->watched,
+                                  &m->vanishing};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
   for (int i = 0; i < count + m->n_blocks; i++) {
@@ -105,7 +106,8 @@ static void bind_call(const frot_model *m, const frot_layout *l, frot_call_work 
   frot_callable most = scratch_of_all(m);
   TAKE(w->arg, most.n_arg), TAKE(w->res, most.n_res), TAKE(w->iw, most.n_iw);
   TAKE(w->w, most.n_w);
-  TAKE(w->values, larger(m->np, l->nw) + m->n_checks + m->nq + m->nv + m->n_loads + m->n_watched);
+  int told = larger(m->n_watched, (1 + FROT_WHERE) * m->n_vanishing);
+  TAKE(w->values, larger(m->np, l->nw) + m->n_checks + m->nq + m->nv + m->n_loads + told);
 }
 
 static void bind_blocks(const frot_model *m, const extent *e, frot_block_work *w, arena *a) {

@@ -1,0 +1,171 @@
+"""Where a figure loses its tangent or its normal, told by how far its liaison is from there.
+
+A curve has no tangent where its slope c' is zero, and is |c'|^2/|c''| from there to first order; a
+surface of points likewise by the product of its slopes, and one F = 0 by its slope. On its axis, or
+in its centre, nothing round has a nearest place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.mechanics.geometry.contacts import Geometry
+from frot.compiler.mechanics.geometry.figures import (
+    Ball,
+    Dot,
+    Egg,
+    Figure,
+    Flat,
+    Implicit,
+    Oval,
+    Path,
+    Ring,
+    Sheet,
+    Straight,
+    count_parameters,
+    is_level,
+)
+from frot.compiler.mechanics.geometry.levels import level
+from frot.compiler.mechanics.geometry.paths import point_of
+from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
+from frot.compiler.mechanics.liaisons.locks import Across, Tangent, Touching
+from frot.compiler.mechanics.liaisons.motions import Axis, Follow
+from frot.compiler.mechanics.mechanism import Contact, Joint
+from frot.compiler.mechanics.spatial import Pose, cross, whole
+from frot.compiler.mechanics.values import Lower, unit_vector
+from frot.dsl.checked import Expression, Liaison
+
+COUNT = 3  # numbers that tell where (FROT_WHERE)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Vanishing:
+    """What a liaison may lose, in words; `names` of the numbers `where` (3) that tell the place.
+
+    `distance` (m) from there, to first order; what is no number is none.
+    """
+
+    liaison: Liaison
+    text: str
+    names: tuple[str, ...]
+    distance: ca.SX
+    where: ca.SX
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Figured:
+    """A figure of a liaison, at a pose, where it touches: at a place and by parameters."""
+
+    name: str
+    figure: Figure
+    pose: Pose
+    parameters: ca.SX
+    place: ca.SX
+
+
+def find_vanishing(
+    links: Mapping[Liaison, Contact | Joint],
+    geometry: Mapping[Liaison, Geometry | JointGeometry],
+    kinematics: Kinematics,
+) -> Iterator[Vanishing]:
+    """What the figures of the liaisons may lose."""
+    for liaison, link in links.items():
+        for one in _figures(link, geometry[liaison], kinematics):
+            for what, names, distance, where in _losses(one, kinematics.fixed.lower):
+                text = f"liaison '{liaison.name}': {what.format(one.name)}"
+                padded = ca.vertcat(where, ca.SX.zeros(COUNT - where.numel()))
+                yield Vanishing(liaison, text, names, distance, padded)
+
+
+def _figures(
+    link: Contact | Joint, geometry: Geometry | JointGeometry, kinematics: Kinematics
+) -> Iterator[_Figured]:
+    """The figures of a liaison, that which coordinates follow alone."""
+    own, liaison = kinematics.tracks.get(link.liaison), link.liaison
+    unknowns = ca.SX.zeros(0) if own is None else own.unknowns
+    if isinstance(link, Contact):
+        assert isinstance(geometry, Geometry)
+        points, swapped = (link.track.point, link.point), not link.track_first
+        pairs, place = [(link.track.figure, link.figure)], geometry.line.through
+    else:
+        assert isinstance(geometry, JointGeometry)
+        points, swapped = (link.a, link.b), link.swapped
+        touch = geometry.touch
+        place = kinematics.position(link.b) if touch is None else touch.place
+        pairs = list(_pairs(link))
+    first, second = (kinematics.pose(point) for point in points)
+    texts = [" ".join(x.span.text.split()) for x in (liaison.a, liaison.b)]
+    name, other = reversed(texts) if swapped else texts
+    if liaison in kinematics.tangents:
+        unknowns = kinematics.parameter(liaison)[0]
+        followed = [m.curve for m in getattr(link, "motions", ()) if isinstance(m, Follow)]
+        pairs = [(x, Dot()) for x in followed] or pairs
+    for a, b in pairs:
+        levels = is_level(a) and is_level(b)
+        count = 0 if is_level(a) else count_parameters(a)
+        none = ca.SX.zeros(0)
+        yield _Figured(name, a, first, none if levels else unknowns[:count], place)
+        yield _Figured(other, b, second, none if levels else unknowns[count:], place)
+
+
+def _pairs(joint: Joint) -> Iterator[tuple[Figure, Figure]]:
+    for lock in joint.locks:
+        match lock:
+            case Across(curve=curve, side=0):
+                yield curve, Dot()
+            case Tangent(a=a, b=b, part=0) | Touching(a=a, b=b):
+                yield a, b
+
+
+_Loss = tuple[str, tuple[str, ...], ca.SX, ca.SX]
+
+
+def _losses(one: _Figured, lower: Lower) -> Iterator[_Loss]:
+    """What it is, the names of the numbers that tell where, the distance, these numbers."""
+    figure, s, pose, nowhere = one.figure, one.parameters, one.pose, ca.SX.zeros(0)
+    local = ca.densify(pose.axes.T @ (one.place - pose.origin))
+    match figure:
+        case Path() if s.numel():
+            yield "the tangent of '{}' vanishes", ("u",), _from_cusp(figure, s, lower), s
+        case Sheet() if s.numel():
+            yield "the normal of '{}' vanishes", ("u", "v"), _from_fold(figure, s, lower), s
+        case Implicit() | Egg():
+            steep = level(figure, one.place, pose, lower).steep
+            yield "the normal of '{}' vanishes", ("x", "y", "z"), steep, local
+        case Ball():
+            yield "no single place of '{}' is the nearest", (), ca.norm_2(local), nowhere
+        case Straight(radius=radius, axis=axis) if radius is not None:
+            yield "no single place of '{}' is the nearest", (), _from_axis(axis, local, lower), nowhere
+        case Ring(axis=axis) | Oval(axis=axis):
+            yield "no single place of '{}' is the nearest", (), _from_axis(axis, local, lower), nowhere
+    match figure:
+        case Flat(axis=axis) | Straight(axis=axis) | Ring(axis=axis) | Oval(axis=axis):
+            if isinstance(axis.given, Expression) and not is_fixed(axis.given):
+                yield "'{}' has no direction", (), ca.norm_2(whole(lower(axis.given))), nowhere
+
+
+def _from_axis(axis: Axis, local: ca.SX, lower: Lower) -> ca.SX:
+    return ca.norm_2(cross(unit_vector(axis.given, lower), local))
+
+
+def _from_cusp(figure: Path, s: ca.SX, lower: Lower) -> ca.SX:
+    """|c'|^2/|c''|, no number where both are zero."""
+    u = ca.SX.sym("u")
+    slope = ca.jacobian(point_of(figure, u, lower), u)
+    bend = ca.sqrt(ca.sumsqr(ca.jacobian(slope, u)))
+    size = ca.sumsqr(slope)
+    distance = ca.if_else(bend > 0, size / bend, ca.sqrt(size))
+    return ca.substitute(distance, u, s)
+
+
+def _from_fold(figure: Sheet, s: ca.SX, lower: Lower) -> ca.SX:
+    """|p_u x p_v| over the greater of the slopes."""
+    u = ca.SX.sym("u", 2)
+    slope = ca.densify(ca.jacobian(point_of(figure, u, lower), u))
+    normal = cross(slope[:, 0], slope[:, 1])
+    size = ca.sqrt(ca.sumsqr(normal) / ca.fmax(ca.sumsqr(slope[:, 0]), ca.sumsqr(slope[:, 1])))
+    return ca.substitute(size, u, s)
