@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "changes.h"
 #include "core.h"
 #include "linear.h"
 #include "tolerances.h"
@@ -15,6 +16,16 @@ static int find_inertia(const frot_opening *p) {
   const frot_contact_mode *modes = (const void *)(p->s->data + p->w->layout.modes);
   int status = frot_dynamics(p->m, p->s, p->w, p->t, p->q, p->v, p->d, modes, FROT_MOTION);
   return status == FROT_OK ? frot_metric(p->m, p->w) : status;
+}
+
+/* Of the length of a quaternion, such that the whole change of it is measured by the body's inertia.
+ */
+static double unit_of_length(const frot_opening *p, const frot_turn *turn) {
+  double inertia = 0, count = 0;
+  for (int k = 0; k < 3; k++)
+    if (turn->speed[k] >= 0)
+      inertia += frot_metric_entry(p->m, p->w, turn->speed[k], turn->speed[k]), count++;
+  return 0.5 / sqrt(inertia / count);
 }
 
 /* The factor of the metric of all unknowns, after find_inertia. */
@@ -31,7 +42,11 @@ static int factor_metric(frot_opening *p) {
             frot_metric_entry(m, w, frot_speed_behind(p, a), frot_speed_behind(p, b));
     i++;
   }
+  for (int i = 0; i < m->n_turns && !p->velocity; i++)
+    w->relations.unit[m->turns[i].at] = unit_of_length(p, &m->turns[i]);
   p->factor = w->opening.factor, p->order = p->attached = count;
+  memcpy(w->opening.here, p->q, sizeof(double) * (size_t)m->nq);
+  p->basis = w->opening.here;
   return frot_cholesky(w->opening.factor, count) ? FROT_SINGULAR : FROT_OK;
 }
 
@@ -40,30 +55,58 @@ int frot_opening_metric(frot_opening *p) {
   return status == FROT_OK ? factor_metric(p) : status;
 }
 
-/* y <- L^-1 x: a row in the units of the metric; the attached unknowns come first. */
+/* y <- L^-1 x: a row in the units of the metric; the attached changes come first. */
 static void into_metric(const frot_opening *p, const double *x, double *y) {
+  double *over = p->w->opening.scratch + 2 * frot_opening_count(p);
   int first = 0, other = p->attached;
+  frot_over_changes(p, x, over);
   for (int k = 0; k < frot_opening_count(p); k++) {
     if (frot_is_attached(p, k))
-      y[first++] = x[k];
+      y[first++] = over[k];
     else
-      y[other++] = x[k] * p->w->relations.unit[k];
+      y[other++] = over[k] * p->w->relations.unit[k];
   }
   frot_forward(p->factor, p->order, p->attached, y);
 }
 
+void frot_measure_change(const frot_opening *p, const double *apart, double *y) {
+  double *over = p->w->opening.scratch + 2 * frot_opening_count(p);
+  int n = p->attached, first = 0, other = n;
+  frot_into_changes(p, apart, over);
+  for (int k = 0; k < frot_opening_count(p); k++) {
+    if (frot_is_attached(p, k))
+      y[first++] = over[k];
+    else
+      y[other++] = over[k] / p->w->relations.unit[k];
+  }
+  for (int i = 0; i < n; i++) { /* L' x, in place from above */
+    double sum = 0;
+    for (int k = i; k < n; k++) sum += p->factor[n * i + k] * y[k];
+    y[i] = sum;
+  }
+}
+
 double frot_move_opening(const frot_opening *p, const double *y, const double *x0, double part,
                          double *x, double *size) {
+  double *changes = p->w->opening.scratch, *moved = changes + frot_opening_count(p);
   int first = 0, other = p->attached;
   double largest = 0;
   *size = 0;
+  for (int k = 0; k < frot_opening_count(p); k++)
+    changes[k] = part * (frot_is_attached(p, k) ? y[first++] : y[other++] * p->w->relations.unit[k]);
+  frot_from_changes(p, changes, moved);
   for (int k = 0; k < frot_opening_count(p); k++) {
-    double change =
-        part * (frot_is_attached(p, k) ? y[first++] : y[other++] * p->w->relations.unit[k]);
-    x[k] = x0[k] + change;
-    largest = fmax(largest, fabs(change)), *size = fmax(*size, fabs(x[k]));
+    x[k] = x0[k] + moved[k];
+    largest = fmax(largest, fabs(moved[k])), *size = fmax(*size, fabs(x[k]));
   }
   return largest;
+}
+
+void frot_begin_units(const frot_opening *p) {
+  double *unit = p->w->relations.unit;
+  for (int k = 0; k < p->m->nq; k++) unit[k] = p->q[k] != 0 ? fabs(p->q[k]) : 1;
+  for (int i = 0; i < p->m->n_turns; i++)
+    for (int k = 0; k < 4; k++) unit[p->m->turns[i].at + k] = 1;
 }
 
 /* Sum of the squares of the residuals, each as the change that would remove it alone, so that units
@@ -132,8 +175,7 @@ static int solve(frot_opening *p) {
   frot_work *w = p->w;
   double last = INFINITY;
   if (frot_opening_count(p) == 0) return FROT_OK;
-  for (int k = 0; !p->velocity && k < p->m->nq; k++)
-    w->relations.unit[k] = p->q[k] != 0 ? fabs(p->q[k]) : 1;
+  if (!p->velocity) frot_begin_units(p);
   for (int pass = 0;; pass++) {
     int status = find_inertia(p);
     if (status == FROT_OK) status = frot_evaluate_statements(p);

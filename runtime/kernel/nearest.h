@@ -13,6 +13,12 @@ int frot_solve_nearest(frot_opening *p);
  * in p->attached, its factor in p->factor), for the others the size of their guess. */
 int frot_opening_metric(frot_opening *p);
 
+/* Units of the changes that no mass measures: the sizes of the present values. */
+void frot_begin_units(const frot_opening *p);
+
+/* y <- a change of the unknowns, in units in which its length is that of the metric. */
+void frot_measure_change(const frot_opening *p, const double *apart, double *y);
+
 /* Least change of the unknowns that removes the residuals to first order, over L, into w->step.
  * With `from`, the change from there is the least one, that is from the present values what is left
  * of it. Each row is divided by its length in the metric. */

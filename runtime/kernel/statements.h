@@ -14,7 +14,8 @@ typedef struct {
   const double *d;
   unsigned char *use;   /* per contact: its gap or its normal speed is to be zero */
   int velocity, n;      /* for speeds; equations of the last evaluation */
-  const double *factor; /* of the metric of the unknowns that have a speed, of the given order */
+  const double *factor; /* of the metric of the changes that have a speed, of the given order */
+  const double *basis;  /* the coordinates from which changes are counted (changes.h) */
   int order, attached;
   double scene; /* largest value, term and residual where the search begins */
   int wide;     /* the search may begin elsewhere too */
@@ -26,9 +27,9 @@ static inline double *frot_opening_unknown(const frot_opening *p) {
 static inline int frot_opening_count(const frot_opening *p) {
   return p->velocity ? p->m->nv : p->m->nq;
 }
-/* The speed behind unknown k, -1 for a coordinate that has none. */
+/* The speed that moves change k, -1 where there is none. */
 static inline int frot_speed_behind(const frot_opening *p, int k) {
-  return p->velocity ? k : p->m->q_speed[k];
+  return p->velocity ? k : p->w->opening.behind[k];
 }
 static inline int frot_is_attached(const frot_opening *p, int k) {
   return frot_speed_behind(p, k) >= 0;

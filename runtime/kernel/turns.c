@@ -14,7 +14,7 @@ static void multiply(const double *a, const double *b, double *c) {
   c[3] = a[0] * b[3] + a[3] * b[0] + a[1] * b[2] - a[2] * b[1];
 }
 
-static void turned(const frot_turn *turn, const double *by, const double *r, double *out) {
+void frot_turned(const frot_turn *turn, const double *by, const double *r, double *out) {
   if (turn->own_axes)
     multiply(r, by, out);
   else
@@ -50,7 +50,7 @@ void frot_displace(const frot_model *m, const frot_group *g, double *q, const do
     double half = angle > 0 ? sin(angle / 2) / angle : 0.5;
     by[0] = cos(angle / 2);
     for (int k = 0; k < 3; k++) by[k + 1] = half * w[k];
-    turned(turn, by, r, out);
+    frot_turned(turn, by, r, out);
     double length = length_of(out);
     for (int k = 0; k < 4; k++) r[k] = out[k] / length;
   }
@@ -68,7 +68,7 @@ void frot_over_coordinates(const frot_model *m, const frot_group *g, const doubl
     if (!is_of_group(m, turn, g)) continue;
     double by[4] = {0, 0, 0, 0}, out[4];
     items_of(m, turn, entries, by + 1);
-    turned(turn, by, q + turn->at, out);
+    frot_turned(turn, by, q + turn->at, out);
     for (int k = 0; k < 4; k++) row[turn->at + k] = 2 * out[k];
   }
 }

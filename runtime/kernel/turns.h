@@ -5,6 +5,9 @@
 
 #include "frot.h"
 
+/* out <- the quaternion r turned by the quaternion `by`: by r, or r by in its own axes. */
+void frot_turned(const frot_turn *turn, const double *by, const double *r, double *out);
+
 /* Move q by `part` of the displacement `step` (one item a speed of the group): coordinates by
  * addition, orientations by turning them. */
 void frot_displace(const frot_model *m, const frot_group *g, double *q, const double *step,

@@ -177,6 +177,10 @@ static void bind_opening(const frot_model *m, const frot_layout *l, const extent
   TAKE(w->slopes_y, early * early + 3 * early), TAKE(w->slopes_pivot, early);
   TAKE(w->factor, m->nv * m->nv), TAKE(w->row_weight, e->equations);
   TAKE(w->off_at_first, e->equations), TAKE(w->begin, e->states), TAKE(w->nearest, e->states);
+  TAKE(w->behind, m->nq), TAKE(w->here, m->nq), TAKE(w->first_factor, m->nv * m->nv),
+      TAKE(w->first_unit, m->nq);
+  TAKE(w->found, m->nq), TAKE(w->way, m->nq), TAKE(w->next_way, m->nq), TAKE(w->apart, m->nq);
+  TAKE(w->scratch, 3 * larger(m->nq, m->nv));
 }
 
 static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, arena *a) {

@@ -85,8 +85,8 @@ def _figures(
     link: Contact | Joint, geometry: Geometry | JointGeometry, kinematics: Kinematics
 ) -> Iterator[_Figured]:
     """The figures of a liaison, that which coordinates follow alone."""
-    own, liaison = kinematics.tracks.get(link.liaison), link.liaison
-    unknowns = ca.SX.zeros(0) if own is None else own.unknowns
+    track, liaison = kinematics.tracks.get(link.liaison), link.liaison
+    unknowns = ca.SX.zeros(0) if track is None else track.unknowns
     if isinstance(link, Contact):
         assert isinstance(geometry, Geometry)
         points, swapped = (link.track.point, link.point), not link.track_first
@@ -105,11 +105,10 @@ def _figures(
         followed = [m.curve for m in getattr(link, "motions", ()) if isinstance(m, Follow)]
         pairs = [(x, Dot()) for x in followed] or pairs
     for a, b in pairs:
-        levels = is_level(a) and is_level(b)
-        count = 0 if is_level(a) else count_parameters(a)
-        none = ca.SX.zeros(0)
-        yield _Figured(name, a, first, none if levels else unknowns[:count], place)
-        yield _Figured(other, b, second, none if levels else unknowns[count:], place)
+        own = ca.SX.zeros(0) if is_level(a) and is_level(b) else unknowns
+        count = 0 if is_level(a) or not own.numel() else count_parameters(a)
+        yield _Figured(name, a, first, own[:count], place)
+        yield _Figured(other, b, second, own[count:], place)
 
 
 def _pairs(joint: Joint) -> Iterator[tuple[Figure, Figure]]:
