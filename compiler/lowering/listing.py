@@ -17,7 +17,7 @@ from frot.compiler.mechanics.names import component_names
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl.catalogue import coordinates_of
 from frot.dsl.checked import Body, CurvePlace, Liaison, Variable
-from frot.dsl.names.members import parameter_type
+from frot.dsl.names.flanges import parameter_type
 from frot.dsl.quantities.dimensions import Dimension, dimension
 
 TYPE_CHECKING = False

@@ -10,7 +10,7 @@ from frot.compiler.mechanics.geometry.figures import Dot, Flat, Placed, can_touc
 from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE, pair
 from frot.compiler.mechanics.liaisons.drives import free_drives, told_by_time
 from frot.compiler.mechanics.liaisons.halves import halve
-from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, make_joint
+from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, drawn_out, make_joint
 from frot.compiler.mechanics.liaisons.locks import Lock, Stated
 from frot.compiler.mechanics.mechanism import (
     Contact,
@@ -27,6 +27,7 @@ from frot.compiler.mechanics.mechanism import (
 from frot.compiler.mechanics.refuse import (
     REACTION,
     refuse,
+    refuse_places,
     refuse_surface,
     refuse_unknown,
     spelled,
@@ -124,8 +125,7 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     name, told = liaison.kind.name, spelled(liaison)
     for place in (a, b):
         if not isinstance(place, Point):
-            what = f"'{place.span.text}' as a place of a {told}"
-            refuse(log, what, liaison.span, "name a body, a point of one or a frame")
+            refuse_places(liaison, log)
             return None
     assert isinstance(a, Point) and isinstance(b, Point)
     if is_unilateral(liaison):
@@ -209,11 +209,13 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     if a is not None and b is not None:
         found = pair(liaison.kind.name, a, b, liaison.options, planar)
     if a is None or b is None or found is None:
-        refuse(log, f"the liaison '{liaison.kind.name}' between these two places", liaison.span)
+        refuse_places(liaison, log)
         return None
     pairing, swapped = found
     first, second = (b.point, a.point) if swapped else (a.point, b.point)
     told = told_by_time(liaison, planar)
+    if "length" in liaison.driven and "length" not in told:
+        pairing = drawn_out(pairing)
     return make_joint(liaison, first, second, pairing, told, swapped=swapped)
 
 
@@ -222,12 +224,7 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
     figures = [figure_of(place, True) for place in places]
     first = next((k for k in (0, 1) if _is_contact(liaison, figures[k], figures[1 - k])), None)
     if first is None:
-        refuse(
-            log,
-            f"the liaison '{liaison.kind.name}' between these two places",
-            liaison.span,
-            "a point, a rim or a curve on a curve is supported",
-        )
+        refuse_places(liaison, log)
         return None
     track, rim = figures[first], figures[1 - first]
     assert track is not None and rim is not None

@@ -59,7 +59,7 @@ def refuse_unknown(model: Model, log: Log) -> None:
                 liaison.span,
                 _one_of("liaisons", known),
             )
-        _refuse_drive(liaison, log)
+        _refuse_drive(liaison, model.planar, log)
         for law in liaison.laws:
             _refuse_law(liaison, law, model.planar, log)
     for force in model.forces:
@@ -90,15 +90,18 @@ def refuse_unknown(model: Model, log: Log) -> None:
                 )
 
 
-def _refuse_drive(liaison: Liaison, log: Log) -> None:
-    for name, value in liaison.driven.items():
-        if name in ("length", "gap") and not follows_time(value):
-            refuse(
-                log,
-                f"a driven '{name}' that follows other than time",
-                value.span,
-                "write a value of time and parameters without switches",
-            )
+def _refuse_drive(liaison: Liaison, planar: bool, log: Log) -> None:
+    value = liaison.driven.get("gap")
+    if value is None:
+        return
+    if planar or liaison.kind.name != "contact_ponctuel":
+        what = f"a driven 'gap' of a {spelled(liaison)}" + (" in the plane" if planar else "")
+        refuse(
+            log, what, value.span, "drive a point of the body, or let the surface move with time"
+        )
+    elif not follows_time(value):
+        what = "a driven 'gap' that follows other than time"
+        refuse(log, what, value.span, "write a value of time and parameters without switches")
 
 
 def _refuse_law(liaison: Liaison, law: Law, planar: bool, log: Log) -> None:
@@ -196,6 +199,28 @@ def refuse_surface(model: Model, links: Iterable[Contact | Joint], log: Log) -> 
                     node.span,
                     help="read `speed` or `torque`, or give the law `coulomb(..., radius = ...)`",
                 )
+
+
+_JOINED = {
+    "appui_faces": "it takes a face of a box, or a side of a polygon, and a plane or line",
+    "contact_ponctuel": "by one relation touch a point and a surface, and any two of curve, rim and "
+    "surface; two points are a `spherique`, a point and a curve in space a `point_courbe`, a line on "
+    "a plane a `lineaire_rectiligne`, two planes an `appui_plan`",
+    "courbe_courbe": "it takes two curves or rims, not both straight",
+    "lineaire_annulaire": "it takes a point and a straight line, or two points with `axis`",
+    "lineaire_rectiligne": "it takes a straight line and a plane",
+    "point_courbe": "it takes a point, then a curve",
+    "point_surface": "it takes a point, then a surface",
+    "roulement": "it takes two of curve, rim and surface",
+}
+
+
+def refuse_places(liaison: Liaison, log: Log) -> None:
+    """Tell that a liaison of this kind has no meaning between its two places."""
+    name = spelled(liaison)
+    message = f"liaison '{liaison.name}': {name} does not join these two places"
+    help_text = _JOINED.get(liaison.kind.name, "name a body, a point of one or a frame")
+    log.report("E0205", message, liaison.span, help=help_text)
 
 
 def spelled(liaison: Liaison) -> str:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
+from frot.dsl.catalogue.types import LENGTH
 from frot.dsl.names.classes import built_in
 from frot.dsl.names.entities import Instance
 from frot.dsl.names.scope import Scope
+from frot.dsl.quantities.dimensions import REAL, Type
 from frot.dsl.text import tree
 
-# The coordinate of a liaison: its connector, and the flow variable of that with its type.
+# The potential of a connector: its name, and the flow variable of that with its type.
 _FLANGES = {
     "angle": ("RotationalFlange", "torque", "Torque"),
     "displacement": ("TranslationalFlange", "force", "Force"),
@@ -21,29 +23,41 @@ def flange(liaison: checked.Liaison, node: tree.Member, scope: Scope) -> Instanc
     found = scope.build.flange_instances.get(liaison)
     if found is not None:
         return found
-    own = [c for c in liaison.kind.coordinates if c in _FLANGES]
+    own = [(c, c) for c in liaison.kind.coordinates if c in _FLANGES]
+    place = liaison.b
+    along = None
+    if liaison.kind.name == "point_courbe" and isinstance(place, checked.CurvePlace):
+        along = parameter_type(place.curve)
+        own = [("u", "displacement" if along.dimension == LENGTH.dimension else "angle")]
     if len(own) != 1:
         which = "it has no angle or displacement" if not own else "it has several coordinates"
         scope.log.report(
             "E0203",
             f"liaison {liaison.name!r} ({liaison.kind.name}) has no flange: {which}",
             node.name.span,
-            help="'rotoide' and 'prismatique' have one",
+            help="'rotoide', 'prismatique', 'helicoidale' and 'point_courbe' have one",
         )
         return None
-    coordinate = own[0]
-    connector, flow, type_name = _FLANGES[coordinate]
+    ((coordinate, potential),) = own
+    connector, flow, type_name = _FLANGES[potential]
     of = built_in(connector)
     assert of is not None
     name = f"{liaison.name}.flange"
     effort = checked.Variable(
         f"{name}.{flow}", TYPES[type_name], liaison.span, "what flows in", quantity=type_name
     )
-    place = checked.Quantity(
-        liaison, coordinate, liaison.kind.coordinates[coordinate], liaison.span
-    )
-    made = Instance(name, of, liaison.span, {coordinate: place, flow: effort}, {flow})
+    kind = liaison.kind.coordinates[coordinate] if along is None else along
+    value = checked.Quantity(liaison, coordinate, kind, liaison.span)
+    made = Instance(name, of, liaison.span, {potential: value, flow: effort}, {flow})
     scope.build.flange_instances[liaison] = made
     scope.build.flanges.append(checked.Flange(liaison, coordinate, effort))
     scope.build.connections.flow(effort, liaison.span, made)
     return made
+
+
+def parameter_type(curve: checked.Curve) -> Type:
+    """The type of the parameter of a curve: an abscissa on a line, an angle on a circle."""
+    if curve.kind == "line":
+        return LENGTH
+    start = curve.arguments.get("from")
+    return REAL if start is None else start.type

@@ -6,17 +6,16 @@ from collections.abc import Mapping
 
 from frot.dsl import checked
 from frot.dsl.catalogue import body_members, liaison_members, point_members
-from frot.dsl.catalogue.types import LENGTH
 from frot.dsl.checked.arrays import element
 from frot.dsl.names.build import settled
 from frot.dsl.names.classes import Class
 from frot.dsl.names.constants import of_class
 from frot.dsl.names.entities import Array, Instance, Record, Refused
-from frot.dsl.names.flanges import flange
+from frot.dsl.names.flanges import flange, parameter_type
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import Thing, as_thing, gathered, kind_of
-from frot.dsl.quantities.dimensions import REAL, Type
+from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree
 
 _AXES = "xyz"
@@ -176,11 +175,3 @@ def coordinates(liaison: checked.Liaison, planar: bool) -> Mapping[str, Type]:
         if place.curve.kind != "line":
             members.pop("abscissa", None)
     return members
-
-
-def parameter_type(curve: checked.Curve) -> Type:
-    """The type of the parameter of a curve: an abscissa on a line, an angle on a circle."""
-    if curve.kind == "line":
-        return LENGTH
-    start = curve.arguments.get("from")
-    return REAL if start is None else start.type

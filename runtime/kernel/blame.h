@@ -11,9 +11,9 @@
 int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t,
                    double h);
 
-/* Say instead which figure has lost its tangent or normal, where that is what a failed start or step
- * comes from: so it is at the states x of the instance, or at `z`, the last that were evaluated.
- * Returns the status. */
+/* Say instead which figure has lost its tangent or normal, where that is what a failed start or
+ * step comes from: so it is at the states x of the instance, or at `z`, the last that were
+ * evaluated. Returns the status. */
 int frot_name_vanished(const frot_model *m, frot_state *s, frot_work *w, int status,
                        const double *z);
 

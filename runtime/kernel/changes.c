@@ -9,8 +9,7 @@ void frot_name_changes(const frot_opening *p) {
   const frot_model *m = p->m;
   memcpy(p->w->opening.behind, m->q_speed, sizeof(int) * (size_t)m->nq);
   for (int i = 0; i < m->n_turns; i++)
-    for (int k = 0; k < 3; k++)
-      p->w->opening.behind[m->turns[i].at + 1 + k] = m->turns[i].speed[k];
+    for (int k = 0; k < 3; k++) p->w->opening.behind[m->turns[i].at + 1 + k] = m->turns[i].speed[k];
 }
 
 /* The directions of a turn's changes: along the quaternion r, then half of what unit turns make. */

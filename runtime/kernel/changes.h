@@ -1,5 +1,5 @@
-/* Changes of the unknowns at the start, in terms that masses measure: of an orientation its turn and
- * its length instead of its four items; of everything else the unknown itself. */
+/* Changes of the unknowns at the start, in terms that masses measure: of an orientation its turn
+ * and its length instead of its four items; of everything else the unknown itself. */
 #ifndef FROT_CHANGES_H
 #define FROT_CHANGES_H
 

@@ -16,8 +16,8 @@
 /* The values nearest to the beginning are those from which no way along the relations leads back
  * towards it. Such a way is d = x* - x, where x* is the least change from the beginning that the
  * relations, linear at x, allow. How far to go along it is told by how it changed on the last way s
- * (Barzilai and Borwein 1988): s.s/s.(d_before - d); then the values are put back onto the relations,
- * and what has not come nearer is taken back. */
+ * (Barzilai and Borwein 1988): s.s/s.(d_before - d); then the values are put back onto the
+ * relations, and what has not come nearer is taken back. */
 
 static void measure_by_beginning(frot_opening *p) {
   p->factor = p->w->opening.first_factor, p->order = p->attached;

@@ -9,7 +9,7 @@
 #include "nearest.h"
 #include "tolerances.h"
 
-#define TRIES 8  /* beginnings of the search beside the given one, each to both hands */
+#define TRIES 8 /* beginnings of the search beside the given one, each to both hands */
 #define WHOLE_TURN 6.3
 
 /* A beginning of the search away from w->opening.begin, the same in every run: turns of up to half

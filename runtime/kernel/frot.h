@@ -108,7 +108,7 @@ typedef struct {
   const char *place; /* file:line:column */
   int row_n;         /* row of the normal, -1 where it has none: it is never open */
   int reduced;       /* 1: the relation is built into the coordinates: row_n is a reading */
-  int sliding; /* the element that its variable `mode` tells of, FROT_NEVER_SLIPS, or -1 */
+  int sliding;       /* the element that its variable `mode` tells of, FROT_NEVER_SLIPS, or -1 */
   int power;         /* its variable `power`, zero where all its elements hold, or -1 */
   int mode;          /* its variable `mode`, or -1: one relation of many of a liaison */
   int kinematic;     /* 1: a relation between velocities alone, which has no gap */
@@ -203,8 +203,8 @@ typedef struct {
   const char *text, *place, *unit; /* unit of its two sides */
 } frot_statement;
 
-/* What the figures of a liaison may lose: words with the liaison, and those of the numbers that tell
- * where, " at u = %.6g"; place of the liaison. */
+/* What the figures of a liaison may lose: words with the liaison, and those of the numbers that
+ * tell where, " at u = %.6g"; place of the liaison. */
 typedef struct {
   const char *text, *where, *place;
 } frot_vanishing;
@@ -302,8 +302,8 @@ typedef struct {
   int n_located, n_timed;
   int n_watched; /* equations of `watched` */
   int n_vanishing;
-  int n_held;    /* the last n_held discrete values are what others were before: see `update` */
-  int n_turns;   /* orientations among the coordinates */
+  int n_held;  /* the last n_held discrete values are what others were before: see `update` */
+  int n_turns; /* orientations among the coordinates */
   int n_groups;
   int n_islands; /* 0: all is one, and the functions of the whole model are called */
   int n_matrix, n_metric, n_entries, n_square; /* items of the packed arrays of all groups */
@@ -339,8 +339,8 @@ typedef struct {
   frot_callable sides;
   /* places -> FROT_PLACE values of each carried body. Called where n_carried > 0. */
   frot_callable places;
-  /* vanishing -> distance from where each has no tangent or normal (n_vanishing), no number where it
-   * has none; numbers that tell where (FROT_WHERE x n_vanishing). Called after a failure, where
+  /* vanishing -> distance from where each has no tangent or normal (n_vanishing), no number where
+   * it has none; numbers that tell where (FROT_WHERE x n_vanishing). Called after a failure, where
    * n_vanishing > 0. */
   frot_callable vanishing;
   /* pace -> what depends on time at given states (n_paced), and its rates by time alone (n_paced).
@@ -411,12 +411,12 @@ typedef struct {
   const frot_carried *carried;
   const frot_statement *statements; /* those of the invariants are the last */
   const frot_load *loads;
-  const frot_load *states;       /* nq + nv: names and places of q and v; may be NULL */
-  const frot_held *held;         /* n_held */
+  const frot_load *states;          /* nq + nv: names and places of q and v; may be NULL */
+  const frot_held *held;            /* n_held */
   const frot_vanishing *vanishings; /* n_vanishing */
-  const frot_load *equations;    /* n_watched: their words and places */
-  const int *position_statement; /* n_position: statement of each scalar equation */
-  const int *velocity_statement; /* n_velocity */
+  const frot_load *equations;       /* n_watched: their words and places */
+  const int *position_statement;    /* n_position: statement of each scalar equation */
+  const int *velocity_statement;    /* n_velocity */
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;      /* np: frot_type */
   /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t,

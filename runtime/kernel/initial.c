@@ -55,7 +55,7 @@ static int solve_statements(frot_opening *p, double *side) {
   guess(p, p->q, p->v);
   int again = frot_kinematics(m, s, p->w, p->t, p->q, p->v, p->d) == FROT_OK &&
               frot_choose_sides(p, side, 0) > 0 && frot_solve_widely(p) == FROT_OK;
-  s->fault = again ? (frot_fault){FROT_OK, -1, -1, -1, p->t, 0} : first;
+  s->fault = again ? frot_no_fault(p->t) : first;
   s->phase = again ? FROT_CLEARED : FROT_FAULTED;
   return again ? FROT_OK : status;
 }

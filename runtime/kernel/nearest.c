@@ -18,7 +18,8 @@ static int find_inertia(const frot_opening *p) {
   return status == FROT_OK ? frot_metric(p->m, p->w) : status;
 }
 
-/* Of the length of a quaternion, such that the whole change of it is measured by the body's inertia.
+/* Of the length of a quaternion, such that the whole change of it is measured by the body's
+ * inertia.
  */
 static double unit_of_length(const frot_opening *p, const frot_turn *turn) {
   double inertia = 0, count = 0;
@@ -93,7 +94,8 @@ double frot_move_opening(const frot_opening *p, const double *y, const double *x
   double largest = 0;
   *size = 0;
   for (int k = 0; k < frot_opening_count(p); k++)
-    changes[k] = part * (frot_is_attached(p, k) ? y[first++] : y[other++] * p->w->relations.unit[k]);
+    changes[k] =
+        part * (frot_is_attached(p, k) ? y[first++] : y[other++] * p->w->relations.unit[k]);
   frot_from_changes(p, changes, moved);
   for (int k = 0; k < frot_opening_count(p); k++) {
     x[k] = x0[k] + moved[k];

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "awake.h"
+#include "blame.h"
 #include "blocks.h"
 #include "conditions.h"
 #include "groups.h"
@@ -61,7 +62,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
                  const frot_options *options) {
   frot_layout l = frot_layout_of(m);
   s->phase = FROT_CLEARED;
-  s->fault = (frot_fault){FROT_OK, -1, -1, -1, t, 0};
+  s->fault = frot_no_fault(t);
   s->statistics = (frot_statistics){0};
   s->options = options ? *options : (frot_options){0, FROT_REST, 0};
   s->t = s->began = t;

@@ -96,10 +96,12 @@ int frot_mode_value(const frot_model *m, const frot_contact_mode *modes, int con
 }
 
 int frot_fail(frot_state *s, int status, double t, int contact, int item, int other, double value) {
-  s->fault = (frot_fault){status, contact, item, other, t, value};
+  s->fault = (frot_fault){status, contact, item, other, t, value, {0, 0, 0}};
   s->phase = FROT_FAULTED;
   return status;
 }
+
+frot_fault frot_no_fault(double t) { return (frot_fault){FROT_OK, -1, -1, -1, t, 0, {0, 0, 0}}; }
 
 void frot_state_clear(const frot_model *m, frot_state *s) {
   frot_layout l = frot_layout_of(m);
@@ -108,7 +110,7 @@ void frot_state_clear(const frot_model *m, frot_state *s) {
   s->version = FROT_LAYOUT_VERSION;
   s->size = frot_state_size(m);
   strncpy(s->key, m->key, FROT_KEY - 1);
-  s->fault = (frot_fault){FROT_OK, -1, -1, -1, 0, 0};
+  s->fault = frot_no_fault(0);
   for (int i = 0; i < m->np; i++) s->data[l.given + i] = s->data[l.p + i] = m->p_default[i];
   for (int i = 0; i < m->nu; i++) s->data[l.u + i] = m->u_default[i];
   for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;

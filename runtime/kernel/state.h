@@ -109,6 +109,8 @@ void frot_open(const frot_model *model, frot_contact_mode *modes, int contact);
 /* Value of a liaison's variable `mode`. */
 int frot_mode_value(const frot_model *model, const frot_contact_mode *modes, int contact);
 
+/* That nothing is wrong at t. */
+frot_fault frot_no_fault(double t);
 /* Record a fault and return its status. */
 int frot_fail(frot_state *state, int status, double t, int contact, int item, int other,
               double value);

@@ -176,6 +176,6 @@ int frot_no_number(const frot_opening *p, int status) {
 }
 
 void frot_clear_opening(const frot_opening *p) {
-  p->s->fault = (frot_fault){FROT_OK, -1, -1, -1, p->t, 0};
+  p->s->fault = frot_no_fault(p->t);
   p->s->phase = FROT_CLEARED;
 }

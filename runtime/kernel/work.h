@@ -119,7 +119,7 @@ typedef struct {
   double *residual_y, *slopes, *slopes_y;
   int *slopes_pivot;
   double *factor, *row_weight, *off_at_first, *begin, *nearest;
-  int *behind;                          /* of each change its speed (changes.h) */
+  int *behind;                              /* of each change its speed (changes.h) */
   double *here, *first_factor, *first_unit; /* where changes are counted from; metric at `begin` */
   double *found, *way, *next_way, *apart, *scratch; /* closest.c; scratch: 2 nq */
 } frot_opening_work;

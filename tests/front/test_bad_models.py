@@ -26,11 +26,11 @@ FAULTS = {
     "a missing end": ("end BackspinHoop;\n", "", "E0104", "end BackspinHoop", "15:43"),
     "a negative mass": ("1 kg", "-1 kg", "E0401", "mass must be positive; it is -1 kg", "7:26"),
     "a zero radius": ("= 0.5 m ", "= 0 m ", "E0401", "radius must be positive; it is 0 m", "7:41"),
-    "an unsupported liaison": (
+    "a liaison of other places": (
         "contact_ponctuel(ground.line, hoop.rim)",
         "appui_faces(ground.line, hoop.rim)",
-        "E0701",
-        "the liaison 'appui_faces' between these two places is not supported yet",
+        "E0205",
+        "appui_faces does not join these two places",
         "8:3",
     ),
     "an unsupported law": (

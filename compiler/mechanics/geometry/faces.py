@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from frot.compiler.mechanics.geometry.figures import Flat, corners_of, figure_of
-from frot.compiler.mechanics.refuse import refuse
+from frot.compiler.mechanics.refuse import refuse_places
 from frot.dsl import Log
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import BodyGeometry, BodyPoint, Liaison, Model, Place
@@ -30,12 +30,7 @@ def part_faces(model: Model, log: Log) -> Faced:
             continue
         found = _corners(liaison, model.planar)
         if found is None:
-            refuse(
-                log,
-                "the liaison 'appui_faces' between these two places",
-                liaison.span,
-                "it takes a face of a box, or a side of a polygon, and a plane or line",
-            )
+            refuse_places(liaison, log)
             continue
         first, ends = found
         corners[liaison] = tuple(_contacts(liaison, first, ends))

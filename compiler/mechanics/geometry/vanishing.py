@@ -138,9 +138,19 @@ def _losses(one: _Figured, lower: Lower) -> Iterator[_Loss]:
         case Ball():
             yield "no single place of '{}' is the nearest", (), ca.norm_2(local), nowhere
         case Straight(radius=radius, axis=axis) if radius is not None:
-            yield "no single place of '{}' is the nearest", (), _from_axis(axis, local, lower), nowhere
+            yield (
+                "no single place of '{}' is the nearest",
+                (),
+                _from_axis(axis, local, lower),
+                nowhere,
+            )
         case Ring(axis=axis) | Oval(axis=axis):
-            yield "no single place of '{}' is the nearest", (), _from_axis(axis, local, lower), nowhere
+            yield (
+                "no single place of '{}' is the nearest",
+                (),
+                _from_axis(axis, local, lower),
+                nowhere,
+            )
     match figure:
         case Flat(axis=axis) | Straight(axis=axis) | Ring(axis=axis) | Oval(axis=axis):
             if isinstance(axis.given, Expression) and not is_fixed(axis.given):

@@ -8,7 +8,7 @@ to those of b; all coordinates are zero where both coincide. What a motion leave
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from frot.compiler.mechanics.liaisons.locks import (
     LEFT,
@@ -20,6 +20,7 @@ from frot.compiler.mechanics.liaisons.locks import (
     Parallel,
     SameAngle,
     Thread,
+    Touching,
     Way,
     WayAlong,
 )
@@ -29,6 +30,7 @@ from frot.compiler.mechanics.liaisons.motions import (
     Driven,
     Follow,
     Motion,
+    Reach,
     Screw,
     Slide,
     Turn,
@@ -139,7 +141,15 @@ def drive(pairing: Pairing, values: Mapping[str, Expression]) -> Pairing:
             motions.append(motion)
     if "length" in values:
         locks = [Apart(values["length"]) if isinstance(x, Apart) else x for x in locks]
+    if "gap" in values:
+        locks = [replace(x, apart=values["gap"]) if isinstance(x, Touching) else x for x in locks]
     return Pairing(tuple(motions), tuple(locks), pairing.carries)
+
+
+def drawn_out(pairing: Pairing) -> Pairing:
+    """A rod whose length an equation of the text prescribes: it keeps nothing by itself."""
+    locks = tuple(x for x in pairing.locks if not isinstance(x, Apart))
+    return Pairing((*pairing.motions, Reach()), locks, carries=False)
 
 
 def make_joint(

@@ -109,11 +109,15 @@ class Apart:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Touching:
-    """A figure at a and one at b touch; `followed`: where they do is solved for (tracking.py)."""
+    """A figure at a and one at b touch, or stay `apart`, which time may change.
+
+    `followed`: where they do is solved for (tracking.py).
+    """
 
     a: Figure
     b: Figure
     followed: bool = False
+    apart: Expression | None = None
     turns: bool = False
     kinematic: bool = False
 

@@ -145,6 +145,17 @@ class Follow:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Reach:
+    """The distance of two places, of a rod that is drawn out: it is seen, and carries nothing."""
+
+    coordinates: tuple[str, ...] = ("length",)
+    speeds: tuple[str, ...] = ()
+    quaternion: Quaternion | None = None
+    faces_ground: bool = False
+    turns: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Driven:
     """A motion whose coordinate is a value of time: it has none of its own."""
 
@@ -157,7 +168,7 @@ class Driven:
     turns: bool = False
 
 
-Motion = Driven | Follow | Turn | Slide | Screw | Heading | Attitude | Pointing | Steady
+Motion = Driven | Follow | Turn | Slide | Screw | Heading | Attitude | Pointing | Reach | Steady
 
 
 def bare(motion: Motion) -> Motion:

@@ -20,6 +20,7 @@ from frot.compiler.mechanics.liaisons.motions import (
     Heading,
     Motion,
     Pointing,
+    Reach,
     Screw,
     Slide,
     Steady,
@@ -344,6 +345,12 @@ def _see_slide(motion: Slide, a: Moving, b: Moving, lower: Lower) -> Seen:
     return ca.dot(along, there - a.pose.origin), rate
 
 
+def _see_reach(motion: Reach, a: Moving, b: Moving, lower: Lower) -> Seen:
+    way = b.pose.origin - a.pose.origin
+    long = ca.sqrt(ca.sumsqr(way))
+    return long, ca.dot(way / long, b.linear - a.linear)
+
+
 _MOVES: dict[type, Callable[..., Moved]] = {
     Turn: _move_turn,
     Slide: _move_slide,
@@ -361,4 +368,5 @@ _SEEN: dict[type, Callable[..., tuple[Any, Any]]] = {
     Screw: _see_turn,
     Driven: _see_driven,
     Follow: _see_follow,
+    Reach: _see_reach,
 }

@@ -34,10 +34,10 @@ from frot.compiler.mechanics.liaisons.locks import (
     Way,
     WayAlong,
 )
-from frot.compiler.mechanics.liaisons.motions import Axis, Follow, Motion, Screw, Slide, Turn
+from frot.compiler.mechanics.liaisons.motions import Axis, Follow, Motion, Reach, Screw, Slide, Turn
 from frot.compiler.mechanics.liaisons.moves import Column, Moments, angle_about, arc, way_of
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, beside, cross, nowhere
-from frot.compiler.mechanics.values import Lower, unit_vector
+from frot.compiler.mechanics.values import Lower, rate_by_time, unit_vector
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -96,7 +96,9 @@ def act(
             found = on_side(track.touch, outside)
         else:
             found = touch(lock.a, lock.b, (a, b), lower, outside)
-        return _touching(found) if isinstance(lock, Touching) else _no_slip(lock, found, a, lower)
+        if isinstance(lock, NoSlip):
+            return _no_slip(lock, found, a, lower)
+        return _touching(found, ca.SX(0) if lock.apart is None else lower(lock.apart), lower)
     moments = Moments(lower)
     action = _ACTS[type(lock)](lock, a, b, moments)
     if not moments.met:
@@ -188,9 +190,9 @@ def _crossed(lock: Crossed, a: Pose, b: Pose, lower: Lower) -> Action:
     return _twist(cross(second, first), ca.dot(first, second) - ca.dot(*natural))
 
 
-def _touching(found: Touch) -> Action:
-    push = Column(nowhere(), found.normal)
-    return Action(found.normal, nowhere(), push, found.gap, found.own, found.place, found)
+def _touching(found: Touch, apart: ca.SX, lower: Lower) -> Action:
+    push, own = Column(nowhere(), found.normal), found.own - rate_by_time(apart, lower)
+    return Action(found.normal, nowhere(), push, found.gap - apart, own, found.place, found)
 
 
 def _no_slip(lock: NoSlip, found: Touch, a: Pose, lower: Lower) -> Action:
@@ -239,6 +241,9 @@ def wrench_along(
             slope = ca.jacobian(point_of(motion.curve, u, lower), u)
             tangent = a.direction(ca.substitute(slope, u, here))
         return tangent / ca.sumsqr(tangent), nowhere()
+    if isinstance(motion, Reach):
+        way = b.origin - a.origin
+        return way / ca.sqrt(ca.sumsqr(way)), nowhere()
     assert isinstance(motion, Turn | Screw)
     return nowhere(), arc(motion, a, b, lower).about
 
