@@ -53,6 +53,8 @@ ROUND = ("ring", "disc")
 def mechanize(model: Model, log: Log) -> Mechanism | None:
     """Build the mechanism; what the mechanics does not take yet is reported by name (E0701)."""
     faced = part_faces(model, log)
+    if log.failed:
+        return None
     model = faced.model
     refuse_unknown(model, log)
     if log.failed:

@@ -96,9 +96,7 @@ def _refuse_drive(liaison: Liaison, planar: bool, log: Log) -> None:
         return
     if planar or liaison.kind.name != "contact_ponctuel":
         what = f"a driven 'gap' of a {spelled(liaison)}" + (" in the plane" if planar else "")
-        refuse(
-            log, what, value.span, "drive a point of the body, or let the surface move with time"
-        )
+        refuse(log, what, value.span, "drive the body, or let the surface move with time")
     elif not follows_time(value):
         what = "a driven 'gap' that follows other than time"
         refuse(log, what, value.span, "write a value of time and parameters without switches")
@@ -203,9 +201,9 @@ def refuse_surface(model: Model, links: Iterable[Contact | Joint], log: Log) -> 
 
 _JOINED = {
     "appui_faces": "it takes a face of a box, or a side of a polygon, and a plane or line",
-    "contact_ponctuel": "by one relation touch a point and a surface, and any two of curve, rim and "
-    "surface; two points are a `spherique`, a point and a curve in space a `point_courbe`, a line on "
-    "a plane a `lineaire_rectiligne`, two planes an `appui_plan`",
+    "contact_ponctuel": "by one relation touch a point and a surface, and any two of curve, rim "
+    "and surface; two points are a `spherique`, a point and a curve in space a `point_courbe`, a "
+    "line on a plane a `lineaire_rectiligne`, two planes an `appui_plan`",
     "courbe_courbe": "it takes two curves or rims, not both straight",
     "lineaire_annulaire": "it takes a point and a straight line, or two points with `axis`",
     "lineaire_rectiligne": "it takes a straight line and a plane",

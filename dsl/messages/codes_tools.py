@@ -135,9 +135,9 @@ TOOLS: Mapping[str, Row] = {
     ),
     "E0911": (
         "a figure without a tangent or a normal",
-        "Where the liaison stands, the slope of its curve or surface is zero, as in a cusp or in the "
-        "apex of a cone, or no place of it is the nearest, as in the centre of a sphere: nothing tells "
-        "in which direction it acts.",
+        "Where the liaison stands, the slope of its curve or surface is zero, as in a cusp or in "
+        "the apex of a cone, or no place of it is the nearest, as in the centre of a sphere: "
+        "nothing tells in which direction it acts.",
         "State or guess another place, keep the motion away from there, or give the figure another "
         "form: a parameter that grows as its length does.",
         snippet(

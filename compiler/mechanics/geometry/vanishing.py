@@ -39,6 +39,7 @@ from frot.compiler.mechanics.spatial import Pose, cross, whole
 from frot.compiler.mechanics.values import Lower, unit_vector
 from frot.dsl.checked import Expression, Liaison
 
+_NO_PLACE = "no single place of '{}' is the nearest"
 COUNT = 3  # numbers that tell where (FROT_WHERE)
 
 
@@ -46,7 +47,7 @@ COUNT = 3  # numbers that tell where (FROT_WHERE)
 class Vanishing:
     """What a liaison may lose, in words; `names` of the numbers `where` (3) that tell the place.
 
-    `distance` (m) from there, to first order; what is no number is none.
+    `distance` from there, to first order: in m, or in radii; what is no number is none.
     """
 
     liaison: Liaison
@@ -136,21 +137,11 @@ def _losses(one: _Figured, lower: Lower) -> Iterator[_Loss]:
             steep = level(figure, one.place, pose, lower).steep
             yield "the normal of '{}' vanishes", ("x", "y", "z"), steep, local
         case Ball():
-            yield "no single place of '{}' is the nearest", (), ca.norm_2(local), nowhere
+            yield _NO_PLACE, (), ca.norm_2(local / lower(figure.radius)), nowhere
         case Straight(radius=radius, axis=axis) if radius is not None:
-            yield (
-                "no single place of '{}' is the nearest",
-                (),
-                _from_axis(axis, local, lower),
-                nowhere,
-            )
-        case Ring(axis=axis) | Oval(axis=axis):
-            yield (
-                "no single place of '{}' is the nearest",
-                (),
-                _from_axis(axis, local, lower),
-                nowhere,
-            )
+            yield _NO_PLACE, (), _from_axis(axis, local / lower(radius), lower), nowhere
+        case Ring(axis=axis, radius=size) | Oval(axis=axis, a=size):
+            yield _NO_PLACE, (), _from_axis(axis, local / lower(size), lower), nowhere
     match figure:
         case Flat(axis=axis) | Straight(axis=axis) | Ring(axis=axis) | Oval(axis=axis):
             if isinstance(axis.given, Expression) and not is_fixed(axis.given):
