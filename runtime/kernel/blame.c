@@ -6,7 +6,8 @@
 #include "blocks.h"
 #include "core.h"
 
-/* Distance in m, or in radii, from where a figure has no tangent or normal at which a failure is that of it. */
+/* Distance in m, or in radii, from where a figure has no tangent or normal at which a failure is
+ * that of it. */
 #define VANISHED 1e-6
 
 /* The applied force that is no number at the last evaluation (values w->step.z1), or -1. */
