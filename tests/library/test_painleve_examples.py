@@ -27,7 +27,7 @@ def expected(name: str):  # type: ignore[no-untyped-def]
 
 
 def test_two_points_on_parallel_lines() -> None:
-    model, want = frot.load(MODELS / "parallel_lines.frot"), expected("parallel_lines-1")
+    model, want = frot.load(MODELS / "points_on_two_lines.frot"), expected("parallel_lines-1")
     for sign, speed in (("x'>0", "1 m/s"), ("x'<0", "-1 m/s")):
         now = model.simulate(stop=1e-3, parameters={"v0": speed}).at(0.0)
         assert now["M.acceleration.x"] == pytest.approx(want[sign][0]["xdd"], rel=1e-11)
@@ -60,7 +60,7 @@ def test_a_dumbbell_on_a_line() -> None:
 
 
 def test_a_rod_on_rough_ground() -> None:
-    model = frot.load(MODELS / "painleve_rod.frot")
+    model = frot.load(MODELS / "rod_on_rough_ground.frot")
     now = model.simulate(stop=1e-3).at(0.0)
     want = expected("rod_acceleration-1")["R_n"]
     assert now["tip.normal_force"] == pytest.approx(want, rel=1e-11)
