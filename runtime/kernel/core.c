@@ -95,45 +95,81 @@ static void clean_rows(const frot_model *m, const frot_state *s, frot_work *w, c
   }
 }
 
+/* What is wanted of a group: first the rows that act (their number is returned), then readings. */
+static int list_wanted(const frot_model *m, frot_work *w, const frot_group *g, int *count) {
+  int *list = w->core.listed, acting = 0;
+  for (int i = 0; i < g->n_rows; i++)
+    if (w->core.wanted[g->rows[i]] && !frot_is_reading(m, g->rows[i])) list[acting++] = i;
+  *count = acting;
+  for (int i = 0; i < g->n_rows; i++)
+    if (w->core.wanted[g->rows[i]] && frot_is_reading(m, g->rows[i])) list[(*count)++] = i;
+  return acting;
+}
+
+/* L^-1 of what is listed from `first` on, four abreast, and each into its place in w->core.half. */
+static void halve_four(const frot_model *m, frot_work *w, const frot_group *g, int first, int count,
+                       double *four) {
+  int ns = g->n_speeds, size = count - first < FROT_ABREAST ? count - first : FROT_ABREAST;
+  int alone = size == 1 || g->n_links > 0;
+  if (size < FROT_ABREAST) memset(four, 0, sizeof(double) * (size_t)(FROT_ABREAST * ns));
+  for (int c = 0; c < size; c++) {
+    int i = w->core.listed[first + c], reads = m->row_reads[g->rows[i]];
+    double *half = w->core.half + g->entries + i * g->n;
+    const double *from = half;
+    if (reads < 0)
+      from = w->core.rows + g->entries + i * g->n;
+    else
+      frot_mass_column(w, g, reads, half);
+    if (alone && reads < 0) memcpy(half, from, sizeof(double) * (size_t)ns);
+    if (alone) frot_inwards(w, g, half), from = half;
+    double *to = four + c;
+    for (int k = 0; k < ns; k++) to[FROT_ABREAST * k] = from[k];
+  }
+  if (alone) return;
+  frot_forward_four(w->core.factor + g->metric, ns, four);
+  for (int c = 0; c < size; c++) {
+    double *half = w->core.half + g->entries + w->core.listed[first + c] * g->n;
+    const double *from = four + c;
+    for (int k = 0; k < ns; k++) half[k] = from[FROT_ABREAST * k];
+  }
+}
+
+/* What the rows that act, listed from `other` on, do to those listed from `first` on. */
+static void effects_of_four(const frot_model *m, frot_work *w, const frot_group *g, int first,
+                            int count, int other, int acting) {
+  const int *listed = w->core.listed;
+  double product[FROT_ABREAST * FROT_ABREAST];
+  const double *fours = w->core.abreast;
+  int ns = g->n_speeds;
+  frot_dot_fours(fours + first * ns, fours + other * ns, ns, product);
+  for (int a = 0; a < FROT_ABREAST && first + a < count; a++) {
+    int i = listed[first + a], reads = m->row_reads[g->rows[i]];
+    double *effects = w->core.delassus + g->square + i * g->n_rows;
+    const double *row = product + FROT_ABREAST * a, *rows = w->core.rows + g->entries + reads;
+    for (int b = 0; b < FROT_ABREAST && other + b < acting; b++) {
+      int j = listed[other + b];
+      effects[j] = reads >= 0 ? row[b] - rows[j * g->n] : row[b];
+    }
+  }
+}
+
 /* A is a mass matrix. */
 static int symmetric_group(const frot_model *m, frot_work *w, const frot_group *g) {
-  int n = g->n, ns = g->n_speeds;
-  const double *force = w->core.force + g->vector;
+  int ns = g->n_speeds, count, acting = list_wanted(m, w, g, &count);
   int status = frot_factor(w, g);
   if (status != FROT_OK) return status;
-  for (int i = 0; i < g->n_rows; i++) {
-    int r = g->rows[i];
-    if (!w->core.wanted[r]) continue;
-    double *half = w->core.half + g->entries + i * n;
-    if (frot_is_reading(m, r)) {
-      frot_mass_column(w, g, m->row_reads[r], half);
-      frot_inwards(w, g, half);
-      w->core.free[r] = frot_dot(half, force, ns) - w->core.h[g->unknowns[m->row_reads[r]]];
-    } else {
-      memcpy(half, w->core.rows + g->entries + i * n, sizeof(double) * (size_t)ns);
-      frot_inwards(w, g, half);
-      w->core.free[r] = frot_dot(half, force, ns) + w->core.c[r];
+  for (int first = 0; first < count; first += FROT_ABREAST) {
+    double *four = w->core.abreast + first * ns, free[FROT_ABREAST];
+    halve_four(m, w, g, first, count, four);
+    frot_dot_four(w->core.force + g->vector, four, ns, free);
+    for (int c = 0; c < FROT_ABREAST && first + c < count; c++) {
+      int r = g->rows[w->core.listed[first + c]], reads = m->row_reads[r];
+      w->core.free[r] = free[c] + (reads >= 0 ? -w->core.h[g->unknowns[reads]] : w->core.c[r]);
     }
   }
-  double *effects = w->core.delassus + g->square;
-  int *acting = w->core.acting, count = 0;
-  for (int i = 0; i < g->n_rows; i++)
-    if (w->core.wanted[g->rows[i]] && !frot_is_reading(m, g->rows[i])) acting[count++] = i;
-  for (int i = 0; i < g->n_rows; i++) {
-    int r = g->rows[i], reads = m->row_reads[r];
-    if (!w->core.wanted[r]) continue;
-    const double *half = w->core.half + g->entries + i * n;
-    for (int k = 0; k < count; k++) {
-      int j = acting[k];
-      if (reads < 0 && j < i) {
-        effects[i * g->n_rows + j] = effects[j * g->n_rows + i];
-        continue;
-      }
-      double value = frot_dot(half, w->core.half + g->entries + j * n, ns);
-      if (reads >= 0) value -= w->core.rows[g->entries + j * n + reads];
-      effects[i * g->n_rows + j] = value;
-    }
-  }
+  for (int first = 0; first < count; first += FROT_ABREAST)
+    for (int other = 0; other < acting; other += FROT_ABREAST)
+      effects_of_four(m, w, g, first, count, other, acting);
   return FROT_OK;
 }
 

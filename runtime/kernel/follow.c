@@ -46,23 +46,25 @@ void frot_follow_readings(frot_problem *p) {
   }
 }
 
-double frot_turn_pins(const frot_problem *p) {
+double frot_turn_pins(const frot_problem *p, double *rest) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   int n = p->unknowns;
   double missed = 0;
   const double *known = w->reactions.known, *effects = w->reactions.effects;
+  const double *x = w->reactions.solution;
+  for (int r = 0; r < p->holding; r++) rest[r] = 0;
   for (int f = p->held; f < n; f++, known += 2, effects += 2 * n) {
-    int e = w->reactions.owner[f];
+    int e = w->reactions.owner[f], line = p->holding + f - p->held;
+    rest[line] = 0;
     if (m->elements[e].bound != FROT_BY_PIN) continue;
     double *along = w->reactions.along + 2 * e, first = known[0], second = known[1];
-    for (int c = 0; c < n; c++) {
-      first += effects[c] * w->reactions.solution[c];
-      second += effects[n + c] * w->reactions.solution[c];
-    }
-    double size = hypot(first, second), before = along[0] * first + along[1] * second;
-    if (!(size > 0)) continue;
-    missed = fmax(missed, (size - before) / size);
+    for (int c = 0; c < n; c++) first += effects[c] * x[c], second += effects[n + c] * x[c];
+    double size = sqrt(first * first + second * second);
+    double friction = w->reactions.ratio[e] / w->reactions.unit_of[f] * size;
+    if (!(size > 0) || !(fabs(friction) > 0)) continue;
+    rest[line] = friction - x[f];
+    missed = fmax(missed, fabs(rest[line] / friction));
     along[0] = first / size, along[1] = second / size;
   }
   return missed;

@@ -9,32 +9,74 @@
 #define AT(a, ld, i, j) ((a)[(size_t)(j) * (size_t)(ld) + (size_t)(i)])
 
 double frot_dot(const double *a, const double *b, int n) {
-  double sum = 0;
-  for (int i = 0; i < n; i++) sum += a[i] * b[i];
-  return sum;
+  double even = 0, odd = 0; /* so that not every addition waits for the one before */
+  int i = 0;
+  for (; i + 1 < n; i += 2) even += a[i] * b[i], odd += a[i + 1] * b[i + 1];
+  if (i < n) even += a[i] * b[i];
+  return even + odd;
 }
 
 int frot_cholesky(double *a, int n) {
   for (int j = 0; j < n; j++) {
-    double diagonal = AT(a, n, j, j), whole = diagonal;
-    for (int k = 0; k < j; k++) diagonal -= AT(a, n, j, k) * AT(a, n, j, k);
-    if (!(diagonal > n * DBL_EPSILON * whole)) return 1;
-    diagonal = sqrt(diagonal);
-    AT(a, n, j, j) = diagonal;
-    for (int i = j + 1; i < n; i++) {
-      double sum = AT(a, n, i, j);
-      for (int k = 0; k < j; k++) sum -= AT(a, n, i, k) * AT(a, n, j, k);
-      AT(a, n, i, j) = sum / diagonal;
+    double *column = a + (size_t)j * (size_t)n, whole = column[j];
+    for (int k = 0; k < j; k++) {
+      const double *before = a + (size_t)k * (size_t)n;
+      double factor = before[j];
+      for (int i = j; i < n; i++) column[i] -= before[i] * factor;
     }
+    if (!(column[j] > n * DBL_EPSILON * whole)) return 1;
+    double share = 1 / (column[j] = sqrt(column[j]));
+    for (int i = j + 1; i < n; i++) column[i] *= share;
   }
   return 0;
 }
 
 void frot_forward(const double *l, int n, int m, double *x) {
-  for (int i = 0; i < m; i++) {
-    double sum = x[i];
-    for (int k = 0; k < i; k++) sum -= AT(l, n, i, k) * x[k];
-    x[i] = sum / AT(l, n, i, i);
+  for (int k = 0; k < m; k++, l += n) {
+    double value = x[k] /= l[k];
+    for (int i = k + 1; i < m; i++) x[i] -= l[i] * value;
+  }
+}
+
+void frot_forward_four(const double *l, int n, double *x) {
+  for (int i = 0; i < n; i++) {
+    double *own = x + FROT_ABREAST * i, share = 1 / AT(l, n, i, i);
+    double sum[FROT_ABREAST] = {own[0], own[1], own[2], own[3]};
+    for (int k = 0; k < i; k++) {
+      const double factor = AT(l, n, i, k), *before = x + FROT_ABREAST * k;
+      sum[0] -= factor * before[0], sum[1] -= factor * before[1];
+      sum[2] -= factor * before[2], sum[3] -= factor * before[3];
+    }
+    for (int c = 0; c < FROT_ABREAST; c++) own[c] = sum[c] * share;
+  }
+}
+
+void frot_dot_four(const double *a, const double *four, int n, double product[FROT_ABREAST]) {
+  double sum[FROT_ABREAST] = {0, 0, 0, 0};
+  for (int i = 0; i < n; i++, four += FROT_ABREAST) {
+    const double factor = a[i];
+    sum[0] += factor * four[0], sum[1] += factor * four[1];
+    sum[2] += factor * four[2], sum[3] += factor * four[3];
+  }
+  for (int c = 0; c < FROT_ABREAST; c++) product[c] = sum[c];
+}
+
+void frot_dot_fours(const double *a, const double *b, int n,
+                    double product[FROT_ABREAST * FROT_ABREAST]) {
+  for (int pair = 0; pair < FROT_ABREAST; pair += 2) { /* as many sums as there are registers */
+    double one[FROT_ABREAST] = {0, 0, 0, 0}, two[FROT_ABREAST] = {0, 0, 0, 0};
+    const double *left = a + pair, *right = b;
+    for (int i = 0; i < n; i++, left += FROT_ABREAST, right += FROT_ABREAST) {
+      const double first = left[0], second = left[1];
+      one[0] += first * right[0], one[1] += first * right[1];
+      one[2] += first * right[2], one[3] += first * right[3];
+      two[0] += second * right[0], two[1] += second * right[1];
+      two[2] += second * right[2], two[3] += second * right[3];
+    }
+    for (int c = 0; c < FROT_ABREAST; c++) {
+      product[FROT_ABREAST * pair + c] = one[c];
+      product[FROT_ABREAST * (pair + 1) + c] = two[c];
+    }
   }
 }
 
@@ -57,39 +99,50 @@ double frot_reject(double *x, const double *basis, int columns, int n, double *p
   return sqrt(frot_dot(x, x, n));
 }
 
-int frot_lu_solve(double *a, double *b, int n, int *sign) {
+int frot_lu_solve(double *a, double *b, int n, int *pivot, int *sign) {
   double largest = 0;
   *sign = 1;
-  for (int i = 0; i < n * n; i++) largest = fmax(largest, fabs(a[i]));
+  for (int i = 0; i < n * n; i++)
+    if (!(fabs(a[i]) <= largest)) largest = fabs(a[i]);
   for (int k = 0; k < n; k++) {
-    int pivot = k;
+    double *column = a + (size_t)k * (size_t)n;
+    int best = k;
     for (int i = k + 1; i < n; i++)
-      if (fabs(AT(a, n, i, k)) > fabs(AT(a, n, pivot, k))) pivot = i;
-    if (!(fabs(AT(a, n, pivot, k)) > FROT_SINGULAR_PIVOT * largest)) return 1;
-    if (pivot != k) *sign = -*sign;
-    if (AT(a, n, pivot, k) < 0) *sign = -*sign;
-    if (pivot != k) {
-      for (int j = k; j < n; j++) {
-        double t = AT(a, n, k, j);
-        AT(a, n, k, j) = AT(a, n, pivot, j);
-        AT(a, n, pivot, j) = t;
-      }
-      double t = b[k];
-      b[k] = b[pivot];
-      b[pivot] = t;
+      if (fabs(column[i]) > fabs(column[best])) best = i;
+    pivot[k] = best;
+    if (!(fabs(column[best]) > FROT_SINGULAR_PIVOT * largest)) return 1;
+    if (best != k) *sign = -*sign;
+    if (column[best] < 0) *sign = -*sign;
+    for (int j = 0; best != k && j < n; j++) {
+      double t = AT(a, n, k, j);
+      AT(a, n, k, j) = AT(a, n, best, j);
+      AT(a, n, best, j) = t;
     }
-    for (int i = k + 1; i < n; i++) {
-      double factor = AT(a, n, i, k) / AT(a, n, k, k);
+    double share = 1 / column[k];
+    for (int i = k + 1; i < n; i++) column[i] *= share;
+    for (int j = k + 1; j < n; j++) {
+      double *other = a + (size_t)j * (size_t)n, factor = other[k];
       if (factor == 0) continue;
-      for (int j = k + 1; j < n; j++) AT(a, n, i, j) -= factor * AT(a, n, k, j);
-      b[i] -= factor * b[k];
+      for (int i = k + 1; i < n; i++) other[i] -= column[i] * factor;
     }
   }
-  for (int i = n - 1; i >= 0; i--) {
-    for (int j = i + 1; j < n; j++) b[i] -= AT(a, n, i, j) * b[j];
-    b[i] /= AT(a, n, i, i);
-  }
+  frot_lu_again(a, b, n, pivot);
   return 0;
+}
+
+void frot_lu_again(const double *a, double *b, int n, const int *pivot) {
+  for (int k = 0; k < n; k++) {
+    double t = b[pivot[k]];
+    b[pivot[k]] = b[k], b[k] = t;
+  }
+  for (int k = 0; k < n; k++) {
+    const double *column = a + (size_t)k * (size_t)n, value = b[k];
+    for (int i = k + 1; i < n; i++) b[i] -= column[i] * value;
+  }
+  for (int k = n - 1; k >= 0; k--) {
+    const double *column = a + (size_t)k * (size_t)n, value = b[k] /= column[k];
+    for (int i = 0; i < k; i++) b[i] -= column[i] * value;
+  }
 }
 
 /* The power of two that brings a size to [1/2, 1); 1 for zero. */

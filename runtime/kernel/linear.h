@@ -9,9 +9,19 @@ int frot_cholesky(double *a, int n);
 void frot_forward(const double *l, int n, int m, double *x);
 void frot_backward(const double *l, int n, int m, double *x);
 
-/* Solve a x = b by LU with partial pivoting (a and b are overwritten, b becomes x).
- * Returns 0 with the sign of the determinant, or 1 when a is singular to rounding. */
-int frot_lu_solve(double *a, double *b, int n, int *sign);
+/* Of four vectors abreast, x[4 i + c]: L^-1 of each; the products of a with each; those of each of
+ * `a` with each of `b`, product[4 a + b]. */
+#define FROT_ABREAST 4
+void frot_forward_four(const double *l, int n, double *x);
+void frot_dot_four(const double *a, const double *four, int n, double product[FROT_ABREAST]);
+void frot_dot_fours(const double *a, const double *b, int n,
+                    double product[FROT_ABREAST * FROT_ABREAST]);
+
+/* Solve a x = b by LU with partial pivoting (a gets the factors, b becomes x; `pivot` takes n
+ * integers). Returns 0 with the sign of the determinant, or 1 when a is singular to rounding.
+ * frot_lu_again: the same by the factors, for another b. */
+int frot_lu_solve(double *a, double *b, int n, int *pivot, int *sign);
+void frot_lu_again(const double *a, double *b, int n, const int *pivot);
 
 /* LU of a (n x n) with partial pivoting, rows and columns scaled by powers of two first, so that
  * units do not matter. `pivot` takes n integers, `scale` 2 n doubles. Returns 0, or 1 when a is

@@ -26,7 +26,7 @@ int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, co
       frot_dynamics(m, s, w, t, q, v, d, modes, late || m->late_rates ? FROT_READING : FROT_MOTION);
   if (status != FROT_OK) return status;
   const frot_awake_lists *now = w->awake.now;
-  for (int k = 0; k < now->n_elements; k++) {
+  for (int k = 0; k < now->n_elements && along; k++) {
     int at = 2 * now->elements[k];
     w->reactions.along[at] = along[at], w->reactions.along[at + 1] = along[at + 1];
   }
@@ -51,7 +51,8 @@ int frot_derivatives(const frot_model *m, frot_state *s, frot_work *w, double t,
                      double *slope) {
   const frot_awake_lists *now = w->awake.now;
   const double *v = z + m->nq;
-  int status = frot_solution(m, s, w, t, z, v, d, modes, frozen, s->data + w->layout.along, 0);
+  const double *along = w->reactions.follow ? NULL : s->data + w->layout.along;
+  int status = frot_solution(m, s, w, t, z, v, d, modes, frozen, along, 0);
   if (status != FROT_OK) return status;
   int states = now->n - FROT_QUADRATURES, k = 0;
   for (; k < states && now->states[k] < m->nq; k++) slope[k] = w->core.qd[now->states[k]];

@@ -44,9 +44,9 @@ void frot_read_bounds(const frot_problem *p);
  * the held rows. */
 void frot_follow_readings(frot_problem *p);
 
-/* Turn the directions of the pins whose friction follows to their reactions. Returns the largest
- * part of a reaction that the directions before missed. */
-double frot_turn_pins(const frot_problem *p);
+/* Turn the directions of the pins whose friction follows to their reactions. Into `rest` what is
+ * missing in each equation; returns the largest part of a friction that is. */
+double frot_turn_pins(const frot_problem *p, double *rest);
 
 /* Least reactions, in units w->reactions.unit_of, of the system that w->linear.matrix holds
  * (least.c). */

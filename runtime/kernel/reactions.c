@@ -15,6 +15,12 @@
 #include "spare.h"
 #include "tolerances.h"
 
+/* Part of a pin's reaction missed below which the factors of a pass serve for steps more, what each
+ * of these must leave at most, and what is rounding. */
+#define NEAR 0.02
+#define FASTER 0.05
+#define PIN_ROUNDING (8 * DBL_EPSILON)
+
 double frot_bounding(const frot_model *m, const frot_work *w, int element,
                      const frot_contact_mode *modes) {
   const frot_element *e = &m->elements[element];
@@ -129,6 +135,24 @@ static int is_solution(const frot_problem *p) {
   return 1;
 }
 
+/* The readings that are wanted, from the reactions of the group. */
+static void read_reactions(const frot_problem *p) {
+  const frot_model *m = p->m;
+  const frot_group *g = p->g;
+  frot_work *w = p->w;
+  int *acting = w->core.listed, count = 0;
+  for (int i = 0; i < g->n_rows; i++)
+    if (w->core.lam[g->rows[i]] != 0) acting[count++] = i;
+  for (int i = 0; i < g->n_rows; i++) {
+    int r = g->rows[i];
+    if (!frot_is_reading(m, r) || !w->core.wanted[r]) continue;
+    const double *effects = frot_effect_on(m, w, r);
+    double sum = w->core.free[r];
+    for (int k = 0; k < count; k++) sum += effects[acting[k]] * w->core.lam[g->rows[acting[k]]];
+    w->core.lam[r] = sum;
+  }
+}
+
 /* All reactions of the group from those of the unknowns. */
 static void spread_reactions(const frot_problem *p, const double *x) {
   const frot_model *m = p->m;
@@ -147,12 +171,7 @@ static void spread_reactions(const frot_problem *p, const double *x) {
       if (w->reactions.fold[k] >= 0)
         w->core.lam[w->reactions.fold[k]] = w->reactions.fold_ratio[k] * lam;
   }
-  for (int i = 0; i < g->n_rows; i++) {
-    int r = g->rows[i];
-    double size;
-    if (frot_is_reading(m, r) && w->core.wanted[r])
-      w->core.lam[r] = frot_acceleration(m, w, r, &size);
-  }
+  read_reactions(p);
 }
 
 static int group_is_finite(const frot_problem *p) {
@@ -172,13 +191,30 @@ static int solve(frot_problem *p, int *regular) {
   if (*regular) {
     memcpy(w->linear.scratch, w->linear.matrix, sizeof(double) * (size_t)(n * n));
     memcpy(x, w->linear.right, sizeof(double) * (size_t)n);
-    *regular = !frot_lu_solve(w->linear.scratch, x, n, &w->reactions.sign[p->g - p->m->groups]);
+    *regular = !frot_lu_solve(w->linear.scratch, x, n, w->linear.pivot,
+                              &w->reactions.sign[p->g - p->m->groups]);
   }
   if (*regular) return 0;
   w->reactions.dependent = 1, w->reactions.sign[p->g - p->m->groups] = 0;
   frot_solve_least(p, x);
   spread_reactions(p, x);
   return !group_is_finite(p) || !is_solution(p);
+}
+
+/* Newton's steps with the factors of the last pass, while each leaves a small part of what the one
+ * before it did: they cost a square, and passes a cube. Returns what is missed at the end, or 0
+ * where it is rounding. */
+static double mend(const frot_problem *p, double *rest, double missed) {
+  frot_work *w = p->w;
+  for (double rate = 0; missed > PIN_ROUNDING;) {
+    frot_lu_again(w->linear.scratch, rest, p->unknowns, w->linear.pivot);
+    for (int c = 0; c < p->unknowns; c++) w->reactions.solution[c] += rest[c];
+    if (rate * missed <= 0.5 * DBL_EPSILON && rate > 0) return 0;
+    double left = frot_turn_pins(p, rest);
+    rate = left / missed, missed = left;
+    if (!(rate < FASTER)) return missed > PIN_ROUNDING ? missed : 0;
+  }
+  return 0;
 }
 
 int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
@@ -196,9 +232,11 @@ int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
   if (p.equations > p.unknowns) return 1; /* no reaction is left for a row that is to be kept */
   p.holding = p.equations;
   frot_read_bounds(&p);
+  double *rest = w->linear.scratch + p.unknowns * p.unknowns;
   for (int pass = 0, last = 0; pass < FROT_PIN_PASSES; pass++) {
     if (solve(&p, &regular)) return 1;
-    double missed = pins ? frot_turn_pins(&p) : 0;
+    double missed = pins ? frot_turn_pins(&p, rest) : 0;
+    if (regular && missed < NEAR) missed = mend(&p, rest, missed);
     if (last || missed <= 2 * DBL_EPSILON) {
       if (!regular) return 0;
       spread_reactions(&p, w->reactions.solution);

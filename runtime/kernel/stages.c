@@ -106,6 +106,8 @@ int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, 
   if (s->implicit) return frot_implicit_stages(m, s, w, t, h);
   int loops = frot_has_loops(m, s, w), reached = 0, status;
   memset(w->step.near, 0, DP_STAGES + 1);
+  memcpy(w->reactions.along, s->data + w->layout.along, sizeof(double) * 2 * (size_t)m->n_elements);
+  w->reactions.follow = 1;
   memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)w->layout.nz);
   for (int pass = 0;; pass++) {
     status = run_once(m, s, w, t, h, loops, &reached);

@@ -382,6 +382,7 @@ static int step(const frot_model *m, frot_state *s, frot_work *w) {
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, a.t, 0);
   status = take(m, s, w, &a);
   frot_see_anew(w);
+  w->reactions.follow = 0;
   return status;
 }
 

@@ -4,6 +4,7 @@
 #include "awake.h"
 #include "implicit.h"
 #include "islands.h"
+#include "linear.h"
 #include "tolerances.h"
 #include "tree.h"
 
@@ -125,11 +126,14 @@ static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work 
   TAKE(w->factor, m->n_metric), TAKE(w->force, l->nw), TAKE(w->half, m->n_entries);
   TAKE(w->lu, general * m->n_matrix), TAKE(w->lu_scale, general * 2 * l->nw);
   TAKE(w->lu_pivot, general * l->nw);
-  TAKE(w->wanted, nr), TAKE(w->acting, nr), TAKE(w->free, nr), TAKE(w->delassus, m->n_square);
+  TAKE(w->wanted, nr), TAKE(w->listed, nr), TAKE(w->free, nr), TAKE(w->delassus, m->n_square);
   TAKE(w->load, l->nw), TAKE(w->load_size, l->nw), TAKE(w->row_load, nr);
   TAKE(w->bias_size, nr);
   TAKE(w->lam, nr), TAKE(w->a, l->nw), TAKE(w->rest, l->nw), TAKE(w->column, l->nw);
-  int steps = 0;
+  int steps = 0, abreast = 0;
+  for (int k = 0; k < m->n_groups; k++)
+    abreast = larger(abreast, m->groups[k].n_speeds * (m->groups[k].n_rows + 2 * FROT_ABREAST));
+  TAKE(w->abreast, abreast);
   for (int k = 0; k < m->n_groups; k++) steps = larger(steps, m->groups[k].n_links);
   TAKE(w->inertia, FROT_STEP_INERTIA * steps), TAKE(w->twist, FROT_STEP_TWIST * steps);
   TAKE(w->momenta, steps > 0 ? l->nw : 0);
@@ -139,7 +143,7 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   frot_reaction_work *r = &w->reactions;
   int n = m->n_rows, elements = m->n_elements;
   TAKE(r->unknown, n), TAKE(r->owner, n), TAKE(r->fold, 2 * n), TAKE(r->friction, n);
-  TAKE(w->span.spare, n), w->span.follow = 0;
+  TAKE(w->span.spare, n), w->span.follow = r->follow = 0;
   TAKE(r->sign, m->n_groups), TAKE(r->carried, n), TAKE(r->fold_ratio, 2 * n),
       TAKE(r->ratio, elements);
   TAKE(r->along, 2 * elements), TAKE(r->unit_of, n), TAKE(r->weight, n), TAKE(r->solution, n);

@@ -57,9 +57,9 @@ typedef struct {
  * a mass matrix the Cholesky factor L of the metric, L^-1 h, L^-1 J'; of a general core LU of A,
  * A^-1 h, A^-1 E); what it does to the rows wanted; sizes of all loads and of what they do, and
  * of the terms of c (bias_size, n_rows);
- * reactions lam (n_rows) and the solution a (nw). Scratch: rest and column (nw), the
- * rows of a group that act (acting); of large trees
- * inertia, twist and momenta (inertia.h). */
+ * reactions lam (n_rows) and the solution a (nw). Scratch: rest and column (nw), the rows of a
+ * group that are looked at (listed), four of them abreast; of large trees inertia, twist and
+ * momenta (inertia.h). */
 typedef struct {
   double t;
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
@@ -67,11 +67,11 @@ typedef struct {
   double *factor, *force, *half, *lu, *lu_scale;
   int *lu_pivot;
   unsigned char *wanted;
-  int *acting;
+  int *listed;
   double *free, *delassus;
   double *load, *load_size, *row_load, *bias_size;
   double *lam, *a;
-  double *rest, *column;
+  double *rest, *column, *abreast;
   double *inertia, *twist, *momenta;
 } frot_core_work;
 
@@ -86,6 +86,7 @@ typedef struct {
   double *fold_ratio, *ratio, *along, *unit_of, *weight, *solution;
   double *known, *effects;
   int dependent, *sign; /* sign (n_groups): of the determinant, 0 where there is none */
+  int follow;           /* 1: pins' directions are looked for from the last stage's on */
 } frot_reaction_work;
 
 /* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:

@@ -65,13 +65,29 @@ def test_cholesky_refuses_a_motion_without_mass(kernel: ct.CDLL) -> None:
 def test_lu_solves_what_is_not_symmetric(kernel: ct.CDLL, n: int) -> None:
     rng = np.random.default_rng(100 + n)
     a, b = rng.normal(size=(n, n)), rng.normal(size=n)
-    matrix, x = a.flatten(order="F"), b.copy()
-    sign = ct.c_int()
-    assert kernel.frot_lu_solve(address(matrix), address(x), n, ct.byref(sign)) == 0
+    matrix, x, again = a.flatten(order="F"), b.copy(), 2 * b
+    sign, pivot = ct.c_int(), (ct.c_int * n)()
+    assert kernel.frot_lu_solve(address(matrix), address(x), n, pivot, ct.byref(sign)) == 0
     assert sign.value == np.sign(np.linalg.det(a))
     assert np.allclose(a @ x, b, rtol=0, atol=1e-12 * np.linalg.cond(a))
+    kernel.frot_lu_again(address(matrix), address(again), n, pivot)
+    assert np.allclose(again, 2 * x, rtol=0, atol=1e-12 * np.linalg.cond(a))
+
+
+@pytest.mark.parametrize("n", [1, 2, 5, 10])
+def test_four_vectors_abreast_are_treated_as_each_by_itself(kernel: ct.CDLL, n: int) -> None:
+    rng = np.random.default_rng(n)
+    factor = np.tril(rng.normal(size=(n, n))) + 3 * np.eye(n)
+    one, four, other = rng.normal(size=n), rng.normal(size=(n, 4)), rng.normal(size=(n, 4))
+    products, each, solved = np.empty(4), np.empty((4, 4)), four.copy()
+    kernel.frot_dot_four(address(one), address(four), n, address(products))
+    kernel.frot_dot_fours(address(four), address(other), n, address(each))
+    kernel.frot_forward_four(address(factor.flatten(order="F")), n, address(solved))
+    assert np.allclose(products, one @ four, rtol=1e-13, atol=1e-13)
+    assert np.allclose(each, four.T @ other, rtol=1e-13, atol=1e-13)
+    assert np.allclose(factor @ solved, four, rtol=1e-12, atol=1e-12)
 
 
 def test_lu_refuses_dependent_rows(kernel: ct.CDLL) -> None:
     matrix, b = np.array([1.0, 2.0, 2.0, 4.0]), np.array([1.0, 2.0])
-    assert kernel.frot_lu_solve(address(matrix), address(b), 2, ct.byref(ct.c_int())) == 1
+    assert kernel.frot_lu_solve(address(matrix), address(b), 2, (ct.c_int * 2)(), ct.byref(ct.c_int())) == 1
