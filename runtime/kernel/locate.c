@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "falls.h"
+#include "groups.h"
 #include "jacobian.h"
 #include "mechanics.h"
 #include "projection.h"
@@ -14,6 +15,10 @@
 #define PASSES 12
 /* Part of the step on either side of a root over which the guard's slope is taken. */
 #define SPAN 1e-4
+/* Part of its size below which a guard that is no condition is rounding, and what a pass must leave
+ * of it at most while it is not. */
+#define RESOLVED (64 * DBL_EPSILON)
+#define STALLS 0.1
 
 /* Move the end of the step onto the relations and evaluate there: a guard is read where the motion
  * will go on. */
@@ -38,6 +43,9 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, double t, int 
   double left = fmax(theta - SPAN, 0), right = fmin(theta + SPAN, 1);
   double slope = (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * longest);
   double at = theta * longest, last_at = 0, last = 0, value = 0;
+  /* what reactions decide is read no better than this: nothing is gained by the steps beyond */
+  int j = w->guards.list[guard];
+  double resolved = j < frot_condition_guard(m) ? RESOLVED * s->data[w->layout.scale_g + j] : 0;
   for (int pass = 0;; pass++) {
     int status = frot_run_stages(m, s, w, t, at);
     if (status == FROT_OK && !(s->implicit && !frot_has_motion(m))) status = land(m, s, w, t + at);
@@ -48,6 +56,8 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, double t, int 
       if (secant < 0) slope = secant;
     }
     if (value == 0 || !(slope < 0) || pass == PASSES) break;
+    if (resolved > 0 && fabs(value) <= resolved) break;
+    if (resolved > 0 && pass > 0 && fabs(value) > STALLS * fabs(last)) break;
     last_at = at, last = value;
     double next = at - value / slope;
     if (!(next > 0)) next = 0.5 * at;

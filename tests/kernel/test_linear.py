@@ -90,4 +90,7 @@ def test_four_vectors_abreast_are_treated_as_each_by_itself(kernel: ct.CDLL, n: 
 
 def test_lu_refuses_dependent_rows(kernel: ct.CDLL) -> None:
     matrix, b = np.array([1.0, 2.0, 2.0, 4.0]), np.array([1.0, 2.0])
-    assert kernel.frot_lu_solve(address(matrix), address(b), 2, (ct.c_int * 2)(), ct.byref(ct.c_int())) == 1
+    assert (
+        kernel.frot_lu_solve(address(matrix), address(b), 2, (ct.c_int * 2)(), ct.byref(ct.c_int()))
+        == 1
+    )
