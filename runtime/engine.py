@@ -94,6 +94,7 @@ class Statistics(ct.Structure):
         ("unsearched", ct.c_longlong),
         ("blurred", ct.c_double),
         ("crossings", ct.c_longlong),
+        ("free", ct.c_longlong),
     )
 
 

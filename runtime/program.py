@@ -94,7 +94,9 @@ class Program:
     `balanced`: all energies are known: there are bodies, and no friction in the equations.
     `fixed` are parameters that decide the structure, each with what it decides.
     `file` is the name the text had when it was compiled, which places in the library begin with;
-    `shown` is the one its user gives it now. `hold` keeps the folder while this object lives.
+    `shown` is the one its user gives it now. `holders` are the liaisons that always hold, none
+    where drives, time or the text move what they hold. `hold` keeps the folder while this object
+    lives.
     """
 
     name: str
@@ -116,6 +118,7 @@ class Program:
     file: str = ""
     first_integrals: tuple[IntegralInfo, ...] = ()
     shown: str = ""
+    holders: tuple[str, ...] = ()
     hold: object = field(default=None, compare=False, repr=False)
 
     @property

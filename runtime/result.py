@@ -93,7 +93,8 @@ class Figures:
     `unsearched`: instants with so many possible modes that one motion was found, and others were
     not looked for. `crossings`: steps through postures in which the relations of a loop depend on
     each other: the motion goes straight on there. `blurred`: the largest error of a step there,
-    relative, that rounding made beyond the tolerance.
+    relative, that rounding made beyond the tolerance. `free`: speeds at the start that no liaison
+    holds.
     """
 
     steps: int
@@ -103,6 +104,7 @@ class Figures:
     unsearched: int = 0
     crossings: int = 0
     blurred: float = 0.0
+    free: int = -1
 
 
 class Values(Mapping[str, Floats]):
@@ -260,6 +262,9 @@ class Result(Mapping[str, Floats]):
             f"{_counted(figures.evaluations, 'evaluation')}, "
             f"{1e3 * figures.wall_time:.3g} ms in the kernel"
         )
+        if figures.free == 0 and self.program.holders:
+            held = ", ".join(f"'{name}'" for name in self.program.holders)
+            lines.append(f"  nothing can move: the liaisons {held} hold all bodies")
         if figures.crossings:
             lines.append(
                 f"  {_counted(figures.crossings, 'passage')} through postures in which the "

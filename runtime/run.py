@@ -148,6 +148,7 @@ def simulate(
         counts.unsearched,
         counts.crossings,
         counts.blurred,
+        counts.free,
     )
     events = tuple(_event(engine, raw) for raw in run.events if raw.t <= reached)
     result = (

@@ -8,6 +8,7 @@ from pathlib import Path
 from frot.compiler.lowering.listing import integral_name, listed_integrals
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.walk import as_number
+from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.product.units import unit_of
 from frot.compiler.report.first_integrals import FirstIntegral
 from frot.compiler.toolchain.compilers import MODEL_FLAGS, Toolchain
@@ -65,6 +66,19 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
         fixed=tuple((p.name, p.structural) for p in model.parameters if p.structural),
         file=file,
         first_integrals=_integrals(lowered.integrals),
+        holders=_holders(lowered),
+    )
+
+
+def _holders(lowered: Lowered) -> tuple[str, ...]:
+    """The liaisons that always hold, where nothing but forces moves the bodies."""
+    mechanism, system = lowered.reduced.mechanism, lowered.system
+    if mechanism.is_driven or not mechanism.model.bodies or mechanism.model.equations:
+        return ()
+    if system.nv != lowered.reduced.symbols.v.numel():
+        return ()
+    return tuple(
+        x.name for x in mechanism.model.liaisons if not is_unilateral(x) and x.kind.name != "libre"
     )
 
 

@@ -136,6 +136,9 @@ class Report:
             left = m.freedoms - m.independent_at_start - m.touching_independent
             closed = f"  ({left} with the contacts that touch at the start)"
         yield f"  degrees of freedom      {m.degrees_of_freedom}{closed}"
+        if self.bodies and m.degrees_of_freedom <= 0:
+            names = ", ".join(f"'{x.name}'" for x in self.liaisons)
+            yield f"  nothing can move by itself: the liaisons {names} hold all bodies"
         if m.independent_at_start < m.independent:
             more = m.freedoms - m.independent_at_start
             yield f"  singular start          {more} degrees of freedom there"

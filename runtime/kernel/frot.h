@@ -457,6 +457,7 @@ typedef struct {
   long long unsearched; /* instants at which other motions were not looked for: too many modes */
   double blurred; /* largest error of a step, relative, that rounding made there beyond its bound */
   long long crossings; /* steps through postures in which rows that hold depend on each other */
+  long long free;      /* speeds at the start that no permanent row holds */
 } frot_statistics;
 
 /* The model compiled together with the kernel. */

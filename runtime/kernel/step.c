@@ -65,9 +65,23 @@
 /* Time beyond which events no longer crowd, in longest steps. */
 #define CROWDED 1e-9
 
+/* The speeds that no permanent row holds, after an evaluation: those that depend on others are
+ * none.
+ */
+static long long free_speeds(const frot_model *m, const frot_state *s, const frot_work *w) {
+  long long held = 0;
+  for (int i = 0; i < m->n_contacts; i++) {
+    int row = m->contacts[i].row_n;
+    if (row < 0 || m->contacts[i].reduced || s->data[w->layout.unilateral + i] != 0) continue;
+    held += !w->reactions.carried[row];
+  }
+  return m->nv - held;
+}
+
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   int status = frot_start_slope(m, s, w, s->t);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0);
+  s->statistics.free = free_speeds(m, s, w);
   double h = FIRST_PART * s->h_max;
   int lost = frot_starts_singular(m, s, w, s->t, h);
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, s->t, lost, -1, -1, 0);
