@@ -8,8 +8,10 @@ import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.mechanics.dynamics import Push, in_trees
 from frot.compiler.mechanics.forces import Action, Load, load
-from frot.compiler.mechanics.mechanism import Mechanism
+from frot.compiler.mechanics.mechanism import Mechanism, is_unilateral
 from frot.compiler.mechanics.variables import Variables
+from frot.dsl import Log
+from frot.dsl.checked import Law, Liaison
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,14 +30,39 @@ class Loads:
 
 
 def applied_loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> list[Load]:
-    """The forces of the text and the efforts of its flanges and drives."""
+    """The forces of the text, the efforts of its flanges and drives, the laws of its own."""
     kinematics = variables.kinematics
     applied = [load(force, kinematics, moving, variables.effort) for force in mechanism.forces]
     for flange in mechanism.model.flanges:
         assert moving.variable is not None
         rate = variables.effort(flange.liaison, flange.coordinate).rate
         applied.append(Load((Action(rate, moving.variable(flange.effort)),), None))
+    for liaison in mechanism.model.liaisons:
+        for law in liaison.laws:
+            if "tangential" in law.arguments:
+                force = moving.lower(law.arguments["tangential"])
+                _refuse_left_over(liaison, law, force, variables, moving.log)
+                variables.frictions[liaison] = variables.frictions.get(liaison, ca.SX(0)) + force
+                slip = variables.of_liaison(liaison, "slip")
+                applied.append(Load((Action(slip, force),), None))
     return applied
+
+
+def _refuse_left_over(
+    liaison: Liaison, law: Law, force: ca.SX, variables: Variables, log: Log
+) -> None:
+    """What can part has no friction while it is apart, whatever the law gives."""
+    if not is_unilateral(liaison):
+        return
+    normal = variables.of_liaison(liaison, "normal_force")
+    apart = ca.simplify(ca.substitute(force, normal, ca.SX(0)))
+    if not apart.is_zero():
+        log.report(
+            "E0511",
+            f"the law '{law.kind.name}' of liaison '{liaison.name}' does not vanish with `normal`",
+            law.span,
+            help="multiply it by `normal`, or write `unilateral = false`",
+        )
 
 
 def sum_loads(

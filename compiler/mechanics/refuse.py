@@ -28,6 +28,7 @@ from frot.dsl.quantities.dimensions import dimension
 PLANE_LIAISONS = ("point_courbe", "contact_ponctuel")
 LAWS = ("coulomb", "rolling_resistance")
 FORCES = ("attraction", "couple", "damper", "drag", "on", "spring")
+_ONE_CONTACT = "a law of one's own acts in a `contact_ponctuel` or a `point_courbe` of the plane"
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
 
 
@@ -103,6 +104,11 @@ def _refuse_drive(liaison: Liaison, planar: bool, log: Log) -> None:
 
 
 def _refuse_law(liaison: Liaison, law: Law, planar: bool, log: Log) -> None:
+    if "tangential" in law.arguments:
+        if not planar or liaison.kind.name not in PLANE_LIAISONS:
+            where = f"of a {spelled(liaison)}" + ("" if planar else " in space")
+            refuse(log, f"the law '{law.kind.name}' {where}", law.span, _ONE_CONTACT)
+        return
     if law.kind.name not in LAWS:
         refuse(log, f"the law '{law.kind.name}'", law.span, _one_of("laws", LAWS))
         return

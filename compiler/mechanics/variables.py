@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains
@@ -24,7 +24,7 @@ class Variables:
 
     `geometry` and `links` hold every liaison, `reactions` the rows of those whose reaction is
     computed, `drives` the efforts that keep prescribed coordinates, by their names; `corners` the
-    liaisons that one of faces stands for.
+    liaisons that one of faces stands for, `frictions` what laws of the user give on the body.
     """
 
     symbols: Symbols
@@ -35,6 +35,7 @@ class Variables:
     reactions: dict[Liaison, Rows]
     drives: dict[Liaison, list[tuple[str, ca.SX]]]
     corners: Mapping[Liaison, tuple[Liaison, ...]]
+    frictions: dict[Liaison, ca.SX] = field(default_factory=dict)
 
     def quantity(self, node: Quantity) -> ca.SX:
         """Value of a variable named in the text."""
@@ -151,7 +152,9 @@ class Variables:
         lam = self.symbols.lam
         normal = lam[rows.reaction[0]]
         tangent = ca.dot(self._drive(liaison)[0], geometry.line.direction)
-        tangent += lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
+        friction = self.frictions.get(liaison, ca.SX(0))
+        friction += lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
+        tangent += friction
         couple = lam[rows.rolling] if rows.rolling >= 0 else ca.SX(0)
         assert isinstance(contact, Contact)
         on_second = 1 if contact.track_first else -1
@@ -167,6 +170,5 @@ class Variables:
             case "torque":
                 return on_second * couple
             case "power":
-                tangent = lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
-                return tangent * geometry.slip + couple * geometry.roll
+                return friction * geometry.slip + couple * geometry.roll
         raise KeyError(name)

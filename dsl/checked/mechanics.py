@@ -131,7 +131,10 @@ Place = BodyPoint | BodyGeometry | CurvePlace | Frame
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Law:
-    """A law of a liaison with its arguments, defaults filled (`mu_s` is `mu` unless given)."""
+    """A law of a liaison with its arguments, defaults filled (`mu_s` is `mu` unless given).
+
+    One of the user has a kind of its own and gives `tangential`, the friction on the body.
+    """
 
     kind: LawKind
     arguments: Mapping[str, Expression]

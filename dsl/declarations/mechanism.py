@@ -9,7 +9,7 @@ from frot.dsl.catalogue import FORCES, LAWS, LIAISONS, find, spellings
 from frot.dsl.checked.describe import quantity
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.declarations.geometry import called
-from frot.dsl.declarations.user_kinds import check_law, stated_liaison
+from frot.dsl.declarations.user_kinds import stated_law, stated_liaison
 from frot.dsl.expressions.expression import expect
 from frot.dsl.expressions.known import known
 from frot.dsl.messages.diagnostics import Label
@@ -150,7 +150,7 @@ def complete_liaison(node: tree.Liaison, to: checked.Liaison | None, scope: Scop
         object.__setattr__(to, "driven", _driven(node, to, scope))
     found: list[checked.Law] = []
     for written in node.laws:
-        law = _law(written, scope)
+        law = _law(written, to, scope)
         if law is None:
             continue
         same = next((other for other in found if other.kind is law.kind), None)
@@ -163,7 +163,7 @@ def complete_liaison(node: tree.Liaison, to: checked.Liaison | None, scope: Scop
         object.__setattr__(to, "laws", tuple(found))
 
 
-def _law(written: tree.Expression, scope: Scope) -> checked.Law | None:
+def _law(written: tree.Expression, to: checked.Liaison | None, scope: Scope) -> checked.Law | None:
     call = called(written, "law", scope)
     if call is None:
         return None
@@ -172,8 +172,8 @@ def _law(written: tree.Expression, scope: Scope) -> checked.Law | None:
     if kind is None:
         defined = find_class(callee, scope)
         if defined is not None and defined.kind == "law":
-            check_law(defined, arguments, written.span, scope)
-        elif scope.knows(name):
+            return stated_law(defined, arguments, written.span, to, scope)
+        if scope.knows(name):
             help_text = did_you_mean(name, spellings(LAWS))
             scope.log.report("E0202", f"unknown law {name!r}", callee.span, help=help_text)
         return None

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import cast
 
 from frot.dsl import checked
-from frot.dsl.catalogue import SHAPES, LiaisonKind
+from frot.dsl.catalogue import SHAPES, LawKind, LiaisonKind
 from frot.dsl.catalogue.types import FORCE, VELOCITY
 from frot.dsl.checked.describe import written_unit
 from frot.dsl.declarations.arguments import bind
@@ -91,17 +91,33 @@ def _place_of(thing: Entity) -> checked.Place | None:
     return thing if isinstance(thing, places) else None
 
 
-def check_law(of: Class, arguments: tuple[tree.Argument, ...], span: Span, scope: Scope) -> None:
-    """Check a law of the user where it is used, then refuse it."""
+def stated_law(
+    of: Class,
+    arguments: tuple[tree.Argument, ...],
+    span: Span,
+    liaison: checked.Liaison | None,
+    scope: Scope,
+) -> checked.Law | None:
+    """A law of the user where it is used: what `slip` and `normal` are in it is the liaison's."""
     bound = _bind(of, arguments, span, scope)
     if bound is None:
-        return
+        return None
     inner, local = bound
     here = of.definition.span
-    local["slip"] = checked.Variable("slip", VELOCITY, here)
-    local["normal"] = checked.Variable("normal", FORCE, here)
-    _values(of, {"tangential": FORCE}, inner.inside(**local))
-    _refuse(of, span, scope)
+    for name, member, kind in (("slip", "slip", VELOCITY), ("normal", "normal_force", FORCE)):
+        if liaison is None:
+            local[name] = checked.Variable(name, kind, here)
+        else:
+            value = checked.Quantity(liaison, member, kind, span)
+            local[name] = checked.Parameter(name, kind, value, here, constant=True)
+    values = _values(of, {"tangential": FORCE}, inner.inside(**local))
+    if liaison is None or values is None:
+        return None
+    if not values:
+        message = f"the law {of.name!r} gives no value to 'tangential'"
+        scope.log.report("E0204", message, span, help="write `tangential = ...;` in it")
+        return None
+    return checked.Law(LawKind(of.name, ()), values, span)
 
 
 def stated_shape(
@@ -127,13 +143,10 @@ def stated_shape(
     return cast("dict[str, checked.Expression]", found.values)
 
 
-def _refuse(of: Class, span: Span, scope: Scope) -> None:
-    message = f"user-defined laws are not supported yet ({of.name!r})"
-    scope.log.report("E0701", message, span)
-
-
-def _values(of: Class, wanted: dict[str, Type], at: Scope) -> None:
-    """Check the statements `name = value;` of a law."""
+def _values(of: Class, wanted: dict[str, Type], at: Scope) -> dict[str, checked.Expression] | None:
+    """The values that the statements `name = value;` of a law give; None after a message."""
+    found: dict[str, checked.Expression] = {}
+    complete = True
     for element in of.elements:
         if isinstance(element, tree.Equation) and element.right is not None:
             name = element.left.span.text
@@ -146,10 +159,17 @@ def _values(of: Class, wanted: dict[str, Type], at: Scope) -> None:
                     element.left.span,
                     help=did_you_mean(name, wanted),
                 )
+                complete = False
                 continue
-            expect(element.right, kind, at)
+            value = expect(element.right, kind, at)
+            if value is None:
+                complete = False
+            else:
+                found[name] = value
         elif isinstance(element, tree.Equation | tree.Relation | tree.When | tree.For):
             at.log.report("E0501", "this cannot stand in a law", element.span)
+            complete = False
+    return found if complete else None
 
 
 def _bind(
@@ -235,4 +255,4 @@ def _formal(
     return checked.Parameter(formal.name.text, kind.type, value, formal.span, constant=True)
 
 
-__all__ = ["check_law", "stated_liaison", "stated_shape"]
+__all__ = ["stated_law", "stated_liaison", "stated_shape"]
