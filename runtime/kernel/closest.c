@@ -1,5 +1,6 @@
 #include "closest.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -7,8 +8,10 @@
 #include "nearest.h"
 
 #define PULLS 40
-/* Part of the change from the beginning that is left at the end: more than rounding leaves. */
-#define SETTLED 1e-10
+/* Part of the change from the beginning that may be left at the end; what still shrinks so much
+ * from way to way is followed on, to rounding. */
+#define SETTLED 1e-9
+#define SHRINKS 0.25
 #define NO_FARTHER (1 + 1e-13) /* rounding of a size: near the least one, ways say more */
 #define LEAST_PART 1e-4
 #define MOST_PART 8.0
@@ -76,10 +79,12 @@ int frot_come_closest(frot_opening *p) {
   frot_opening_work *w = &p->w->opening;
   double *x = w->found, *d = w->way, *next = w->next_way, *s = w->apart;
   size_t bytes = sizeof(double) * (size_t)p->m->nq;
-  double far = frot_change_size(p), part = 1;
+  double far = frot_change_size(p), part = 1, before = INFINITY;
   int moved = 0, status = p->n > 0 && far > 0 ? way_back(p, d) : FROT_OK;
   for (int k = 0; k < PULLS && status == FROT_OK && p->n > 0 && far > 0; k++) {
-    if (sqrt(product(p, d, d)) <= SETTLED * far) break;
+    double left = sqrt(product(p, d, d));
+    if (left <= DBL_EPSILON * far || (left <= SETTLED * far && left > SHRINKS * before)) break;
+    before = left;
     memcpy(x, p->q, bytes);
     double now = INFINITY;
     for (; part >= LEAST_PART; part *= 0.25) {
