@@ -140,8 +140,11 @@ static void effects_of_four(const frot_model *m, frot_work *w, const frot_group 
   const int *listed = w->core.listed;
   double product[FROT_ABREAST * FROT_ABREAST];
   const double *fours = w->core.abreast;
-  int ns = g->n_speeds;
-  frot_dot_fours(fours + first * ns, fours + other * ns, ns, product);
+  const int *one = w->core.support + 2 * (first / FROT_ABREAST),
+            *two = w->core.support + 2 * (other / FROT_ABREAST);
+  int ns = g->n_speeds, from = one[0] > two[0] ? one[0] : two[0];
+  int to = one[1] < two[1] ? one[1] : two[1], at = FROT_ABREAST * from;
+  frot_dot_fours(fours + first * ns + at, fours + other * ns + at, to - from, product);
   for (int a = 0; a < FROT_ABREAST && first + a < count; a++) {
     int i = listed[first + a], reads = m->row_reads[g->rows[i]];
     double *effects = w->core.delassus + g->square + i * g->n_rows;
@@ -161,6 +164,9 @@ static int symmetric_group(const frot_model *m, frot_work *w, const frot_group *
   for (int first = 0; first < count; first += FROT_ABREAST) {
     double *four = w->core.abreast + first * ns, free[FROT_ABREAST];
     halve_four(m, w, g, first, count, four);
+    int *support = w->core.support + 2 * (first / FROT_ABREAST);
+    frot_support(four, FROT_ABREAST * ns, &support[0], &support[1]);
+    support[0] /= FROT_ABREAST, support[1] = (support[1] + FROT_ABREAST - 1) / FROT_ABREAST;
     frot_dot_four(w->core.force + g->vector, four, ns, free);
     for (int c = 0; c < FROT_ABREAST && first + c < count; c++) {
       int r = g->rows[w->core.listed[first + c]], reads = m->row_reads[r];

@@ -73,6 +73,7 @@ static int orthonormalize(frot_problem *p) {
   int ns = p->g->n_speeds, rank = 0;
   for (int k = 0; k < p->held; k++) {
     int row = w->reactions.unknown[k];
+    w->span.along[k] = p->g->n_rows;
     if (frot_is_spare(w, row)) {
       w->reactions.dependent = w->reactions.carried[row] = 1;
       w->span.left[row] = 0;
@@ -101,6 +102,7 @@ static int orthonormalize(frot_problem *p) {
       memcpy(frot_entries(m, w->span.direction, row), x, sizeof(double) * (size_t)ns);
     w->span.bias_size[rank] = size / rest;
     w->span.bias[rank++] = bias / rest;
+    w->span.along[k] = rank;
   }
   w->span.rank = p->equations = rank;
   add_kept_rows(p);
@@ -128,12 +130,17 @@ int frot_hold_rows(frot_problem *p) {
   if (orthonormalize(p)) return 1;
   int own = p->equations - p->kept;
   double *x = w->core.rest;
-  for (int c = -1; c < n; c++) {
+  for (int c = -1, first, end; c < n; c++) {
     frot_unknown_column(p, c, x);
+    frot_support(x, ns, &first, &end);
     double length = sqrt(frot_dot(x, x, ns)), unit = length > 0 ? 1 / length : 1;
     if (c >= 0) w->reactions.unit_of[c] = unit;
+    /* a row by itself lies along those made of it and of the rows before it */
+    int alone = c >= 0 && c < p->held && w->reactions.fold[2 * c] < 0;
+    int along = alone ? w->span.along[c] : p->equations;
     for (int r = 0; r < p->equations; r++) {
-      double part = frot_dot(w->span.basis + ns * r, x, ns);
+      const double *direction = w->span.basis + ns * r;
+      double part = r < along ? frot_dot(direction + first, x + first, end - first) : 0;
       if (c < 0) {
         w->linear.right[r] = -(part + w->span.bias[r]);
         continue;

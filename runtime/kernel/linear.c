@@ -6,14 +6,22 @@
 
 #include "tolerances.h"
 
+/* Part of its length that is left of a vector at least where what was taken from it need not be
+ * taken again: it is then orthogonal to ten units of rounding (J. Daniel, W. Gragg, L. Kaufman,
+ * G. Stewart, Math. Comp. 30, 1976, p. 772). */
+#define KEPT 0.1
+
 #define AT(a, ld, i, j) ((a)[(size_t)(j) * (size_t)(ld) + (size_t)(i)])
 
 double frot_dot(const double *a, const double *b, int n) {
-  double even = 0, odd = 0; /* so that not every addition waits for the one before */
+  double w = 0, x = 0, y = 0, z = 0; /* so that not every addition waits for the one before */
   int i = 0;
-  for (; i + 1 < n; i += 2) even += a[i] * b[i], odd += a[i + 1] * b[i + 1];
-  if (i < n) even += a[i] * b[i];
-  return even + odd;
+  for (; i + 4 <= n; i += 4) {
+    w += a[i] * b[i], x += a[i + 1] * b[i + 1];
+    y += a[i + 2] * b[i + 2], z += a[i + 3] * b[i + 3];
+  }
+  for (; i < n; i++) w += a[i] * b[i];
+  return (w + x) + (y + z);
 }
 
 int frot_cholesky(double *a, int n) {
@@ -22,6 +30,7 @@ int frot_cholesky(double *a, int n) {
     for (int k = 0; k < j; k++) {
       const double *before = a + (size_t)k * (size_t)n;
       double factor = before[j];
+      if (factor == 0) continue;
       for (int i = j; i < n; i++) column[i] -= before[i] * factor;
     }
     if (!(column[j] > n * DBL_EPSILON * whole)) return 1;
@@ -34,20 +43,22 @@ int frot_cholesky(double *a, int n) {
 void frot_forward(const double *l, int n, int m, double *x) {
   for (int k = 0; k < m; k++, l += n) {
     double value = x[k] /= l[k];
+    if (value == 0) continue;
     for (int i = k + 1; i < m; i++) x[i] -= l[i] * value;
   }
 }
 
 void frot_forward_four(const double *l, int n, double *x) {
-  for (int i = 0; i < n; i++) {
-    double *own = x + FROT_ABREAST * i, share = 1 / AT(l, n, i, i);
-    double sum[FROT_ABREAST] = {own[0], own[1], own[2], own[3]};
-    for (int k = 0; k < i; k++) {
-      const double factor = AT(l, n, i, k), *before = x + FROT_ABREAST * k;
-      sum[0] -= factor * before[0], sum[1] -= factor * before[1];
-      sum[2] -= factor * before[2], sum[3] -= factor * before[3];
+  for (int k = 0; k < n; k++, l += n) {
+    double *own = x + FROT_ABREAST * k, share = 1 / l[k];
+    if (own[0] == 0 && own[1] == 0 && own[2] == 0 && own[3] == 0) continue;
+    const double a = own[0] *= share, b = own[1] *= share, c = own[2] *= share, d = own[3] *= share;
+    for (int i = k + 1; i < n; i++) {
+      const double factor = l[i];
+      double *other = x + FROT_ABREAST * i;
+      other[0] -= factor * a, other[1] -= factor * b;
+      other[2] -= factor * c, other[3] -= factor * d;
     }
-    for (int c = 0; c < FROT_ABREAST; c++) own[c] = sum[c] * share;
   }
 }
 
@@ -88,15 +99,30 @@ void frot_backward(const double *l, int n, int m, double *x) {
   }
 }
 
+void frot_support(const double *x, int n, int *first, int *end) {
+  int from = 0, to = n;
+  while (from < n && x[from] == 0) from++;
+  while (to > from && x[to - 1] == 0) to--;
+  *first = from, *end = to;
+}
+
 double frot_reject(double *x, const double *basis, int columns, int n, double *parts) {
+  double own = sqrt(frot_dot(x, x, n)), rest = own;
+  int first, end;
   for (int c = 0; c < columns; c++) parts[c] = 0;
-  for (int pass = 0; pass < 2; pass++)
+  frot_support(x, n, &first, &end);
+  for (int pass = 0; pass < 2; pass++) {
     for (int c = 0; c < columns; c++) {
-      double part = frot_dot(x, basis + n * c, n);
-      for (int k = 0; k < n; k++) x[k] -= part * basis[n * c + k];
-      parts[c] += part;
+      const double *with = basis + n * c;
+      double part = frot_dot(x + first, with + first, end - first);
+      if (part == 0) continue;
+      for (int k = 0; k < n; k++) x[k] -= part * with[k];
+      parts[c] += part, first = 0, end = n;
     }
-  return sqrt(frot_dot(x, x, n));
+    rest = sqrt(frot_dot(x, x, n));
+    if (rest > KEPT * own) break;
+  }
+  return rest;
 }
 
 int frot_lu_solve(double *a, double *b, int n, int *pivot, int *sign) {
@@ -119,11 +145,13 @@ int frot_lu_solve(double *a, double *b, int n, int *pivot, int *sign) {
       AT(a, n, best, j) = t;
     }
     double share = 1 / column[k];
-    for (int i = k + 1; i < n; i++) column[i] *= share;
-    for (int j = k + 1; j < n; j++) {
+    int end = n;
+    while (end > k + 1 && column[end - 1] == 0) end--;
+    for (int i = k + 1; i < end; i++) column[i] *= share;
+    for (int j = k + 1; j < n && end > k + 1; j++) {
       double *other = a + (size_t)j * (size_t)n, factor = other[k];
       if (factor == 0) continue;
-      for (int i = k + 1; i < n; i++) other[i] -= column[i] * factor;
+      for (int i = k + 1; i < end; i++) other[i] -= column[i] * factor;
     }
   }
   frot_lu_again(a, b, n, pivot);

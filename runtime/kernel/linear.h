@@ -35,8 +35,12 @@ void frot_lu_apply(const double *a, int n, const int *pivot, const double *scale
  * `pivot` n integers. Returns the rank; a and b are lost. */
 int frot_least_norm(double *a, double *b, int m, int n, double *x, double *work, int *pivot);
 
+/* The items of x (n) that are not zero lie in first .. end. */
+void frot_support(const double *x, int n, int *first, int *end);
+
 /* Takes from x (n) its parts along the orthonormal columns of `basis` (n x columns), which go to
- * `parts`; twice, so that the rest is orthogonal to rounding. Returns the length of the rest. */
+ * `parts`; again where much is taken, so that the rest is orthogonal to rounding. Returns the
+ * length of the rest. */
 double frot_reject(double *x, const double *basis, int columns, int n, double *parts);
 
 double frot_dot(const double *a, const double *b, int n);

@@ -126,7 +126,8 @@ static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work 
   TAKE(w->factor, m->n_metric), TAKE(w->force, l->nw), TAKE(w->half, m->n_entries);
   TAKE(w->lu, general * m->n_matrix), TAKE(w->lu_scale, general * 2 * l->nw);
   TAKE(w->lu_pivot, general * l->nw);
-  TAKE(w->wanted, nr), TAKE(w->listed, nr), TAKE(w->free, nr), TAKE(w->delassus, m->n_square);
+  TAKE(w->wanted, nr), TAKE(w->listed, nr), TAKE(w->support, 2 * nr + 2), TAKE(w->free, nr),
+      TAKE(w->delassus, m->n_square);
   TAKE(w->load, l->nw), TAKE(w->load_size, l->nw), TAKE(w->row_load, nr);
   TAKE(w->bias_size, nr);
   TAKE(w->lam, nr), TAKE(w->a, l->nw), TAKE(w->rest, l->nw), TAKE(w->column, l->nw);
@@ -154,6 +155,7 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   }
   TAKE(r->known, 2 * followers), TAKE(r->effects, 2 * followed);
   TAKE(w->span.basis, (n + 1) * e->widest), TAKE(w->span.parts, n + e->widest);
+  TAKE(w->span.along, n);
   TAKE(w->span.bias, n), TAKE(w->span.bias_size, n), TAKE(w->span.left, n);
   TAKE(w->span.direction, m->n_entries), TAKE(w->step.direction, m->n_entries);
   TAKE(w->step.motion, m->n_entries);

@@ -58,8 +58,8 @@ typedef struct {
  * A^-1 h, A^-1 E); what it does to the rows wanted; sizes of all loads and of what they do, and
  * of the terms of c (bias_size, n_rows);
  * reactions lam (n_rows) and the solution a (nw). Scratch: rest and column (nw), the rows of a
- * group that are looked at (listed), four of them abreast; of large trees inertia, twist and
- * momenta (inertia.h). */
+ * group that are looked at (listed), four of them abreast and where these are not zero; of large
+ * trees inertia, twist and momenta (inertia.h). */
 typedef struct {
   double t;
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
@@ -67,7 +67,7 @@ typedef struct {
   double *factor, *force, *half, *lu, *lu_scale;
   int *lu_pivot;
   unsigned char *wanted;
-  int *listed;
+  int *listed, *support;
   double *free, *delassus;
   double *load, *load_size, *row_load, *bias_size;
   double *lam, *a;
@@ -95,6 +95,7 @@ typedef struct {
 typedef struct {
   int rank, follow; /* whether `spare` (n_rows) says what depends on others: spare.h */
   unsigned char *spare;
+  int *along; /* n_rows: how many of them each held row lies along at most */
   double *left, *direction;
   double *basis, *parts, *bias, *bias_size;
 } frot_span_work;

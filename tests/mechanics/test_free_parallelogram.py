@@ -1,9 +1,11 @@
-"""A parallelogram that nothing pushes turns evenly through its flat postures, or ends by name."""
+"""A parallelogram that nothing pushes turns evenly through its flat postures, or ends by name; a
+row of them falls through the flat posture of all."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import frot
 
@@ -72,3 +74,41 @@ def test_an_instant_known_beforehand_next_to_a_posture_does_not_hang() -> None:
     with pytest.raises(frot.FrotError) as told:
         model.simulate(tolerance=1e-8, parameters={"th": 0.001, "w": -1.0})
     assert told.value.diagnostics[0].code == "E0910"
+
+
+def row_of_parallelograms(n: int) -> str:
+    """The N-four-bar of the IFToMM benchmark A02: 2 n + 1 equal rods, from upright."""
+    legs = "".join(
+        f"  body leg{i}: rod(mass = 1 kg, length = 1 m);\n"
+        f"  frame foot{i} on ground at ({i} m, 0 m);\n"
+        f"  liaison A{i}: rotoide(foot{i}, leg{i}.start);\n"
+        for i in range(n + 1)
+    )
+    tops = "".join(
+        f"  body top{i}: rod(mass = 1 kg, length = 1 m);\n"
+        f"  liaison B{i}: rotoide(leg{i}.tip, top{i}.start);\n"
+        f"  liaison C{i}: rotoide(top{i}.tip, leg{i + 1}.tip);\n"
+        for i in range(n)
+    )
+    guesses = ", ".join(
+        [f"A{i}.angle = 90 deg" for i in range(1, n + 1)] + [f"top{i}.angle = 0" for i in range(n)]
+    )
+    return (
+        f"planar model Row\n{legs}{tops}initial\n  A0.angle = 90 deg;\n  A0.speed = -1 rad/s;\n"
+        f"  guess({guesses});\n  experiment(stop = 4 s);\nend Row;\n"
+    )
+
+
+def test_a_row_of_parallelograms_moves_as_its_one_coordinate() -> None:
+    """((n + 1)/3 + n) th'' = ((n + 1)/2 + n) g sin(th); flat twice a turn."""
+    n, model = 4, frot.compile(row_of_parallelograms(4))
+    rate = 9.81 * ((n + 1) / 2 + n) / ((n + 1) / 3 + n)
+    exact = solve_ivp(
+        lambda _, y: (y[1], rate * np.sin(y[0])), (0, 4), (0, 1), "DOP853", rtol=2.3e-14, atol=1e-15
+    ).y[:, -1]
+    for tolerance in (1e-6, 1e-9):
+        result = model.simulate(tolerance=tolerance)
+        now = result.at(4.0)
+        assert result.figures.crossings == 4
+        assert abs(np.pi / 2 - now["A0.angle"] - exact[0]) < 30 * tolerance
+        assert abs(now["A0.speed"] + exact[1]) < 100 * tolerance
