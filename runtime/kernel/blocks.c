@@ -81,9 +81,28 @@ static int solve_linear(const problem *p) {
   return FROT_OK;
 }
 
-/* Halve the step until it improves the worst equation. Returns 1 when none does; the values are
- * then those before. */
-static int line_search(const problem *p, double before) {
+/* Whether the same Jacobian would now take a shorter step, in sizes of the values and their steps
+ * (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, sect. 3.3). This asks nothing of the
+ * terms of an equation, whose sizes may all be zero where the search begins. */
+static int shortens(const problem *p, const double *from, double part) {
+  frot_work *w = p->w;
+  int n = p->block->count;
+  double *next = w->blocks.scale + 2 * n, longest = 0, now = 0;
+  memcpy(next, w->blocks.r, sizeof(double) * (size_t)n);
+  frot_lu_apply(w->blocks.lu, n, w->blocks.pivot, w->blocks.scale, next);
+  for (int i = 0; i < n; i++) {
+    double size = fabs(from[i]) + fabs(w->blocks.step[i]);
+    if (size == 0 && next[i] != 0) return 0;
+    if (size == 0) continue;
+    longest = fmax(longest, fabs(w->blocks.step[i]) / size);
+    now = fmax(now, fabs(next[i]) / size);
+  }
+  return now < longest * (1 - 0.25 * part);
+}
+
+/* Halve the step until it improves the worst equation, or the next one would be shorter. Returns 1
+ * when none does; the values are then those before. `singular`: there are no factors. */
+static int line_search(const problem *p, double before, int singular) {
   frot_work *w = p->w;
   int n = p->block->count;
   double *size = w->blocks.size + n, *from = w->blocks.step + n;
@@ -91,7 +110,9 @@ static int line_search(const problem *p, double before) {
   memcpy(from, p->y, sizeof(double) * (size_t)n);
   for (double part = 1; part > FROT_LEAST_DAMPING; part *= 0.5) {
     for (int i = 0; i < n; i++) p->y[i] = from[i] + part * w->blocks.step[i];
-    if (!evaluate(p) && worst(w->blocks.r, size, n) < before * (1 - 0.25 * part)) return 0;
+    if (!evaluate(p) && (worst(w->blocks.r, size, n) < before * (1 - 0.25 * part) ||
+                         (!singular && shortens(p, from, part))))
+      return 0;
     if (before <= FROT_SETTLED) break;
   }
   memcpy(p->y, from, sizeof(double) * (size_t)n);
@@ -106,7 +127,7 @@ static int solve_nonlinear(const problem *p) {
     double off = worst(w->blocks.r, w->blocks.size, n);
     if (off <= FROT_ROUNDING) return FROT_OK;
     int singular = newton_step(p);
-    if (line_search(p, off)) {
+    if (line_search(p, off, singular)) {
       if (off <= FROT_SETTLED) return FROT_OK;
       w->blocks.singular = singular;
       return FROT_ALGEBRAIC;

@@ -160,3 +160,17 @@ def test_a_slider_crank_with_a_flexible_rod() -> None:
     turned = 150 * result.time
     ends = 0.15 * np.sin(turned) + (0.3 + result["end_"]) * np.sin(result["phi"])
     assert np.abs(ends).max() < 1e-13
+
+
+def test_a_wheelset_hunts_as_in_the_test_set() -> None:
+    """Their digits are those of DASSL at 1e-9, from initial values of five."""
+    path = MODELS.parent / "tests" / "reference" / "wheelset.json"
+    known = json.loads(path.read_text(encoding="utf-8"))
+    result = frot.load(MODELS / "wheelset.frot").simulate(stop=10)
+    start, end = result.at(0.0), result.at(10.0)
+    for name, value in known["start"].items():
+        assert float(start[name]) == pytest.approx(value, rel=3e-5), name
+    for name, value in known["values"].items():
+        assert float(end[name]) == pytest.approx(value, rel=2e-5), name
+    for side in ("left", "right"):
+        assert np.abs(result[f"{side}.gap"]).max() < 1e-12
