@@ -31,8 +31,7 @@ static double reaction_rounding(const frot_instant *in, int row) {
   return FROT_ZERO_OF_MOTION * (frot_reaction_size(in->m, in->w, row) + (own > 0 ? size / own : 0));
 }
 
-/* What is left of a bound when an element holds, over its size: negative beyond the slack. */
-static double reserve(const frot_instant *in, int e) {
+double frot_reserve(const frot_instant *in, int e) {
   const frot_element *element = &in->m->elements[e];
   frot_work *w = in->w;
   double bound = fabs(frot_bound_of_rest(in->m, w, e, w->search.trial)),
@@ -45,15 +44,13 @@ static double reserve(const frot_instant *in, int e) {
   return size > 0 ? (bound - lam) / size : 0;
 }
 
-/* The same of a contact that must press. */
-static double pressure(const frot_instant *in, int i) {
+double frot_pressure(const frot_instant *in, int i) {
   int row = in->m->contacts[i].row_n;
   double lam = in->w->search.trial[i].side * in->w->core.lam[row];
   double rounding = reaction_rounding(in, row);
   double terms = fabs(lam) + frot_reaction_size(in->m, in->w, row);
-  /* a guard that fired is zero as well as time resolves it, in terms as they are now */
-  if (in->fired[i] != 0)
-    rounding += fmin(FROT_ZERO * in->s->data[in->l.scale_g + i], FROT_RESOLVED * terms);
+  /* what fired is zero in the terms it had, which may all vanish now: its sign is seen later */
+  if (in->fired[i] != 0) rounding += FROT_ZERO * in->s->data[in->l.scale_g + i];
   double size = terms + rounding / FROT_BOUND_SLACK;
   return size > 0 ? lam / size : 0;
 }
@@ -103,7 +100,7 @@ static int element_is_admissible(const frot_instant *in, int e) {
   if (mode->friction == FROT_STICK) {
     if (in->w->search.trial[element->contact].unloaded || mode->at_bound != 0)
       return is_still(in, element->row) && is_carried(in, element->row);
-    return reserve(in, e) >= -FROT_BOUND_SLACK;
+    return frot_reserve(in, e) >= -FROT_BOUND_SLACK;
   }
   if (mode->friction == FROT_NONE || !in->zero[e]) return 1;
   double size, a = acceleration(in, element->row, &size);
@@ -156,6 +153,16 @@ int frot_all_held(const frot_instant *in, int i) {
   return 1;
 }
 
+void frot_turn_side(const frot_instant *in, int i) {
+  const frot_model *m = in->m;
+  frot_contact_mode *trial = in->w->search.trial;
+  trial[i].side = (signed char)-trial[i].side;
+  for (int e = 0; e < m->n_elements; e++) {
+    frot_contact_mode *law = &trial[m->n_contacts + e];
+    if (m->elements[e].contact == i) law->at_bound = (signed char)-law->at_bound;
+  }
+}
+
 static int contact_is_admissible(const frot_instant *in, int i) {
   int row = in->m->contacts[i].row_n;
   frot_contact_mode *mode = &in->w->search.trial[i];
@@ -167,63 +174,22 @@ static int contact_is_admissible(const frot_instant *in, int i) {
   }
   if (mode->unloaded) return is_still(in, row) && is_carried(in, row);
   /* held all round, the side follows from the reaction */
-  if (in->unilateral[i] == 0 && frot_all_held(in, i))
-    mode->side = in->w->core.lam[row] < 0 ? -1 : 1;
+  if (in->unilateral[i] == 0 && frot_all_held(in, i) && mode->side * in->w->core.lam[row] < 0)
+    frot_turn_side(in, i);
   if (in->unilateral[i] == 0 && !frot_sign_matters(in->m, in->w->search.trial, i)) return 1;
-  return pressure(in, i) >= -FROT_BOUND_SLACK;
+  return frot_pressure(in, i) >= -FROT_BOUND_SLACK;
 }
 
-/* The loaded contact whose reaction is worst beyond what is admissible or, if none is, the element;
- * -1 for the other. Returns whether there is any. */
-static int find_worst(const frot_instant *in, const int *chosen, int count, int *contact,
-                      int *friction) {
+int frot_reactions_hold(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
-  const frot_contact_mode *trial = in->w->search.trial;
-  double most = -FROT_BOUND_SLACK;
-  int worst_contact = -1, worst_element = -1;
-  for (int c = 0; c < count; c++) {
-    int i = chosen[c];
-    if (!frot_is_loaded(m, trial, i) || in->unilateral[i] == 0) continue;
-    double left = pressure(in, i);
-    if (left < most) most = left, worst_contact = i;
+  const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
+  for (int c = 0; c < count; c++)
+    if (!contact_is_admissible(in, chosen[c])) return 0;
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i];
+    if (in->w->search.trial[m->elements[e].contact].closed && !element_is_admissible(in, e))
+      return 0;
   }
-  for (int e = 0; e < m->n_elements && worst_contact < 0; e++) {
-    int among = 0;
-    for (int c = 0; c < count; c++) among |= chosen[c] == m->elements[e].contact;
-    if (!among || !frot_is_held(m, trial, e)) continue;
-    double left = reserve(in, e);
-    if (left < most) most = left, worst_element = e;
-  }
-  *contact = worst_contact, *friction = worst_element;
-  return worst_contact >= 0 || worst_element >= 0;
-}
-
-/* Whether the modes say of a contact that it carries nothing, or of an element that it is at its
- * bound. */
-static int gives_bounds(const frot_instant *in, const int *chosen, int count) {
-  const frot_model *m = in->m;
-  const frot_contact_mode *trial = in->w->search.trial;
-  for (int c = 0; c < count; c++) {
-    if (trial[chosen[c]].unloaded) return 1;
-    for (int e = 0; e < m->n_elements; e++)
-      if (m->elements[e].contact == chosen[c] && trial[m->n_contacts + e].at_bound != 0) return 1;
-  }
-  return 0;
-}
-
-/* Where reactions are not unique and some are not admissible, but others could carry instead: put
- * the worst at its bound or without load. Returns 1 when one was put there. */
-static int let_others_carry(const frot_instant *in, const int *chosen, int count) {
-  const frot_model *m = in->m;
-  frot_contact_mode *trial = in->w->search.trial;
-  int worst_contact, worst_element;
-  if (!find_worst(in, chosen, count, &worst_contact, &worst_element)) return 0;
-  if (worst_contact >= 0) {
-    trial[worst_contact].unloaded = 1;
-    return 1;
-  }
-  trial[m->n_contacts + worst_element].at_bound =
-      in->w->core.lam[m->elements[worst_element].row] > 0 ? 1 : -1;
   return 1;
 }
 
@@ -233,20 +199,6 @@ int frot_is_admissible(const frot_instant *in, const int *chosen, int count) {
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
   memcpy(w->reactions.along, in->s->data + in->l.along, sizeof(double) * 2 * (size_t)m->n_elements);
   if (frot_group_reactions(m, w, g, w->search.trial, in->at_rest)) return 0;
-  int dependent = w->reactions.dependent, worst;
-  if (dependent &&
-      (gives_bounds(in, chosen, count) || find_worst(in, chosen, count, &worst, &worst))) {
-    enum frot_share share = frot_share_load(in, chosen, count);
-    if (share == FROT_NO_SHARE) return 0;
-    dependent = share != FROT_SHARED;
-  }
-  while (dependent && let_others_carry(in, chosen, count))
-    if (frot_group_reactions(m, w, g, w->search.trial, in->at_rest)) return 0;
-  for (int c = 0; c < count; c++)
-    if (!contact_is_admissible(in, chosen[c])) return 0;
-  for (int i = 0; i < g->n_elements; i++) {
-    int e = g->elements[i];
-    if (w->search.trial[m->elements[e].contact].closed && !element_is_admissible(in, e)) return 0;
-  }
-  return goes_on(in, g);
+  if (!w->reactions.dependent) return frot_reactions_hold(in, chosen, count) && goes_on(in, g);
+  return frot_others_carry(in, chosen, count) && goes_on(in, g);
 }

@@ -14,7 +14,7 @@
 #include "turns.h"
 #include "tolerances.h"
 
-#define WAY 1e-3  /* how far the mechanism moves, in radians or parts of a coordinate */
+#define WAY 1e-3  /* how far the mechanism moves, in radians or parts of its length */
 #define SEEN 1e-6 /* part of the motion in the row above which it slips */
 
 /* Whether the group is at rest and the accelerations are what rounding leaves of loads that cancel.
@@ -26,13 +26,27 @@ static int rests(const frot_instant *in, const frot_group *g) {
          frot_square_of(in->w, g, in->w->core.a) <= limit * limit;
 }
 
+/* A length of the group: that of what its gaps are made of; of coordinates where it has no gaps. */
+static double length_of(const frot_instant *in, const frot_group *g) {
+  const frot_model *m = in->m;
+  double gaps = 0, places = 0;
+  for (int i = 0; i < g->n_contacts; i++)
+    gaps = fmax(gaps, in->s->data[in->l.reach + g->contacts[i]]);
+  for (int k = 0; k < g->n_speeds; k++) {
+    int coordinate = m->speed_coordinate[g->unknowns[k]];
+    if (coordinate >= 0 && !m->speed_turns[g->unknowns[k]])
+      places = fmax(places, fabs(in->q[coordinate]));
+  }
+  return gaps > 0 ? gaps : places > 0 ? places : 1;
+}
+
 double frot_time_of_way(const frot_instant *in, const frot_group *g) {
   const frot_model *m = in->m;
-  double shortest = INFINITY;
+  double shortest = INFINITY, length = length_of(in, g);
   for (int k = 0; k < g->n_speeds; k++) {
-    int speed = g->unknowns[k], coordinate = m->speed_coordinate[speed];
+    int speed = g->unknowns[k];
     double v = fabs(in->v[speed]), a = fabs(in->w->core.a[speed]);
-    double way = WAY * fmax(1, coordinate >= 0 ? fabs(in->q[coordinate]) : 1);
+    double way = WAY * (m->speed_turns[speed] ? 1 : length);
     if (v == 0 && a == 0) continue;
     shortest = fmin(shortest, 2 * way / (v + sqrt(v * v + 2 * a * way)));
   }

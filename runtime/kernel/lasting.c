@@ -75,11 +75,11 @@ static int note_margins(const frot_instant *in, const int *chosen, int count) {
   for (int c = 0; c < count; c++) {
     double *own = margin + chosen[c];
     *own = margin_of_contact(in, chosen[c]);
-    if (in->fired[chosen[c]] != 0 && *own < 1) *own = fmin(*own, 0);
+    if (in->fired[chosen[c]] != 0 && *own < 1) *own = 0;
     for (int e = 0; e < m->n_elements; e++) {
       if (m->elements[e].contact != chosen[c]) continue;
       own = margin + m->n_contacts + e, *own = margin_of_element(in, e);
-      if (fired(in, e) && *own < 1) *own = fmin(*own, 0);
+      if (fired(in, e) && *own < 1) *own = 0;
     }
   }
   for (int k = 0; k < m->n_contacts + m->n_elements; k++)
@@ -132,13 +132,14 @@ static int still_holds(const frot_instant *in, const int *chosen, int count) {
   const double *margin = in->w->search.margin;
   for (int c = 0; c < count; c++) {
     int i = chosen[c];
-    frot_contact_mode *mode = &in->w->search.trial[i];
+    const frot_contact_mode *mode = &in->w->search.trial[i];
     if (margin[i] < 1) {
       double now = margin_of_contact(in, i);
-      if (now < 0 && mode->closed && in->unilateral[i] == 0 && frot_all_held(in, i))
-        mode->side = (signed char)(margin[i] <= FROT_ZERO ? -mode->side : mode->side);
-      else if (now < 0 && now < margin[i] - CLEARLY)
+      if (now < 0 && mode->closed && in->unilateral[i] == 0 && frot_all_held(in, i)) {
+        if (margin[i] <= FROT_ZERO) frot_turn_side(in, i);
+      } else if (now < 0 && now < margin[i] - CLEARLY) {
         return 0;
+      }
     }
     for (int e = 0; e < m->n_elements; e++) {
       if (m->elements[e].contact != i || !(margin[m->n_contacts + e] < 1)) continue;

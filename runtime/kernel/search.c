@@ -84,7 +84,8 @@ static int contact_options(const frot_instant *in, int i, int forced, option *li
         int turns = changes && !one_sided;
         if (side < 0 && (one_sided || !acts)) continue;
         if (turns && side == before.side) continue;
-        if (side < 0 && !turns && held) continue; /* the side follows from the reaction */
+        /* the side follows from the reaction, but friction at its bound from the side */
+        if (side < 0 && !turns && held && !modes[0][a].at_bound && !modes[1][b].at_bound) continue;
         for (int unloaded = unloads; unloaded >= 0; unloaded--, n++)
           list[n] = (option){{1, (signed char)side, (signed char)unloaded, 0, 0, {0}},
                              {modes[0][a], modes[1][b]}};
@@ -224,6 +225,7 @@ int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count) {
       w->search.trial[m->n_contacts + own[k]] = *before;
     }
   }
+  w->search.corners = FROT_ENOUGH;
   if (frot_share_load(in, chosen, count) != FROT_SHARED) return 0;
   if (!frot_is_admissible(in, chosen, count) || !frot_lasts(in, chosen, count)) return 0;
   remember(in, chosen, count);
@@ -264,6 +266,7 @@ int frot_search(const frot_instant *in, const int *chosen, int count, int forced
   double combinations = 1;
   for (int c = 0; c < count; c++) combinations *= contact_options(in, chosen[c], forced, lists);
   memset(w->search.trial, 0, sizeof *w->search.trial * (size_t)(m->n_contacts + m->n_elements));
+  w->search.corners = FROT_ENOUGH;
   if (combinations <= FROT_ENOUGH) return enumerate(in, chosen, count, forced, lasting, NULL);
   *unsearched = 1;
   int motions = search_near(in, chosen, count, forced, lasting, forced);

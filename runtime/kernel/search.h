@@ -26,9 +26,24 @@ int frot_bounds_something(const frot_model *m, const frot_work *w, int element);
  * that let the others carry. */
 int frot_is_admissible(const frot_instant *in, const int *chosen, int count);
 
+/* What is left of a bound when an element holds, over its size: negative beyond the slack. */
+double frot_reserve(const frot_instant *in, int element);
+/* The same of a contact that must press. */
+double frot_pressure(const frot_instant *in, int contact);
+/* Whether the reactions as they are satisfy every inequality of the contacts. */
+int frot_reactions_hold(const frot_instant *in, const int *chosen, int count);
+
+/* Where reactions are not unique: whether they hold with some elements at their bounds and some
+ * contacts without load, which are set in w->search.trial (others.c). */
+int frot_others_carry(const frot_instant *in, const int *chosen, int count);
+
 /* Whether every law of a contact holds in w->search.trial, so that the side it is pressed on
  * follows from its reaction. */
 int frot_all_held(const frot_instant *in, int contact);
+
+/* The side of a contact that its reaction presses on is the other: friction at its bound, whose
+ * line goes through zero with the reaction, turns with it. */
+void frot_turn_side(const frot_instant *in, int contact);
 
 /* Whether the motion of w->search.trial, which frot_is_admissible has found good, lasts: what is
  * zero in it at the instant is not past its bound a little later (lasting.c). Gives a reaction that

@@ -14,7 +14,7 @@ import frot
 def scenes() -> frot.Model:
     """A rod with two laws at one contact beside a smooth one; a bead on a rough rail, whose loads
     all vanish at some instants; a point where a rough rail and a smooth line meet, with a plate
-    that is drawn off it."""
+    that is drawn off it; a bar that a pin and a rough rail lock, turned to and fro."""
     return frot.compile("""
 planar model Shared
   world(gravity = 0 m/s^2);
@@ -49,7 +49,13 @@ planar model Shared
   liaison touch: point_courbe(point, top, unilateral = true) with coulomb(0.1);
   force away: on(plate, value = 3*heavy*g*(sin(turn + 1), -cos(turn + 1)));
   force down: on(point, value = heavy*g*cos(w*time)*(-sin(turn), cos(turn)));
+  frame pivot on ground at size*(5*cos(turn) + 2*cos(turn + 0.6), 5*sin(turn) + 2*sin(turn + 0.6));
+  body bar: rod(mass = heavy, length = 2*size);
+  liaison hinge: rotoide(pivot, bar.tip);
+  liaison guide: point_courbe(bar.start, floor, unilateral = false) with coulomb(mu);
+  force twist: couple(bar, value = heavy*g*size*sin(w*time + 0.4));
 initial
+  bar.angle = turn + 0.6;
   rod.position = (0, 0) m;
   rod.angle = turn;
   bead.position = 2*size*(cos(turn), sin(turn));
@@ -82,12 +88,17 @@ def test_rest_lasts_as_long_as_any_share_holds(seed: int) -> None:
     ends = mu * (1 - bend) / (1 - delta)
     left = [e.time for e in result.events if e.liaison == "rough" and e.kind == "slip"]
     assert left[:1] == pytest.approx([ends], rel=1e-9)
-    for name in ("bead", "point"):
+    for name in ("bead", "point", "bar"):
         for axis in "xy":
             assert np.all(at[f"{name}.velocity.{axis}"] == 0)
     force = heavy * g * np.sin(values["w"] * t + 0.4) * np.sin(ahead)
     normal = at["rail.force.y"] * np.cos(turn) - at["rail.force.x"] * np.sin(turn)
     assert np.abs(normal) == pytest.approx(np.abs(force), rel=1e-9, abs=1e-12 * heavy * g)
+    # about the pivot the rail's reaction balances the couple
+    arm = -2 * size * np.array([np.cos(turn + 0.6), np.sin(turn + 0.6)])
+    moment = arm[0] * at["guide.force.y"] - arm[1] * at["guide.force.x"]
+    twist = heavy * g * size * np.sin(values["w"] * t + 0.4)
+    assert np.abs(moment) == pytest.approx(np.abs(twist), rel=1e-8, abs=1e-11 * heavy * g * size)
     for k, x in (("x", np.sin(turn + 1)), ("y", -np.cos(turn + 1))):
         assert at[f"plate.position.{k}"] == pytest.approx(g * x * t**2 / 2, rel=1e-8)
     assert not [e for e in result.events if e.kind == "several"]

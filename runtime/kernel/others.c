@@ -1,0 +1,119 @@
+/* Reactions that are not unique: which elements are at their bounds and which contacts carry
+ * nothing, so that the others carry the load.
+ *
+ * Where friction is bounded by cones of reactions that press, a linear program says it (share.c).
+ * Else the worst is put at its bound until none is left, and where that leads nowhere each is
+ * tried: the reactions that hold a load are a body with edges, and where it is not empty it has a
+ * corner, at which as many inequalities are equalities as reactions are not unique. */
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "reactions.h"
+#include "search.h"
+#include "tolerances.h"
+
+/* The loaded contact whose reaction is worst beyond what is admissible or, if none is, the element;
+ * -1 for the other. Returns whether there is any. */
+static int find_worst(const frot_instant *in, const int *chosen, int count, int *contact,
+                      int *friction) {
+  const frot_model *m = in->m;
+  const frot_contact_mode *trial = in->w->search.trial;
+  double most = -FROT_BOUND_SLACK;
+  int worst_contact = -1, worst_element = -1;
+  for (int c = 0; c < count; c++) {
+    int i = chosen[c];
+    if (!frot_is_loaded(m, trial, i) || in->unilateral[i] == 0) continue;
+    double left = frot_pressure(in, i);
+    if (left < most) most = left, worst_contact = i;
+  }
+  for (int e = 0; e < m->n_elements && worst_contact < 0; e++) {
+    int among = 0;
+    for (int c = 0; c < count; c++) among |= chosen[c] == m->elements[e].contact;
+    if (!among || !frot_is_held(m, trial, e)) continue;
+    double left = frot_reserve(in, e);
+    if (left < most) most = left, worst_element = e;
+  }
+  *contact = worst_contact, *friction = worst_element;
+  return worst_contact >= 0 || worst_element >= 0;
+}
+
+/* Whether the modes say of a contact that it carries nothing, or of an element that it is at its
+ * bound. */
+static int gives_bounds(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  const frot_contact_mode *trial = in->w->search.trial;
+  for (int c = 0; c < count; c++) {
+    if (trial[chosen[c]].unloaded) return 1;
+    for (int e = 0; e < m->n_elements; e++)
+      if (m->elements[e].contact == chosen[c] && trial[m->n_contacts + e].at_bound != 0) return 1;
+  }
+  return 0;
+}
+
+/* The reactions of w->search.trial anew. Returns 0 where there are none. */
+static int solve(const frot_instant *in, int contact) {
+  const frot_group *g = &in->m->groups[in->m->contact_group[contact]];
+  return !frot_group_reactions(in->m, in->w, g, in->w->search.trial, in->at_rest);
+}
+
+/* Put the worst at its bound or without load until nothing is beyond what is admissible. */
+static int relieve(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  frot_contact_mode *trial = in->w->search.trial;
+  int contact, element;
+  while (find_worst(in, chosen, count, &contact, &element)) {
+    if (contact >= 0)
+      trial[contact].unloaded = 1;
+    else
+      trial[m->n_contacts + element].at_bound =
+          in->w->core.lam[m->elements[element].row] > 0 ? 1 : -1;
+    if (!solve(in, chosen[0])) return 0;
+  }
+  return frot_reactions_hold(in, chosen, count);
+}
+
+/* Whether reactions hold with more of the contacts and elements from `first` on at their bounds;
+ * the first of each contact stands before its elements. Reactions of w->search.trial are solved. */
+static int find_corner(const frot_instant *in, const int *chosen, int count, int first) {
+  const frot_model *m = in->m;
+  frot_contact_mode *trial = in->w->search.trial;
+  if (!in->w->reactions.dependent) return frot_reactions_hold(in, chosen, count);
+  int all = count + m->n_elements;
+  for (int k = first; k < all; k++) {
+    int e = k - count, contact = e < 0 ? chosen[k] : m->elements[e].contact, among = e < 0;
+    for (int c = 0; c < count; c++) among |= chosen[c] == contact;
+    if (!among || (e < 0 ? !frot_is_loaded(m, trial, contact) || in->unilateral[contact] == 0
+                         : !frot_is_held(m, trial, e)))
+      continue;
+    for (int way = 1; way >= (e < 0 ? 1 : -1); way -= 2) {
+      if (in->w->search.corners-- <= 0) return 0;
+      if (e < 0)
+        trial[contact].unloaded = 1;
+      else
+        trial[m->n_contacts + e].at_bound = (signed char)(way * trial[contact].side);
+      if (solve(in, chosen[0]) && find_corner(in, chosen, count, k + 1)) return 1;
+      if (e < 0)
+        trial[contact].unloaded = 0;
+      else
+        trial[m->n_contacts + e].at_bound = 0;
+    }
+  }
+  return 0;
+}
+
+int frot_others_carry(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  frot_contact_mode *trial = in->w->search.trial, *before = in->w->search.corner;
+  size_t modes = sizeof *trial * (size_t)(m->n_contacts + m->n_elements);
+  int worst;
+  if (!gives_bounds(in, chosen, count) && !find_worst(in, chosen, count, &worst, &worst))
+    return frot_reactions_hold(in, chosen, count);
+  enum frot_share share = frot_share_load(in, chosen, count);
+  if (share == FROT_NO_SHARE) return 0;
+  if (share == FROT_SHARED) return frot_reactions_hold(in, chosen, count);
+  memcpy(before, trial, modes);
+  if (relieve(in, chosen, count)) return 1;
+  memcpy(trial, before, modes);
+  return solve(in, chosen[0]) && find_corner(in, chosen, count, 0);
+}
