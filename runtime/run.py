@@ -16,6 +16,7 @@ from frot.runtime.engine import (
     STOPPED,
     TERMINATED,
     Engine,
+    Fault,
     Floats,
     RawEvent,
 )
@@ -31,6 +32,7 @@ from frot.runtime.settings import read_option, read_settings
 MOST_POINTS = 10_000_000
 TOLERANCES = (1e-14, 1e-1)
 _GOOD = (OK, STOPPED, TERMINATED)
+POSTURE = 31
 
 CODES = {
     10: "E0401",
@@ -45,7 +47,7 @@ CODES = {
     24: "E0908",
     25: "E0908",
     30: "E0909",
-    31: "E0910",
+    POSTURE: "E0910",
     32: "E0911",
 }
 
@@ -222,10 +224,21 @@ def _fault(engine: Engine, result: Result | None) -> SimulationError:
         engine.fault_text,
         None,
         notes=tuple(f"at {place}" for place in places),
-        help=_HELP.get(engine.fault.status, ""),
+        help=_help(engine.fault),
     )
     return SimulationError(log, result)
 
+
+def _help(fault: Fault) -> str:
+    """The remedy: of a posture in which no step has been taken, to begin elsewhere."""
+    begins = fault.status == POSTURE and fault.value == 0
+    return _BEGIN_BESIDE if begins else _HELP.get(fault.status, "")
+
+
+_BEGIN_BESIDE = (
+    "begin beside that posture: state a place a little before it, or beyond it on the way that "
+    "the loop is to go"
+)
 
 _HELP = {
     10: "give the parameter it comes from another value",
@@ -240,7 +253,7 @@ _HELP = {
     22: "give start values near the solution, or keep the motion away from there",
     23: "look at what leads there, or weaken the assertion",
     30: "write the event so that it says one thing",
-    31: "give it more speed there, or keep it away from there by a stop or by other lengths",
+    POSTURE: "give it more speed there, or keep it away from there by a stop or by other lengths",
     32: "state or guess another place, keep the motion away from there, or give the figure another "
     "form; what touches along a line is a `lineaire_rectiligne`, or a model of the plane",
     19: "give every body a mass and an inertia of a usual size",

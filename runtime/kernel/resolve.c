@@ -208,7 +208,8 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
       int fault = unsearched                  ? FROT_TOO_LARGE
                   : only_loops(in, chosen[0]) ? FROT_POSTURE
                                               : FROT_IMPASSE;
-      return frot_fail(in->s, fault, t, chosen[0], -1, -1, count);
+      int begins = fault == FROT_POSTURE && in->s->statistics.steps == 0; /* text.c */
+      return frot_fail(in->s, fault, t, chosen[0], -1, -1, begins ? 0 : count);
     }
     if (motions < 2) continue;
     if (!several) several = motions, several_at = chosen[0];

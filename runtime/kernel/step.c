@@ -226,7 +226,8 @@ static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attemp
     if (begun == FROT_OK) return FROT_OK;
   }
   int weak = frot_posture_at(m, s, w, a->t);
-  if (ends < 0 && weak >= 0) return frot_fail(s, FROT_POSTURE, a->t, weak, -1, -1, a->h);
+  double tried = s->statistics.steps > 0 ? a->h : 0; /* the run begins there: text.c */
+  if (ends < 0 && weak >= 0) return frot_fail(s, FROT_POSTURE, a->t, weak, -1, -1, tried);
   if (ends < 0)
     return frot_fail_step(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, a->t, a->h);
   frot_fire_at_start(s, w, ends);

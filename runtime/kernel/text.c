@@ -256,6 +256,13 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       vanished_text(m, f, text, size);
       return;
     case FROT_POSTURE:
+      if (f->value == 0) { /* no step has been taken */
+        snprintf(text, size,
+                 "liaison '%s': at the start, t = %.17g, relations of the loop that it closes "
+                 "depend on each other, and several motions begin there",
+                 name, f->t);
+        return;
+      }
       snprintf(
           text, size,
           "liaison '%s': next to t = %.17g relations of the loop that it closes depend on each "

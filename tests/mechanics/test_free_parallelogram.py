@@ -59,7 +59,9 @@ def test_a_start_in_the_posture_ends_by_name(model: frot.Model, w: float) -> Non
     with pytest.raises(frot.FrotError) as told:
         model.simulate(parameters={"th": 0.0, "w": w})
     assert told.value.diagnostics[0].code == "E0910"
-    assert "liaison 'D'" in str(told.value)
+    assert "liaison 'D': at the start" in str(told.value)
+    assert "several motions begin there" in str(told.value)
+    assert "begin beside that posture" in str(told.value)
 
 
 def test_at_rest_it_rests_there(model: frot.Model) -> None:
