@@ -273,18 +273,24 @@ def _guess(
     """Where the search for the nearest values starts: `value`, moved by each guess in turn.
 
     What is `known` stays. A guess moves in the directions that the stronger ones before it leave.
+    Conditions, which nobody knows yet, are taken not to hold.
     """
     if not unknown.numel():
         return value
     here = {
         s.element_hash(): ca.SX(0) for x in (system.q, system.v, system.y) for s in scalars_of(x)
     }
-    here |= {**_values(unknown, value), **known}
+    reduced = system.reduced
+    flags, memory = column(reduced.conditions.flags), column(d.start for d in reduced.text.memory)
+    sides = reduced.symbols.sides
+    given = _values(flags, ca.SX.zeros(flags.shape)) | _values(sides, ca.SX.ones(sides.shape))
+    given |= _values(system.discrete, memory)
+    here |= {**given, **_values(unknown, value), **known}
     free = [s for s in scalars_of(unknown) if s.element_hash() not in known]
     taken: list[ca.SX] = []
     for left, right in reversed(_guesses(system, looking)):
         inside = {s.element_hash() for s in ca.symvar(left)} & here.keys()
-        own = {s.element_hash() for s in scalars_of(unknown)} | known.keys()
+        own = {s.element_hash() for s in scalars_of(unknown)} | known.keys() | given.keys()
         if not free or (unknown is system.q and inside - own):
             continue
         slope = replace_known(ca.jacobian(left, column(free)).T, here)

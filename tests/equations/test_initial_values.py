@@ -2,6 +2,7 @@
 
 from math import exp
 
+import numpy as np
 import pytest
 
 import frot
@@ -134,3 +135,21 @@ end Stepped;
         statement="", condition="x < 1", other="elsewhen initial() then n = if x > 1 then 2 else 1;"
     )
     assert frot.compile(set_by).simulate()["n"][-1] == 2
+
+
+def test_a_guess_may_be_of_what_a_condition_changes() -> None:
+    """x' = -3 x below one, from the root of x^3 + x = 2 that the guess is near."""
+    text = """
+model Switched
+  Real x; Real g;
+initial
+  x^3 + x = 2;
+  guess(g = 3);
+equation
+  der(x) = -g/(1 s);
+  g = 2*min(1, x) + x;
+  experiment(stop = 1 s, tolerance = 1e-9);
+end Switched;
+"""
+    result = frot.compile(text).simulate()
+    assert result["x"][[0, -1]] == pytest.approx([1, np.exp(-3)], rel=1e-8)
