@@ -168,9 +168,13 @@ static int contact_is_admissible(const frot_instant *in, int i) {
   frot_contact_mode *mode = &in->w->search.trial[i];
   if (!frot_has_normal(&in->m->contacts[i])) return 1;
   if (!mode->closed) {
-    double size, a = acceleration(in, row, &size);
-    return a > FROT_DEPARTURE_SLACK * size ||
-           (a >= -FROT_DEPARTURE_SLACK * size && !is_carried(in, row));
+    double size, a = acceleration(in, row, &size), below = FROT_DEPARTURE_SLACK * size;
+    if (a > below) return 1;
+    /* what pressed until its reaction came to zero, and would part no faster than that is zero */
+    if (in->fired[i] != 0 && in->w->search.before[i].closed)
+      below +=
+          FROT_ZERO * in->s->data[in->l.scale_g + i] * fabs(frot_effect(in->m, in->w, row, row));
+    return a >= -below && !is_carried(in, row);
   }
   if (mode->unloaded) return is_still(in, row) && is_carried(in, row);
   /* held all round, the side follows from the reaction */
