@@ -83,7 +83,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
     double error = joint > 0 ? fifth * fifth / joint : joint;
     error += DOUBTED * h * w->step.doubt[j];
-    double ratio = error / (bound + noise);
+    double ratio = error > 0 ? error / (bound + noise) : error; /* both may underflow */
     if (!(ratio <= worst)) {
       worst = ratio, w->step.worst = j < states ? w->awake.now->states[j] : -1;
       w->step.noisy = noise / error;
