@@ -7,6 +7,7 @@ typedef struct {
   double first;  /* its length at first */
   double stable; /* most that the next one may be */
   double ratio;  /* of its error to the bound */
+  double loose;  /* the same before its stages were put onto the relations of loops, or 0 */
   int to_due;    /* it ends where time changes a condition */
   int passed;    /* condition beyond which the last try had no value, or -1 */
   int rejections, changed, stiff;

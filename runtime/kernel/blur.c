@@ -15,7 +15,6 @@
 
 /* What rounding of a gap makes of the error of a speed, but for the posture's distance. */
 #define NOISE 5.0
-#define BESIDE 0.1 /* of what may be there, that is */
 /* Sine of the angle by which the direction of a weak row may turn in a step. */
 #define MOST_TURN 0.6
 
@@ -52,7 +51,7 @@ static double noise_of(const frot_model *m, frot_work *w, int row, double at, do
     double noise = gap * h / (left * distance * distance);
     along = fmax(along, noise), beside = fmax(beside, noise * fmin(1, turn + bend * distance));
   }
-  *across += BESIDE * beside;
+  *across += beside;
   return along;
 }
 

@@ -15,9 +15,15 @@ enum { COUNT = 11 };
 static const int in_order[COUNT] = {1, 2, 3, 6, 4, 7, 5, 9, 8, 10, 12};
 /* Part of a step up to which a stage is too near a posture. */
 #define NEAR 0.1
-/* In steps, how far before its start and beyond its end a posture is looked for. */
+/* In steps, how far before its start and beyond it a posture is looked for, and how far one is
+ * foreseen: stages off the relations show it from there, which shortens steps. */
 #define BEHIND (-1.0)
 #define AHEAD 2.0
+#define FAR 20.0
+/* Part of its error at most that a step keeps where that is so, and steps until it is tried again
+ * where it is not. */
+#define HELPS 0.5
+#define PAUSE 8
 /* For a step made another way: what is left of a weak row, and how soon it becomes dependent. */
 #define WEAK 0.1
 #define SOON 0.5
@@ -86,9 +92,12 @@ static int last_sound(const frot_model *m, const frot_work *w, int row, int reac
 }
 
 /* Where a row becomes dependent, as a part of the step; NAN if nowhere. What is left of it goes to
- * zero and on, with its sign, in a straight line. */
-static double find_zero(const frot_model *m, const frot_work *w, int row, int reached) {
+ * zero and on, with its sign, in a straight line. Where it is nowhere, *far is where it may be
+ * further off. */
+static double find_zero(const frot_model *m, const frot_work *w, int row, int reached,
+                        double *far) {
   double time[COUNT], left[COUNT];
+  *far = NAN;
   int n = 0, last = last_sound(m, w, row, reached);
   for (int k = 0; k < COUNT; k++) {
     if (in_order[k] > last) continue;
@@ -102,12 +111,13 @@ static double find_zero(const frot_model *m, const frot_work *w, int row, int re
              (time[k] - time[k - 1]) * fabs(left[k - 1]) / (fabs(left[k - 1]) + fabs(left[k]));
   double ahead = fabs(left[n - 2]) - fabs(left[n - 1]), behind = fabs(left[2]) - fabs(left[0]);
   if (ahead > 0) {
-    double at = time[n - 1] + (time[n - 1] - time[n - 2]) * fabs(left[n - 1]) / ahead;
-    if (at < AHEAD) return at;
+    *far = time[n - 1] + (time[n - 1] - time[n - 2]) * fabs(left[n - 1]) / ahead;
+    if (*far < AHEAD) return *far;
   }
   if (behind > 0) {
-    double at = time[0] - (time[2] - time[0]) * fabs(left[0]) / behind;
-    if (at > BEHIND) return at;
+    double before = time[0] - (time[2] - time[0]) * fabs(left[0]) / behind;
+    if (before > BEHIND) return before;
+    if (isnan(*far)) *far = before;
   }
   return NAN;
 }
@@ -135,8 +145,10 @@ int frot_meets_posture(const frot_model *m, const frot_state *s, const frot_work
  * nowhere. */
 static double locate(const frot_model *m, frot_state *s, const frot_work *w, int row, int reached,
                      double t, double h) {
-  double *posture = s->data + w->layout.posture + row, at = find_zero(m, w, row, reached);
-  double known = (*posture - t) / h;
+  double far, *posture = s->data + w->layout.posture + row;
+  double at = find_zero(m, w, row, reached, &far), known = (*posture - t) / h;
+  double seen = t + h * (isnan(at) ? far : at);
+  if (!(fabs(seen - t) >= fabs(s->foreseen - t))) s->foreseen = seen;
   if (isnan(at) && !(known > 0 && known < 1)) at = known;
   *posture = t + at * h;
   return at;
@@ -145,6 +157,7 @@ static double locate(const frot_model *m, frot_state *s, const frot_work *w, int
 int frot_find_crossings(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
                         int reached, int pass) {
   int weak = 0, again = 0, any = 0;
+  s->foreseen = INFINITY;
   unsigned char near[DP_STAGES + 1] = {0};
   for (int k = 0; k < w->awake.now->n_contacts; k++) {
     int i = w->awake.now->contacts[k];
@@ -157,9 +170,19 @@ int frot_find_crossings(const frot_model *m, frot_state *s, frot_work *w, double
     again |= near[k] != w->step.near[k], any |= near[k];
     w->step.near[k] = near[k];
   }
-  again |= weak && !s->weak;
+  again |= weak && s->tied <= 0;
   s->weak |= weak;
+  if (weak) s->tied = 1;
   return pass < PASSES && (again || (any && pass < PASSES - 1));
+}
+
+int frot_foresees_posture(const frot_model *m, const frot_state *s, const frot_work *w, double t,
+                          double h) {
+  return !s->tied && !s->implicit && frot_has_loops(m, s, w) && fabs(s->foreseen - t) < FAR * h;
+}
+
+void frot_judge_tie(frot_state *s, double tied, double loose) {
+  if (!s->weak && !(tied <= HELPS * loose)) s->tied = -PAUSE;
 }
 
 /* Whether a posture at `distance` is well placed in a step of this length, about h. Before the
@@ -236,10 +259,11 @@ int frot_passes(const frot_model *m, const frot_state *s, const frot_work *w, do
 void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w, double t,
                          double h) {
   const double *posture = s->data + w->layout.posture;
-  int passed = frot_passes(m, s, w, t, h);
+  int passed = frot_passes(m, s, w, t, h), near = fabs(s->foreseen - (t + h)) <= FAR * s->h;
   s->weak = 0;
   for (int row = 0; row < m->n_rows; row++)
     s->weak |= fabs(posture[row] - (t + h)) <= FOLLOWS * s->h;
+  s->tied = s->weak || (s->tied > 0 && near) ? 1 : s->tied < 0 ? s->tied + 1 : 0;
   s->statistics.crossings += passed;
   if (passed) s->across = INFINITY;
 }

@@ -4,10 +4,12 @@
  * There the relations do not tell how the loop goes on, and next to it, at a distance d (in parts
  * of a turn), they tell it with the error of rounding over d^3. The motion itself is smooth, and
  * it goes straight on. So near such a posture each stage of a step is put onto the relations before
- * it is evaluated (an error along the weak row would be worth its cube there), and the slope in a
- * stage that is too near is not evaluated: it lies on the polynomial through those of the others.
- * What rounding leaves in the weak row is no error of the motion, for the projection takes it away
- * again along that row, and keeps the momentum of all the rest. */
+ * it is evaluated (an error along the weak row would be worth its cube there), and from further off
+ * where that makes the error of a step much smaller (off the relations there is a pole in its
+ * place, and steps would shorten in proportion to the distance). The slope in a stage that is too
+ * near is not evaluated: it lies on the polynomial through those of the others. What rounding
+ * leaves in the weak row is no error of the motion, for the projection takes it away again along
+ * that row, and keeps the momentum of all the rest. */
 #ifndef FROT_CROSSING_H
 #define FROT_CROSSING_H
 
@@ -36,6 +38,16 @@ int frot_meets_posture(const frot_model *m, const frot_state *s, const frot_work
  * to be run again for it. */
 int frot_find_crossings(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
                         int reached, int pass);
+
+/* Whether stages off the relations may be what makes the error of the step h from t too large: they
+ * are, and a posture is foreseen, by the order of the method from further off than it makes rows
+ * weak. */
+int frot_foresees_posture(const frot_model *m, const frot_state *s, const frot_work *w, double t,
+                          double h);
+
+/* The step has run with its stages put onto the relations, and loose: they stay so if that makes
+ * its error much smaller. */
+void frot_judge_tie(frot_state *s, double tied, double loose);
 
 /* The slope of a stage that is too near, from those of the others up to `reached`. */
 void frot_interpolate_stage(const frot_model *m, frot_work *w, int stage, int reached);

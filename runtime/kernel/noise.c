@@ -9,6 +9,9 @@
 #include "stages.h"
 #include "tolerances.h"
 
+/* Part of what rounding may make of terms at most that it usually makes. */
+#define USUAL 0.25
+
 /* What rounding of their terms brings to accelerations at the place z, however small they are:
  * where terms cancel, it is not seen by moving the values. Those with a `largest` above it are
  * left. */
@@ -22,7 +25,7 @@ static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, doubl
     if (state < m->nq) continue;
     double rounding = FROT_ROUNDING * size[state - m->nq];
     if (largest && largest[j] > FROT_NOISE_MARGIN * rounding) continue;
-    noise[state] = fmax(noise[state], rounding);
+    noise[state] = fmax(noise[state], largest ? rounding : USUAL * rounding);
   }
 }
 

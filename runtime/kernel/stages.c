@@ -63,10 +63,10 @@ int frot_has_jammed(const frot_state *s, const frot_work *w) {
   return 0;
 }
 
-/* Stage i at the values z. Where rows are weak, these are put onto the relations first. */
+/* Stage i at the values z, which are put onto the relations first where that matters. */
 static int evaluate(const frot_model *m, frot_state *s, frot_work *w, double t, double *z, int i) {
   int moved;
-  if (s->weak && !(i <= DP_STAGES && w->step.near[i])) {
+  if (s->tied > 0 && !(i <= DP_STAGES && w->step.near[i])) {
     const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
     int status = frot_project(m, s, w, t, z, z + m->nq, s->data + w->layout.d, modes, NULL, &moved);
     if (status != FROT_OK) return status;

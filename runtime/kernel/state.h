@@ -41,15 +41,17 @@ struct frot_state {
   unsigned long long size; /* bytes of the block */
   char key[FROT_KEY];
   int phase;
-  int pending;   /* an event waits at the end of the current segment */
-  int has_slope; /* slope holds the derivatives at the end of the current segment */
-  int changed;   /* parameters or inputs were set since the last frot_settle */
-  int crowded;   /* events since the time last moved on */
-  int jumped;    /* the last event of the text moved coordinates or speeds */
-  int several;   /* groups of contacts had several motions at the start: to be told as events */
-  int asleep;    /* islands that sleep: see awake.h */
-  int naps;      /* times that this has changed */
-  int weak;      /* rows of loops are weak: crossing.h */
+  int pending;     /* an event waits at the end of the current segment */
+  int has_slope;   /* slope holds the derivatives at the end of the current segment */
+  int changed;     /* parameters or inputs were set since the last frot_settle */
+  int crowded;     /* events since the time last moved on */
+  int jumped;      /* the last event of the text moved coordinates or speeds */
+  int several;     /* groups of contacts had several motions at the start: to be told as events */
+  int asleep;      /* islands that sleep: see awake.h */
+  int naps;        /* times that this has changed */
+  double foreseen; /* the nearest singular posture, as the last step shows it, or INFINITY */
+  int weak;        /* rows of loops are weak: crossing.h */
+  int tied; /* stages are put onto the relations of loops: crossing.h; < 0: not for some steps */
   double across; /* error, to its bound, of the last step that tried to pass a posture ahead */
   int implicit;  /* the next step is made by the implicit method */
   int stiff_steps, calm_steps; /* see stiffness.h */

@@ -161,6 +161,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   }
   a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &part) : -1;
   a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
+  if (a->loose > 0) frot_judge_tie(s, a->ratio, a->loose), a->loose = 0;
   a->forced = a->blurred;
   if (a->forced) frot_take_forced(s, a);
   if (s->weak && a->ratio <= 1) a->ratio = fmax(a->ratio, pow(frot_turning(m, s, w, t, h), 8));
@@ -191,6 +192,10 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
     a->ratio = NAN;
   }
   s->statistics.rejected++;
+  if (a->passed < 0 && frot_foresees_posture(m, s, w, t, h)) {
+    s->tied = 1, a->loose = a->ratio > 1 ? a->ratio : INFINITY;
+    return FROT_DIVERGE;
+  }
   a->to_due = 0;
   a->rejections++;
   if (a->ratio > 1 && (a->rejections % PATIENCE == 0 || w->step.noisy > NOISY))
@@ -262,6 +267,8 @@ static int find_length(const frot_model *m, frot_state *s, frot_work *w, frot_at
   double factor = a->ratio > 0 ? change_of_length(m, s, w, a->ratio) : MOST_GROWTH;
   factor = fmin(factor, trend(m, s, a));
   factor = fmin(fmax(factor, LEAST_PART), a->rejections ? 1 : MOST_GROWTH);
+  if (factor < 1 && !a->to_due && frot_foresees_posture(m, s, w, a->t, a->h))
+    factor = 1; /* a tied step need not be shorter */
   if (w->step.noisy >= 1)
     factor = fmax(factor, 1); /* noise grows with the step as its bound does */
   s->h = fmin(a->h * factor, fmin(a->longest, a->stable));
