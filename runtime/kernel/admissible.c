@@ -9,6 +9,7 @@
 #include "guards.h"
 #include "reactions.h"
 #include "search.h"
+#include "terms.h"
 #include "tolerances.h"
 
 /* Acceleration of a row and the size of its terms, for the comparison with zero. */

@@ -11,6 +11,7 @@
 #include "projection.h"
 #include "reactions.h"
 #include "search.h"
+#include "terms.h"
 #include "turns.h"
 #include "tolerances.h"
 

@@ -11,6 +11,7 @@
 #include "inertia.h"
 #include "linear.h"
 #include "stages.h"
+#include "terms.h"
 #include "tolerances.h"
 
 /* What rounding of a gap makes of the error of a speed, but for the posture's distance. */

@@ -9,6 +9,7 @@
 #include "mechanics.h"
 #include "spare.h"
 #include "stages.h"
+#include "terms.h"
 
 static const frot_contact_mode *modes_of(const frot_state *s, const frot_work *w) {
   return (const frot_contact_mode *)(const void *)(s->data + w->layout.modes);

@@ -5,6 +5,7 @@
 
 #include "core.h"
 #include "reactions.h"
+#include "terms.h"
 #include "tolerances.h"
 
 int frot_sign_matters(const frot_model *m, const frot_contact_mode *modes, int i) {

@@ -10,6 +10,7 @@
 #include "record.h"
 #include "resolve.h"
 #include "supports.h"
+#include "terms.h"
 #include "tolerances.h"
 
 #define SHRINKING \

@@ -12,6 +12,7 @@
 #include "problem.h"
 #include "reactions.h"
 #include "spare.h"
+#include "terms.h"
 #include "tolerances.h"
 
 /* Row k of those of a contact that is kept without a reaction of its own, then of its elements that

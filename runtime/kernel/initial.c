@@ -9,6 +9,7 @@
 #include "nearest.h"
 #include "sides.h"
 #include "statements.h"
+#include "terms.h"
 #include "tolerances.h"
 
 #define ROUNDS 10 /* of conditions that depend on values that depend on conditions */

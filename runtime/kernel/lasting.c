@@ -13,6 +13,7 @@
 #include "projection.h"
 #include "reactions.h"
 #include "search.h"
+#include "terms.h"
 #include "tolerances.h"
 #include "turns.h"
 

@@ -11,6 +11,7 @@
 #include "mechanics.h"
 #include "projection.h"
 #include "stages.h"
+#include "terms.h"
 #include "tolerances.h"
 #include "turns.h"
 

@@ -7,6 +7,7 @@
 #include "groups.h"
 #include "mechanics.h"
 #include "stages.h"
+#include "terms.h"
 #include "tolerances.h"
 
 /* Part of what rounding may make of terms at most that it usually makes. */

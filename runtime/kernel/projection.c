@@ -7,6 +7,7 @@
 #include "invariants.h"
 #include "linear.h"
 #include "spare.h"
+#include "terms.h"
 #include "tolerances.h"
 #include "turns.h"
 

@@ -10,6 +10,7 @@
 #include "projection.h"
 #include "record.h"
 #include "search.h"
+#include "terms.h"
 #include "tolerances.h"
 
 /* The speed that the loads bring a row in the next step. What begins from rest has no other to be

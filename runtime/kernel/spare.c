@@ -5,6 +5,7 @@
 
 #include "core.h"
 #include "projection.h"
+#include "terms.h"
 #include "tolerances.h"
 
 void frot_note_spare(const frot_model *m, frot_state *s, const frot_work *w) {

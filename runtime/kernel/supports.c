@@ -8,6 +8,7 @@
 #include "core.h"
 #include "guards.h"
 #include "record.h"
+#include "terms.h"
 #include "tolerances.h"
 
 /* The values noted: gaps, rates, places of the carried bodies, invariants. */

@@ -1,0 +1,156 @@
+#include "terms.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "islands.h"
+#include "linear.h"
+#include "tolerances.h"
+
+double frot_row_size(const frot_model *m, const frot_work *w, int row, const double *v) {
+  const frot_group *g = frot_group_of(m, row);
+  const double *entries = frot_entries(m, w->core.rows, row);
+  double sum = 0;
+  for (int k = 0; k < g->n_speeds; k++) sum += fabs(entries[k] * v[g->unknowns[k]]);
+  return sum;
+}
+
+double frot_gap_size(const frot_model *m, const frot_work *w, int row, const double *q) {
+  const frot_group *g = frot_group_of(m, row);
+  const double *entries = frot_entries(m, w->core.rows, row);
+  double sum = 0;
+  for (int k = 0; k < g->n_speeds; k++) {
+    int coordinate = m->speed_coordinate[g->unknowns[k]];
+    if (coordinate >= 0)
+      sum += fabs(entries[k] * q[coordinate]);
+    else if (m->n_turns > 0 && m->speed_turns[g->unknowns[k]])
+      sum += fabs(entries[k]); /* an orientation has the size of a radian */
+  }
+  return sum;
+}
+
+double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v) {
+  const frot_group *g = frot_group_of(m, row);
+  int ns = g->n_speeds;
+  double *half = w->core.rest;
+  memcpy(half, frot_entries(m, w->core.rows, row), sizeof(double) * (size_t)ns);
+  frot_inwards(w, g, half);
+  return sqrt(frot_square_of(w, g, v) * frot_dot(half, half, ns));
+}
+
+double frot_least_length(const frot_model *m, frot_work *w, int row, double own) {
+  int normal = m->row_beside[row];
+  if (normal < 0) return FROT_DEPENDENT * own;
+  const frot_group *g = frot_group_of(m, normal);
+  int ns = g->n_speeds, at = m->row_reads[normal];
+  double *half = w->core.rest, beside;
+  if (at < 0) {
+    memcpy(half, frot_entries(m, w->core.rows, normal), sizeof(double) * (size_t)ns);
+    frot_inwards(w, g, half);
+    beside = sqrt(frot_dot(half, half, ns));
+  } else if (!g->general) {
+    double inertia = frot_mass_column(w, g, at, half);
+    frot_inwards(w, g, half);
+    inertia -= frot_dot(half, half, ns);
+    beside = inertia > 0 ? 1 / sqrt(inertia) : 0;
+  } else {
+    beside = own;
+  }
+  return FROT_DEPENDENT * fmax(own, beside);
+}
+
+/* size <- |L^-1| load (n_speeds), column after column of the inverse. */
+static void spread_along_tree(frot_work *w, const frot_group *g, const double *load, double *size) {
+  int ns = g->n_speeds;
+  double *column = w->core.rest;
+  memset(size, 0, sizeof(double) * (size_t)ns);
+  for (int k = 0; k < ns; k++) {
+    memset(column, 0, sizeof(double) * (size_t)ns);
+    column[k] = load[g->unknowns[k]];
+    if (column[k] == 0) continue;
+    frot_inwards(w, g, column);
+    for (int i = 0; i < ns; i++) size[i] += fabs(column[i]);
+  }
+}
+
+/* size <- |L^-1| load (n_speeds), or a bound of it. */
+static void spread_in_factor(frot_work *w, const frot_group *g, const double *load, double *size) {
+  const double *factor = w->core.factor + g->metric;
+  int ns = g->n_speeds;
+  if (g->n_links > 0) {
+    spread_along_tree(w, g, load, size);
+    return;
+  }
+  for (int i = 0; i < ns; i++) {
+    double sum = load[g->unknowns[i]];
+    for (int k = 0; k < i; k++) sum += fabs(factor[k * ns + i]) * size[k];
+    size[i] = sum / factor[i * ns + i];
+  }
+}
+
+/* size <- |A^-1| load (n; of a mass matrix n_speeds), column after column of the inverse. */
+static void spread_in_inverse(frot_work *w, const frot_group *g, const double *load, double *size) {
+  int n = g->general ? g->n : g->n_speeds;
+  double *column = w->core.rest;
+  memset(size, 0, sizeof(double) * (size_t)n);
+  for (int k = 0; k < n; k++) {
+    memset(column, 0, sizeof(double) * (size_t)n);
+    column[k] = load[g->unknowns[k]];
+    if (column[k] == 0) continue;
+    if (g->general) {
+      frot_lu_apply(w->core.lu + g->matrix, n, w->core.lu_pivot + g->vector,
+                    w->core.lu_scale + 2 * g->vector, column);
+    } else {
+      frot_inwards(w, g, column);
+      frot_outwards(w, g, column);
+    }
+    for (int i = 0; i < n; i++) size[i] += fabs(column[i]);
+  }
+}
+
+void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
+                             const double *q, const double *v, const double *d, double *size) {
+  memset(size, 0, sizeof(double) * (size_t)m->nv);
+  if (!m->sizes.call) return;
+  frot_call_sizes(m, s, w, t, q, v, d);
+  for (int k = 0; k < w->awake.now->n_groups; k++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
+    int ns = g->n_speeds, n = g->general ? g->n : ns;
+    double *sum = w->core.load_size, *response = w->core.rest;
+    spread_in_inverse(w, g, w->core.load, sum);
+    for (int i = 0; i < g->n_rows; i++) {
+      double lam = w->core.lam[g->rows[i]];
+      if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
+      memcpy(response, w->core.half + g->entries + i * g->n, sizeof(double) * (size_t)n);
+      if (!g->general) frot_outwards(w, g, response);
+      for (int j = 0; j < ns; j++) sum[j] += fabs(lam * response[j]);
+    }
+    for (int j = 0; j < ns; j++) size[g->unknowns[j]] = sum[j];
+  }
+}
+
+void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                    const double *v, const double *d) {
+  double *load = w->core.load, *size = w->core.load_size;
+  if (!m->sizes.call) return;
+  frot_call_sizes(m, s, w, t, q, v, d);
+  for (int k = 0; k < w->awake.now->n_groups; k++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
+    int n = g->n, count = g->general ? n : g->n_speeds;
+    if (g->n_rows == 0) continue;
+    if (g->general)
+      spread_in_inverse(w, g, load, size);
+    else
+      spread_in_factor(w, g, load, size);
+    for (int i = 0; i < g->n_rows; i++) {
+      int r = g->rows[i], reads = m->row_reads[r];
+      if (!w->core.wanted[r]) continue;
+      const double *row = (g->general ? w->core.rows : w->core.half) + g->entries + i * n;
+      double sum = reads < 0    ? fabs(w->core.c[r])
+                   : g->general ? size[reads]
+                                : load[g->unknowns[reads]];
+      for (int j = 0; j < count && !(g->general && reads >= 0); j++) sum += fabs(row[j]) * size[j];
+      w->core.row_load[r] = sum;
+    }
+  }
+}
