@@ -153,9 +153,15 @@ def simulate(
         counts.free,
     )
     events = tuple(_event(engine, raw) for raw in run.events if raw.t <= reached)
-    result = (
-        Result(program, engine, grid, run.segments, events, figures) if len(run.segments) else None
-    )
+    result = None
+    if len(run.segments):
+        try:
+            result = Result(program, engine, grid, run.segments, events, figures)
+        except FrotError:
+            # Where a run ends in a fault, reactions may have no value, as in a jam.
+            if run.status in _GOOD or not len(kept):
+                raise
+            result = Result(program, engine, kept, run.segments, events, figures)
     if run.interrupted:
         raise Interrupted(end, result)
     if run.status == FULL:

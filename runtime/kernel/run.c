@@ -81,7 +81,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->text_event = t, s->text_gap = s->text_ratio = s->text_first = 0;
   s->pending = s->has_slope = s->changed = s->crowded = s->several = s->untold = 0;
   for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
-  s->crowded_since = s->left_at = t;
+  s->crowded_since = s->left_at = t, s->told = s->statistics.events;
   s->weak = s->tied = 0, s->across = s->foreseen = INFINITY;
   for (int i = 0; i < m->n_rows; i++) s->data[l.posture + i] = NAN;
   frot_choose_first(m, s);
@@ -239,7 +239,9 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
     int status = FROT_OK;
     if (s->pending) {
       frot_wake_state(m, s, w);
-      if (++s->crowded > CROWD)
+      if (++s->crowded > CROWD && s->statistics.events == s->told)
+        status = frot_fail_step(m, s, w, FROT_DIVERGE, *g.t1, 0); /* the same modes again */
+      else if (s->crowded > CROWD)
         status = frot_fail(s, FROT_CHATTER, *g.t1, -1, condition_at_fault(m, s), -1, s->crowded);
       else
         status = happen_at_end(m, s, w, recorder);

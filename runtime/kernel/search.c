@@ -258,19 +258,29 @@ static int search_near(const frot_instant *in, const int *chosen, int count, int
   return enumerate(in, chosen, count, forced, lasting, certain);
 }
 
-int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
-                int *unsearched) {
+static int search_all(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
+                      int *unsearched) {
   frot_work *w = in->w;
   const frot_model *m = in->m;
   option lists[OPTIONS];
   double combinations = 1;
   for (int c = 0; c < count; c++) combinations *= contact_options(in, chosen[c], forced, lists);
   memset(w->search.trial, 0, sizeof *w->search.trial * (size_t)(m->n_contacts + m->n_elements));
-  w->search.corners = FROT_ENOUGH;
   if (combinations <= FROT_ENOUGH) return enumerate(in, chosen, count, forced, lasting, NULL);
   *unsearched = 1;
   int motions = search_near(in, chosen, count, forced, lasting, forced);
   /* the rest ends though what fired stays as it is: others carry what it carried */
   if (motions == 0 && !forced) motions = search_near(in, chosen, count, 0, lasting, 1);
   return motions;
+}
+
+/* A corner of reactions that are not unique may come to an end, and no other is looked for then:
+ * corners are tried only where there is no motion without. */
+int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
+                int *unsearched) {
+  in->w->search.corners = 0;
+  int motions = search_all(in, chosen, count, forced, lasting, unsearched);
+  if (motions > 0) return motions;
+  in->w->search.corners = FROT_ENOUGH;
+  return search_all(in, chosen, count, forced, lasting, unsearched);
 }

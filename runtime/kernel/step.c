@@ -364,7 +364,10 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
     s->has_slope = 0; /* other guards are listed */
   frot_choose_next(m, s, a->stiff);
   if (s->implicit) wake_all(m, s, w);
-  if (end > s->crowded_since + CROWDED * s->h_max) s->crowded_since = end, s->crowded = 0;
+  if (end > s->crowded_since + CROWDED * s->h_max) {
+    s->crowded_since = end, s->crowded = 0;
+    s->told = s->statistics.events;
+  }
   return FROT_OK;
 }
 
