@@ -11,6 +11,7 @@
 
 /* Weight of a stage in the step, which what is doubtful in its slope has. */
 #define DOUBTED 0.001
+
 double frot_step_tolerance(const frot_state *s) {
   return fmax(FROT_EXPLICIT_SHARE * s->tolerance, FROT_LEAST_TOLERANCE);
 }

@@ -275,12 +275,12 @@ static int search_all(const frot_instant *in, const int *chosen, int count, int 
 }
 
 /* A corner of reactions that are not unique may come to an end, and no other is looked for then:
- * corners are tried only where there is no motion without. */
+ * corners are tried only where there is no motion without, and one was asked for. */
 int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
                 int *unsearched) {
   in->w->search.corners = 0;
   int motions = search_all(in, chosen, count, forced, lasting, unsearched);
-  if (motions > 0) return motions;
+  if (motions > 0 || in->w->search.corners == 0) return motions;
   in->w->search.corners = FROT_ENOUGH;
   return search_all(in, chosen, count, forced, lasting, unsearched);
 }
