@@ -6,7 +6,6 @@ import contextlib
 import os
 import signal
 import subprocess
-import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -34,8 +33,7 @@ class Keeper:
     def __init__(self, doomed: Path | None = None) -> None:
         """Start the shell."""
         self._shell: subprocess.Popen[bytes] | None = None
-        self._starting = threading.Lock()
-        self._stopped = False
+        self._started: list[subprocess.Popen[str]] = []
         if os.name != "posix":
             return
         words = [_SHELL, "-c", _WAIT, "frot", "" if doomed is None else str(doomed)]
@@ -48,39 +46,35 @@ class Keeper:
                 process_group=0,
             )
 
-    def run(
-        self, command: Sequence[str], timeout: float, environment: Mapping[str, str]
-    ) -> subprocess.CompletedProcess[str]:
-        """Run a command to its end; OSError and subprocess.TimeoutExpired as subprocess.run."""
-        # A command starts before `stop`, and ends with it, or not at all.
-        with self._starting:
-            if self._stopped:
-                raise ChildProcessError("stopped before it began")
-            process = subprocess.Popen(
-                command,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                text=True,
-                errors="replace",
-                env={**os.environ, **environment},
-                process_group=None if self._shell is None else self._shell.pid,
-            )
-        with process:
-            try:
-                out, err = process.communicate(timeout=timeout)
-            except BaseException:
-                process.kill()
-                raise
-        return subprocess.CompletedProcess(command, process.returncode, out, err)
+    def start(
+        self, command: Sequence[str], environment: Mapping[str, str]
+    ) -> subprocess.Popen[str]:
+        """Start a command with pipes for what it prints; OSError if that cannot be done."""
+        process = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            errors="replace",
+            env={**os.environ, **environment},
+            process_group=None if self._shell is None else self._shell.pid,
+        )
+        self._started.append(process)
+        return process
 
     def stop(self) -> None:
-        """End every command that still runs; none starts any more."""
-        with self._starting:
-            self._stopped = True
+        """End every command that still runs."""
         if self._shell is not None and self._shell.poll() is None:
             with contextlib.suppress(OSError):
                 os.killpg(self._shell.pid, signal.SIGKILL)
+        for process in self._started:
+            if process.poll() is None:
+                process.kill()
+                process.wait()
+            for pipe in (process.stdout, process.stderr):
+                if pipe is not None:
+                    pipe.close()
 
     def __enter__(self) -> Keeper:
         return self

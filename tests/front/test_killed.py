@@ -6,12 +6,12 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 from front_door import HOOP, Shell, script
 from frot.compiler.toolchain.compilers import Toolchain, compile_objects
+from frot.compiler.toolchain.keeper import Keeper
 from patience import PATIENCE
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
@@ -138,17 +138,26 @@ def test_an_interrupt_while_compilers_are_being_started_ends_them(
     """It may come between the start of one compiler and that of the next."""
     notes = tmp_path / "pids"
     slow = script(tmp_path / "slow-cc", f'echo $$ >> "{notes}"\nexec sleep 600')
-    submit = ThreadPoolExecutor.submit
+    start = Keeper.start
 
-    def interrupted(pool: ThreadPoolExecutor, *call: object) -> object:
+    def interrupted(keeper: Keeper, *words: object) -> object:
         if notes.exists():
             raise KeyboardInterrupt
-        future = submit(pool, *call)  # type: ignore[arg-type]
+        process = start(keeper, *words)  # type: ignore[arg-type]
         assert wait_until(lambda: notes.exists() and notes.read_text().endswith("\n"))
-        return future
+        return process
 
-    monkeypatch.setattr(ThreadPoolExecutor, "submit", interrupted)
+    monkeypatch.setattr(Keeper, "start", interrupted)
+    monkeypatch.setattr(os, "cpu_count", lambda: 2)
     sources = [tmp_path / "a.c", tmp_path / "b.c"]
     with pytest.raises(KeyboardInterrupt):
         compile_objects(Toolchain((str(slow),), "slow"), sources, [], tmp_path, ())
     assert not any(alive(int(word)) for word in notes.read_text().split())
+
+
+def test_a_compiler_that_prints_more_than_a_pipe_holds_ends(tmp_path: Path) -> None:
+    body = 'head -c 300000 /dev/zero | tr "\\0" x >&2\nfor word; do :; done\n: > "$word"'
+    loud = Toolchain((str(script(tmp_path / "loud-cc", body)),), "loud")
+    sources = [tmp_path / f"{name}.c" for name in "abc"]
+    objects = compile_objects(loud, sources, [], tmp_path, ())
+    assert [one.name for one in objects] == ["a.o", "b.o", "c.o"]
