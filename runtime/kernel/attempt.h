@@ -1,6 +1,8 @@
-/* The step that is being tried: step.c, passage.c. */
+/* The step that is being tried: from the length planned until its error is within its bound. */
 #ifndef FROT_ATTEMPT_H
 #define FROT_ATTEMPT_H
+
+#include "work.h"
 
 typedef struct {
   double t, h, longest;
@@ -9,7 +11,8 @@ typedef struct {
   double ratio;  /* of its error to the bound */
   double loose;  /* the same before its stages were put onto the relations of loops, or 0 */
   int to_due;    /* it ends where time changes a condition */
-  int passed;    /* condition beyond which the last try had no value, or -1 */
+  int passed;    /* condition beyond which the last try had no value, or -1, at this */
+  double part;   /* part of the step */
   int rejections, changed, stiff;
   int blurred, forced; /* its best length is tried again, and was, though that error is too large */
   double best, best_ratio;
@@ -19,5 +22,17 @@ typedef struct {
       looks; /* the guard that falls first, or -1, at theta; looks at one that seems to dip */
   double theta;
 } frot_attempt;
+
+/* An attempt that begins at t. */
+frot_attempt frot_attempt_from(double t);
+
+/* Evaluate at the start of the step and plan the length to try first. FROT_OK or a status that is
+ * not recorded as a fault. */
+int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a);
+
+/* Shorten the step until its error is within its bound; it is then made, with its dense output, and
+ * a->guard falls first in it. FROT_OK with s->pending where there is none but an event at its
+ * start; else the status of the fault recorded. */
+int frot_find_length(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a);
 
 #endif

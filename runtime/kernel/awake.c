@@ -73,6 +73,13 @@ void frot_wake_state(const frot_model *m, frot_state *s, frot_work *w) {
   s->naps++;
 }
 
+void frot_wake_within_step(const frot_model *m, frot_state *s, frot_work *w) {
+  if (s->asleep == 0) return;
+  frot_wake_state(m, s, w);
+  frot_wake(w);
+  s->has_slope = 0; /* other guards are listed */
+}
+
 /* Whether the motions that laws bound take energy. */
 static int dissipates(const frot_model *m, const frot_state *s, const frot_work *w,
                       const frot_island *island) {

@@ -18,6 +18,9 @@ void frot_wake(frot_work *w);
 /* Nothing sleeps in the steps that follow. */
 void frot_wake_state(const frot_model *m, frot_state *s, frot_work *w);
 
+/* The same from inside a step: implicit ones are of all states. */
+void frot_wake_within_step(const frot_model *m, frot_state *s, frot_work *w);
+
 /* After an accepted step without an event, with its slopes in w->step.k and its end in x: note the
  * islands that stood still. Returns their number. */
 int frot_note_still(const frot_model *m, frot_state *s, frot_work *w, const double *x);

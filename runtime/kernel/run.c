@@ -9,6 +9,7 @@
 #include "groups.h"
 #include "happen.h"
 #include "initial.h"
+#include "length.h"
 #include "mechanics.h"
 #include "record.h"
 #include "work.h"

@@ -54,3 +54,13 @@ void frot_spare_nothing(const frot_model *m, frot_state *s, frot_work *w) {
   memset(s->data + w->layout.spare, 0, sizeof(double) * (size_t)m->n_rows);
   frot_see_anew(w);
 }
+
+long long frot_free_speeds(const frot_model *m, const frot_state *s, const frot_work *w) {
+  long long held = 0;
+  for (int i = 0; i < m->n_contacts; i++) {
+    int row = m->contacts[i].row_n;
+    if (row < 0 || m->contacts[i].reduced || s->data[w->layout.unilateral + i] != 0) continue;
+    held += !w->reactions.carried[row];
+  }
+  return m->nv - held;
+}

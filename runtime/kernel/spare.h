@@ -28,4 +28,8 @@ int frot_spare_rows_hold(const frot_model *m, frot_state *s, frot_work *w, doubl
 /* Take every row for one of its own, in the step that runs. */
 void frot_spare_nothing(const frot_model *m, frot_state *s, frot_work *w);
 
+/* The speeds that no permanent row holds, after an evaluation: those that depend on others are
+ * none. */
+long long frot_free_speeds(const frot_model *m, const frot_state *s, const frot_work *w);
+
 #endif

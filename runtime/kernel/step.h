@@ -1,7 +1,8 @@
 /* One accepted step of the integrator: a new segment.
  *
- * The rooms it uses, each of which knows only those after it: locate (events), falls (guards inside
- * a step), error and noise (how long it may be), ends, stages (evaluations). */
+ * The rooms it uses, each of which knows only those after it: attempt (until its error is within
+ * its bound), length, locate (events), falls (guards inside a step), error and noise (how long it
+ * may be), ends, stages (evaluations). */
 #ifndef FROT_STEP_H
 #define FROT_STEP_H
 
@@ -12,8 +13,5 @@
  * no progress was possible, at its start: then the segment is left as it is). Returns FROT_OK or
  * the status of the fault recorded. */
 int frot_step(const frot_model *m, frot_state *s, frot_work *w);
-
-/* A first step size from the sizes of the values and their derivatives. */
-int frot_first_step(const frot_model *m, frot_state *s, frot_work *w);
 
 #endif

@@ -1,0 +1,166 @@
+#include "attempt.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "awake.h"
+#include "blame.h"
+#include "blur.h"
+#include "crossing.h"
+#include "ends.h"
+#include "error.h"
+#include "falls.h"
+#include "implicit.h"
+#include "jacobian.h"
+#include "length.h"
+#include "lost.h"
+#include "pace.h"
+#include "passage.h"
+#include "sizes.h"
+#include "spare.h"
+#include "stages.h"
+#include "stiffness.h"
+#include "tolerances.h"
+
+/* Rejections of one step after which the rounding of its derivatives is measured. */
+#define PATIENCE 2
+/* Part of an error from which on what is left of an older measure is measured again at once. */
+#define NOISY 0.01
+/* Rejections after which the sizes of states no longer shrink with the step. */
+#define HOLD 6
+#define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
+
+frot_attempt frot_attempt_from(double t) {
+  return (frot_attempt){.t = t, .passed = -1, .guard = -1, .best_ratio = INFINITY};
+}
+
+/* Whether nothing moves, nor starts to. */
+static int is_still(const frot_work *w) {
+  for (int j = 0; j < w->awake.n - FROT_QUADRATURES; j++)
+    if (w->step.k[j] != 0) return 0;
+  return 1;
+}
+
+int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
+  a->longest = frot_longest_step(m, s, a->t, 0);
+  a->h = fmin(s->h, a->longest);
+  frot_see_anew(w);
+  int status = frot_start_slope(m, s, w, a->t);
+  if (status == FROT_OK && is_still(w)) {
+    a->longest = frot_longest_step(m, s, a->t, 1);
+    a->h = m->time_dependent ? fmin(s->h, a->longest) : a->longest;
+  }
+  memcpy(w->step.first, frot_stage(w, 0), sizeof(double) * (size_t)w->layout.nz);
+  if (status == FROT_OK && s->implicit) status = frot_implicit_begin(m, s, w, a->t);
+  a->want = a->h, a->most = a->longest;
+  if (s->weak) a->h = frot_lay_step(m, s, w, a->t, a->h, a->most);
+  a->to_due = a->h >= s->due - a->t;
+  if (a->to_due) a->h = s->due - a->t;
+  a->first = a->h;
+  if (status == FROT_OK) frot_follow_spare(m, s, w);
+  return status;
+}
+
+/* Take a guard that seems to dip for what it is: first by what rounding does to it, then by a
+ * shorter step. */
+static int look_closer(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
+  if (a->looks++ == 0)
+    frot_measure_noise(m, s, w, a->t + a->h);
+  else
+    a->h *= FROT_EARLY, a->to_due = 0;
+  s->statistics.rejected++;
+  return FROT_DIVERGE;
+}
+
+/* Try the step once: FROT_OK if it is good, with its dense output; then s->h is the next one's
+ * length. */
+static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
+  double t = a->t, h = a->h;
+  int status = frot_run_stages(m, s, w, t, h);
+  if (status == FROT_POSTURE) {
+    frot_pass_explicitly(s);
+    return FROT_DIVERGE;
+  }
+  a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &a->part) : -1;
+  a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
+  if (a->loose > 0) frot_judge_tie(s, a->ratio, a->loose), a->loose = 0;
+  a->forced = a->blurred;
+  if (a->forced) frot_take_forced(s, a);
+  if (s->weak && a->ratio <= 1) a->ratio = fmax(a->ratio, pow(frot_turning(m, s, w, t, h), 8));
+  if (status == FROT_OK && !frot_passage_is_laid(m, s, w, a)) {
+    s->statistics.rejected++;
+    return FROT_DIVERGE;
+  }
+  if (s->weak) frot_judge_passage(m, s, w, a);
+  if (a->h == 0) return FROT_DIVERGE;
+  if (a->ratio <= 1) {
+    a->stiff = frot_is_stiff(m, s, w, h);
+    a->stable = frot_stable_step(m, s, w, h);
+    memcpy(w->step.z, w->step.z1, sizeof(double) * (size_t)(m->nq + m->nv));
+    if (!frot_spare_rows_hold(m, s, w, t + h, w->step.z)) {
+      frot_spare_nothing(m, s, w);
+      s->statistics.rejected++;
+      return FROT_DIVERGE;
+    }
+    frot_measure_end(m, s, w, t + h, w->step.z1);
+    status = frot_make_dense(m, s, w, t, h);
+    if (status == FROT_OK && s->implicit && !frot_implicit_follows_guards(m, s, w))
+      status = FROT_DIVERGE;
+    if (status == FROT_OK) {
+      a->guard = frot_falling_guard(m, s, w, t, h, &a->theta);
+      if (a->looks == LOOKS || !frot_seems_to_dip(m, s, w, a->guard, a->theta, h)) return FROT_OK;
+      return look_closer(m, s, w, a);
+    }
+    a->ratio = NAN;
+  }
+  s->statistics.rejected++;
+  if (a->passed < 0 && frot_foresees_posture(m, s, w, t, h)) {
+    s->tied = 1, a->loose = a->ratio > 1 ? a->ratio : INFINITY;
+    return FROT_DIVERGE;
+  }
+  a->to_due = 0;
+  a->rejections++;
+  if (a->ratio > 1 && (a->rejections % PATIENCE == 0 || w->step.noisy > NOISY))
+    frot_measure_noise(m, s, w, t + h);
+  if (a->rejections % HOLD == 0) frot_hold_worth(s, w);
+  frot_shorten(m, s, w, a);
+  if (s->weak && a->passed < 0) frot_shorten_passage(m, s, w, a, h);
+  return status == FROT_OK ? FROT_DIVERGE : status;
+}
+
+/* The step has become too short. FROT_OK where it can go on with the other method, or an event is
+ * at its start (s->pending), else the status of the fault. */
+static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a, int status) {
+  int ends = frot_condition_at_zero(m, s, w);
+  int over = a->passed >= 0 && ends >= 0; /* no method has a value beyond it */
+  if (!over && !a->changed && frot_change_method(m, s)) {
+    if (s->implicit) frot_wake_within_step(m, s, w);
+    int begun = s->implicit ? frot_begin_step(m, s, w, a) : FROT_OK;
+    a->changed = 1, a->h = a->first;
+    if (begun == FROT_OK) return FROT_OK;
+  }
+  int weak = frot_posture_at(m, s, w, a->t);
+  double tried = s->statistics.steps > 0 ? a->h : 0; /* the run begins there: text.c */
+  if (ends < 0 && weak >= 0) return frot_fail(s, FROT_POSTURE, a->t, weak, -1, -1, tried);
+  if (ends < 0)
+    return frot_fail_step(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, a->t, a->h);
+  frot_fire_at_start(s, w, ends);
+  return FROT_OK;
+}
+
+int frot_find_length(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
+  double planned = s->h;
+  for (int status = FROT_OK;;) {
+    double paced = frot_pace_step(m, s, w, a->t, a->h);
+    if (paced < a->h) a->h = paced, a->to_due = 0;
+    if (!a->to_due && frot_is_too_short(s, a)) {
+      int over = give_up(m, s, w, a, status);
+      if (over != FROT_OK || s->pending) return over;
+      continue;
+    }
+    status = try_step(m, s, w, a);
+    if (status == FROT_OK) break;
+  }
+  frot_plan_next(m, s, w, a, planned);
+  return FROT_OK;
+}

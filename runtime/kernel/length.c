@@ -1,0 +1,98 @@
+#include "length.h"
+
+#include <math.h>
+
+#include "blame.h"
+#include "crossing.h"
+#include "ends.h"
+#include "jacobian.h"
+#include "lost.h"
+#include "pace.h"
+#include "probe.h"
+#include "spare.h"
+#include "stages.h"
+
+/* Time from which on steps are measured by its resolution, in longest steps. */
+#define LEAST_TIME 1e-12
+/* The first step, in longest steps: what starts from rest shows its size only as it moves. */
+#define FIRST_PART 1e-3
+/* Part of a value by which the first step may change it, and its length at least. */
+#define FIRST_CHANGE 0.01
+#define FIRST_LEAST 1e-6
+/* Change of the step's length: at most, at least, after no value, and what of it is taken. */
+#define MOST_GROWTH 6
+#define LEAST_PART (1.0 / 3)
+#define CUT 0.25
+#define HALF 0.5 /* of the implicit method, whose stages were not found */
+#define SAFETY 0.9
+#define SAFETY_OF_MOTION 0.7
+
+int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
+  int status = frot_start_slope(m, s, w, s->t);
+  if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0);
+  s->statistics.free = frot_free_speeds(m, s, w);
+  double h = FIRST_PART * s->h_max;
+  int lost = frot_starts_singular(m, s, w, s->t, h);
+  if (lost >= 0) return frot_fail(s, FROT_POSTURE, s->t, lost, -1, -1, 0);
+  for (int j = 0; j < m->nq + m->nv; j++) {
+    double slope = fabs(frot_stage(w, 0)[j]), size = fabs(w->step.z0[j]);
+    if (slope > 0 && size > 0) h = fmin(h, FIRST_CHANGE * size / slope);
+  }
+  h = frot_probe_step(m, s, w, s->t, fmax(h, FIRST_LEAST * s->h_max));
+  s->h = frot_finest_step(m, s, h);
+  return FROT_OK;
+}
+
+int frot_is_too_short(const frot_state *s, const frot_attempt *a) {
+  return !(a->h > FROT_LEAST_STEP * fmax(fabs(a->t), LEAST_TIME * s->h_max));
+}
+
+static int reactions_bound(const frot_model *m) {
+  for (int e = 0; e < m->n_elements; e++)
+    if (m->elements[e].bound != FROT_BY_VALUE) return 1;
+  return 0;
+}
+
+/* Change of the step's length that brings its error near the bound. More is kept back where a
+ * motion that reactions bound is what limits it: reactions that pass near zero bend it at once, and
+ * in a method of high order it costs little length, and saves most of the rejections. */
+static double change_of_length(const frot_model *m, const frot_state *s, const frot_work *w,
+                               double ratio) {
+  int j = w->step.worst;
+  int moves = reactions_bound(m) && (j < 0 || j >= m->nq || m->q_speed[j] >= 0);
+  if (s->implicit) return SAFETY * pow(ratio, frot_has_motion(m) ? -1.0 / 6 : -1.0 / 5);
+  return (moves ? SAFETY_OF_MOTION : SAFETY) * pow(ratio, -1.0 / 8);
+}
+
+void frot_shorten(const frot_model *m, const frot_state *s, const frot_work *w, frot_attempt *a) {
+  if (a->ratio > 1 && a->ratio < 1e300)
+    a->h *= fmax(change_of_length(m, s, w, a->ratio), LEAST_PART);
+  else
+    a->h *= a->passed >= 0 ? fmin(fmax(FROT_NEARLY * a->part, 0.01), FROT_NEARLY)
+            : s->implicit && frot_has_motion(m) ? HALF
+                                                : CUT;
+}
+
+/* Change of the step's length that its error will bear if it goes on as it went from the step
+ * before to this one (K. Gustafsson, ACM Trans. Math. Softw. 20, 1994, p. 496). */
+static double trend(const frot_model *m, frot_state *s, const frot_attempt *a) {
+  double change = INFINITY;
+  if (reactions_bound(m) && s->last_ratio > 0 && a->ratio > 0)
+    change = SAFETY * a->h / s->last_h * pow(s->last_ratio / (a->ratio * a->ratio), 1.0 / 8);
+  s->last_h = a->h, s->last_ratio = a->ratio;
+  return change;
+}
+
+void frot_plan_next(const frot_model *m, frot_state *s, const frot_work *w, const frot_attempt *a,
+                    double planned) {
+  double factor = a->ratio > 0 ? change_of_length(m, s, w, a->ratio) : MOST_GROWTH;
+  factor = fmin(factor, trend(m, s, a));
+  factor = fmin(fmax(factor, LEAST_PART), a->rejections ? 1 : MOST_GROWTH);
+  if (factor < 1 && !a->to_due && frot_foresees_posture(m, s, w, a->t, a->h))
+    factor = 1; /* a tied step need not be shorter */
+  if (w->step.noisy >= 1)
+    factor = fmax(factor, 1); /* noise grows with the step as its bound does */
+  s->h = fmin(a->h * factor, fmin(a->longest, a->stable));
+  if (s->weak) s->h = fmax(a->h, a->want); /* noise does not show how long it may be */
+  if (a->to_due) s->h = fmax(s->h, planned);
+}
