@@ -25,6 +25,7 @@ from frot.runtime.program import MANIFEST, Program, read_program
 
 _ROOMS = ("frot.dsl", "frot.compiler", "frot.runtime")
 SEAL = "seal.json"
+INSTALLED = "made"
 _KINDS = (".py", ".c", ".h", ".lark")
 # What a folder that cannot be written answers; a full disk is another thing.
 _CLOSED = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, errno.EEXIST)
@@ -46,6 +47,11 @@ def cache_folder() -> Path:
     import platformdirs
 
     return Path(platformdirs.user_cache_dir("frot", appauthor=False))
+
+
+def installed_folder() -> Path:
+    """What was made when Frot was installed, with folders like the cache's; it need not exist."""
+    return Path(str(files("frot.runtime"))) / INSTALLED
 
 
 def spare_folder() -> Path:
@@ -119,7 +125,7 @@ def store(kind: str, key: str, fill: Callable[[Path], None]) -> Kept:
             folder = Path(made) / "content"
             folder.mkdir()
             fill(folder)
-            (folder / SEAL).write_text(json.dumps(_digests(folder)), encoding="utf-8")
+            seal(folder)
             target = cache / kind / key
             try:
                 os.rename(folder, target)
@@ -168,21 +174,35 @@ def _is_ours(folder: Path) -> bool:
 
 
 def stored(kind: str, key: str) -> Kept | None:
-    """The folder put in place under this key, or None. A damaged one is removed."""
+    """The folder put in place under this key, or None. A damaged one of the cache is removed."""
+    made = installed_folder() / kind / key
+    if is_whole(made):
+        return Kept(made, None)
     spare = spare_folder()
     for cache in (cache_folder(), spare):
         folder = cache / kind / key
         if not folder.is_dir() or (cache == spare and not _is_ours(spare)):
             continue
         held = hold(folder)
-        try:
-            if json.loads((folder / SEAL).read_text(encoding="utf-8")) == _digests(folder):
-                used_now(folder)
-                return Kept(folder, held)
-        except (OSError, ValueError):
-            pass
+        if is_whole(folder):
+            used_now(folder)
+            return Kept(folder, held)
         shutil.rmtree(folder, ignore_errors=True)
     return None
+
+
+def seal(folder: Path) -> None:
+    """Write last what its files are, so that it shows when one is cut short or changed."""
+    (folder / SEAL).write_text(json.dumps(_digests(folder)), encoding="utf-8")
+
+
+def is_whole(folder: Path) -> bool:
+    """Whether it is there with all that it was sealed with."""
+    try:
+        sealed = json.loads((folder / SEAL).read_text(encoding="utf-8"))
+        return bool(sealed == _digests(folder))
+    except (OSError, ValueError):
+        return False
 
 
 def _digests(folder: Path) -> dict[str, str]:

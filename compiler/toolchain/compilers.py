@@ -169,7 +169,9 @@ def compile_objects(
     """Compile each source to an object in `folder`, as many at a time as there are cores."""
     options = [*flags, *(f"-I{path}" for path in include), "-c"]
     objects = [folder / f"{source.stem}.o" for source in sources]
-    jobs = [([*options, source], made) for source, made in zip(sources, objects, strict=True)]
+    jobs: list[tuple[list[str | Path], Path]] = [
+        ([*options, source], made) for source, made in zip(sources, objects, strict=True)
+    ]
     with Keeper() as keeper:
         run_compilers(toolchain, jobs, keeper)
     return objects

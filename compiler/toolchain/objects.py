@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import hashlib
+import shutil
 import sys
 import tempfile
 from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 
-from frot.compiler.toolchain.cache import Kept, store, stored
+from frot.compiler.toolchain.cache import Kept, is_whole, seal, store, stored
 from frot.compiler.toolchain.compilers import (
     KERNEL_FLAGS,
     MODEL_FLAGS,
     Toolchain,
     compile_objects,
+    find_toolchain,
     link_library,
 )
 from frot.compiler.toolchain.keeper import Keeper
 from frot.runtime.program import MODEL_SOURCE
+
+KERNELS = "kernels"
 
 
 def kept_objects(
@@ -28,18 +32,47 @@ def kept_objects(
 
     Headers are all `.h` files beside the sources and in the folders of `include`.
     """
+    key = _key(toolchain, sources, include, flags)
+
+    def fill(folder: Path) -> None:
+        compile_objects(toolchain, sources, include, folder, flags)
+
+    return stored(KERNELS, key) or store(KERNELS, key, fill)
+
+
+def _key(
+    toolchain: Toolchain, sources: Sequence[Path], include: Sequence[Path], flags: Sequence[str]
+) -> str:
+    """What objects are made from, as a hexadecimal digest."""
     folders = sorted({*include, *(source.parent for source in sources)})
     headers = [path for folder in folders for path in sorted(folder.glob("*.h"))]
     digest = hashlib.sha256("\0".join((toolchain.identity, *flags)).encode())
     for path in (*sources, *headers):
         digest.update(f"\0{path.name}\0".encode())
         digest.update(hashlib.sha256(path.read_bytes()).digest())
-    key = digest.hexdigest()
+    return digest.hexdigest()
 
-    def fill(folder: Path) -> None:
-        compile_objects(toolchain, sources, include, folder, flags)
 
-    return stored("kernels", key) or store("kernels", key, fill)
+def install_kernel(folder: Path, made: Sequence[Path], target: Path) -> None:
+    """Put the objects of the kernel, whose sources lie in `folder`, under the folder `target`.
+
+    They are looked for there as in the cache. Copied from one of `made`, folders like `target`,
+    where one has them; whatever else `target` holds goes. FrotError (E0801, E0802) if there is no
+    compiler or it fails.
+    """
+    toolchain, sources = find_toolchain(), kernel_sources(folder)
+    key = _key(toolchain, sources, [folder], KERNEL_FLAGS)
+    new, old = target / KERNELS / key, [root / KERNELS / key for root in made]
+    if is_whole(new):
+        return
+    shutil.rmtree(target, ignore_errors=True)
+    new.mkdir(parents=True)
+    whole = next((one for one in old if is_whole(one)), None)
+    if whole is None:
+        compile_objects(toolchain, sources, [folder], new, KERNEL_FLAGS)
+        seal(new)
+    else:
+        shutil.copytree(whole, new, dirs_exist_ok=True)
 
 
 def kernel_folder() -> Path:
@@ -47,14 +80,15 @@ def kernel_folder() -> Path:
     return Path(str(files("frot.runtime.kernel")))
 
 
-def kernel_sources() -> list[Path]:
-    """The kernel's C files."""
-    return sorted(kernel_folder().glob("*.c"))
+def kernel_sources(folder: Path) -> list[Path]:
+    """The kernel's C files, in the folder they lie in."""
+    return sorted(folder.glob("*.c"))
 
 
 def kept_kernel(toolchain: Toolchain) -> Kept:
     """The folder of the kernel's objects: the same ones in every program and every FMU."""
-    return kept_objects(toolchain, kernel_sources(), [kernel_folder()], KERNEL_FLAGS)
+    folder = kernel_folder()
+    return kept_objects(toolchain, kernel_sources(folder), [folder], KERNEL_FLAGS)
 
 
 def compile_library(
@@ -63,7 +97,7 @@ def compile_library(
     """Compile the sources of an FMU to a shared library of which only FMI's functions are seen."""
     from frot.runtime.fmi.sources import TABLE_SOURCE
 
-    kernel = {source.name for source in kernel_sources()}
+    kernel = {source.name for source in kernel_sources(kernel_folder())}
     own = [source for source in sources if source.name in (MODEL_SOURCE, TABLE_SOURCE)]
     face = [source for source in sources if source not in own and source.name not in kernel]
     kept = [kept_kernel(toolchain), kept_objects(toolchain, face, include, KERNEL_FLAGS)]
