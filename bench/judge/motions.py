@@ -135,7 +135,8 @@ class System:
         quick = accelerations(now)
         speeding = float(joint.rows[word].reach @ quick + joint.rows[word].bias_size)
         if not mode.closed:
-            self._acceleration(joint, "n", 1, speeding)
+            if still.touching:  # what is apart, or parts with speed, may accelerate as it likes
+                self._acceleration(joint, "n", 1, speeding)
             return
         weight = force_size(now, joint)
         if isinstance(c, Pin):
@@ -243,18 +244,25 @@ def force_size(now: Mechanics, joint: Joint) -> float:
     return float(np.max((now.mass * quick)[touched], initial=0.0))
 
 
+def even(matrix: Floats, mass: Floats) -> tuple[Floats, Floats]:
+    """Sizes of rows and columns: accelerations in the metric of the mass, all else at most one."""
+    n, tiny = len(mass), 1e-300
+    rows, columns = np.ones(len(matrix)), np.ones(len(matrix))
+    rows[:n] = columns[:n] = np.sqrt(mass)
+    now = np.abs(matrix) / rows[:, None] / columns
+    columns[n:] = np.maximum(np.max(now[:n, n:], axis=0, initial=tiny), tiny)
+    now = np.abs(matrix) / columns
+    rows[n:] = np.maximum(np.max(now[n:], axis=1, initial=tiny), tiny)
+    return rows, columns
+
+
 def motion(
     now: Mechanics, modes: Mapping[str, Choice], still: Mapping[str, Still]
 ) -> Motion | None:
     """Solve one combination; None where its equations contradict each other."""
     system = System(now, modes, still)
-    rows = np.maximum(np.max(np.abs(system.matrix), axis=1), 1e-300)
-    matrix = system.matrix / rows[:, None]
-    columns = np.maximum(np.max(np.abs(matrix), axis=0), 1e-300)
-    matrix = matrix / columns
-    # a second pass evens masses that differ by many orders of magnitude
-    again = np.maximum(np.max(np.abs(matrix), axis=1), 1e-300)
-    matrix, rows = matrix / again[:, None], rows * again
+    rows, columns = even(system.matrix, now.mass)
+    matrix = system.matrix / rows[:, None] / columns
     right = system.right / rows
     u, s, vt = np.linalg.svd(matrix)
     rank = int(np.sum(s > 1e-11 * s[0]))

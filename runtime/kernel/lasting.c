@@ -17,7 +17,10 @@
 #include "tolerances.h"
 #include "turns.h"
 
-#define LATER 1e-3   /* of the step that comes, how far the mechanism is moved on */
+/* Of the step that comes, how far the mechanism is moved on, and as far as what changes slowly beside
+ * the terms it is made of (a heavy body on a light one) may ask for. */
+#define LATER 1e-3
+#define LATEST 0.1
 #define CLEARLY 1e-8 /* part of its terms by which what was zero has fallen then */
 
 /* What is left of an inequality, over the size of its terms: of a contact. */
@@ -126,9 +129,10 @@ static int move_on(const frot_instant *in, const frot_group *own, double dt, dou
                       &moved);
 }
 
-/* Whether nothing that was zero has fallen below in the meantime. A reaction that may have either
- * sign and was zero shows it now; one that was only small comes to zero at an event of its own. */
-static int still_holds(const frot_instant *in, const int *chosen, int count) {
+/* Whether nothing that was zero has fallen below in the meantime; *slow is set where something has
+ * moved so little that it does not show. A reaction that may have either sign and was zero shows it
+ * now; one that was only small comes to zero at an event of its own. */
+static int still_holds(const frot_instant *in, const int *chosen, int count, int *slow) {
   const frot_model *m = in->m;
   const double *margin = in->w->search.margin;
   for (int c = 0; c < count; c++) {
@@ -140,12 +144,15 @@ static int still_holds(const frot_instant *in, const int *chosen, int count) {
         if (margin[i] <= FROT_ZERO) frot_turn_side(in, i);
       } else if (now < 0 && now < margin[i] - CLEARLY) {
         return 0;
+      } else {
+        *slow |= now < 0;
       }
     }
     for (int e = 0; e < m->n_elements; e++) {
       if (m->elements[e].contact != i || !(margin[m->n_contacts + e] < 1)) continue;
       double now = margin_of_element(in, e);
       if (now < 0 && now < margin[m->n_contacts + e] - CLEARLY) return 0;
+      *slow |= now < 0;
     }
   }
   return 1;
@@ -158,12 +165,15 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count) {
   double *q = w->step.z, *v = q + m->nq;
   if (!note_margins(in, chosen, count)) return 1;
   frot_accelerations(m, w, w->search.nothing_frozen);
-  double dt = LATER * (in->s->h > 0 ? in->s->h : in->s->h_max), way = frot_time_of_way(in, g);
-  if (way > 0) dt = fmin(dt, way);
-  int lasts = 1;
-  if (move_on(in, g, dt, q, v) == FROT_OK && evaluate(in, in->t + dt, q, v) == FROT_OK &&
-      !frot_group_reactions(m, w, g, w->search.trial, in->at_rest))
-    lasts = still_holds(in, chosen, count);
+  double step = in->s->h > 0 ? in->s->h : in->s->h_max, way = frot_time_of_way(in, g);
+  int lasts = 1, slow = 1;
+  for (double part = LATER; lasts && slow && part <= LATEST; part *= 10) {
+    double dt = way > 0 ? fmin(part * step, way) : part * step;
+    slow = 0;
+    if (move_on(in, g, dt, q, v) == FROT_OK && evaluate(in, in->t + dt, q, v) == FROT_OK &&
+        !frot_group_reactions(m, w, g, w->search.trial, in->at_rest))
+      lasts = still_holds(in, chosen, count, &slow);
+  }
   memcpy(q, in->q, sizeof(double) * (size_t)m->nq);
   memcpy(v, in->v, sizeof(double) * (size_t)m->nv);
   evaluate(in, in->t, q, v);
