@@ -17,8 +17,8 @@
 #include "tolerances.h"
 #include "turns.h"
 
-/* Of the step that comes, how far the mechanism is moved on, and as far as what changes slowly beside
- * the terms it is made of (a heavy body on a light one) may ask for. */
+/* Of the step that comes, how far the mechanism is moved on, and as far as what changes slowly
+ * beside the terms it is made of (a heavy body on a light one) may ask for. */
 #define LATER 1e-3
 #define LATEST 0.1
 #define CLEARLY 1e-8 /* part of its terms by which what was zero has fallen then */

@@ -129,6 +129,18 @@ void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, d
   }
 }
 
+/* Length of the motion that the loads of a group give, each to its own speed while the others stay:
+ * of a light body on a heavy one, the loads of both are in its coordinates, where they cancel, and
+ * |A^-1| load gives it what the heavy one's weight would do to the light one's mass. */
+static double motion_by_each(frot_work *w, const frot_group *g, const double *load) {
+  double sum = 0;
+  for (int k = 0; k < g->n_speeds; k++) {
+    double mass = frot_mass_column(w, g, k, w->core.rest), own = load[g->unknowns[k]];
+    if (own != 0 && mass > 0) sum += own * own / mass;
+  }
+  return sqrt(sum);
+}
+
 void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d) {
   double *load = w->core.load, *size = w->core.load_size;
@@ -142,6 +154,7 @@ void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, 
       spread_in_inverse(w, g, load, size);
     else
       spread_in_factor(w, g, load, size);
+    double motion = g->general ? INFINITY : motion_by_each(w, g, load);
     for (int i = 0; i < g->n_rows; i++) {
       int r = g->rows[i], reads = m->row_reads[r];
       if (!w->core.wanted[r]) continue;
@@ -149,8 +162,10 @@ void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, 
       double sum = reads < 0    ? fabs(w->core.c[r])
                    : g->general ? size[reads]
                                 : load[g->unknowns[reads]];
-      for (int j = 0; j < count && !(g->general && reads >= 0); j++) sum += fabs(row[j]) * size[j];
-      w->core.row_load[r] = sum;
+      double all = 0, length = 0;
+      for (int j = 0; j < count && !(g->general && reads >= 0); j++)
+        all += fabs(row[j]) * size[j], length += row[j] * row[j];
+      w->core.row_load[r] = sum + (g->general ? all : fmin(all, sqrt(length) * motion));
     }
   }
 }

@@ -110,6 +110,15 @@ def test_the_motions_of_a_pulled_sledge_are_the_known_ones(run: frot.Result) -> 
         assert found[0].acceleration[0] == pytest.approx(acceleration, abs=1e-9)
 
 
+def test_what_is_apart_may_accelerate_as_it_likes(run: frot.Result) -> None:
+    """Lifted off the floor, the sledge falls freely: a motion like any other."""
+    judge = Judge(sledge(), VALUES, Falsified(run, "bar.position.y", 2.0), 1e-9)
+    now = judge.mechanics(1.0)
+    found = [m for m in motions(now, still_of(judge, now, 1e-6)) if m.margin > 1e-6]
+    assert len(found) == 1
+    assert found[0].acceleration[1] == pytest.approx(-9.81, abs=1e-12)
+
+
 ROD = """
 planar model Rod
   parameter Mass m_bar = 1 kg;
