@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.lowering.constants import Constants
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
 from frot.compiler.mechanics.geometry.figures import Flat, Placed
 from frot.compiler.mechanics.geometry.tracking import Track
@@ -86,8 +86,8 @@ class Kinematics:
     the vectors from the body before to its own G.
     """
 
-    def __init__(self, mechanism: Mechanism, symbols: Symbols, fixed: Lowering) -> None:
-        """`fixed` lowers expressions of parameters."""
+    def __init__(self, mechanism: Mechanism, symbols: Symbols, fixed: Constants) -> None:
+        """`fixed` gives what no motion changes."""
         self.symbols = symbols
         self.fixed = fixed
         self.planar = mechanism.model.planar

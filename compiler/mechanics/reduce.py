@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.equations.apart import moved_by_forces
@@ -21,6 +21,7 @@ from frot.compiler.equations.text_symbols import (
     TextSymbols,
     scalars,
 )
+from frot.compiler.lowering.constants import Constants
 from frot.compiler.lowering.expressions import Conditions, Lowering
 from frot.compiler.lowering.symbols import Rows, Symbols, column, link_rows, make_symbols
 from frot.compiler.mechanics.dynamics import (
@@ -35,6 +36,7 @@ from frot.compiler.mechanics.geometry.contacts import Geometry, gravity, link_ge
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, RelationGeometry
 from frot.compiler.mechanics.liaisons.locks import Stated
+from frot.compiler.mechanics.liaisons.stated import refuse_bent
 from frot.compiler.mechanics.loads import applied_loads, sum_loads
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Mechanism, Relation
 from frot.compiler.mechanics.text_of_motion import (
@@ -46,7 +48,7 @@ from frot.compiler.mechanics.text_of_motion import (
 )
 from frot.compiler.mechanics.variables import Variables
 from frot.dsl import Log
-from frot.dsl.checked import Liaison, Quantity, Variable
+from frot.dsl.checked import Liaison
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,13 +114,9 @@ class Reduced:
 def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     """Form the equations; what cannot be lowered is reported."""
     symbols = make_symbols(mechanism)
-
-    def nothing(node: Quantity) -> ca.SX:
-        raise TypeError(f"{node.name} in an expression of parameters")
-
-    fixed = Lowering(symbols, nothing, lambda value: value * 0, log, variable=_Locals().symbol)
-    kinematics = Kinematics(mechanism, symbols, fixed)
+    kinematics = Kinematics(mechanism, symbols, Constants(symbols))
     text = chains_of_motion(mechanism, symbols)
+    refuse_bent(mechanism, kinematics, log)
     geometry = _geometry(mechanism, kinematics)
     variables = _variables(mechanism, kinematics, text, geometry)
     give_rates_of_tracks(kinematics, text)
@@ -197,17 +195,6 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         ),
         potential=settled(potential + loads.potential),
     )
-
-
-@dataclass(slots=True)
-class _Locals:
-    """Symbols for what a curve or surface is given by: `u`, or x, y and z."""
-
-    known: dict[Variable, ca.SX] = field(default_factory=dict)
-
-    def symbol(self, variable: Variable) -> ca.SX:
-        """Its own symbol, which whoever lowers the expression replaces."""
-        return self.known.setdefault(variable, ca.SX.sym(variable.name))
 
 
 # Of the size of its terms, what sums of products along a chain leave where they cancel out.

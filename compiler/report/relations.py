@@ -7,14 +7,12 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.lowering.constants import Constants
 from frot.compiler.lowering.symbols import Symbols, column, make_symbols
 from frot.compiler.mechanics.geometry.contacts import link_geometry, row_rates
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.motions import Follow, Motion, Slide, count_speeds
 from frot.compiler.mechanics.mechanism import Contact, Link, Mechanism
-from frot.dsl import Log
-from frot.dsl.checked import Quantity
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
@@ -189,13 +187,8 @@ def make_relations(mechanism: Mechanism, unilateral: Mapping[Link, bool]) -> Rel
 
     None where a place has to be solved for where figures touch.
     """
-    symbols, log = make_symbols(mechanism), Log()
-
-    def nothing(node: Quantity) -> ca.SX:
-        raise TypeError(f"{node.name} in an expression of parameters")
-
-    fixed = Lowering(symbols, nothing, lambda value: value * 0, log)
-    kinematics = Kinematics(mechanism, symbols, fixed)
+    symbols = make_symbols(mechanism)
+    kinematics = Kinematics(mechanism, symbols, Constants(symbols))
     world = mechanism.model.world
     links = mechanism.contacts
     found = [link_geometry(x, kinematics, symbols.sides[k], world) for k, x in enumerate(links)]

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 from front_door import HOOP, Door
+from frot.compiler.driver import assembled_of, lowered_of
+from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.mechanics.mechanize import mechanize
+from frot.dsl import Log
 
 import frot
 from frot.command_line import STAGES
@@ -37,3 +42,45 @@ def test_only_the_driver_takes_a_pass() -> None:
                 for name in PASSES & {alias.name for alias in node.names}:
                     takers[name].add(path.name)
     assert takers == {name: {"driver.py"} for name in PASSES}
+
+
+def live(root: object) -> set[str]:
+    """What a stage reaches that is no data: functions, logs, walks, with the way there."""
+    found: set[str] = set()
+    seen: list[object] = []  # keeps each alive, so that no other gets its id
+    known: set[int] = set()
+    pending: list[tuple[str, object]] = [(type(root).__name__, root)]
+    while pending:
+        way, item = pending.pop()
+        kind = type(item)
+        if id(item) in known or kind.__module__.startswith(("casadi", "numpy", "builtins.type")):
+            continue
+        known.add(id(item))
+        seen.append(item)
+        if isinstance(item, Log | Lowering) or (callable(item) and not isinstance(item, type)):
+            found.add(f"{way}: {kind.__name__}")
+        elif isinstance(item, Mapping):
+            pending += [(f"{way}[]", part) for pair in item.items() for part in pair]
+        elif isinstance(item, list | tuple | set | frozenset):
+            pending += [(f"{way}[]", part) for part in item]
+        elif not isinstance(item, str | bytes | int | float | type(None) | type):
+            slots = {name for base in kind.__mro__ for name in getattr(base, "__slots__", ())}
+            names = slots | set(getattr(item, "__dict__", {}))
+            held = [(name, getattr(item, name, None)) for name in names - {"__weakref__"}]
+            pending += [(f"{kind.__name__}.{name}", part) for name, part in held]
+    return found
+
+
+@pytest.mark.parametrize("name", ["slider_crank", "speed_drive", "cycloid"])
+def test_a_stage_holds_data_and_nothing_that_works(name: str) -> None:
+    checked = frot.load(ROOMS / "models" / f"{name}.frot").checked()
+    mechanism = mechanize(checked, Log())
+    system = assembled_of(checked, Log())
+    lowered = lowered_of(checked, Log())
+    assert [live(stage) for stage in (checked, mechanism, system, lowered)] == [set()] * 4
+
+
+def test_what_works_is_found_in_a_stage() -> None:
+    log = Log()
+    assert live({"a": [(log,)]}) == {"dict[][][]: Log"}
+    assert live((test_what_works_is_found_in_a_stage,)) == {"tuple[]: function"}

@@ -15,8 +15,9 @@ from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.locks import Stated
 from frot.compiler.mechanics.liaisons.moves import Column
 from frot.compiler.mechanics.liaisons.wrenches import Action
-from frot.compiler.mechanics.mechanism import Joint, point_body
+from frot.compiler.mechanics.mechanism import Joint, Mechanism, point_body
 from frot.compiler.mechanics.spatial import Moving, Pose, cross, nowhere, product
+from frot.dsl import Log
 from frot.dsl.checked import Liaison, Quantity
 
 
@@ -28,17 +29,28 @@ def value_of(lock: Stated, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
         value = _read(node, kinematics)
         return ca.densify(value[:2]) if kinematics.planar and value.numel() == 3 else value
 
-    fixed = kinematics.fixed
-    lowering = Lowering(kinematics.symbols, quantity, fixed.rate, fixed.log)
+    lowering = Lowering(kinematics.symbols, quantity, _unrated, Log())
     left, right = lowering.lower(lock.left), lowering.lower(lock.right)
-    value = left - right
-    if lock.kinematic and _is_bent(value, kinematics.symbols.v):
-        fixed.log.report(
-            "E0701",
-            "a relation that is not linear in velocities is not supported yet",
-            lock.left.span,
-        )
-    return value, ca.fabs(left) + ca.fabs(right)
+    return left - right, ca.fabs(left) + ca.fabs(right)
+
+
+def _unrated(value: ca.SX) -> ca.SX:
+    raise TypeError("a derivative in a relation")
+
+
+def refuse_bent(mechanism: Mechanism, kinematics: Kinematics, log: Log) -> None:
+    """Report relations between velocities that are not linear in them."""
+    for link in mechanism.contacts:
+        lock = getattr(link, "lock", None)
+        if not isinstance(lock, Stated) or not lock.kinematic:
+            continue
+        value, _ = value_of(lock, kinematics)
+        if _is_bent(value, kinematics.symbols.v):
+            log.report(
+                "E0701",
+                "a relation that is not linear in velocities is not supported yet",
+                lock.left.span,
+            )
 
 
 def _is_bent(value: ca.SX, speeds: ca.SX) -> bool:
