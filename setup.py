@@ -1,6 +1,7 @@
-"""Compiles the kernel while Frot is installed, so that the first run need not wait for it.
+"""Makes, while Frot is installed, what is the same for every model: the first run is a fast one.
 
-Without a C compiler, or with another one later, the first run compiles it instead.
+These are the kernel's objects and the parser's tables. Without a C compiler, or with another one
+later, the first run compiles the kernel instead.
 """
 
 import sys
@@ -12,7 +13,7 @@ from setuptools import setup
 from setuptools.command.build_py import build_py
 
 HERE = Path(__file__).parent
-WITHOUT_KERNEL = "Frot is installed without its kernel, which the first run compiles"
+LATER = "left to the first run"
 
 
 def see_packages() -> None:
@@ -24,23 +25,37 @@ def see_packages() -> None:
         sys.modules[name] = package
 
 
-class BuildWithKernel(build_py):
-    """Puts the kernel's objects beside the modules of the runtime."""
+class BuildWithWhatIsMadeOnce(build_py):
+    """Puts the kernel's objects and the parser's tables beside the modules that use them."""
 
     def run(self) -> None:
-        """Build the packages, then the kernel."""
+        """Build the packages, then these."""
         super().run()
         see_packages()
+        self._kernel()
+        self._tables()
+
+    def _folder(self, room: str) -> Path:
+        return HERE / room if self.editable_mode else Path(self.build_lib, "frot", room)
+
+    def _tables(self) -> None:
+        from frot.dsl.text.grammar import MADE, make_tables
+
+        try:
+            make_tables(self._folder("dsl/text") / MADE.name)
+        except (ImportError, OSError) as error:
+            self.warn(f"the parser's tables are {LATER}: {error}")
+
+    def _kernel(self) -> None:
         from frot.compiler.toolchain.cache import INSTALLED
         from frot.compiler.toolchain.objects import install_kernel
         from frot.dsl.messages.errors import FrotError
 
         own = HERE / "runtime"
-        runtime = own if self.editable_mode else Path(self.build_lib, "frot", "runtime")
         try:
-            install_kernel(own / "kernel", [own / INSTALLED], runtime / INSTALLED)
+            install_kernel(own / "kernel", [own / INSTALLED], self._folder("runtime") / INSTALLED)
         except (OSError, FrotError) as error:
-            self.warn(f"{WITHOUT_KERNEL}: {error}")
+            self.warn(f"the kernel is {LATER}: {error}")
 
 
-setup(cmdclass={"build_py": BuildWithKernel})
+setup(cmdclass={"build_py": BuildWithWhatIsMadeOnce})

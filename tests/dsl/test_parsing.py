@@ -207,6 +207,7 @@ def test_a_folder_that_cannot_be_written_is_no_fault(
 ) -> None:
     from frot.dsl.text import grammar
 
+    monkeypatch.setattr(grammar, "MADE", tmp_path / "none")
     blocked = tmp_path / "file"
     blocked.write_text("")
     monkeypatch.setenv("FROT_CACHE", str(blocked / "under"))
@@ -217,6 +218,23 @@ def test_a_folder_that_cannot_be_written_is_no_fault(
     grammar.grammar.__wrapped__()
     assert [p.suffix for p in kept.iterdir()] == [".bin"]
     assert stat.S_ISREG(os.stat(next(kept.iterdir())).st_mode)
+
+
+def test_tables_of_the_installation_are_taken_and_damaged_ones_made_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from frot.dsl.text import grammar
+
+    made, kept = tmp_path / "made", tmp_path / "cache"
+    grammar.make_tables(made)
+    monkeypatch.setattr(grammar, "MADE", made)
+    monkeypatch.setenv("FROT_CACHE", str(kept))
+    (tables,) = made.iterdir()
+    whole = tables.stat().st_size
+    for content in (tables.read_bytes(), b"none", tables.read_bytes()[: whole // 2]):
+        tables.write_bytes(content)
+        assert grammar.grammar.__wrapped__().parse_interactive("") is not None
+        assert not kept.exists() and tables.stat().st_size > 0.9 * whole
 
 
 def test_dump_shows_a_tree() -> None:

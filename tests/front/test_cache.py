@@ -135,7 +135,6 @@ DAMAGES = {
     "a library that is none": lambda c: one(c, "programs/*/program.so").write_text("no library"),
     "a missing library": lambda c: one(c, "programs/*/program.so").unlink(),
     "a missing source": lambda c: one(c, "programs/*/model.c").unlink(),
-    "a damaged grammar": lambda c: [p.write_bytes(b"none") for p in c.glob("grammar*")],
 }
 
 
