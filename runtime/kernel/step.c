@@ -111,7 +111,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
                    ? FROT_OK
                    : frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL, &moved);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, end, a->h);
-  lost = moved ? frot_speed_lost(m, s, w, end) : -1;
+  lost = moved ? frot_speed_lost(m, s, w, end, a->h) : -1;
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   s->has_slope = !moved && !s->pending;

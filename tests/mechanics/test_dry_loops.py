@@ -111,3 +111,34 @@ def test_the_halves_are_not_told() -> None:
     assert "rocker'" not in str(model.report())
     told = frot.compile(four_bar(mu=0.0)).simulate()
     assert abs(result.at(0.0)["energy.kinetic"] - told.at(0.0)["energy.kinetic"]) < 1e-12
+
+
+BOWL = """
+planar model RodInBowl
+  world(gravity = 9.81 m/s^2);
+  parameter Angle start = 0 deg;
+  parameter Real mu = 0;
+  body bar: rod(mass = 1 kg, length = 1 m);
+  curve bowl on ground: circle(centre = (0, 0) m, radius = 1 m);
+  liaison A: point_courbe(bar.start, bowl) with coulomb(mu);
+  liaison B: point_courbe(bar.tip, bowl) with coulomb(mu);
+initial
+  bar.angle = start;
+  guess(bar.position = (0, -0.866) m);
+  bar.angular_velocity = 0 rad/s;
+  experiment(stop = 1 s, tolerance = 1e-9);
+end RodInBowl;
+"""
+
+
+def test_a_rod_with_both_ends_on_a_circle_stays_in_its_equilibrium() -> None:
+    """What rounding moves there has no energy to lose; beside it the rod swings."""
+    model = frot.compile(BOWL)
+    arm, gyration = np.sqrt(0.75), 1 / 12
+    way = np.cos(np.sqrt(G * arm / (gyration + arm**2)))
+    for start, stays in ((0.0, 0.0), (np.pi, np.pi), (1e-6, 1e-6 * way)):
+        result = model.simulate(parameters={"start": start})
+        assert result["bar.angle"][-1] == pytest.approx(
+            stays, abs=1e-14 + 1e-8 * abs(start % np.pi)
+        )
+    assert model.simulate(parameters={"start": 0.3, "mu": 1.0})["bar.angle"][-1] == 0.3
