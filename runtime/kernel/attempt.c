@@ -42,15 +42,15 @@ static int is_still(const frot_work *w) {
 }
 
 int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
-  a->longest = frot_longest_step(m, s, a->t, 0);
+  a->longest = frot_longest_step(m, s, w, a->t, 0);
   a->h = fmin(s->h, a->longest);
   frot_see_anew(w);
   int status = frot_start_slope(m, s, w, a->t);
   if (status == FROT_OK && is_still(w)) {
-    a->longest = frot_longest_step(m, s, a->t, 1);
+    a->longest = frot_longest_step(m, s, w, a->t, 1);
     a->h = m->time_dependent ? fmin(s->h, a->longest) : a->longest;
   }
-  memcpy(w->step.first, frot_stage(w, 0), sizeof(double) * (size_t)w->layout.nz);
+  memcpy(w->step.first, frot_stage(w, 0), sizeof(double) * (size_t)frot_width(w));
   if (status == FROT_OK && s->implicit) status = frot_implicit_begin(m, s, w, a->t);
   a->want = a->h, a->most = a->longest;
   if (s->weak) a->h = frot_lay_step(m, s, w, a->t, a->h, a->most);

@@ -99,9 +99,13 @@ static void excuse(const frot_model *m, const frot_state *s, frot_work *w, const
 }
 
 void frot_excuse_noise(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
-  memset(w->step.excused, 0, sizeof(double) * 2 * (size_t)m->nv);
-  for (int k = 0; k < w->awake.now->n_groups && frot_has_loops(m, s, w); k++) {
-    const frot_group *g = &m->groups[w->awake.now->groups[k]];
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n - FROT_QUADRATURES; k++) {
+    int speed = now->states[k] - m->nq;
+    if (speed >= 0) w->step.excused[speed] = w->step.excused[m->nv + speed] = 0;
+  }
+  for (int k = 0; k < now->n_groups && frot_has_loops(m, s, w); k++) {
+    const frot_group *g = &m->groups[now->groups[k]];
     excuse(m, s, w, g, dp_e5, t, h, w->step.excused);
     excuse(m, s, w, g, dp_e3, t, h, w->step.excused + m->nv);
   }

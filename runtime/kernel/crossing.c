@@ -251,8 +251,12 @@ void frot_interpolate_stage(const frot_model *m, frot_work *w, int stage, int re
 
 int frot_passes(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h) {
   const double *posture = s->data + w->layout.posture;
+  const frot_awake_lists *now = w->awake.now;
   int passed = 0;
-  for (int row = 0; row < m->n_rows; row++) passed |= posture[row] > t && posture[row] <= t + h;
+  for (int k = 0; k < now->n_contacts; k++) {
+    int row = m->contacts[now->contacts[k]].row_n;
+    passed |= row >= 0 && posture[row] > t && posture[row] <= t + h;
+  }
   return passed;
 }
 
@@ -260,9 +264,12 @@ void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w,
                          double h) {
   const double *posture = s->data + w->layout.posture;
   int passed = frot_passes(m, s, w, t, h), near = fabs(s->foreseen - (t + h)) <= FAR * s->h;
+  const frot_awake_lists *now = w->awake.now;
   s->weak = 0;
-  for (int row = 0; row < m->n_rows; row++)
-    s->weak |= fabs(posture[row] - (t + h)) <= FOLLOWS * s->h;
+  for (int k = 0; k < now->n_contacts; k++) {
+    int row = m->contacts[now->contacts[k]].row_n;
+    s->weak |= row >= 0 && fabs(posture[row] - (t + h)) <= FOLLOWS * s->h;
+  }
   s->tied = s->weak || (s->tied > 0 && near) ? 1 : s->tied < 0 ? s->tied + 1 : 0;
   s->statistics.crossings += passed;
   if (passed) s->across = INFINITY;

@@ -39,7 +39,7 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
     if (slope > 0 && size > 0) h = fmin(h, FIRST_CHANGE * size / slope);
   }
   h = frot_probe_step(m, s, w, s->t, fmax(h, FIRST_LEAST * s->h_max));
-  s->h = frot_finest_step(m, s, h);
+  s->h = frot_finest_step(m, s, w, h);
   return FROT_OK;
 }
 

@@ -15,20 +15,21 @@
 #define FAINT 1e-3    /* part of the largest rate in the step that nobody looks at */
 #define LONG_REST 1e9 /* longest step where nothing depends on time, in longest steps */
 
-static const double *experiment_of(const frot_model *m, const frot_state *s) {
-  return s->data + frot_layout_of(m).experiment;
+static const double *experiment_of(const frot_state *s, const frot_work *w) {
+  return s->data + w->layout.experiment;
 }
 
 /* The run as the text has it, zero where it is silent. */
-static double told_run(const frot_model *m, const frot_state *s) {
-  const double *experiment = experiment_of(m, s);
+static double told_run(const frot_state *s, const frot_work *w) {
+  const double *experiment = experiment_of(s, w);
   double start = isnan(experiment[0]) ? 0 : experiment[0];
   return experiment[1] > start ? experiment[1] - start : 0;
 }
 
-double frot_longest_step(const frot_model *m, const frot_state *s, double t, int still) {
-  double longest = s->h_max, most = experiment_of(m, s)[4];
-  double told = told_run(m, s), been = t - s->began;
+double frot_longest_step(const frot_model *m, const frot_state *s, const frot_work *w, double t,
+                         int still) {
+  double longest = s->h_max, most = experiment_of(s, w)[4];
+  double told = told_run(s, w), been = t - s->began;
   if (m->time_dependent) {
     double grown = still || told == 0 ? GROWTH * been : PART * been;
     longest = fmax(fmax(PART * told, grown), FINEST);
@@ -38,8 +39,8 @@ double frot_longest_step(const frot_model *m, const frot_state *s, double t, int
   return most > 0 ? fmin(longest, most) : longest;
 }
 
-double frot_finest_step(const frot_model *m, const frot_state *s, double h) {
-  if (!m->time_dependent || told_run(m, s) > 0) return h;
+double frot_finest_step(const frot_model *m, const frot_state *s, const frot_work *w, double h) {
+  if (!m->time_dependent || told_run(s, w) > 0) return h;
   return fmin(h, fmax(FINEST, 1e3 * DBL_EPSILON * fabs(s->began)));
 }
 
@@ -61,7 +62,7 @@ static void note_rates(const frot_model *m, frot_state *s, frot_work *w, double 
 }
 
 double frot_pace_step(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
-  double spacing = fmax(told_run(m, s), t - s->began) / SAMPLES;
+  double spacing = fmax(told_run(s, w), t - s->began) / SAMPLES;
   if (m->n_paced == 0 || !(h > spacing)) return h;
   int count = (int)fmin(ceil(h / spacing), SAMPLES);
   double *seen = w->pace + 2 * m->n_paced, *most = seen + m->n_paced;

@@ -12,10 +12,11 @@
 #include "work.h"
 
 /* The longest step at t; `still`: nothing moves. */
-double frot_longest_step(const frot_model *m, const frot_state *s, double t, int still);
+double frot_longest_step(const frot_model *m, const frot_state *s, const frot_work *w, double t,
+                         int still);
 
 /* The first step's length where the text does not tell how long the run is. */
-double frot_finest_step(const frot_model *m, const frot_state *s, double h);
+double frot_finest_step(const frot_model *m, const frot_state *s, const frot_work *w, double h);
 
 /* h, or the length of the step that ends before the rates grow beyond what its stages will see.
  * The states are in w->z0. */

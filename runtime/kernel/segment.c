@@ -5,7 +5,7 @@
 #include "awake.h"
 
 void frot_interpolate(const frot_model *m, const frot_segment *g, double t, double *x) {
-  int nx = frot_layout_of(m).nx;
+  int nx = m->nq + m->nv + FROT_QUADRATURES;
   double theta = *g->h > 0 ? (t - *g->t0) / *g->h : 0, one = 1 - theta;
   for (int j = 0; j < nx; j++) {
     double sum = 0;
@@ -50,16 +50,16 @@ void frot_make_instant(const frot_model *m, frot_state *s, frot_work *w, double 
 
 void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, double t, double h,
                     double end) {
-  frot_layout l = frot_layout_of(m);
-  frot_segment g = frot_segment_at(m, s->data + l.segment);
+  frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
   *g.t0 = t, *g.t1 = end, *g.h = h;
-  if (s->asleep == 0) copy_modes(m, s, &l, &g); /* what wakes changes them */
+  if (s->asleep == 0) copy_modes(m, s, &w->layout, &g); /* what wakes changes them */
   const frot_awake_lists *now = w->awake.now;
   for (int i = 0; i < now->n_elements; i++)
-    memcpy(g.along + 2 * now->elements[i], s->data + l.along + 2 * now->elements[i],
+    memcpy(g.along + 2 * now->elements[i], s->data + w->layout.along + 2 * now->elements[i],
            2 * sizeof(double));
-  memcpy(g.y0, s->data + l.y, sizeof(double) * (size_t)m->ny);
+  memcpy(g.y0, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
   memcpy(g.y1, w->step.y_end, sizeof(double) * (size_t)m->ny);
   frot_copy_awake(w, w->step.z0, g.x0);
-  for (int i = 0; i < DP_DENSE; i++) frot_unpack(w, w->step.f + i * l.nz, g.f + i * l.nx);
+  for (int i = 0; i < DP_DENSE; i++)
+    frot_unpack(w, w->step.f + i * w->layout.nz, g.f + i * w->layout.nx);
 }

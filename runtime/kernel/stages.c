@@ -80,7 +80,7 @@ static int run_once(const frot_model *m, frot_state *s, frot_work *w, double t, 
                     int *reached) {
   int before = *reached;
   memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
-  memset(w->step.doubt, 0, sizeof(double) * (size_t)w->layout.nz);
+  memset(w->step.doubt, 0, sizeof(double) * (size_t)frot_width(w));
   if (loops && w->step.near[0]) frot_interpolate_stage(m, w, 0, before);
   for (int i = 1; i <= DP_STAGES; i++) {
     double *z = i == DP_STAGES ? w->step.z1 : w->step.z;
@@ -106,13 +106,17 @@ int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, 
   if (s->implicit) return frot_implicit_stages(m, s, w, t, h);
   int loops = frot_has_loops(m, s, w), reached = 0, status;
   memset(w->step.near, 0, DP_STAGES + 1);
-  memcpy(w->reactions.along, s->data + w->layout.along, sizeof(double) * 2 * (size_t)m->n_elements);
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_elements; k++) {
+    int at = 2 * now->elements[k];
+    memcpy(w->reactions.along + at, s->data + w->layout.along + at, 2 * sizeof(double));
+  }
   w->reactions.follow = 1;
-  memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)w->layout.nz);
+  memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)frot_width(w));
   for (int pass = 0;; pass++) {
     status = run_once(m, s, w, t, h, loops, &reached);
     if (!loops || !frot_find_crossings(m, s, w, t, h, reached, pass)) return status;
-    memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)w->layout.nz);
+    memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)frot_width(w));
   }
 }
 

@@ -64,17 +64,16 @@ long long frot_segment_size(const frot_model *model) {
 }
 
 frot_segment frot_segment_at(const frot_model *m, double *data) {
-  frot_layout l = frot_layout_of(m);
   frot_segment s;
   s.t0 = data, s.t1 = data + 1, s.h = data + 2;
   data += 3;
   s.modes = (frot_contact_mode *)(void *)data, data += m->n_contacts + m->n_elements;
-  s.d = data, data += l.nd;
+  s.d = data, data += m->n_conditions + m->n_contacts + m->n_discrete;
   s.frozen = data, data += m->nv;
   s.along = data, data += 2 * m->n_elements;
   s.y0 = data, data += m->ny;
   s.y1 = data, data += m->ny;
-  s.x0 = data, data += l.nx;
+  s.x0 = data, data += m->nq + m->nv + FROT_QUADRATURES;
   s.f = data;
   return s;
 }
