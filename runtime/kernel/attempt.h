@@ -6,6 +6,7 @@
 
 typedef struct {
   double t, h, longest;
+  double beyond; /* how far after that of its stages its end is */
   double first;  /* its length at first */
   double stable; /* most that the next one may be */
   double ratio;  /* of its error to the bound */

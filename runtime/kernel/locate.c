@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "ends.h"
 #include "falls.h"
 #include "groups.h"
 #include "jacobian.h"
@@ -19,6 +20,12 @@
  * of it at most while it is not. */
 #define RESOLVED (64 * DBL_EPSILON)
 #define STALLS 0.1
+/* In steps, how near the end of its stages the instant is reached by the slope there and its rate,
+ * which leave a part of the third order of the way; by the slope alone. */
+#define NEXT_TO 1e-5
+#define STRAIGHT 1e-8
+/* Stages without weight in the dense output: room for that slope and its rate. */
+enum { AT_END = 1, RATE_AT_END = 2 };
 
 /* Move the end of the step onto the relations and evaluate there: a guard is read where the motion
  * will go on. */
@@ -36,36 +43,108 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, double t) {
   return status;
 }
 
+/* The search for the instant, from t: the guard's value at the part `at` of time, its slope, and
+ * the instant before that one with its value. */
+typedef struct {
+  double longest, resolved;
+  double at, value, slope, last_at, last;
+  int passes;
+} search;
+
+/* Where the secant goes on, or where it is if nothing is gained by that. */
+static double next_instant(search *a, double t) {
+  if (a->passes > 0 && a->at != a->last_at && a->value != a->last) {
+    double secant = (a->value - a->last) / (a->at - a->last_at);
+    if (secant < 0) a->slope = secant;
+  }
+  if (a->value == 0 || !(a->slope < 0) || a->passes == PASSES) return a->at;
+  if (a->resolved > 0 && fabs(a->value) <= a->resolved) return a->at;
+  if (a->resolved > 0 && a->passes > 0 && fabs(a->value) > STALLS * fabs(a->last)) return a->at;
+  double next = a->at - a->value / a->slope;
+  if (!(next > 0)) next = 0.5 * a->at;
+  if (next > a->longest) next = a->longest;
+  int same = fabs(next - a->at) <= 2 * DBL_EPSILON * fmax(fabs(t + a->at), a->at);
+  return same ? a->at : next;
+}
+
+/* Go to another instant, where the guard will be looked at. */
+static void go_to(search *a, double next) {
+  a->last_at = a->at, a->last = a->value, a->at = next, a->passes++;
+}
+
+/* z1 and its slope <- those `way` after the end of the step's stages, where the states are `base`
+ * and the slopes and their rates stand in stages that serve no more. */
+static int shift_end(const frot_model *m, frot_state *s, frot_work *w, double t, const double *base,
+                     double way) {
+  const double *slope = frot_stage(w, AT_END), *rate = frot_stage(w, RATE_AT_END);
+  for (int k = 0; k < w->awake.n; k++) {
+    int at = w->awake.now->states[k];
+    w->step.z1[at] = base[at] + way * (slope[k] + 0.5 * way * rate[k]);
+  }
+  memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
+  int status = frot_slope(m, s, w, t, w->step.z1, frot_stage(w, DP_STAGES));
+  memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)m->ny);
+  if (status == FROT_OK) status = frot_has_jammed(s, w) ? FROT_DIVERGE : land(m, s, w, t);
+  double *change = frot_stage(w, RATE_AT_END);
+  const double *moved = frot_stage(w, DP_STAGES);
+  for (int k = 0; k < w->awake.n && way != 0; k++) change[k] = (moved[k] - slope[k]) / way;
+  return status;
+}
+
+/* Go on to the instant by the slope at the end of the stages, which is that near, and its rate: an
+ * evaluation a time. */
+static int refine(const frot_model *m, frot_state *s, frot_work *w, double t, int guard, search *a,
+                  double next) {
+  double stages = a->at, *base = w->step.z;
+  int known = 0; /* whether the rate is */
+  memcpy(base, w->step.z1, sizeof(double) * (size_t)w->layout.nx);
+  memcpy(frot_stage(w, AT_END), frot_stage(w, DP_STAGES), sizeof(double) * (size_t)frot_width(w));
+  memset(frot_stage(w, RATE_AT_END), 0, sizeof(double) * (size_t)w->awake.n);
+  do {
+    go_to(a, next);
+    double way = a->at - stages;
+    int status = FROT_OK;
+    if (!known && fabs(way) > STRAIGHT * stages) status = shift_end(m, s, w, t + a->at, base, way);
+    if (status == FROT_OK) status = shift_end(m, s, w, t + a->at, base, way);
+    if (status != FROT_OK) return status;
+    known = 1;
+    a->value = frot_stage(w, DP_STAGES)[w->awake.n + guard];
+    next = next_instant(a, t);
+  } while (next != a->at && fabs(next - stages) <= NEXT_TO * stages);
+  return FROT_OK;
+}
+
 int frot_locate(const frot_model *m, frot_state *s, frot_work *w, double t, int guard, double theta,
-                double *h, int *falls) {
-  double longest = *h, g[7];
+                double *h, double *end, int *falls) {
+  double g[7];
   frot_guard_polynomial(s, w, guard, *h, g);
   double left = fmax(theta - SPAN, 0), right = fmin(theta + SPAN, 1);
-  double slope = (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * longest);
-  double at = theta * longest, last_at = 0, last = 0, value = 0;
+  double slope = (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * *h);
   /* what reactions decide is read no better than this: nothing is gained by the steps beyond */
   int j = w->guards.list[guard];
   double resolved = j < frot_condition_guard(m) ? RESOLVED * s->data[w->layout.scale_g + j] : 0;
-  for (int pass = 0;; pass++) {
-    int status = frot_run_stages(m, s, w, t, at);
-    if (status == FROT_OK && !(s->implicit && !frot_has_motion(m))) status = land(m, s, w, t + at);
+  search a = {.longest = *h, .resolved = resolved, .at = theta * *h, .slope = slope};
+  for (;;) {
+    int status = frot_run_stages(m, s, w, t, a.at);
+    if (status == FROT_OK && !(s->implicit && !frot_has_motion(m)))
+      status = land(m, s, w, t + a.at);
     if (status != FROT_OK) return status;
-    value = frot_stage(w, DP_STAGES)[w->awake.n + guard];
-    if (pass > 0 && at != last_at && value != last) {
-      double secant = (value - last) / (at - last_at);
-      if (secant < 0) slope = secant;
+    a.value = frot_stage(w, DP_STAGES)[w->awake.n + guard];
+    double next = next_instant(&a, t);
+    *h = *end = a.at;
+    if (next == a.at) {
+      frot_measure_end(m, s, w, t + a.at, w->step.z1);
+      status = frot_make_dense(m, s, w, t, a.at);
+    } else if (!s->implicit && !s->weak && fabs(next - a.at) <= NEXT_TO * a.at) {
+      status = frot_make_dense(m, s, w, t, a.at);
+      if (status == FROT_OK) status = refine(m, s, w, t, guard, &a, next);
+      frot_measure_end(m, s, w, t + a.at, w->step.z1);
+      *end = a.at;
+    } else {
+      go_to(&a, next);
+      continue;
     }
-    if (value == 0 || !(slope < 0) || pass == PASSES) break;
-    if (resolved > 0 && fabs(value) <= resolved) break;
-    if (resolved > 0 && pass > 0 && fabs(value) > STALLS * fabs(last)) break;
-    last_at = at, last = value;
-    double next = at - value / slope;
-    if (!(next > 0)) next = 0.5 * at;
-    if (next > longest) next = longest;
-    if (fabs(next - at) <= 2 * DBL_EPSILON * fmax(fabs(t + at), at) || next == at) break;
-    at = next;
+    *falls = a.value <= frot_close_to_fall(m, s, w, guard, t, a.slope);
+    return status;
   }
-  *h = at;
-  *falls = value <= frot_close_to_fall(m, s, w, guard, t, slope);
-  return FROT_OK;
 }

@@ -49,19 +49,18 @@ static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_atte
 static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
                         int *guard) {
   for (*guard = -1; a->guard >= 0;) {
-    double longest = a->h;
+    double longest = a->h, end;
     int falls;
     if (a->theta * a->h <= FROT_LEAST_STEP * fmax(fabs(a->t), a->h)) {
       frot_fire_at_start(s, w, a->guard);
       return FROT_OK;
     }
-    int status = frot_locate(m, s, w, a->t, a->guard, a->theta, &a->h, &falls);
+    int status = frot_locate(m, s, w, a->t, a->guard, a->theta, &a->h, &end, &falls);
     falls &= a->h <= (a->theta + STRAY) * longest;
     double part = fmin(fmax(FROT_NEARLY * a->theta, SHORTER), FROT_NEARLY);
     if (status == FROT_OK && falls) {
-      *guard = a->guard, a->to_due = 0;
-      frot_measure_end(m, s, w, a->t + a->h, w->step.z1);
-      return frot_make_dense(m, s, w, a->t, a->h);
+      *guard = a->guard, a->to_due = 0, a->beyond = end - a->h;
+      return FROT_OK;
     }
     if (status == FROT_OK) status = run_again(m, s, w, a, part * longest);
     if (status != FROT_OK) return status;
@@ -88,7 +87,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
                 int guard) {
   const frot_layout *l = &w->layout;
   double *x = s->data + l->x, *slope = s->data + l->slope;
-  double end = a->to_due ? s->due : a->t + a->h;
+  double end = a->to_due ? s->due : a->t + (a->h + a->beyond);
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
   s->statistics.steps++;
   s->statistics.implicit_steps += s->implicit;
