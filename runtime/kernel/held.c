@@ -131,9 +131,10 @@ int frot_hold_rows(frot_problem *p) {
   if (orthonormalize(p)) return 1;
   int own = p->equations - p->kept;
   double *x = w->core.rest;
-  for (int c = -1, first, end; c < n; c++) {
+  for (int c = -1; c < n; c++) {
+    frot_places places;
     frot_unknown_column(p, c, x);
-    frot_support(x, ns, &first, &end);
+    frot_find_places(x, ns, &places);
     double length = sqrt(frot_dot(x, x, ns)), unit = length > 0 ? 1 / length : 1;
     if (c >= 0) w->reactions.unit_of[c] = unit;
     /* a row by itself lies along those made of it and of the rows before it */
@@ -141,7 +142,7 @@ int frot_hold_rows(frot_problem *p) {
     int along = alone ? w->span.along[c] : p->equations;
     for (int r = 0; r < p->equations; r++) {
       const double *direction = w->span.basis + ns * r;
-      double part = r < along ? frot_dot(direction + first, x + first, end - first) : 0;
+      double part = r < along ? frot_dot_at(&places, x, direction) : 0;
       if (c < 0) {
         w->linear.right[r] = -(part + w->span.bias[r]);
         continue;

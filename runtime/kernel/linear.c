@@ -106,18 +106,29 @@ void frot_support(const double *x, int n, int *first, int *end) {
   *first = from, *end = to;
 }
 
+void frot_find_places(const double *x, int n, frot_places *places) {
+  int count = 0;
+  frot_support(x, n, &places->first, &places->end);
+  for (int k = places->first; k < places->end && count <= FROT_FEW; k++) {
+    if (x[k] == 0) continue;
+    if (count < FROT_FEW) places->place[count] = k;
+    count++;
+  }
+  places->count = count <= FROT_FEW && 2 * count < places->end - places->first ? count : -1;
+}
+
 double frot_reject(double *x, const double *basis, int columns, int n, double *parts) {
   double own = sqrt(frot_dot(x, x, n)), rest = own;
-  int first, end;
+  frot_places places;
   for (int c = 0; c < columns; c++) parts[c] = 0;
-  frot_support(x, n, &first, &end);
+  frot_find_places(x, n, &places);
   for (int pass = 0; pass < 2; pass++) {
     for (int c = 0; c < columns; c++) {
       const double *with = basis + n * c;
-      double part = frot_dot(x + first, with + first, end - first);
+      double part = frot_dot_at(&places, x, with);
       if (part == 0) continue;
       for (int k = 0; k < n; k++) x[k] -= part * with[k];
-      parts[c] += part, first = 0, end = n;
+      parts[c] += part, places = (frot_places){.first = 0, .end = n, .count = -1};
     }
     rest = sqrt(frot_dot(x, x, n));
     if (rest > KEPT * own) break;

@@ -38,10 +38,29 @@ int frot_least_norm(double *a, double *b, int m, int n, double *x, double *work,
 /* The items of x (n) that are not zero lie in first .. end. */
 void frot_support(const double *x, int n, int *first, int *end);
 
+double frot_dot(const double *a, const double *b, int n);
+
+/* Where x (n) is not zero: its items lie in first .. end; where they are few, at the `count`
+ * places, else count is -1. */
+#define FROT_FEW 16
+typedef struct {
+  int first, end, count, place[FROT_FEW];
+} frot_places;
+
+void frot_find_places(const double *x, int n, frot_places *places);
+
+/* x'y, where these are the places of x. */
+static inline double frot_dot_at(const frot_places *places, const double *x, const double *y) {
+  if (places->count < 0)
+    return frot_dot(x + places->first, y + places->first, places->end - places->first);
+  double sum = 0;
+  for (int k = 0; k < places->count; k++) sum += x[places->place[k]] * y[places->place[k]];
+  return sum;
+}
+
 /* Takes from x (n) its parts along the orthonormal columns of `basis` (n x columns), which go to
  * `parts`; again where much is taken, so that the rest is orthogonal to rounding. Returns the
  * length of the rest. */
 double frot_reject(double *x, const double *basis, int columns, int n, double *parts);
 
-double frot_dot(const double *a, const double *b, int n);
 #endif
