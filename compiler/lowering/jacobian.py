@@ -221,9 +221,10 @@ def may_be_stiff(system: Assembled) -> bool:
 
 
 def _unturned(system: Assembled) -> list[int]:
-    """`q_speed` without the coordinates that are orientations, or count the turns of angles."""
+    """`q_speed` without orientations, places of what rolls, and counted turns of angles."""
     symbols, counters = system.reduced.symbols, len(system.reduced.mechanism.counters)
     turned = {turn.coordinate + k for turn in symbols.turns for k in range(4)}
+    turned |= set(symbols.spots)
     turned |= set(range(symbols.q.numel() - counters, symbols.q.numel()))
     return [speed for k, speed in enumerate(system.q_speed) if k not in turned]
 

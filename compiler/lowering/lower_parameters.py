@@ -72,12 +72,19 @@ def lower_parameters(
 
 
 def _nominal_sizes(q: ca.SX, reduced: Reduced, looking: Lowering) -> list[ca.SX]:
-    """The usual size of each state: of a unit quaternion 1, else by its author, or zero."""
+    """The usual size of each state: of a unit quaternion 1, else by its author, or zero.
+
+    What rolls along a plane is as large at least as that is.
+    """
     chains = reduced.text.chains
     unit = {
         reduced.symbols.q[turn.coordinate + k].element_hash()
         for turn in reduced.symbols.turns
         for k in range(4)
+    }
+    spots = {
+        reduced.symbols.q[place].element_hash(): spot.size
+        for place, spot in reduced.variables.kinematics.spots.items()
     }
     first: dict[Variable, int] = {}
     for index, item in enumerate(chains.items):
@@ -89,6 +96,8 @@ def _nominal_sizes(q: ca.SX, reduced: Reduced, looking: Lowering) -> list[ca.SX]
         variable = chains.items[index].variable if index >= 0 else None
         if symbol.element_hash() in unit:
             sizes.append(ca.SX(1))
+        elif symbol.element_hash() in spots:
+            sizes.append(spots[symbol.element_hash()])
         elif variable is None or variable.nominal is None or order > 0:
             sizes.append(ca.SX(0))
         else:

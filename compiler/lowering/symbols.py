@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.lowering.flatten import T, by_input, tunable
-from frot.compiler.mechanics.liaisons.motions import Motion, count_speeds
+from frot.compiler.mechanics.liaisons.motions import Motion, Spot, count_speeds
 from frot.compiler.mechanics.mechanism import Link, Mechanism
 from frot.dsl.checked import Input, Liaison, Parameter
 
@@ -20,7 +20,8 @@ class Symbols:
     along which the reaction of a reduced liaison is read; `u` inputs, `p` parameters, `sides` of
     the contacts (+1 or -1); `a` rates of v (nv), `lam` reactions of the rows by the names of their
     liaisons, `energy` (dissipated, work). `rates` are those of q in q and v; `q_speed` is the speed
-    that is the rate of a coordinate, or -1; `turns` are the coordinates that are quaternions. The
+    that is the rate of a coordinate, or -1; `turns` are the coordinates that are quaternions,
+    `spots` those of places that roll along, whose rates come with the kinematics. The
     last of q are the mechanism's counters; their rates come with the geometry (reduce.py).
     `parameters` and `inputs` are scalars in the order of p and u; `items` are those of each array.
     """
@@ -38,6 +39,7 @@ class Symbols:
     rates: ca.SX
     q_speed: tuple[int, ...]
     turns: tuple[Turning, ...]
+    spots: tuple[int, ...]
     parameters: tuple[Parameter, ...]
     inputs: tuple[Input, ...]
     items: dict[Parameter, tuple[Parameter, ...]]
@@ -150,6 +152,9 @@ def make_symbols(mechanism: Mechanism) -> Symbols:
         rates=_rates(motions, q, v),
         q_speed=(*_rate_places(motions), *[-1] * turned.numel()),
         turns=_turns(motions),
+        spots=tuple(
+            k for m, i, _ in _places(motions) if isinstance(m, Spot) for k in range(i.start, i.stop)
+        ),
         parameters=tuple(one for group in items.values() for one in group),
         inputs=tuple(one for group in of_input.values() for one in group),
         items=items,
@@ -179,7 +184,8 @@ def _rate_places(motions: list[Motion]) -> tuple[int, ...]:
     found: list[int] = []
     for motion, i, k in _places(motions):
         count = i.stop - i.start
-        found += [-1] * count if motion.quaternion else range(k.start, k.start + count)
+        own = motion.quaternion is None and not isinstance(motion, Spot)
+        found += range(k.start, k.start + count) if own else [-1] * count
     return tuple(found)
 
 

@@ -7,23 +7,26 @@ differentiated.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.lowering.constants import Constants
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
 from frot.compiler.mechanics.geometry.figures import Flat, Placed
+from frot.compiler.mechanics.geometry.touches import reach_of
 from frot.compiler.mechanics.geometry.tracking import Track
-from frot.compiler.mechanics.liaisons.motions import Follow, count_speeds
+from frot.compiler.mechanics.liaisons.motions import Follow, Roll, count_speeds
 from frot.compiler.mechanics.liaisons.moves import (
     Column,
+    Moved,
     carried,
     counted,
     move,
     seen,
     turned_by_time,
 )
+from frot.compiler.mechanics.liaisons.roll import roll
 from frot.compiler.mechanics.liaisons.wrenches import act
 from frot.compiler.mechanics.mechanism import (
     Contact,
@@ -31,6 +34,8 @@ from frot.compiler.mechanics.mechanism import (
     Joint,
     Mechanism,
     Point,
+    Relation,
+    frames_of,
     point_body,
     turns,
 )
@@ -75,13 +80,22 @@ class Line:
     normal: ca.SX
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Spotted:
+    """The rate of a coordinate that what rolls takes along, and the size of that."""
+
+    rate: ca.SX
+    size: ca.SX
+
+
 class Kinematics:
     """Where everything is, with the auxiliary speeds sw still in.
 
     `nodes` are the steps of the tree, each after those above it, `node_of` the last of each body
     and `beyond` the vector (3) from its origin to the body's G.
     `tangents` are those of the curves that carry bodies, by the length of their parameter;
-    `tracks` what is followed where figures touch, with the rates of the parameters.
+    `tracks` what is followed where figures touch, with the rates of the parameters; `spots` are
+    the coordinates of what rolls along planes; `symbols` have their rates too.
     `arms` are the bodies that one hangs on, itself last, each with the sizes in ground axes (3) of
     the vectors from the body before to its own G.
     """
@@ -103,12 +117,20 @@ class Kinematics:
         self.counters = counters_of(mechanism, symbols.q)
         self.tracks: dict[Liaison, Track] = {}
         self.track_rates: dict[Liaison, ca.SX] = {}
+        self.spots: dict[int, Spotted] = {}
+        closed = (x for x in enumerate(mechanism.contacts) if isinstance(x[1], Relation))
+        self.sides = {link.liaison: symbols.sides[k] for k, link in closed if link.first}
         nq = nv = 0
         for hanging in mechanism.coordinates:
             self.hangs[hanging.body] = hanging
             self.places[hanging.body] = (nq, nv)
             self._hang(hanging, nq, nv, mechanism.model.ground)
             nq, nv = nq + len(hanging.names), nv + len(hanging.speeds)
+        if self.spots:
+            own = ca.SX(symbols.rates)
+            for place, spot in self.spots.items():
+                own[place] = spot.rate
+            self.symbols = replace(symbols, rates=own)
 
     def _hang(self, hanging: Hanging, nq: int, nv: int, ground: Body) -> None:
         """Go from the place that carries a body to its G."""
@@ -119,12 +141,17 @@ class Kinematics:
         for motion in hanging.motions:
             m, n = len(motion.coordinates), count_speeds(motion)
             q = symbols.q[nq : nq + m]
-            moved = move(motion, moving, q, symbols.v[nv : nv + n], self.fixed.lower)
+            v, lower = symbols.v[nv : nv + n], self.fixed.lower
+            if isinstance(motion, Roll):
+                moved = self._roll(motion, hanging, moving, q, v)
+            else:
+                moved = move(motion, moving, q, v, lower)
             moving = moved.moving
             if moved.tangent is not None and hanging.link is not None:
                 self.tangents[hanging.link.liaison] = moved.tangent
             if moved.columns or motion.faces_ground:
                 places = tuple(range(nv, nv + n))
+                arm = arm + moved.back
                 self.nodes.append(Node(node, arm, motion.faces_ground, places, moved.columns))
                 node, arm = len(self.nodes) - 1, nowhere()
             arm = arm + moved.way
@@ -135,6 +162,16 @@ class Kinematics:
         self.bodies[body], back = self._to_centre(hanging, moving)
         self.node_of[body], self.beyond[body] = node, arm + back
         self._measure(hanging, base)
+
+    def _roll(self, motion: Roll, hanging: Hanging, plane: Moving, q: ca.SX, v: ca.SX) -> Moved:
+        """What rolls takes the first of its coordinates along."""
+        assert hanging.link is not None
+        side = self.sides[hanging.link.liaison]
+        moved, rates = roll(motion, plane, q, v, self.fixed.lower, side)
+        first, _ = self.places[hanging.body]
+        for k, rate in enumerate(ca.vertsplit(rates)):
+            self.spots[first + k] = Spotted(rate, reach_of(motion.figure, self.fixed.lower))
+        return moved
 
     def _base(self, hanging: Hanging, ground: Body) -> tuple[Body, Moving, ca.SX]:
         """The body that carries, the axes at its place, and the vector there from its G."""
@@ -157,7 +194,7 @@ class Kinematics:
             sign = 1 if hanging.carries_b else -1
             a, b = (at.pose, moving.pose) if hanging.carries_b else (moving.pose, at.pose)
             tangent, lower = self.tangents.get(link.liaison), self.fixed.lower
-            columns = [act(x, a, b, lower, tangent=tangent).column for x in link.locks]
+            columns = [act(x, a, b, lower, tangent=tangent).column for x in link.held]
         else:
             columns = [Column(nowhere(), self._normal(link))]
         nv, back = self.symbols.v.numel(), nowhere()
@@ -190,7 +227,7 @@ class Kinematics:
 
     def _to_axes_of_body(self, own: Point, moving: Moving) -> Moving:
         """The axes of a body whose axes at a point are known; time may turn the frames between."""
-        for frame in _frames(own):
+        for frame in frames_of(own):
             if frame.angle is not None:
                 back = -self.fixed.lower(frame.angle)
                 moving = turned_by_time(frame.axis, back, moving, self.fixed.lower)
@@ -198,7 +235,7 @@ class Kinematics:
 
     def _to_axes_of_place(self, own: Point, moving: Moving) -> Moving:
         """The axes at a point of a body whose own axes are known."""
-        for frame in reversed(list(_frames(own))):
+        for frame in reversed(list(frames_of(own))):
             if frame.angle is not None:
                 angle = self.fixed.lower(frame.angle)
                 moving = turned_by_time(frame.axis, angle, moving, self.fixed.lower)
@@ -383,11 +420,3 @@ class Kinematics:
             if hanging is not None and hanging.link is joint:
                 return hanging
         return None
-
-
-def _frames(point: Point) -> Iterator[Frame]:
-    """The frames between a point and its body, from the point on."""
-    frame: Body | Frame = point.body if isinstance(point, BodyPoint) else point
-    while isinstance(frame, Frame):
-        yield frame
-        frame = frame.owner

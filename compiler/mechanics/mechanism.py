@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from frot.compiler.lowering.walk import has_time, is_fixed
@@ -88,9 +88,14 @@ class Joint:
         return None
 
     @property
+    def held(self) -> tuple[Lock, ...]:
+        """The locks that coordinates keep, where they keep the joint: of what rolls, no slip."""
+        return tuple(x for x in self.locks if x.kinematic) if rolls(self) else self.locks
+
+    @property
     def readings(self) -> int:
-        """Reactions that auxiliary speeds bring to light: all of them."""
-        return len(self.locks) if self.reduced else 0
+        """Reactions that auxiliary speeds bring to light."""
+        return len(self.held) if self.reduced else 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -193,17 +198,22 @@ class Mechanism:
     @property
     def is_driven(self) -> bool:
         """Whether liaisons that depend on time do work, which nobody counts."""
-        moved = any(
-            value is not None and not is_fixed(value)
-            for frame in self.model.frames
-            for value in (frame.origin, frame.angle)
-        )
-        shapes: tuple[Curve | Surface, ...] = (*self.model.curves, *self.model.surfaces)
-        moved |= any(has_time(value) for x in shapes for value in x.arguments.values())
-        for liaison in self.model.liaisons:
-            moved |= bool(liaison.driven)
-            moved |= any(has_time(x) for r in liaison.relations for x in (r.left, r.right))
-        return moved
+        return is_driven(self.model)
+
+
+def is_driven(model: Model) -> bool:
+    """Whether time moves a place, a figure or a liaison."""
+    moved = any(
+        value is not None and not is_fixed(value)
+        for frame in model.frames
+        for value in (frame.origin, frame.angle)
+    )
+    shapes: tuple[Curve | Surface, ...] = (*model.curves, *model.surfaces)
+    moved |= any(has_time(value) for x in shapes for value in x.arguments.values())
+    for liaison in model.liaisons:
+        moved |= bool(liaison.driven)
+        moved |= any(has_time(x) for r in liaison.relations for x in (r.left, r.right))
+    return moved
 
 
 def rolls(joint: Joint) -> bool:
@@ -276,6 +286,14 @@ def prescribed(mechanism: Mechanism) -> Counter[Liaison]:
     return Counter(
         x.liaison for x in flanges if x.effort.name.startswith(f"{x.liaison.name}.drive.")
     )
+
+
+def frames_of(point: Point) -> Iterator[Frame]:
+    """The frames between a point and its body, from the point on."""
+    frame: Body | Frame = point.body if isinstance(point, BodyPoint) else point
+    while isinstance(frame, Frame):
+        yield frame
+        frame = frame.owner
 
 
 def point_body(point: Point) -> Body:

@@ -22,6 +22,7 @@ from frot.compiler.mechanics.mechanism import (
     is_unilateral,
     point_body,
     relinked,
+    rolls,
     turns,
 )
 from frot.compiler.mechanics.refuse import (
@@ -74,6 +75,8 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
         link = replace(link, reduced=link.liaison in tree.kept)
         silent = link.mu is None and link.delta is None and link.liaison not in read
         nothing_locked = isinstance(link, Joint) and not link.locks
+        if isinstance(link, Joint) and link.reduced and rolls(link):
+            chosen += [x for x in _relations(link, True, log) if not x.lock.kinematic]
         if (link.reduced and silent) or nothing_locked:
             ideal.append(link)
         elif isinstance(link, Contact) or link.reduced:

@@ -115,6 +115,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     """Form the equations; what cannot be lowered is reported."""
     symbols = make_symbols(mechanism)
     kinematics = Kinematics(mechanism, symbols, Constants(symbols))
+    symbols = kinematics.symbols
     text = chains_of_motion(mechanism, symbols)
     refuse_bent(mechanism, kinematics, log)
     geometry = _geometry(mechanism, kinematics)
@@ -287,15 +288,17 @@ def _variables(
         zip(mechanism.contacts, link_rows(mechanism.contacts), found, strict=True)
     ):
         sides.setdefault(link.liaison, symbols.sides[k])
+        before = reactions.get(link.liaison)
+        all_rows = (*(before.reaction if before else ()), *rows.reaction)
+        reactions[link.liaison] = Rows(all_rows, rows.tangent, rows.rolling)
         if isinstance(link, Relation):
-            before = reactions.get(link.liaison)
-            all_rows = (*(before.reaction if before else ()), *rows.reaction)
-            reactions[link.liaison] = Rows(all_rows, -1, -1)
             links[link.liaison] = link.joint
             continue
         assert not isinstance(own, RelationGeometry)
-        links[link.liaison], reactions[link.liaison] = link, rows
+        links[link.liaison] = link
         geometry[link.liaison] = own
+    for link in mechanism.ideal:  # what rolls has a row, but its reaction is not asked for
+        reactions.pop(link.liaison, None)
     for link in (*mechanism.ideal, *tuple(links.values())):
         if link.liaison not in geometry:
             side = sides.get(link.liaison, ca.SX(1))

@@ -19,17 +19,20 @@ from frot.compiler.mechanics.liaisons.motions import (
     Steady,
     Turn,
     bare,
+    count_speeds,
 )
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Hanging,
     Joint,
     Point,
+    is_driven,
     is_slender,
     is_unilateral,
     point_body,
     turns,
 )
+from frot.compiler.mechanics.rolling import can_roll, rolling_motions
 from frot.dsl.checked import Body, Liaison, Model
 
 
@@ -45,8 +48,8 @@ def span(model: Model, links: Iterable[Contact | Joint]) -> Tree:
     """Let joints join bodies to groups, and a point on a line carry a group that has no ground.
 
     Joints with friction come first, then those that lock most, then the order of the text: what
-    closes a loop costs a row for each lock. A group hangs on the first line that is not on itself
-    or on what it carries; else its first body moves freely.
+    closes a loop costs a row for each lock. A group hangs on the first line, or on the plane on
+    which it rolls, that is not on itself or on what it carries; else its first body moves freely.
     """
     links = tuple(links)
     bodies = (model.ground, *model.bodies)
@@ -57,13 +60,15 @@ def span(model: Model, links: Iterable[Contact | Joint]) -> Tree:
         if groups.join(a, b):
             branches[a].append((joint, b))
             branches[b].append((joint, a))
-    carried: dict[Body, Contact] = {}
-    for contact in links:
-        if isinstance(contact, Contact) and _can_carry(contact):
-            group = groups.of(point_body(contact.point))
-            chain = _carriers(groups.of(point_body(contact.track.point)), carried, groups)
+    closing = [x for x in links if not any(x is joint for b in branches.values() for joint, _ in b)]
+    carried: dict[Body, Contact | Joint] = {}
+    for link in closing:
+        if _can_carry(link) or _can_roll(link, closing, groups, model):
+            base, own = _ends(link)
+            group = groups.of(own)
+            chain = _carriers(groups.of(base), carried, groups)
             if group is not groups.of(model.ground) and group not in carried and group not in chain:
-                carried[group] = contact
+                carried[group] = link
     builder = _Builder(model, groups, branches, carried)
     ordered: list[Hanging] = []
     done: set[Body] = set()
@@ -88,8 +93,31 @@ def _along(curve: Figure) -> Motion:
     return Follow(curve)
 
 
-def _can_carry(contact: Contact) -> bool:
-    return contact.liaison.kind.name == "point_courbe" and not is_unilateral(contact.liaison)
+def _can_carry(link: Contact | Joint) -> bool:
+    of_line = isinstance(link, Contact) and link.liaison.kind.name == "point_courbe"
+    return of_line and not is_unilateral(link.liaison)
+
+
+def _can_roll(
+    link: Contact | Joint, closing: Iterable[Contact | Joint], groups: Groups, model: Model
+) -> bool:
+    """Whether it rolls, and no other row keeps a place of the bodies that it would carry."""
+    if isinstance(link, Contact) or not can_roll(link) or is_driven(model):
+        return False
+    group = groups.of(point_body(link.b))
+    others = (x for x in closing if x is not link and _keeps_places(x))
+    return not any(groups.of(body) is group for x in others for body in _ends(x))
+
+
+def _keeps_places(link: Contact | Joint) -> bool:
+    return isinstance(link, Contact) or not all(lock.kinematic for lock in link.locks)
+
+
+def _ends(link: Contact | Joint) -> tuple[Body, Body]:
+    """The body that would carry, and the one that would be carried."""
+    if isinstance(link, Contact):
+        return point_body(link.track.point), point_body(link.point)
+    return point_body(link.a), point_body(link.b)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,17 +125,20 @@ class _Builder:
     model: Model
     groups: Groups
     branches: dict[Body, list[tuple[Joint, Body]]]
-    carried: dict[Body, Contact]
+    carried: dict[Body, Contact | Joint]
 
     def hang(self, group: Body) -> Iterator[Hanging]:
         """Coordinates of a group, from its root outwards."""
         if group is self.groups.of(self.model.ground):
             root = self.model.ground
         elif group in self.carried:
-            contact = self.carried[group]
-            root = point_body(contact.point)
-            way = _along(contact.track.figure)
-            yield self._hanging(root, contact, contact.track.point, contact.point, (way,))
+            link = self.carried[group]
+            _, root = _ends(link)
+            if isinstance(link, Joint):
+                yield self._named(root, link, link.a, link.b, rolling_motions(link))
+            else:
+                way = _along(link.track.figure)
+                yield self._hanging(root, link, link.track.point, link.point, (way,))
         else:
             root = next(b for b in self.model.bodies if self.groups.of(b) is group)
             ways = "xy" if self.model.planar else "xyz"
@@ -172,7 +203,8 @@ class _Builder:
             owner = body.name if of_body else link.liaison.name  # type: ignore[union-attr]
             names += [f"{owner}.{name}" for name in motion.coordinates]
             rates = [f"der({owner}.{name})" for name in motion.coordinates]
-            speeds += [f"{owner}.{name}" for name in motion.speeds] or rates
+            own_speeds = [f"{owner}.{name}" for name in motion.speeds] or rates
+            speeds += own_speeds[: count_speeds(motion)]
         return Hanging(body, link, base, own, motions, tuple(names), tuple(speeds))
 
 
@@ -186,11 +218,12 @@ def reverse(motion: Motion) -> Motion:
     return motion
 
 
-def _carriers(group: Body, carried: dict[Body, Contact], groups: Groups) -> list[Body]:
+def _carriers(group: Body, carried: dict[Body, Contact | Joint], groups: Groups) -> list[Body]:
     """The group and those its coordinates hang on, one after another."""
     chain = [group]
     while group in carried:
-        group = groups.of(point_body(carried[group].track.point))
+        base, _ = _ends(carried[group])
+        group = groups.of(base)
         chain.append(group)
     return chain
 

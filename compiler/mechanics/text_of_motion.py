@@ -38,6 +38,10 @@ def chains_of_motion(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
             [symbols.rates[i] for i in places],
             [k for k in turn.speeds if k >= 0],
         )
+    for place in symbols.spots:
+        rate = symbols.rates[place]
+        inside = [k for k in range(symbols.v.numel()) if ca.depends_on(rate, symbols.v[k])]
+        chains.give_rates([symbols.q[place]], [rate], inside)
     chains.forbid_rate(symbols.u, "the input", rest=True)
     chains.forbid_rate(symbols.lam, "the reaction of")
     return make_text_symbols(mechanism.model.variables, chains)

@@ -17,6 +17,9 @@ from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity
 
+# Operations within which two moments of inertia are seen to be the same expression.
+_DEEP = 8
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Variables:
@@ -105,6 +108,8 @@ class Variables:
     def inertia_in_ground(self, body: Body) -> ca.SX:
         """Inertia (3 x 3) about G along ground axes; in a planar model only that about z."""
         own = inertia_of(body, self.kinematics.planar, self.kinematics.fixed.lower)
+        if _is_round(own):  # it does not see by how much axes are not of length 1
+            return own
         axes = self.kinematics.pose(body).axes
         return ca.sparsify(axes @ own @ axes.T)
 
@@ -172,3 +177,13 @@ class Variables:
             case "power":
                 return friction * geometry.slip + couple * geometry.roll
         raise KeyError(name)
+
+
+def _is_round(inertia: ca.SX) -> bool:
+    """Whether a body has the same inertia about every axis, whatever its parameters."""
+    first = inertia[0, 0]
+    return all(
+        inertia[i, j].is_zero() if i != j else ca.is_equal(inertia[i, i], first, _DEEP)
+        for i in range(3)
+        for j in range(3)
+    )

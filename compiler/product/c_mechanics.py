@@ -45,7 +45,10 @@ def mechanical_arrays(lowered: Lowered) -> list[str]:
         for x, r in joints
     ]
     contacts += [(e.name, e.span, -1, True) for e in system.elements]
-    first = [not isinstance(x, Relation) or x.first for x in reduced.mechanism.contacts]
+    first = [
+        x.first if isinstance(x, Relation) else not (isinstance(x, Joint) and rolls(x))
+        for x in reduced.mechanism.contacts
+    ]
     first += [True] * len(system.elements)
     kinematic = [isinstance(x, Relation) and x.lock.kinematic for x in reduced.mechanism.contacts]
     kinematic += [False] * len(system.elements)

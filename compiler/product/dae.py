@@ -12,7 +12,7 @@ from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.symbols import Rows, column, scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.liaisons.locks import Way
-from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Relation
+from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Relation, rolls
 from frot.dsl import default_values, evaluate
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)
@@ -243,7 +243,8 @@ def _switches(system: Assembled) -> list[_Switch]:
     for i, (link, rows) in enumerate(
         zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
     ):
-        contact, ruled = isinstance(link, Contact), not isinstance(link, Relation)
+        contact = isinstance(link, Contact)
+        ruled = not isinstance(link, Relation) and not (isinstance(link, Joint) and rolls(link))
         mode = ca.SX.sym("m", len(PARTS)) if ruled else ca.SX([1.0, 0.0, 0.0, 0.0])
         found.append(
             _Switch(
@@ -296,7 +297,9 @@ def _row_names(link: Link, rows: Rows) -> tuple[str, ...]:
         ]
         if len(ways) == len(rows.reaction):
             return (*(f"{name}.force.{'xyz'[k]}" for k in ways), *couple)
-        return (*(f"{name}.reaction[{k + 1}]" for k in range(len(rows.reaction))), *couple)
+        locks = link.locks if isinstance(link, Joint) else ()
+        first = len(locks) - len(rows.reaction) + 1
+        return (*(f"{name}.reaction[{first + k}]" for k in range(len(rows.reaction))), *couple)
     return (
         f"{name}.normal_force",
         *([f"{name}.tangential_force"] if rows.tangent >= 0 else []),

@@ -22,7 +22,7 @@ from frot.compiler.mechanics.geometry.figures import (
     Straight,
 )
 from frot.compiler.mechanics.liaisons.moves import Moments
-from frot.compiler.mechanics.spatial import Pose, Z, beside, cross, nowhere
+from frot.compiler.mechanics.spatial import GROUND, Pose, Z, beside, cross, nowhere
 from frot.compiler.mechanics.values import Lower, unit_vector
 from frot.dsl.checked import Expression
 
@@ -90,6 +90,23 @@ def spread_of(figure: Ring | Oval | Egg, pose: Pose, lower: Lower) -> ca.SX:
 def oval_axes(figure: Oval, lower: Lower) -> tuple[ca.SX, ca.SX]:
     """The directions of the semi-axes in the axes of the figure's point."""
     return beside(unit_vector(figure.axis.given, lower))
+
+
+def depth_of(figure: Figure, pose: Pose, normal: ca.SX, lower: Lower) -> ca.SX:
+    """The vector (3) to the centre from where a plane with this normal touches what rolls on it."""
+    if isinstance(figure, Ball):
+        return length(figure.radius, lower) * normal
+    assert isinstance(figure, Ring | Oval | Egg)
+    below = spread_of(figure, pose, lower) @ normal
+    return below / ca.sqrt(ca.dot(normal, below))
+
+
+def reach_of(figure: Figure, lower: Lower) -> ca.SX:
+    """How far a round figure, or an ellipsoid, reaches from its centre, but for a root of three."""
+    if isinstance(figure, Ball):
+        return length(figure.radius, lower)
+    assert isinstance(figure, Ring | Oval | Egg)
+    return ca.sqrt(ca.trace(spread_of(figure, GROUND, lower)))
 
 
 def _flat_ball(a: Flat, b: Ball | Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) -> Touch:

@@ -95,7 +95,7 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
         rates=rates,
         relative=b.angular - a.angular,
         attitude=product(conjugate(a.pose.quaternion), b.pose.quaternion),
-        apart=ca.SX.zeros(0) if at is None else sw[at : at + len(joint.locks)],
+        apart=ca.SX.zeros(0) if at is None else sw[at : at + len(joint.held)],
         radius=None if joint.radius is None else lower(joint.radius),
         gap=ca.SX(0) if touch is None else touch.gap,
         witness=ca.SX.ones(3),

@@ -156,6 +156,35 @@ class Reach:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Spot:
+    """The place of what rolls along a plane of the base: it has no speeds of its own (`Roll`)."""
+
+    axis: Axis
+    coordinates: tuple[str, ...] = ("x", "y")
+    speeds: tuple[str, ...] = ()
+    quaternion: Quaternion | None = None
+    faces_ground: bool = False
+    turns: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Roll:
+    """Any orientation of a figure on a plane of the base, whose turning takes its place along.
+
+    The angular velocity is all that moves it along the plane: independent speeds of a motion that
+    is not holonomic (P. Appell 1899), which no orientation makes singular.
+    """
+
+    figure: Figure
+    axis: Axis
+    coordinates: tuple[str, ...] = tuple(f"orientation[{k + 1}]" for k in range(4))
+    speeds: tuple[str, ...] = tuple(f"angular_velocity.{k}" for k in "xyz")
+    quaternion: Quaternion | None = Quaternion(own_axes=False)
+    faces_ground: bool = True
+    turns: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Driven:
     """A motion whose coordinate is a value of time: it has none of its own."""
 
@@ -168,7 +197,20 @@ class Driven:
     turns: bool = False
 
 
-Motion = Driven | Follow | Turn | Slide | Screw | Heading | Attitude | Pointing | Reach | Steady
+Motion = (
+    Driven
+    | Follow
+    | Turn
+    | Slide
+    | Screw
+    | Heading
+    | Attitude
+    | Pointing
+    | Reach
+    | Roll
+    | Spot
+    | Steady
+)
 
 
 def bare(motion: Motion) -> Motion:
@@ -189,4 +231,4 @@ def comes_round(motion: Motion) -> bool:
 
 def count_speeds(motion: Motion) -> int:
     """The number of speeds of a motion."""
-    return len(motion.speeds or motion.coordinates)
+    return 0 if isinstance(motion, Spot) else len(motion.speeds or motion.coordinates)

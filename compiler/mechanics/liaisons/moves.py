@@ -7,7 +7,7 @@ to their origin before the motion. What does not move has no entry.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import casadi as ca
@@ -23,6 +23,7 @@ from frot.compiler.mechanics.liaisons.motions import (
     Reach,
     Screw,
     Slide,
+    Spot,
     Steady,
     Turn,
 )
@@ -59,6 +60,8 @@ class Column:
 class Moved:
     """Axes after a motion, the columns of its speeds, and the way (3) that their origin went.
 
+    The way begins where the columns are taken, the vector `back` from the origin before.
+
     `tangent`: of a motion along a curve, the derivative of its point by the parameter.
     """
 
@@ -66,6 +69,7 @@ class Moved:
     columns: tuple[Column, ...]
     way: ca.SX
     tangent: ca.SX | None = None
+    back: ca.SX = field(default_factory=nowhere)
 
 
 Seen = tuple[ca.SX, ca.SX]
@@ -145,6 +149,8 @@ def turned_by_time(axis: Expression | str, angle: ca.SX, base: Moving, lower: Lo
 def rates(motion: Motion, q: ca.SX, v: ca.SX) -> ca.SX:
     """Q' of a motion: 2 r' = (0, omega) r, or r (0, 0, v) where the speeds are along own axes."""
     turns = motion.quaternion
+    if isinstance(motion, Spot):
+        return ca.SX.zeros(len(motion.coordinates))  # what takes it along knows better
     if turns is None:
         return v
     if turns.own_axes:
@@ -277,6 +283,12 @@ def _move_steady(motion: Steady, base: Moving, q: ca.SX, v: ca.SX, lower: Lower)
     return Moved(_placed(base, pose, nowhere()), (), nowhere())
 
 
+def _move_spot(motion: Spot, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
+    first, second = beside(unit_vector(motion.axis.given, lower))
+    way = base.pose.direction(first * q[0] + second * q[1])
+    return Moved(base.shifted(way), (), way)
+
+
 def way_of(motion: Slide, lower: Lower) -> ca.SX:
     """The unit vector of a slide in the axes of its base."""
     local = unit_vector(motion.axis.given, lower)
@@ -357,6 +369,7 @@ _MOVES: dict[type, Callable[..., Moved]] = {
     Screw: _move_screw,
     Driven: _move_driven,
     Follow: _move_follow,
+    Spot: _move_spot,
     Heading: _move_heading,
     Attitude: _move_attitude,
     Pointing: _move_pointing,

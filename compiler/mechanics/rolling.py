@@ -1,0 +1,39 @@
+"""Which liaisons without slip coordinates can keep: of a figure on a plane, with nothing else.
+
+What rolls so has its angular velocity and the rate of its height as its only speeds (liaisons/
+roll.py). Elsewhere rows keep it: where other figures touch, where the body is held by rows
+that keep places, which would move what rolls without its turning, and where time moves anything.
+"""
+
+from __future__ import annotations
+
+from frot.compiler.lowering.walk import has_time
+from frot.compiler.mechanics.geometry.figures import Ball, Egg, Flat, Oval, Ring
+from frot.compiler.mechanics.liaisons.locks import NoSlip, Touching
+from frot.compiler.mechanics.liaisons.motions import Motion, Roll, Slide, Spot
+from frot.compiler.mechanics.mechanism import Joint, frames_of, point_body, turns
+
+
+def can_roll(joint: Joint) -> bool:
+    """Whether its figures can: a ball on any plane, what is not round on one at rest.
+
+    A plane that turns takes the height of what is not round along.
+    """
+    touching, *others = joint.locks or (None,)
+    if len(others) != 2 or not all(isinstance(x, NoSlip) for x in others):
+        return False
+    match touching:
+        case Touching(a=Flat(), b=Ball(radius=radius), followed=False, apart=None):
+            return turns(point_body(joint.b)) and not has_time(radius)
+        case Touching(a=Flat(), b=Ring() | Oval() | Egg(), followed=False, apart=None):
+            plain = all(frame.angle is None for frame in frames_of(joint.b))
+            return plain and point_body(joint.a).shape is None and turns(point_body(joint.b))
+    return False
+
+
+def rolling_motions(joint: Joint) -> tuple[Motion, ...]:
+    """The motions along the plane, away from it, and about the centre of the figure."""
+    touching = joint.locks[0]
+    assert isinstance(touching, Touching) and isinstance(touching.a, Flat)
+    axis = touching.a.axis
+    return Spot(axis), Slide(axis, coordinates=("height",)), Roll(touching.b, axis)
