@@ -118,10 +118,12 @@ def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Link]]:
 
 
 def _natural(system: Assembled) -> ca.SX:
-    """Where the search begins without a guess: no turn, and zero."""
+    """Where the search begins without a guess: no turn, and zero; what rolls, at the origin."""
     start = ca.SX.zeros(system.q.shape)
     for turn in system.reduced.symbols.turns:
         start[turn.coordinate] = 1
+    for place, value in system.reduced.variables.kinematics.starts.items():
+        start[place] = replace_known(value, _values(system.q, start))
     return start
 
 

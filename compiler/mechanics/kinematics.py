@@ -45,6 +45,7 @@ from frot.compiler.mechanics.spatial import (
     Moving,
     Pose,
     Z,
+    beside,
     cross,
     nowhere,
     turn_about,
@@ -95,7 +96,8 @@ class Kinematics:
     and `beyond` the vector (3) from its origin to the body's G.
     `tangents` are those of the curves that carry bodies, by the length of their parameter;
     `tracks` what is followed where figures touch, with the rates of the parameters; `spots` are
-    the coordinates of what rolls along planes; `symbols` have their rates too.
+    the coordinates of what rolls along planes, `starts` where they and its height begin to be
+    searched for; `symbols` have their rates too.
     `arms` are the bodies that one hangs on, itself last, each with the sizes in ground axes (3) of
     the vectors from the body before to its own G.
     """
@@ -118,8 +120,12 @@ class Kinematics:
         self.tracks: dict[Liaison, Track] = {}
         self.track_rates: dict[Liaison, ca.SX] = {}
         self.spots: dict[int, Spotted] = {}
-        closed = (x for x in enumerate(mechanism.contacts) if isinstance(x[1], Relation))
-        self.sides = {link.liaison: symbols.sides[k] for k, link in closed if link.first}
+        self.starts: dict[int, ca.SX] = {}
+        self.sides = {
+            link.liaison: symbols.sides[k]
+            for k, link in enumerate(mechanism.contacts)
+            if isinstance(link, Relation) and link.first
+        }
         nq = nv = 0
         for hanging in mechanism.coordinates:
             self.hangs[hanging.body] = hanging
@@ -171,6 +177,11 @@ class Kinematics:
         first, _ = self.places[hanging.body]
         for k, rate in enumerate(ca.vertsplit(rates)):
             self.spots[first + k] = Spotted(rate, reach_of(motion.figure, self.fixed.lower))
+        assert hanging.base is not None  # without a guess a body is at the origin of the ground
+        base = self.pose(hanging.base)
+        along = unit_vector(motion.axis.given, self.fixed.lower)
+        for k, way in enumerate((*beside(along), along)):
+            self.starts[first + k] = -ca.dot(base.direction(way), base.origin)
         return moved
 
     def _base(self, hanging: Hanging, ground: Body) -> tuple[Body, Moving, ca.SX]:

@@ -148,14 +148,20 @@ def dae_of(lowered: Lowered) -> Dae:
     nowhere = ca.vertcat(
         auxiliary, *(x for x, one in zip(scalars_of(s.sides), contacts, strict=True) if not one)
     )
+    settled = ca.vertcat(
+        ca.SX.zeros(auxiliary.shape), ca.SX.ones(nowhere.numel() - auxiliary.numel())
+    )
 
     def function(name: str, *results: tuple[str, ca.SX], without: str = "") -> ca.Function:
-        """A function of all `places` but one, auxiliary accelerations at zero."""
+        """A function of all `places` but one, auxiliary accelerations at zero.
+
+        What touches and cannot part is on the outer side.
+        """
         taken = {k: symbols for k, symbols in places.items() if k != without}
         return ca.Function(
             name,
             list(taken.values()),
-            [_put(value, nowhere, ca.SX.zeros(nowhere.shape)) for _, value in results],
+            [_put(value, nowhere, settled) for _, value in results],
             list(taken),
             [k for k, _ in results],
         )
