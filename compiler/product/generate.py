@@ -12,6 +12,7 @@ import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.jacobian import alike
 from frot.compiler.lowering.lower import Lowered
+from frot.compiler.lowering.price import price_of_implicit
 from frot.compiler.lowering.symbols import column
 from frot.compiler.product.c_mechanics import MECHANICAL_TABLES, mechanical_arrays, packed_sizes
 from frot.compiler.product.c_tables import array as _array
@@ -169,6 +170,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_outcomes": len(reduced.events.outcomes),
         "method": _METHODS[reduced.mechanism.model.experiment.method],
         "has_jacobian": int(lowered.jacobian is not None),
+        "implicit_price": price_of_implicit(lowered),
         "pattern": _pattern(lowered),
         "lines": _lines(lowered),
         "general": int(not lowered.grouping.is_mass_matrix),

@@ -312,6 +312,7 @@ typedef struct {
   int time_dependent; /* forces, coefficients or located conditions depend on time */
   int method;         /* frot_method of the text */
   int has_jacobian;   /* 1: the implicit method can run: q' not late */
+  double implicit_price; /* explicit steps that cost what an implicit one does */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
   /* the first variables are the modes of the contacts that have one, the others are real */
 

@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 7
+#define FROT_LAYOUT_VERSION 8
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -57,9 +57,9 @@ struct frot_state {
   int implicit;  /* the next step is made by the implicit method */
   int stiff_steps, calm_steps; /* see stiffness.h */
   int patience, stay;
-  double felt; /* see stiffness.h */
-  int outcome; /* the `terminate` that ended the run */
-  int untold;  /* outcomes wait to be told as events: their times are in `asked`, NaN elsewhere */
+  double felt, explicit_step; /* see stiffness.h */
+  int outcome;                /* the `terminate` that ended the run */
+  int untold; /* outcomes wait to be told as events: their times are in `asked`, NaN elsewhere */
   int ended_recorded; /* the last instant of a run that has ended is recorded */
   int shrinking;      /* times in a row that the text's events followed each other sooner */
   /* when the last one was, how long after the one before, over the gap before that, and the gap

@@ -20,7 +20,9 @@
 #define STIFF_STEPS 8
 #define MOST_STIFF_STEPS 2048
 #define CALM_STEPS 4
-/* Size of h lambda below which the implicit method is not worth its price, for so many steps. */
+/* Size of h lambda below which the implicit method is not worth its price, for so many steps. Nor
+ * is it where its steps are not longer by that price than the explicit ones were: what limits
+ * both is then the motion itself, or the explicit one is not held up by its stability for much. */
 #define EASY 3.0
 #define EASY_STEPS 10
 /* Change of a pass of Newton's method over that of the one before that is best for its price; it
@@ -38,7 +40,7 @@ static int is_chosen(const frot_model *m) { return m->has_jacobian && m->method 
 void frot_choose_first(const frot_model *m, frot_state *s) {
   s->implicit = m->has_jacobian && m->method == FROT_IMPLICIT;
   s->stiff_steps = s->calm_steps = s->stay = 0;
-  s->felt = 0;
+  s->felt = s->explicit_step = 0;
   s->patience = STIFF_STEPS;
 }
 
@@ -90,9 +92,11 @@ double frot_stable_step(const frot_model *m, frot_state *s, const frot_work *w, 
   return s->felt > 0 ? STABLE / s->felt : INFINITY;
 }
 
-int frot_is_stiff(const frot_model *m, const frot_state *s, frot_work *w, double h) {
+int frot_is_stiff(const frot_model *m, frot_state *s, frot_work *w, double h) {
   if (!is_chosen(m)) return 0;
-  if (s->implicit) return h * frot_implicit_rate(m, w) >= EASY;
+  if (s->implicit)
+    return h >= m->implicit_price * s->explicit_step && h * frot_implicit_rate(m, w) >= EASY;
+  s->explicit_step = fmax(REMEMBERED * s->explicit_step, h);
   const double *start = frot_stage(w, 0), *end = frot_stage(w, DP_STAGES);
   frot_motion_sizes(m, s, w, h, start, 0);
   double fastest = h * felt_rate(m, w);

@@ -4,7 +4,8 @@
  * (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, sect. IV.2), or the fastest
  * rate of the model is felt in them while the solution itself changes much more slowly. The
  * implicit one is left when, for steps on end, its steps are so short that the explicit one would
- * be stable with them; if it was not of use for long, more evidence is asked for next time. The
+ * be stable with them, or not longer than the explicit ones were by what they cost more; if it was
+ * not of use for long, more evidence is asked for next time. The
  * counts are part of the state. Nothing is computed for a model that has no Jacobian. */
 #ifndef FROT_STIFFNESS_H
 #define FROT_STIFFNESS_H
@@ -16,7 +17,7 @@ void frot_choose_first(const frot_model *m, frot_state *s);
 
 /* Whether the step h just accepted speaks for the implicit method. The explicit method's last
  * argument before the end is still in w->ztry. 0 where the text gives the method. */
-int frot_is_stiff(const frot_model *m, const frot_state *s, frot_work *w, double h);
+int frot_is_stiff(const frot_model *m, frot_state *s, frot_work *w, double h);
 
 /* The longest step that should be tried after the one just accepted, of length h: of the explicit
  * method by its stability, of the implicit one by how its stages were found. */

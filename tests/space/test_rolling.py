@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from frot.runtime.result import Result
 
 import frot
-from frot.runtime.result import Result
 
 # A plane that is tilted, one that turns under a ball, one with a ball below it; a lamina, an egg.
 SCENE = """model Rolling
