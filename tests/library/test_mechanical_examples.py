@@ -57,6 +57,27 @@ def test_a_ring_rolls_as_newton_and_euler_say() -> None:
     assert np.abs(result["ground_contact.gap"]).max() < 1e-13
 
 
+def test_a_sphere_rolls_on_a_parabola() -> None:
+    result = frot.load(MODELS / "rolling_sphere.frot").simulate()
+    pull, t = 9.81 * np.sin(0.2), result.time
+    assert result["down"] == pytest.approx(5 / 14 * pull * t**2, abs=1e-11)
+    assert result["ball.position.y"] == pytest.approx(-0.3 * 2 * t, abs=1e-11)
+    assert result["press"] == pytest.approx(9.81 * np.cos(0.2), rel=1e-12)
+    assert result["holds"] == pytest.approx(2 / 7 * pull, rel=1e-12)
+    spin = result["ball.angular_velocity.x"] * np.sin(0.2)
+    spin += result["ball.angular_velocity.z"] * np.cos(0.2)
+    assert spin == pytest.approx(5, rel=1e-12)
+
+
+def test_a_point_on_a_plane_that_turns() -> None:
+    result = frot.load(MODELS / "turning_plane.frot").simulate()
+    t, w = result.time, 2
+    away, rate = np.cosh(w * t) / 2 + np.sinh(w * t) / w, np.sinh(w * t) + np.cosh(w * t)
+    assert result["x"] == pytest.approx(away, rel=1e-10)
+    assert result["bead.position.z"] == pytest.approx(2 * t - 9.81 * t**2 / 2, abs=1e-10)
+    assert np.abs(result["press"]) == pytest.approx(2 * w * rate, rel=1e-9)
+
+
 def test_the_ball_in_the_channel_of_the_wheel() -> None:
     result = frot.load(MODELS / "wheel_channel.frot").simulate()
 
