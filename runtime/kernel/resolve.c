@@ -167,6 +167,25 @@ static int search(const frot_instant *in, const int *chosen, int count, int *uns
   return 0;
 }
 
+/* Nothing has departed yet. */
+static void take_back(const frot_instant *in, const int *chosen, int count) {
+  for (int c = 0; c < count; c++)
+    for (int e = 0; e < in->m->n_elements; e++)
+      if (in->m->elements[e].contact == chosen[c]) in->at_rest[e] = in->zero[e];
+}
+
+/* What departs would be held at once by the friction of motion: where others can carry what it
+ * cannot, less departs or nothing; else it is told as it was found. */
+static int hold(const frot_instant *in, const int *chosen, int count, int *unsearched) {
+  take_back(in, chosen, count);
+  int motions = frot_search_corners(in, chosen, count, unsearched);
+  while (motions > 0 && note_departures(in, chosen, count))
+    motions = frot_search_corners(in, chosen, count, unsearched);
+  if (motions > 0) return motions;
+  take_back(in, chosen, count);
+  return search(in, chosen, count, unsearched);
+}
+
 /* Motions of a component, the one preferred into w->best. What departs has the friction of motion
  * at once, and what the others do follows from that: looked for again until nothing more departs.
  */
@@ -175,7 +194,7 @@ static int look_for_motions(const frot_instant *in, const int *chosen, int count
   int motions = search(in, chosen, count, unsearched);
   while (motions > 0 && note_departures(in, chosen, count)) {
     int again = search(in, chosen, count, unsearched);
-    if (again == 0) break; /* it departs, and is held at once: told as it was found */
+    if (again == 0) return hold(in, chosen, count, unsearched);
     motions = again;
   }
   return motions;

@@ -284,3 +284,8 @@ int frot_search(const frot_instant *in, const int *chosen, int count, int forced
   in->w->search.corners = FROT_ENOUGH;
   return search_all(in, chosen, count, forced, lasting, unsearched);
 }
+
+int frot_search_corners(const frot_instant *in, const int *chosen, int count, int *unsearched) {
+  in->w->search.corners = FROT_ENOUGH;
+  return search_all(in, chosen, count, 0, 1, unsearched);
+}

@@ -80,6 +80,10 @@ double frot_time_of_way(const frot_instant *in, const frot_group *g);
 int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
                 int *unsearched);
 
+/* The same of motions that last, whatever has fired, with corners of reactions looked at from the
+ * start. */
+int frot_search_corners(const frot_instant *in, const int *chosen, int count, int *unsearched);
+
 /* A first guess of the modes of many contacts into w->search.trial, and into `certain` (n_contacts)
  * whether a contact's are beyond doubt (pivot.c). `ends`: a rest ends, so that what is just at its
  * bound is past it. */
