@@ -1,5 +1,6 @@
 #include "projection.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +12,11 @@
 #include "tolerances.h"
 #include "turns.h"
 
-#define PASSES 3 /* of Newton's method: it starts next to the solution */
+#define PASSES 4 /* of Newton's method: it starts next to the solution */
+/* Rows from which on it costs more to make them orthonormal than another pass, and what a pass must
+ * leave of what was missed at most where it is made with those of the last. */
+#define MANY 10
+#define FASTER 0.02
 
 static int is_kept(const frot_model *m, const frot_contact_mode *modes, int contact) {
   const frot_contact *c = &m->contacts[contact];
@@ -50,49 +55,95 @@ int frot_holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode
   return n;
 }
 
-/* w->relations.step (n_speeds) <- the least change of the group's speeds, in the metric, that takes
- * `error` from the n rows of w->relations.rows: with the rows H = L^-1 J' made orthonormal, H = Q
- * R, it is L'^-1 Q R'^-1 error. A row that depends on those before it is left to them. */
-static void correction(const frot_model *m, frot_work *w, const frot_group *g, int n,
-                       const double *error) {
+/* What rounding makes of a gap: of what the coordinates do in it, and of the lengths that it is
+ * made of, which cancel. */
+static double rounding_of_gap(const frot_model *m, const frot_state *s, const frot_work *w,
+                              int contact, const double *q) {
+  double moved = frot_gap_size(m, w, m->contacts[contact].row_n, q);
+  return FROT_ROUNDING * moved + DBL_EPSILON * s->data[w->layout.reach + contact];
+}
+
+/* What is missed over what rounding may miss. */
+static double miss(double value, double bound) {
+  return fabs(value) > bound ? (bound > 0 ? fabs(value) / bound : DBL_MAX) : 0;
+}
+
+/* What is known of the rows of the group that were made orthonormal last, `n` of them, in
+ * w->span.basis: they serve as long as what is missed falls to a small part of what was before. */
+typedef struct {
+  const frot_group *group;
+  int n;
+  double missed;
+} frame;
+
+/* The n rows H = L^-1 J' of w->relations.rows made orthonormal, H = Q R: into row i of
+ * w->linear.matrix the column i of R, into w->linear.pivot which of them it is, or -1. A row that
+ * depends on those before it is left to them. */
+static void orthonormalize(const frot_model *m, frot_work *w, const frot_group *g, int n) {
   int ns = g->n_speeds, rank = 0;
+  for (int i = 0; i < n; i++) {
+    int row = w->relations.rows[i];
+    double *x = w->span.basis + ns * rank, *parts = w->linear.matrix + n * i;
+    w->linear.pivot[i] = -1;
+    if (frot_is_spare(w, row)) continue;
+    memcpy(x, frot_entries(m, w->core.rows, row), sizeof(double) * (size_t)ns);
+    frot_inwards(w, g, x);
+    double length = sqrt(frot_dot(x, x, ns));
+    double rest = frot_reject(x, w->span.basis, rank, ns, parts);
+    if (!(rest > frot_least_length(m, w, row, length))) continue;
+    for (int k = 0; k < ns; k++) x[k] /= rest;
+    parts[rank] = rest;
+    w->linear.pivot[i] = rank++;
+  }
+}
+
+/* w->relations.step (n_speeds) <- the least change of the group's speeds, in the metric, that takes
+ * w->relations.residual from the n rows: L'^-1 Q R'^-1 residual. */
+static void correction(frot_work *w, const frot_group *g, int n) {
+  int ns = g->n_speeds;
   double *step = w->relations.step;
   memset(step, 0, sizeof(double) * (size_t)ns);
   for (int i = 0; i < n; i++) {
-    double *x = w->span.basis + ns * rank, *parts = w->span.parts;
-    if (frot_is_spare(w, w->relations.rows[i])) continue;
-    memcpy(x, frot_entries(m, w->core.rows, w->relations.rows[i]), sizeof(double) * (size_t)ns);
-    frot_inwards(w, g, x);
-    double length = sqrt(frot_dot(x, x, ns)), part = error[i];
-    double rest = frot_reject(x, w->span.basis, rank, ns, parts);
-    if (!(rest > frot_least_length(m, w, w->relations.rows[i], length))) continue;
-    for (int k = 0; k < rank; k++) part -= parts[k] * w->span.bias[k];
-    for (int k = 0; k < ns; k++) x[k] /= rest;
-    w->span.bias[rank] = part / rest;
-    for (int k = 0; k < ns; k++) step[k] += w->span.bias[rank] * x[k];
-    rank++;
+    int own = w->linear.pivot[i];
+    if (own < 0) continue;
+    const double *parts = w->linear.matrix + n * i, *x = w->span.basis + ns * own;
+    double part = w->relations.residual[i];
+    for (int k = 0; k < own; k++) part -= parts[k] * w->span.bias[k];
+    const double along = w->span.bias[own] = part / parts[own];
+    for (int k = 0; k < ns; k++) step[k] += along * x[k];
   }
   frot_outwards(w, g, step);
+}
+
+/* The correction of what n rows of the group miss, `missed` times what is rounding at most. */
+static void correct(const frot_model *m, frot_work *w, const frot_group *g, int n, double missed,
+                    frame *f) {
+  int serves = f->group == g && f->n == n && n >= MANY && missed <= FASTER * f->missed;
+  if (!serves) orthonormalize(m, w, g, n);
+  *f = (frame){g, n, missed};
+  correction(w, g, n);
 }
 
 /* Coordinates onto the gaps that are closed. */
 static int project_positions(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                              const double *v, const double *d, const frot_contact_mode *modes,
-                             int *moved) {
+                             frame *f, int *moved) {
   for (int pass = 0; pass < PASSES; pass++) {
     int status = frot_kinematics(m, s, w, t, q, v, d), any = 0;
     if (status != FROT_OK) return status;
     for (int k = 0; k < w->awake.now->n_groups; k++) {
       const frot_group *g = &m->groups[w->awake.now->groups[k]];
-      int n = frot_rows_of_group(m, g, modes, NULL, 1, w->relations.rows), off = 0, at = 0;
+      int n = frot_rows_of_group(m, g, modes, NULL, 1, w->relations.rows), at = 0;
+      double missed = 0;
       for (int i = 0; i < g->n_contacts; i++) {
         int c = g->contacts[i];
         if (!keeps_place(m, modes, c)) continue;
+        double bound = rounding_of_gap(m, s, w, c, q);
         w->relations.residual[at++] = w->core.gap[c];
-        off |= fabs(w->core.gap[c]) > FROT_ROUNDING * frot_gap_size(m, w, m->contacts[c].row_n, q);
+        missed = fmax(missed, miss(w->core.gap[c], bound));
       }
-      if (!off) continue;
-      correction(m, w, g, n, w->relations.residual);
+      if (!(missed > 1)) continue;
+      correct(m, w, g, n, missed, f);
       frot_displace(m, g, q, w->relations.step, -1);
       any = *moved = 1;
     }
@@ -103,20 +154,24 @@ static int project_positions(const frot_model *m, frot_state *s, frot_work *w, d
 
 static int project_speeds(const frot_model *m, frot_state *s, frot_work *w, double t,
                           const double *q, double *v, const double *d,
-                          const frot_contact_mode *modes, const unsigned char *stuck, int *moved) {
+                          const frot_contact_mode *modes, const unsigned char *stuck, frame *f,
+                          int *moved) {
+  f->missed = INFINITY;
   for (int pass = 0; pass < PASSES; pass++) {
     int status = frot_kinematics(m, s, w, t, q, v, d), any = 0;
     if (status != FROT_OK) return status;
     for (int k = 0; k < w->awake.now->n_groups; k++) {
       const frot_group *g = &m->groups[w->awake.now->groups[k]];
-      int n = frot_rows_of_group(m, g, modes, stuck, 0, w->relations.rows), off = 0;
+      int n = frot_rows_of_group(m, g, modes, stuck, 0, w->relations.rows);
+      double missed = 0;
       for (int i = 0; i < n; i++) {
         int row = w->relations.rows[i];
         w->relations.residual[i] = w->core.rate[row];
-        off |= fabs(w->core.rate[row]) > 0.5 * FROT_ROUNDING * frot_row_size(m, w, row, v);
+        double bound = 0.5 * FROT_ROUNDING * frot_row_size(m, w, row, v);
+        missed = fmax(missed, miss(w->core.rate[row], bound));
       }
-      if (!off) continue;
-      correction(m, w, g, n, w->relations.residual);
+      if (!(missed > 1)) continue;
+      correct(m, w, g, n, missed, f);
       for (int i = 0; i < g->n_speeds; i++) v[g->unknowns[i]] -= w->relations.step[i];
       any = *moved = 1;
     }
@@ -138,8 +193,9 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     return done;
   }
   if (m->n_rows == 0 || frot_holding_rows(m, w, modes, stuck, 0) == 0) return FROT_OK;
+  frame f = {NULL, 0, INFINITY};
   int status = frot_metric(m, w);
-  if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, moved);
-  if (status == FROT_OK) status = project_speeds(m, s, w, t, q, v, d, modes, stuck, moved);
+  if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, &f, moved);
+  if (status == FROT_OK) status = project_speeds(m, s, w, t, q, v, d, modes, stuck, &f, moved);
   return status;
 }
