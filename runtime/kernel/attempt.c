@@ -120,7 +120,9 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   }
   a->to_due = 0;
   a->rejections++;
-  if (a->ratio > 1 && (a->rejections % PATIENCE == 0 || w->step.noisy > NOISY))
+  int unfound = s->implicit && status == FROT_DIVERGE && frot_has_motion(m);
+  if ((a->ratio > 1 && w->step.noisy > NOISY) ||
+      ((a->ratio > 1 || unfound) && a->rejections % PATIENCE == 0))
     frot_measure_noise(m, s, w, t + h);
   if (a->rejections % HOLD == 0) frot_hold_worth(s, w);
   frot_shorten(m, s, w, a);

@@ -5,6 +5,7 @@
 
 #include "complex_lu.h"
 #include "crossing.h"
+#include "error.h"
 #include "jacobian.h"
 #include "mechanics.h"
 #include "radau_table.h"
@@ -142,9 +143,10 @@ static void improve(const frot_model *m, const frot_work *w, const scratch *x, d
   }
 }
 
-/* Largest change of a state in the pass, in sizes of the states; these grow with what they move. */
+/* Largest change of a state in the pass, in sizes of the states; these grow with what they move.
+ * What rounding of its rate changes is none. */
 static double size_of_change(const frot_model *m, const frot_state *s, const frot_work *w,
-                             const scratch *x) {
+                             const scratch *x, double h) {
   int n = frot_order(m);
   const double *most = s->data + w->layout.scale_x, *worth = s->data + w->layout.worth;
   double largest = 0;
@@ -157,7 +159,8 @@ static double size_of_change(const frot_model *m, const frot_state *s, const fro
       size = fmax(size, fabs(row(w, FROT_RADAU_MOVED + i)[k]));
       change = fmax(change, fabs(sum));
     }
-    if (change == 0) continue;
+    change -= FROT_NOISE_MARGIN * h * frot_noise_of_rate(m, s, w, k, h);
+    if (change <= 0) continue;
     if (!(change <= largest * fmax(size, change))) largest = change / fmax(size, change);
     if (isnan(largest)) break;
   }
@@ -175,7 +178,7 @@ static int iterate(const frot_model *m, frot_state *s, frot_work *w, const scrat
     int status = evaluate(m, s, w, x, t, h);
     if (status != FROT_OK) return status;
     improve(m, w, x, h);
-    double change = size_of_change(m, s, w, x), rate = change / last;
+    double change = size_of_change(m, s, w, x, h), rate = change / last;
     if (!isfinite(change)) return FROT_DIVERGE;
     for (int k = 0; k < RA_STAGES * n; k++) x->moved[k] += x->change[k];
     if (change <= FROT_ROUNDING) return FROT_OK;
@@ -230,6 +233,8 @@ int frot_radau_stages(const frot_model *m, frot_state *s, frot_work *w, double t
   scratch x = scratch_of(m, w);
   memcpy(w->step.z1, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
   memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  /* the slope at the end is none yet: error.h */
+  memcpy(row(w, DP_STAGES), row(w, 0), sizeof(double) * (size_t)frot_width(w));
   if (factor(m, w, &x, h)) return FROT_DIVERGE;
   guess(m, s, w, &x, t, h);
   int status = iterate(m, s, w, &x, t, h);
