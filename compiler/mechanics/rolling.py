@@ -1,8 +1,9 @@
-"""Which liaisons without slip coordinates can keep: of a figure on a plane, with nothing else.
+"""Which liaisons without slip coordinates can keep: of a figure on a plane of the ground.
 
 What rolls so has its angular velocity and the rate of its height as its only speeds (liaisons/
-roll.py). Elsewhere rows keep it: where other figures touch, where the body is held by rows
-that keep places, which would move what rolls without its turning, and where time moves anything.
+roll.py). Elsewhere rows keep it: where other figures touch, on bodies that move, where the body is
+held by rows that keep places, which would move what rolls without its turning, and where time moves
+anything; and where the implicit method may be taken, which finds its stages sooner with rows.
 """
 
 from __future__ import annotations
@@ -15,19 +16,20 @@ from frot.compiler.mechanics.mechanism import Joint, frames_of, point_body, turn
 
 
 def can_roll(joint: Joint) -> bool:
-    """Whether its figures can: a ball on any plane, what is not round on one at rest.
+    """Whether its figures can: what is round on a plane of the ground.
 
-    A plane that turns takes the height of what is not round along.
+    On a body that moves, a start that states the place of what rolls would move that body too.
     """
     touching, *others = joint.locks or (None,)
     if len(others) != 2 or not all(isinstance(x, NoSlip) for x in others):
         return False
+    if point_body(joint.a).shape is not None or not turns(point_body(joint.b)):
+        return False
     match touching:
         case Touching(a=Flat(), b=Ball(radius=radius), followed=False, apart=None):
-            return turns(point_body(joint.b)) and not has_time(radius)
+            return not has_time(radius)
         case Touching(a=Flat(), b=Ring() | Oval() | Egg(), followed=False, apart=None):
-            plain = all(frame.angle is None for frame in frames_of(joint.b))
-            return plain and point_body(joint.a).shape is None and turns(point_body(joint.b))
+            return all(frame.angle is None for frame in frames_of(joint.b))
     return False
 
 

@@ -104,9 +104,17 @@ def _can_roll(
     """Whether it rolls, and no other row keeps a place of the bodies that it would carry."""
     if isinstance(link, Contact) or not can_roll(link) or is_driven(model):
         return False
+    if model.experiment.method != "explicit" and _may_be_stiff(model):
+        return False
     group = groups.of(point_body(link.b))
     others = (x for x in closing if x is not link and _keeps_places(x))
     return not any(groups.of(body) is group for x in others for body in _ends(x))
+
+
+def _may_be_stiff(model: Model) -> bool:
+    """Whether the implicit method may be taken, which finds its stages sooner with rows."""
+    laws = any(liaison.laws for liaison in model.liaisons)
+    return bool(model.forces or model.equations or model.flanges or laws)
 
 
 def _keeps_places(link: Contact | Joint) -> bool:
