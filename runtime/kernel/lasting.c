@@ -109,17 +109,20 @@ static int evaluate(const frot_instant *in, double t, double *q, double *v) {
   return status;
 }
 
-/* Move on by dt: the group with its accelerations, all else with its speeds. */
+/* Move on by dt: the group with its accelerations, all else, whose speeds may drive it (a damper),
+ * as it moved until now. */
 static int move_on(const frot_instant *in, const frot_group *own, double dt, double *q, double *v) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
-  int moved;
+  int moved, begun = in->s->statistics.steps > 0;
+  const double *slope = in->s->data + in->l.slope + m->nq;
   memcpy(q, in->q, sizeof(double) * (size_t)m->nq);
   memcpy(v, in->v, sizeof(double) * (size_t)m->nv);
   for (int k = 0; k < m->n_groups; k++) {
     const frot_group *g = &m->groups[k];
     for (int i = 0; i < g->n_speeds; i++) {
-      double a = g == own ? w->core.a[g->unknowns[i]] : 0;
+      double other = begun ? slope[g->unknowns[i]] : 0;
+      double a = g == own ? w->core.a[g->unknowns[i]] : other;
       w->relations.step[i] = v[g->unknowns[i]] + 0.5 * dt * a;
       v[g->unknowns[i]] += dt * a;
     }
