@@ -398,7 +398,7 @@ def build(m: Small, folder: Path) -> Program:
     folder.mkdir(parents=True, exist_ok=True)
     toolchain = find_toolchain()
     (folder / "model.c").write_text(source(m, folder))
-    sources = [folder / "model.c", *kernel_sources()]
+    sources = [folder / "model.c", *kernel_sources(kernel_folder())]
     objects = c_objects(sources, [kernel_folder()], KERNEL_FLAGS)
     link_library(toolchain, objects, folder / "program.so")
     one = Unit("1")

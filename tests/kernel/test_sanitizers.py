@@ -29,7 +29,7 @@ SMALL = (
 def drive(model: Path, stop: float, folder: Path) -> None:
     """Compile the driver with a model and run it."""
     binary = folder / "drive"
-    sources = [Path(__file__).parent / "drive.c", model, *kernel_sources()]
+    sources = [Path(__file__).parent / "drive.c", model, *kernel_sources(kernel_folder())]
     objects = c_objects(sources, [kernel_folder()], SANITIZED)
     subprocess.run(["cc", *SANITIZED, *map(str, objects), "-o", str(binary), "-lm"], check=True)
     done = subprocess.run(
