@@ -52,6 +52,9 @@ def stated_liaison(
                 "E0501",
                 "a liaison holds relations: 'kinematic a = b;' or 'geometric a = b;'",
                 element.span,
+                help="put what begins with a sign into parentheses: 'kinematic (-a + b) = 0;'"
+                if element.span.text.startswith(("kinematic", "geometric"))
+                else "",
             )
     if not complete:
         return None

@@ -21,6 +21,7 @@ _NOUNS = frozenset(
     shape input output flow parameter constant model connector record function package type planar
     partial kinematic geometric""".split()  # noqa: SIM905
 )
+_RELATIONS = ("kinematic", "geometric")
 _BLANK = re.compile(r"(?:\s|//[^\n]*|/\*.*?\*/)*", re.DOTALL)
 _REGEXPS = ("WS", "COMMENT", "QUANTITY", "NUMBER", "STRING", "IDENT")
 
@@ -83,9 +84,13 @@ class Lexer:
             )
             return keyword if ends else "IDENT"
         if word in _NOUNS and "IDENT" in accepted:
-            # `force = 2*k;` names a variable: a declaration goes on with a word.
+            # `force = 2*k;` names a variable: a declaration goes on with a word, a relation also
+            # with a parenthesis or a number.
             after = _BLANK.match(text, end)
             following = text[after.end() : after.end() + 1] if after is not None else ""
-            if following and not (following.isalpha() or following == "_"):
+            goes_on = following.isalpha() or following == "_"
+            if word in _RELATIONS:
+                goes_on = goes_on or following == "(" or following.isdigit()
+            if following and not goes_on:
                 return "IDENT"
         return keyword

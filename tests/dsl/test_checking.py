@@ -203,3 +203,40 @@ def test_units_are_shown_as_they_are_written() -> None:
         "expected a length (mm), found a force (kN)",
         "cannot add these: a length (mm) + a force (kN)",
     ]
+
+
+@pytest.mark.parametrize(
+    "left", ["(b.position.x - a.position.x)*2", "2*a.position.x - b.position.x"]
+)
+def test_a_relation_begins_as_any_expression(left: str) -> None:
+    log = Log()
+    text = f"""
+liaison Twice(a: frame, b: frame)
+  geometric {left} = 0;
+end Twice;
+planar model M
+  body p: disc(mass = 1 kg, radius = 1 m);
+  body q: disc(mass = 1 kg, radius = 1 m);
+  liaison t: Twice(p, q);
+end M;
+"""
+    model = compile_text(text, log)
+    assert model is not None, render_log(log)
+    assert len(model.liaisons[0].relations) == 1
+
+
+def test_a_relation_that_begins_with_a_sign_is_told_its_remedy() -> None:
+    log = Log()
+    text = """
+liaison Twice(a: frame, b: frame)
+  geometric -a.position.x + b.position.x = 0;
+end Twice;
+planar model M
+  body p: disc(mass = 1 kg, radius = 1 m);
+  body q: disc(mass = 1 kg, radius = 1 m);
+  liaison t: Twice(p, q);
+end M;
+"""
+    compile_text(text, log)
+    (told,) = log.diagnostics
+    assert told.code == "E0501" and "parentheses" in told.help
