@@ -10,15 +10,18 @@ from frot.compiler.equations.chains import replace_known
 from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.lowering.guesses import (
+    guessed_places,
+    list_guesses,
+    move_by,
+    values_of,
+)
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.mechanism import Link
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation, Reference, Variable
 from frot.dsl.messages.source import Span
-
-# Square of the part of a guess that stronger ones must leave, or it says nothing more.
-_SLIGHT = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +43,7 @@ class Initial:
     statements: tuple[Statement, ...]
     position_statement: tuple[int, ...]
     velocity_statement: tuple[int, ...]
+    guessed: list[ca.SX]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,11 +67,14 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
         if not equation.guess and not _sets_memory(equation, system):
             found += _residuals(index, equation, system, looking, later, log)
     direct, complete = _direct(found, system)
+    guesses = list_guesses(system, looking)
     # values that are stated one by one are where the search begins, or all there is to find
-    q = _guess(system, looking, system.q, _with(system.q, _natural(system), direct), direct)
-    known = direct | _values(system.q, q)
+    natural = _with(system.q, _natural(system), direct)
+    q = move_by(system, guesses, system.q, natural, direct)
+    known = direct | values_of(system.q, q)
     v = _with(system.v, ca.SX.zeros(system.v.shape), direct)
-    v = _guess(system, looking, system.v, v, known)
+    v = move_by(system, guesses, system.v, v, known)
+    guessed = guessed_places(system, guesses, natural, direct)
     turns = system.reduced.symbols.turns
     relations = turns or system.reduced.mechanism.contacts or system.invariants.origins
     if complete and not relations:
@@ -95,8 +102,9 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
     moving = [_depends(r.value, system, system.v) for r in found]
     position = [r for r, m in zip(found, moving, strict=True) if not m]
     velocity = [r for r, m in zip(found, moving, strict=True) if m]
-    known |= _values(system.v, v)
-    y_start = _guess(system, looking, system.y, _beginnings(system, _values(system.q, q)), known)
+    known |= values_of(system.v, v)
+    y_start = _beginnings(system, values_of(system.q, q))
+    y_start = move_by(system, guesses, system.y, y_start, known)
     discrete = column(d.start for d in system.reduced.text.memory)
     return Initial(
         [q, v, y_start, discrete],
@@ -105,6 +113,7 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
         tuple(statements),
         tuple(r.statement for r in position),
         tuple(r.statement for r in velocity),
+        guessed,
     )
 
 
@@ -123,7 +132,7 @@ def _natural(system: Assembled) -> ca.SX:
     for turn in system.reduced.symbols.turns:
         start[turn.coordinate] = 1
     for place, value in system.reduced.variables.kinematics.starts.items():
-        start[place] = replace_known(value, _values(system.q, start))
+        start[place] = replace_known(value, values_of(system.q, start))
     return start
 
 
@@ -257,78 +266,3 @@ def _outputs(residuals: list[_Residual], unknown: ca.SX, y: ca.SX) -> list[ca.SX
         column(r.size for r in residuals),
         ca.jacobian(values, y).T,
     ]
-
-
-def _values(symbols: ca.SX, values: ca.SX) -> dict[int, ca.SX]:
-    return {
-        s.element_hash(): x for s, x in zip(scalars_of(symbols), scalars_of(values), strict=True)
-    }
-
-
-def _guess(
-    system: Assembled,
-    looking: Lowering,
-    unknown: ca.SX,
-    value: ca.SX,
-    known: Mapping[int, ca.SX],
-) -> ca.SX:
-    """Where the search for the nearest values starts: `value`, moved by each guess in turn.
-
-    What is `known` stays. A guess moves in the directions that the stronger ones before it leave.
-    Conditions, which nobody knows yet, are taken not to hold.
-    """
-    if not unknown.numel():
-        return value
-    here = {
-        s.element_hash(): ca.SX(0) for x in (system.q, system.v, system.y) for s in scalars_of(x)
-    }
-    reduced = system.reduced
-    flags, memory = column(reduced.conditions.flags), column(d.start for d in reduced.text.memory)
-    sides = reduced.symbols.sides
-    given = _values(flags, ca.SX.zeros(flags.shape)) | _values(sides, ca.SX.ones(sides.shape))
-    given |= _values(system.discrete, memory)
-    here |= {**given, **_values(unknown, value), **known}
-    free = [s for s in scalars_of(unknown) if s.element_hash() not in known]
-    taken: list[ca.SX] = []
-    for left, right in reversed(_guesses(system, looking)):
-        inside = {s.element_hash() for s in ca.symvar(left)} & here.keys()
-        own = {s.element_hash() for s in scalars_of(unknown)} | known.keys() | given.keys()
-        if not free or (unknown is system.q and inside - own):
-            continue
-        slope = replace_known(ca.jacobian(left, column(free)).T, here)
-        whole = ca.sumsqr(slope)
-        for other in taken:
-            slope -= ca.dot(slope, other) * other
-        length = ca.sumsqr(slope)
-        if length.is_zero():
-            continue
-        usable = length > _SLIGHT * whole
-        short = right - replace_known(left, here)
-        move = ca.if_else(usable, slope * short / length, ca.SX.zeros(slope.shape))
-        taken.append(ca.if_else(usable, slope / ca.sqrt(length), ca.SX.zeros(slope.shape)))
-        for s, change in zip(free, ca.vertsplit(move), strict=True):
-            here[s.element_hash()] = here[s.element_hash()] + change
-    return column(here[s.element_hash()] for s in scalars_of(unknown))
-
-
-def _guesses(system: Assembled, looking: Lowering) -> list[tuple[ca.SX, ca.SX]]:
-    """Pairs of a scalar of the states and the value it is guessed to have, the strongest last.
-
-    A `guess` is stronger than a `start`, and a guess on a state than one on what follows from it.
-    """
-    model, settled = system.reduced.mechanism.model, system.reduced.variables.settled
-    starts: list[tuple[ca.SX, ca.SX]] = []
-    for variable in model.variables:
-        if variable.start is not None and not variable.discrete and is_fixed(variable.start):
-            left = system.resolve(system.reduced.text.values[variable])
-            right = scalars(looking.lower(variable.start))
-            items = scalars(left)
-            right = right * len(items) if len(right) == 1 else right
-            starts += zip(items, right, strict=True)
-    guesses: list[tuple[ca.SX, ca.SX]] = []
-    for equation in model.initial:
-        if equation.guess and is_fixed(equation.right):
-            left = system.resolve(settled(looking.lower(equation.left)))
-            guesses += zip(scalars(left), scalars(looking.lower(equation.right)), strict=True)
-    ordered = [sorted(pairs, key=lambda pair: pair[0].is_symbolic()) for pairs in (starts, guesses)]
-    return [*ordered[0], *ordered[1]]

@@ -38,7 +38,8 @@ class Lowered:
     """The functions by their names in the contract, and their tables.
 
     `position_statement` and `velocity_statement` give, for each scalar initial equation, the index
-    of its statement in `statements`. `blocks` are the functions of the blocks of `system`.
+    of its statement in `statements`. `n_guessed`: scalars whose places are guessed.
+    `blocks` are the functions of the blocks of `system`.
     Where there are `islands`, each is of one of the `kinds`. `conditions`: the values of all.
     """
 
@@ -57,6 +58,7 @@ class Lowered:
     statements: tuple[Statement, ...]
     position_statement: tuple[int, ...]
     velocity_statement: tuple[int, ...]
+    n_guessed: int
     row_depends: tuple[tuple[bool, ...], ...]
     dependent: tuple[bool, ...]
     jacobian: Jacobian | None
@@ -121,6 +123,8 @@ def lower(
         "variables": ([*solution, s.energy], [values]),
         "energy": (state, [resolve(reduced.kinetic), resolve(reduced.potential)]),
     }
+    if initial.guessed:
+        outputs["guessed"] = (state, initial.guessed)
     if not islands:
         outputs |= _whole(system, grouping, conditions, state)
     carried = carried_bodies(system)
@@ -179,6 +183,7 @@ def lower(
         statements=initial.statements,
         position_statement=initial.position_statement,
         velocity_statement=initial.velocity_statement,
+        n_guessed=initial.guessed[0].numel() if initial.guessed else 0,
         row_depends=_row_depends(system),
         dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
         jacobian=jacobian,

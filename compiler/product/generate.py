@@ -182,6 +182,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_checks": len(lowered.checks),
         "n_position": len(lowered.position_statement),
         "n_velocity": len(lowered.velocity_statement),
+        "n_guessed": lowered.n_guessed,
         "n_statements": len(lowered.statements),
         "n_variables": len(lowered.variables),
         "n_loads": len(reduced.mechanism.forces),

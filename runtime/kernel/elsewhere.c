@@ -12,9 +12,7 @@
 #define TRIES 8 /* beginnings of the search beside the given one, each to both hands */
 #define WHOLE_TURN 6.3
 
-/* A beginning of the search away from w->opening.begin, the same in every run: turns of up to half
- * a revolution. `alike`: of lengths that move as much mass, else in SI. */
-static void begin_elsewhere(frot_opening *p, int k, int alike) {
+void frot_begin_elsewhere(frot_opening *p, int k, int alike) {
   const frot_model *m = p->m;
   double least = INFINITY, *changes = p->w->opening.scratch;
   for (int i = 0; i < m->nq; i++)
@@ -61,7 +59,7 @@ int frot_solve_widely(frot_opening *p) {
   }
   for (int k = 0; k < 4 * TRIES; k++) {
     frot_clear_opening(p);
-    begin_elsewhere(p, k % (2 * TRIES), k >= 2 * TRIES);
+    frot_begin_elsewhere(p, k % (2 * TRIES), k >= 2 * TRIES);
     if (frot_solve_nearest(p) != FROT_OK || frot_come_closest(p) != FROT_OK) continue;
     double far = frot_change_size(p);
     if (far < (1 - FROT_NEARER) * best) best = far, memcpy(w->opening.nearest, p->q, bytes);

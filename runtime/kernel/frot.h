@@ -313,6 +313,7 @@ typedef struct {
   int method;         /* frot_method of the text */
   int has_jacobian;   /* 1: the implicit method can run: q' not late */
   double implicit_price; /* explicit steps that cost what an implicit one does */
+  int n_guessed;         /* guesses of places */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
   /* the first variables are the modes of the contacts that have one, the others are real */
 
@@ -326,6 +327,10 @@ typedef struct {
    * initial_position -> residual (n_position), its transposed Jacobian in q (nq x n_position), size
    *   of its terms (n_position), its transposed Jacobian in y (ny x n_position) */
   frot_callable initial_position;
+  /* guessed -> by how much each guess of a place is missed (n_guessed), its transposed Jacobian in
+   * q (nq x n_guessed), the size that it is measured by; q where the search begins but for the
+   * guesses that are no linear functions of q */
+  frot_callable guessed;
   /* initial_velocity -> the same in v: (nv x n_velocity), (ny x n_velocity) */
   frot_callable initial_velocity;
   /* kinematics, dynamics, spread and sizes: islands have their own, and then only `sizes` is called

@@ -6,6 +6,7 @@
 #include "changes.h"
 #include "core.h"
 #include "elsewhere.h"
+#include "guesses.h"
 #include "nearest.h"
 #include "sides.h"
 #include "statements.h"
@@ -61,15 +62,14 @@ static int solve_statements(frot_opening *p, double *side) {
   return again ? FROT_OK : status;
 }
 
-/* Coordinates; chooses the sides of the contacts. Leaves w->core.gap there. */
-static int solve_positions(frot_opening *p, double *side) {
+/* From a place where the statements hold to one where the liaisons do too; chooses the sides of the
+ * contacts. Leaves w->core.gap there. */
+static int put_together(frot_opening *p, double *side) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   int nc = m->n_contacts;
   const double *unilateral = p->s->data + frot_layout_of(m).unilateral;
-  p->velocity = 0;
-  int status = solve_statements(p, side);
-  if (status != FROT_OK) return status;
+  int status;
   frot_choose_sides(p, side, 0);
   for (int i = 0; i < nc; i++) {
     const frot_contact *contact = &m->contacts[i];
@@ -90,6 +90,50 @@ static int solve_positions(frot_opening *p, double *side) {
     }
     if (!added) return FROT_OK;
   }
+}
+
+/* Keep the place that is found, or take it again. */
+static int keep_place(frot_opening *p, double *side, int again) {
+  frot_work *w = p->w;
+  int nq = p->m->nq, ny = p->m->ny, nc = p->m->n_contacts;
+  struct {
+    double *here;
+    int count;
+  } parts[] = {{p->q, nq}, {w->blocks.y, ny}, {side, nc}};
+  double *kept = w->opening.first;
+  for (int k = 0; k < 3; kept += parts[k++].count) {
+    size_t bytes = sizeof(double) * (size_t)parts[k].count;
+    memcpy(again ? parts[k].here : kept, again ? kept : parts[k].here, bytes);
+  }
+  memcpy(again ? p->use : w->opening.first_use, again ? w->opening.first_use : p->use, (size_t)nc);
+  return again ? frot_kinematics(p->m, p->s, w, p->t, p->q, p->v, p->d) : FROT_OK;
+}
+
+/* Whether a place near the guesses, put together with its own sides, misses them by far less. */
+static int put_near_guesses(frot_opening *p, double *side, double missed) {
+  if (!frot_near_guesses(p)) return 0;
+  memset(p->use, 0, (size_t)p->m->n_contacts);
+  return frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d) == FROT_OK &&
+         put_together(p, side) == FROT_OK && frot_guesses_missed(p) < FROT_GUESS_LESS * missed;
+}
+
+/* Coordinates: those that follow from the beginning or, where these miss the guesses, from a place
+ * near them if that misses them by far less: what goes together in several ways is meant so. */
+static int solve_positions(frot_opening *p, double *side) {
+  p->velocity = 0;
+  int status = solve_statements(p, side);
+  if (status == FROT_OK) status = put_together(p, side);
+  if (p->m->n_guessed == 0 || (status != FROT_OK && status != FROT_INITIAL)) return status;
+  double missed = status == FROT_OK ? frot_guesses_missed(p) : INFINITY;
+  if (missed <= FROT_GUESS_MET) return status;
+  frot_fault fault = p->s->fault;
+  keep_place(p, side, 0);
+  if (put_near_guesses(p, side, missed)) return FROT_OK;
+  frot_clear_opening(p);
+  int kept = keep_place(p, side, 1);
+  if (status == FROT_OK) return kept == FROT_OK ? FROT_OK : frot_no_number(p, kept);
+  p->s->fault = fault, p->s->phase = FROT_FAULTED;
+  return status;
 }
 
 /* Speeds; opens contacts that separate. */
@@ -164,7 +208,8 @@ static int solve_once(frot_opening *p, double *q, double *v) {
 int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v) {
   frot_layout l = frot_layout_of(m);
-  frot_opening p = {m, s, w, t, q, v, s->data + l.d, w->opening.use, 0, 0, NULL, NULL, 0, 0, 0, 0};
+  frot_opening p = {m,    s, w, t, q, v, s->data + l.d, w->opening.use, 0, 0, NULL,
+                    NULL, 0, 0, 0, 0, 0};
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
   size_t size = sizeof(double) * (size_t)m->n_conditions;
   frot_name_changes(&p);

@@ -115,6 +115,13 @@ int frot_evaluate_statements(frot_opening *p) {
     }
     n++;
   }
+  if (p->guessed && !p->velocity) {
+    frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
+    w->call.res[0] = w->relations.residual + n, w->call.res[1] = w->relations.jacobian + nx * n;
+    w->call.res[2] = w->relations.size + n, w->call.res[3] = w->opening.natural;
+    frot_call(w, &m->guessed);
+    n += m->n_guessed;
+  }
   p->n = n;
   int finite =
       frot_all_finite(w->relations.residual, n) && frot_all_finite(w->relations.jacobian, n * nx);

@@ -19,6 +19,7 @@ typedef struct {
   int order, attached;
   double scene; /* largest value, term and residual where the search begins */
   int wide;     /* the search may begin elsewhere too */
+  int guessed;  /* the guesses of places are equations too, after the others */
 } frot_opening;
 
 static inline double *frot_opening_unknown(const frot_opening *p) {

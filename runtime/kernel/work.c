@@ -35,7 +35,8 @@ static int larger(int a, int b) { return a > b ? a : b; }
 
 static extent extent_of(const frot_model *m, const frot_layout *l) {
   extent e = {0, m->n_invariants > 0 ? m->nq + m->nv : m->nq, 0, 0, 0};
-  e.equations = larger(m->n_position, m->n_velocity) + m->n_rows + m->n_contacts + m->n_invariants;
+  e.equations = larger(m->n_position, m->n_velocity) + m->n_rows + m->n_contacts + m->n_invariants +
+                m->n_guessed;
   e.states = larger(e.states, l->nw);
   e.square = larger(e.equations, l->nw);
   for (int k = 0; k < m->n_groups; k++) e.widest = larger(e.widest, m->groups[k].n);
@@ -49,6 +50,7 @@ static frot_callable scratch_of_all(const frot_model *m) {
                                   &m->start,
                                   &m->initial_position,
                                   &m->initial_velocity,
+                                  &m->guessed,
                                   &m->kinematics,
                                   &m->sides,
                                   &m->places,
@@ -167,7 +169,7 @@ static void bind_relations(const frot_model *m, const frot_layout *l, const exte
                            arena *a) {
   frot_relation_work *r = &w->relations;
   int big = e->square, wide = e->states, least = big < wide ? big : wide;
-  TAKE(w->linear.matrix, big * larger(big, wide)), TAKE(w->linear.right, big);
+  TAKE(w->linear.matrix, big * larger(big, wide)), TAKE(w->linear.right, 2 * big);
   TAKE(w->linear.scratch, 2 * big * big + 6 * big + 4 * wide + least * wide);
   TAKE(w->linear.pivot, larger(big, wide));
   TAKE(r->jacobian, wide * e->equations), TAKE(r->residual, e->equations + l->nw);
@@ -187,6 +189,9 @@ static void bind_opening(const frot_model *m, const frot_layout *l, const extent
       TAKE(w->first_unit, m->nq);
   TAKE(w->found, m->nq), TAKE(w->way, m->nq), TAKE(w->next_way, m->nq), TAKE(w->apart, m->nq);
   TAKE(w->scratch, 3 * larger(m->nq, m->nv));
+  TAKE(w->natural, m->nq), TAKE(w->first, m->nq + m->ny + m->n_contacts),
+      TAKE(w->near, m->nq + m->ny);
+  TAKE(w->first_use, m->n_contacts);
 }
 
 static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, arena *a) {

@@ -123,7 +123,10 @@ typedef struct {
   double *factor, *row_weight, *off_at_first, *begin, *nearest;
   int *behind;                              /* of each change its speed (changes.h) */
   double *here, *first_factor, *first_unit; /* where changes are counted from; metric at `begin` */
-  double *found, *way, *next_way, *apart, *scratch; /* closest.c; scratch: 2 nq */
+  double *found, *way, *next_way, *apart, *scratch; /* closest.c; scratch: 3 nq */
+  double *natural, *near;                           /* guesses.h; near: q, y */
+  double *first; /* initial.c: q, y and the sides of the place found first, its `use` */
+  unsigned char *first_use;
 } frot_opening_work;
 
 /* guards.h: those that can fall in the modes, the sizes of their terms; pins' reactions at the end

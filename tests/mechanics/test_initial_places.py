@@ -1,8 +1,11 @@
 """Where bodies are put at the start: as stated, or told that no place is."""
 
+import cmath
+import itertools
 import math
 import random
 
+import numpy as np
 import pytest
 
 import frot
@@ -200,3 +203,116 @@ def test_a_gap_that_is_zero_but_for_rounding_is_closed() -> None:
         given = {k: chance.uniform(-0.5, 0.5) for k in "xy"} | {"s": chance.uniform(-3, 3)}
         start = model.simulate(parameters=given).at(0)
         assert start["j.angle"] == pytest.approx(given["s"], abs=1e-12)
+
+
+ASSEMBLED = """
+planar model Assembled "A four-bar whose crank's end is stated: the rest goes to one of two places"
+  parameter Length l = 1 m;
+  parameter Real turn = 0;
+  parameter Real crank_angle = 1.2;
+  parameter Mass m1 = 1 kg; parameter Mass m2 = 1 kg; parameter Mass m3 = 1 kg;
+  parameter Real c[3] = (0, 0, 0);
+  parameter Real f[3] = (0, 0, 0);
+  BODIES
+  frame far on ground at (1.1*l*cos(turn), 1.1*l*sin(turn));
+  LIAISONS
+initial
+  crank.tip.position = (l*cos(crank_angle + turn), l*sin(crank_angle + turn));
+  GUESS
+  experiment(stop = 1 s);
+end Assembled;
+"""
+LINKS = [
+    "body crank: rod(mass = m1, length = l);",
+    "body coupler: rod(mass = m2, length = 1.2*l);",
+    "body follower: rod(mass = m3, length = 1.1*l);",
+]
+PINS = [
+    "liaison A: rotoide(ground, crank.start);",
+    "liaison B: rotoide(crank.tip, coupler.start);",
+    "liaison C: rotoide(coupler.tip, follower.tip);",
+    "liaison D: rotoide(follower.start, far);",
+]
+PLACES = "guess(coupler.position = (c[1]*l, c[2]*l)); guess(follower.position = (f[1]*l, f[2]*l));"
+
+
+def _assembly(side: int, turn: float, crank: float) -> tuple[list[float], list[float]]:
+    """Places (in lengths of the crank) and angle of coupler and follower, by two circles."""
+    tip, far = cmath.exp(1j * crank), complex(1.1)
+    way = far - tip
+    half = math.acos((abs(way) ** 2 + 1.2**2 - 1.1**2) / (2 * 1.2 * abs(way)))
+    end = tip + 1.2 * way / abs(way) * cmath.exp(1j * side * half)
+    tip, far, end = (z * cmath.exp(1j * turn) for z in (tip, far, end))
+    made = [((start + end) / 2, cmath.phase(end - start)) for start in (tip, far)]
+    return tuple([z.real, z.imag, angle] for z, angle in made)
+
+
+@pytest.mark.parametrize(
+    ("links", "pins", "guess"),
+    [
+        ((0, 1, 2), (0, 1, 2, 3), PLACES),
+        ((1, 2, 0), (3, 2, 1, 0), PLACES),
+        ((2, 0, 1), (0, 3, 1, 2), "guess(follower.position = (f[1]*l, f[2]*l));"),
+        ((0, 1, 2), (3, 2, 1, 0), "guess(coupler.angle = c[3]); guess(follower.angle = f[3]);"),
+    ],
+)
+def test_a_loop_is_put_together_as_it_is_guessed(
+    links: tuple[int, ...], pins: tuple[int, ...], guess: str
+) -> None:
+    """Either assembly, guessed exactly or nearly, at any size, masses and order."""
+    text = ASSEMBLED.replace("BODIES", "\n".join(LINKS[k] for k in links))
+    text = text.replace("LIAISONS", "\n".join(PINS[k] for k in pins)).replace("GUESS", guess)
+    model = frot.compile(text)
+    masses = ((1, 1, 1), (1e6, 1, 1e-6), (1e-6, 1e6, 1))
+    cases = itertools.product((1, -1), (0.0, 2.5), (1.2, -0.4), masses, (0.0, 0.05))
+    for k, (side, turn, crank, (m1, m2, m3), off) in enumerate(cases):
+        length = (1, 1e-5, 1e4)[k % 3]
+        c, f = _assembly(side, turn, crank)
+        given: dict[str, float] = {f"c[{i + 1}]": c[i] + off * (-1) ** i for i in range(3)}
+        given |= {f"f[{i + 1}]": f[i] + off * (-0.7) ** i for i in range(3)}
+        given |= {"l": length, "turn": turn, "crank_angle": crank, "m1": m1, "m2": m2, "m3": m3}
+        start = model.simulate(stop=1e-9, parameters=given).at(0)
+        found = [start[f"{b}.position.{x}"] / length for b in ("coupler", "follower") for x in "xy"]
+        assert found == pytest.approx([*c[:2], *f[:2]], abs=1e-11)
+        if "angle" in guess:
+            assert start["coupler.angle"] == pytest.approx(c[2], abs=1e-11)
+
+
+SPATIAL = """
+model SpatialFourBar "Crank about z, follower about x, a rod with two ball joints between them"
+  parameter Real angle = 0.5;
+  parameter Real c[3] = (0, 0, 0);
+  parameter Real f[3] = (0, 0, 0);
+  body crank: rod(mass = 1 kg, length = 1 m);
+  body coupler: rod(mass = 1 kg, length = 2.5 m);
+  body follower: rod(mass = 1 kg, length = 1.5 m);
+  frame far on ground at (0.5, 1.5, 0.8) m rotated(axis = z, angle = 90 deg);
+  liaison A: rotoide(ground, crank.start);
+  liaison B: spherique(crank.tip, coupler.start);
+  liaison C: spherique(coupler.tip, follower.tip);
+  liaison D: rotoide(far, follower.start, axis = y);
+initial
+  crank.tip.position = (cos(angle), sin(angle), 0) m;
+  guess(coupler.position = (c[1], c[2], c[3]) m);
+  guess(follower.position = (f[1], f[2], f[3]) m);
+  experiment(stop = 1 s);
+end SpatialFourBar;
+"""
+
+
+def test_a_loop_in_space_is_put_together_as_it_is_guessed() -> None:
+    """The follower's end on its circle, 2.5 m from the crank's: A cos x + B sin x = C."""
+    model = frot.compile(SPATIAL)
+    far = np.array([0.5, 1.5, 0.8])
+    for angle, side, off in itertools.product((0.5, 0.9), (1, -1), (0.0, 0.04)):
+        tip = np.array([math.cos(angle), math.sin(angle), 0])
+        way = far - tip  # |way + 1.5 (0, cos x, sin x)| = 2.5
+        right = (2.5**2 - 1.5**2 - way @ way) / 3
+        x = math.atan2(way[2], way[1]) + side * math.acos(right / math.hypot(way[1], way[2]))
+        end = far + 1.5 * np.array([0, math.cos(x), math.sin(x)])
+        c, f = (tip + end) / 2, (far + end) / 2
+        given = {f"c[{i + 1}]": c[i] + off for i in range(3)}
+        given |= {f"f[{i + 1}]": f[i] - off for i in range(3)} | {"angle": angle}
+        start = model.simulate(stop=1e-9, parameters=given).at(0)
+        found = [start[f"{b}.position.{i}"] for b in ("coupler", "follower") for i in "xyz"]
+        assert found == pytest.approx([*c, *f], abs=1e-11)

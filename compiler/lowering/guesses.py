@@ -1,0 +1,143 @@
+"""Guesses: where the search for initial values begins, and which of several places it takes."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.equations.chains import replace_known
+from frot.compiler.equations.text_symbols import scalars
+from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.lowering.symbols import column, scalars_of
+from frot.compiler.lowering.walk import is_fixed
+from frot.dsl.quantities.dimensions import Dimension
+
+# Square of the part of a guess that stronger ones must leave, or it says nothing more.
+_SLIGHT = 1e-12
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Guess:
+    """A scalar, the value it is guessed to have and the dimension of both.
+
+    `start`: it is no statement of `initial`, but the `start` of a variable.
+    """
+
+    left: ca.SX
+    right: ca.SX
+    dimension: Dimension
+    start: bool
+
+
+def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
+    """The guesses of a model, the strongest first.
+
+    A `guess` is stronger than a `start`, and a guess on a state than one on what follows from it.
+    """
+    model, settled = system.reduced.mechanism.model, system.reduced.variables.settled
+    starts: list[Guess] = []
+    for variable in model.variables:
+        if variable.start is not None and not variable.discrete and is_fixed(variable.start):
+            left = scalars(system.resolve(system.reduced.text.values[variable]))
+            right = scalars(looking.lower(variable.start))
+            right = right * len(left) if len(right) == 1 else right
+            of = variable.start.type.dimension
+            starts += [Guess(a, b, of, True) for a, b in zip(left, right, strict=True)]
+    guesses: list[Guess] = []
+    for equation in model.initial:
+        if equation.guess and is_fixed(equation.right):
+            left = scalars(system.resolve(settled(looking.lower(equation.left))))
+            right = scalars(looking.lower(equation.right))
+            of = equation.left.type.dimension
+            guesses += [Guess(a, b, of, False) for a, b in zip(left, right, strict=True)]
+    ordered = [sorted(each, key=lambda g: g.left.is_symbolic()) for each in (starts, guesses)]
+    return [*ordered[0], *ordered[1]][::-1]
+
+
+def guessed_places(
+    system: Assembled, guesses: Sequence[Guess], natural: ca.SX, known: Mapping[int, ca.SX]
+) -> list[ca.SX]:
+    """The guesses of `initial` of what follows from the coordinates that are not `known`.
+
+    By how much each is missed, the slopes (nq x n), what it is measured by: lengths by the size of
+    all lengths that are guessed, and so on, numbers (angles) by one; and where those that are
+    linear in the coordinates put the bodies from their `natural` places. Nothing without guesses.
+    """
+    free = column(s for s in scalars_of(system.q) if s.element_hash() not in known)
+    others = ca.vertcat(system.v, system.y, system.z, system.lam)
+    found = [
+        g
+        for g in guesses
+        if not g.start
+        and free.numel()
+        and ca.depends_on(g.left, free)
+        and not (others.numel() and ca.depends_on(g.left, others))
+    ]
+    if not found:
+        return []
+    squares = defaultdict[Dimension, ca.SX](lambda: ca.SX(0))
+    for g in found:
+        squares[g.dimension] += g.left**2 + g.right**2
+    sizes = [
+        ca.SX(1) if g.dimension == Dimension() else ca.sqrt(squares[g.dimension]) for g in found
+    ]
+    missed = column(g.left - g.right for g in found)
+    linear = [g for g in guesses if not ca.depends_on(ca.jacobian(g.left, free), free)]
+    begin = move_by(system, linear, system.q, natural, known)
+    return [missed, ca.jacobian(missed, system.q).T, column(sizes), begin]
+
+
+def move_by(
+    system: Assembled,
+    guesses: Sequence[Guess],
+    unknown: ca.SX,
+    value: ca.SX,
+    known: Mapping[int, ca.SX],
+) -> ca.SX:
+    """Where the search for the nearest values starts: `value`, moved by each guess in turn.
+
+    What is `known` stays. A guess moves in the directions that the stronger ones before it leave.
+    Conditions, which nobody knows yet, are taken not to hold.
+    """
+    if not unknown.numel():
+        return value
+    here = {
+        s.element_hash(): ca.SX(0) for x in (system.q, system.v, system.y) for s in scalars_of(x)
+    }
+    reduced = system.reduced
+    flags, memory = column(reduced.conditions.flags), column(d.start for d in reduced.text.memory)
+    sides = reduced.symbols.sides
+    given = values_of(flags, ca.SX.zeros(flags.shape)) | values_of(sides, ca.SX.ones(sides.shape))
+    given |= values_of(system.discrete, memory)
+    here |= {**given, **values_of(unknown, value), **known}
+    free = [s for s in scalars_of(unknown) if s.element_hash() not in known]
+    own = {s.element_hash() for s in scalars_of(unknown)} | known.keys() | given.keys()
+    taken: list[ca.SX] = []
+    for guess in guesses:
+        inside = {s.element_hash() for s in ca.symvar(guess.left)} & here.keys()
+        if not free or (unknown is system.q and inside - own):
+            continue
+        slope = replace_known(ca.jacobian(guess.left, column(free)).T, here)
+        whole = ca.sumsqr(slope)
+        for other in taken:
+            slope -= ca.dot(slope, other) * other
+        length = ca.sumsqr(slope)
+        if length.is_zero():
+            continue
+        usable = length > _SLIGHT * whole
+        short = guess.right - replace_known(guess.left, here)
+        move = ca.if_else(usable, slope * short / length, ca.SX.zeros(slope.shape))
+        taken.append(ca.if_else(usable, slope / ca.sqrt(length), ca.SX.zeros(slope.shape)))
+        for s, change in zip(free, ca.vertsplit(move), strict=True):
+            here[s.element_hash()] = here[s.element_hash()] + change
+    return column(here[s.element_hash()] for s in scalars_of(unknown))
+
+
+def values_of(symbols: ca.SX, values: ca.SX) -> dict[int, ca.SX]:
+    """The value of each scalar symbol, by its hash."""
+    return {
+        s.element_hash(): x for s, x in zip(scalars_of(symbols), scalars_of(values), strict=True)
+    }

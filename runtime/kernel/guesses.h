@@ -1,0 +1,26 @@
+/* Guesses of places: which of several places is meant.
+ *
+ * A loop goes together in several ways, and a chain that is guessed to reach a point bends to
+ * either side. Where the search from the beginning comes to a place that misses the guesses, one
+ * near them is looked for by following guesses, statements and liaisons all at once. */
+#ifndef FROT_GUESSES_H
+#define FROT_GUESSES_H
+
+#include "statements.h"
+
+/* Mean square of what guesses are missed by, in parts, at which they are met; and how much less a
+ * place must miss them than another to be meant rather. */
+#define FROT_GUESS_MET 1e-18
+#define FROT_GUESS_LESS 0.5
+
+/* Mean square of what the guesses of places are missed by at p->q, INFINITY if that is no number.
+ */
+double frot_guesses_missed(frot_opening *p);
+
+/* p->q <- a place at which guesses, statements and liaisons hold as far as they can together; a
+ * fault is forgotten. The unknowns of the blocks begin as in w->opening.first. Returns 0 if none is
+ * found.
+ */
+int frot_near_guesses(frot_opening *p);
+
+#endif
