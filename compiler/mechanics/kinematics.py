@@ -11,8 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.lowering.constants import Constants
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
+from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.geometry.figures import Flat, Placed
 from frot.compiler.mechanics.geometry.touches import reach_of
 from frot.compiler.mechanics.geometry.tracking import Track

@@ -21,9 +21,9 @@ from frot.compiler.equations.text_symbols import (
     TextSymbols,
     scalars,
 )
-from frot.compiler.lowering.constants import Constants
 from frot.compiler.lowering.expressions import Conditions, Lowering
 from frot.compiler.lowering.symbols import Rows, Symbols, column, link_rows, make_symbols
+from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.dynamics import (
     Push,
     Step,

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.constants import Constants
 from frot.compiler.lowering.symbols import Symbols, column, make_symbols
+from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.geometry.contacts import link_geometry, row_rates
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.motions import Follow, Motion, Slide, count_speeds

@@ -11,7 +11,7 @@
 /* Mean square of what guesses are missed by, in parts, at which they are met; and how much less a
  * place must miss them than another to be meant rather. */
 #define FROT_GUESS_MET 1e-18
-#define FROT_GUESS_LESS 0.5
+#define FROT_GUESS_LESS 0.06
 
 /* Mean square of what the guesses of places are missed by at p->q, INFINITY if that is no number.
  */
