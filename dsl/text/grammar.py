@@ -42,35 +42,35 @@ def grammar() -> Lark:
 
     # Lark logs a traceback for an unreadable cache and then goes on without it.
     lark.logger.setLevel(logging.CRITICAL + 1)
+    text = GRAMMAR.read_text(encoding="utf-8")
+    name = _name(text)
     with contextlib.suppress(OSError):
-        made, folder = MADE / _name(), cache_folder()
-        if made.is_file():
-            return _tables(made)
-        folder.mkdir(parents=True, exist_ok=True)
-        if os.access(folder, os.W_OK) or (folder / made.name).is_file():
-            return _tables(folder / made.name)
-    return lark.Lark(GRAMMAR.read_text(encoding="utf-8"), **OPTIONS)
+        if (MADE / name).is_file():
+            return lark.Lark(text, cache=str(MADE / name), **OPTIONS)
+        path = cache_folder() / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if os.access(path.parent, os.W_OK) or path.is_file():
+            return lark.Lark(text, cache=str(path), **OPTIONS)
+    return lark.Lark(text, **OPTIONS)
 
 
 def make_tables(folder: Path) -> None:
-    """Write the tables into a folder, alone; OSError if it cannot be written."""
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    _tables(folder / _name())
-
-
-def _tables(path: Path) -> Lark:
-    """Read from the file, which is written if it is not there or damaged."""
-    import lark
-
-    return lark.Lark(GRAMMAR.read_text(encoding="utf-8"), cache=str(path), **OPTIONS)
-
-
-def _name() -> str:
-    """Of a file of tables, by all that they are made from."""
+    """Write the tables into a folder, alone, unless they are there; OSError if they cannot be."""
     import lark
 
     text = GRAMMAR.read_text(encoding="utf-8")
+    path = folder / _name(text)
+    if path.is_file():
+        return
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    lark.Lark(text, cache=str(path), **OPTIONS)
+
+
+def _name(text: str) -> str:
+    """Of the file of a grammar's tables, by all that they are made from."""
+    import lark
+
     key = hashlib.sha256(f"{lark.__version__}\n{sorted(OPTIONS.items())}\n{text}".encode())
     return f"grammar-{key.hexdigest()[:16]}.bin"
 
