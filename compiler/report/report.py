@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from frot.compiler.lowering.walk import has_time, subexpressions
 from frot.compiler.mechanics.mechanism import (
+    Joint,
     Mechanism,
     Relation,
     freedoms_of,
@@ -270,13 +271,17 @@ def _line(
     text = f"{liaison.kind.name}({_place(liaison.a)}, {_place(liaison.b)})"
     ideal = any(c.liaison is liaison for c in mechanism.ideal)
     reduced = ideal or any(c.liaison is liaison and c.reduced for c in mechanism.contacts)
-    kept = "built into the coordinates" if reduced else "kept by its reaction and projection"
+    rows = [x for x in mechanism.contacts if isinstance(x, Relation) and x.liaison is liaison]
+    ways = ["built into the coordinates"] * reduced
+    if rows or not reduced:
+        ways.append("kept by its reaction and projection")
+    kept = ", the rest ".join(ways)
     if is_unilateral(liaison):
         kept = "opens and closes by events"
-    kinematic = sum(
-        isinstance(x, Relation) and x.liaison is liaison and bool(x.lock.kinematic)
-        for x in mechanism.contacts
-    )
+    joints = [x for x in (*mechanism.contacts, *mechanism.ideal) if x.liaison is liaison]
+    locks = [x.lock for x in rows]
+    locks += [lock for x in joints if isinstance(x, Joint) for lock in x.held]
+    kinematic = sum(bool(lock.kinematic) for lock in locks)
     known = dict(analysis.holonomic) if analysis is not None else {}
     return LiaisonLine(
         liaison.name,

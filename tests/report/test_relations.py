@@ -1,6 +1,7 @@
 """Freedoms, redundant relations with their loops and cures, holonomy: what the report counts."""
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -262,3 +263,12 @@ end Rc;
     report = frot.compile(text).report()
     assert re.fullmatch(r"Rc: equations only\n  variables 1, equations 1", str(report))
     assert report.analysis is None
+
+
+def test_what_rolls_is_told_the_same_where_coordinates_keep_it() -> None:
+    report = frot.load(Path(frot.__file__).parents[1] / "models" / "rolling_ring.frot").report()
+    (rolls,) = report.liaisons
+    assert (rolls.relations, rolls.kinematic, rolls.holonomic) == (3, 2, False)
+    assert report.mobility.degrees_of_freedom == 3
+    ways = "built into the coordinates, the rest kept by its reaction and projection"
+    assert f"3 relations, bilateral, 2 kinematic, not holonomic; {ways}" in str(report)
