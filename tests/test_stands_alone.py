@@ -9,12 +9,18 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 ROOMS = (".ci", "bench", "compiler", "docs", "dsl", "frot", "models", "runtime", "tests")
-# A worktree's `.git` is a file that names where it comes from: no part of the repository.
+# A worktree's `.git` is a file that names where it comes from, and what installing has made names
+# where it was made: no part of the repository.
 FILES = [
     *(p for p in ROOT.iterdir() if p.is_file() and p.name != ".git"),
     *(p for room in ROOMS for p in (ROOT / room).rglob("*") if p.is_file()),
 ]
-TEXTS = sorted(p.relative_to(ROOT) for p in FILES if p.suffix not in {".png", ".pyc"})
+MADE = (Path("runtime/made"), Path("dsl/text/made"))
+TEXTS = sorted(
+    p
+    for p in (p.relative_to(ROOT) for p in FILES)
+    if p.suffix not in {".png", ".pyc"} and not any(p.is_relative_to(m) for m in MADE)
+)
 # Written apart, so that this file does not name them.
 OUTSIDE = ("sha" + "red", "wo" + "rk")
 NAMED = re.compile(
