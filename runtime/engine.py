@@ -8,10 +8,10 @@ import functools
 import signal
 import threading
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.errors import fail
 from frot.runtime.program import Program
 from numpy.typing import NDArray

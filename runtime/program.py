@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
+
+from frot.dsl.data.classes import dataclass, field, replace
 
 MANIFEST = "manifest.json"
 LIBRARY = "program.so"

@@ -6,11 +6,11 @@ import csv
 import io
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
+from frot.dsl.data.classes import dataclass
 from frot.dsl.files.writing import DATA, check_target, write_whole
 from frot.runtime.engine import Engine, Floats
 from frot.runtime.program import Program

@@ -8,12 +8,12 @@ value before in the equations of its conditions already. What an equation gives 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.equations.text_symbols import Held, TextSymbols, scalars
 from frot.compiler.lowering.symbols import shaped
 from frot.dsl.checked import Call, Element, Expression, Reference, Variable
+from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 
 

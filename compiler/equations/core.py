@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 import casadi as ca
 from frot.compiler.equations.chains import Chains, replace_known
 from frot.compiler.equations.differentiate import Differentiated
@@ -12,6 +10,7 @@ from frot.compiler.equations.given import Given
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl import Log
+from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 
 

@@ -7,7 +7,6 @@ choice of states has to be made, and none becomes singular on the way.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.balance import report_unbalanced
@@ -19,6 +18,7 @@ from frot.compiler.equations.origins import Origin, Unknown
 from frot.compiler.equations.slopes import symbols_inside
 from frot.compiler.lowering.symbols import column
 from frot.dsl import Log
+from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

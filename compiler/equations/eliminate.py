@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains, Resolver
@@ -17,6 +16,7 @@ from frot.compiler.equations.given import Given
 from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.table import PARAMETER, Table
 from frot.compiler.lowering.symbols import column
+from frot.dsl.data.classes import dataclass
 
 Entries = Mapping[int, int]
 

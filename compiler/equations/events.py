@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
 import casadi as ca
@@ -23,6 +22,7 @@ from frot.dsl.checked import (
     Variable,
     When,
 )
+from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 
 TERMINATE, FAIL, WARN, FAULT = range(4)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 
 

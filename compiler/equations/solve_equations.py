@@ -7,8 +7,6 @@ depends on it after.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-
 import casadi as ca
 from frot.compiler.equations.chains import Chains, replace_known
 from frot.compiler.equations.combine import combine
@@ -44,6 +42,7 @@ from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.reduce import Reduced, Tree
 from frot.dsl import Log, default_values, evaluate
+from frot.dsl.data.classes import dataclass, field, replace
 
 
 @dataclass(slots=True, eq=False)

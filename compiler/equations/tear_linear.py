@@ -9,13 +9,13 @@ that another one gives, and what is left is solved with pivots chosen in the run
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.chains import replace_known
 from frot.compiler.equations.given import Given
 from frot.compiler.equations.slopes import slopes
 from frot.compiler.lowering.symbols import column
+from frot.dsl.data.classes import dataclass
 
 # A pivot's size at least, in that of the largest factor of its unknown, at the defaults.
 _PIVOT = 0.1

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains, Resolver, replace_known
@@ -12,6 +11,7 @@ from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.text_symbols import FrictionElement
 from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.reduce import Reduced, Tree
+from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.eliminate import Pivot
@@ -22,6 +21,7 @@ from frot.dsl.checked import (
     Reference,
     Vector,
 )
+from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import REAL, Type
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.islands import Island
+from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import casadi as ca
@@ -30,6 +29,7 @@ from frot.dsl.checked import (
     Vector,
 )
 from frot.dsl.checked.walk import Rules, SharedWalk, parts
+from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 
 NEVER, RISING, ALWAYS = range(3)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TypeVar
 
 from frot.compiler.mechanics.names import component_names
 from frot.dsl.checked import Input, Parameter
 from frot.dsl.checked.arrays import scalars
+from frot.dsl.data.classes import replace
 
 T = TypeVar("T", Parameter, Input)
 

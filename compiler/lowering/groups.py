@@ -8,7 +8,6 @@ matrix, no scale and no search: what does not touch costs what it costs alone.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -16,6 +15,7 @@ from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.trees import TreeTable, make_tree
 from frot.compiler.mechanics.dynamics import speeds_by_tree
 from frot.compiler.mechanics.elements import Element, link_elements, text_element
+from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.chains import replace_known
@@ -21,6 +20,7 @@ from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.mechanism import Link
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation, Reference, Variable
+from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 
 

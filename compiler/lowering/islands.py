@@ -8,7 +8,6 @@ move and lets the others sleep.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
@@ -22,6 +21,7 @@ from frot.compiler.lowering.groups import (
     reorder_groups,
 )
 from frot.compiler.lowering.symbols import column
+from frot.dsl.data.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.text_symbols import scalars
@@ -17,6 +16,7 @@ from frot.compiler.mechanics.names import component_names
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl.catalogue import coordinates_of
 from frot.dsl.checked import Body, CurvePlace, Liaison, Variable
+from frot.dsl.data.classes import dataclass
 from frot.dsl.names.flanges import parameter_type
 from frot.dsl.quantities.dimensions import Dimension, dimension
 

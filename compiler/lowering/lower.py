@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.origins import Origin
@@ -27,6 +26,7 @@ from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.mechanics.supports import Carried, carried_bodies
 from frot.dsl import Log
+from frot.dsl.data.classes import dataclass
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

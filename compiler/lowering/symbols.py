@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.lowering.flatten import T, by_input, tunable
 from frot.compiler.mechanics.liaisons.motions import Motion, Spot, count_speeds
 from frot.compiler.mechanics.mechanism import Link, Mechanism
 from frot.dsl.checked import Input, Liaison, Parameter
+from frot.dsl.data.classes import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -13,13 +13,13 @@ from step to step (runtime/kernel/tree.h).
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.lowering.symbols import column as stacked
 from frot.compiler.mechanics.kinematics import Kinematics, Node
 from frot.compiler.mechanics.spatial import cross, nowhere, size_of_cross
 from frot.dsl.checked import Body
+from frot.dsl.data.classes import dataclass, field
 
 # Speeds of a tree from which on the recursion costs less than the mass matrix, measured: of one
 # whose reactions nobody reads, and of one with readings, each of which is one more way along it.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
@@ -15,6 +14,7 @@ from frot.compiler.mechanics.mechanism import point_body
 from frot.compiler.mechanics.spatial import about_z, nowhere, whole
 from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Liaison, Literal, Place
+from frot.dsl.data.classes import dataclass
 
 Argument = Expression | Place | Liaison
 

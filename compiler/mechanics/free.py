@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import replace
 
 from frot.compiler.mechanics.geometry.figures import Ball, Flat
 from frot.compiler.mechanics.liaisons.locks import Across
@@ -20,6 +19,7 @@ from frot.compiler.mechanics.mechanize import link_of
 from frot.compiler.mechanics.spanning import span
 from frot.dsl import Log
 from frot.dsl.checked import Body, Liaison
+from frot.dsl.data.classes import replace
 
 
 def free(mechanism: Mechanism, wanted: Collection[Liaison]) -> Mechanism:

@@ -8,7 +8,6 @@ differentiated.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
@@ -53,6 +52,7 @@ from frot.compiler.mechanics.spatial import (
 )
 from frot.compiler.mechanics.values import unit_vector
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison
+from frot.dsl.data.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
 
 from frot.compiler.lowering.walk import has_time, is_fixed
 from frot.compiler.mechanics.geometry.figures import Ball, Figure, Placed
@@ -23,6 +22,7 @@ from frot.dsl.checked import (
     Model,
     Surface,
 )
+from frot.dsl.data.classes import dataclass, replace
 
 Point = BodyPoint | Frame
 

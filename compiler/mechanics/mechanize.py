@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
 from frot.compiler.mechanics.geometry.faces import part_faces
 from frot.compiler.mechanics.geometry.figures import Dot, Flat, Placed, can_touch, figure_of
@@ -47,6 +45,7 @@ from frot.dsl.checked import (
     Quantity,
     Reference,
 )
+from frot.dsl.data.classes import replace
 
 ROUND = ("ring", "disc")
 

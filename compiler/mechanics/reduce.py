@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.equations.apart import moved_by_forces
@@ -49,6 +48,7 @@ from frot.compiler.mechanics.text_of_motion import (
 from frot.compiler.mechanics.variables import Variables
 from frot.dsl import Log
 from frot.dsl.checked import Liaison
+from frot.dsl.data.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

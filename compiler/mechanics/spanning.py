@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 
 from frot.compiler.mechanics.geometry.figures import Figure, Flat
 from frot.compiler.mechanics.liaisons.motions import (
@@ -34,6 +33,7 @@ from frot.compiler.mechanics.mechanism import (
 )
 from frot.compiler.mechanics.rolling import can_roll, rolling_motions
 from frot.dsl.checked import Body, Liaison, Model
+from frot.dsl.data.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

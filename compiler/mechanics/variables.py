@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains
@@ -16,6 +15,7 @@ from frot.compiler.mechanics.mechanism import Contact, Joint, point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity
+from frot.dsl.data.classes import dataclass, field
 
 # Operations within which two moments of inertia are seen to be the same expression.
 _DEEP = 8

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -14,6 +13,7 @@ from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.liaisons.locks import Way
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Relation, rolls
 from frot.dsl import default_values, evaluate
+from frot.dsl.data.classes import dataclass
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)
 STICK, FORWARD, BACKWARD = range(1, 4)

@@ -15,9 +15,9 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
+from frot.dsl.data.classes import dataclass
 
 # Statements of a function from which on it is worth looking, the longest period looked for, and the
 # fewest turns of a loop.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import casadi as ca
@@ -13,6 +12,7 @@ from frot.compiler.mechanics.mechanism import owner_body, point_body
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.mechanics.spatial import cross, nowhere, whole
 from frot.dsl.checked import Body, BodyGeometry, BodyPoint, CurvePlace, Frame, Place, SurfacePlace
+from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.quantities.dimensions import Dimension, dimension
 
 AXES = "xyz"

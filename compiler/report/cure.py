@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 
 import numpy as np
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, make_joint
@@ -13,6 +12,7 @@ from frot.compiler.mechanics.mechanism import Joint, Link, Relation
 from frot.compiler.report.redundancy import Loop
 from frot.compiler.report.relations import Posture, Relations, make_relations, rank
 from frot.dsl.checked import Expression, Liaison
+from frot.dsl.data.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

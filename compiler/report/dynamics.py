@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
@@ -11,6 +10,7 @@ from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Relation
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.report.relations import Floats, is_kinematic
+from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 
 _CLOSED = 1e-11

@@ -10,7 +10,6 @@ n M^-1 (n - mu t) = 0 at the coefficient named here; of a pin, whose couple is m
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
@@ -20,6 +19,7 @@ from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.report.dynamics import Dynamics, State, closes, make_dynamics
 from frot.compiler.report.relations import Floats, Posture
 from frot.dsl.checked import Liaison
+from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 
 # Of mu c: friction that does not change its reaction.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
@@ -13,6 +12,7 @@ from frot.compiler.mechanics.geometry.contacts import link_geometry, row_rates
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.motions import Follow, Motion, Slide, count_speeds
 from frot.compiler.mechanics.mechanism import Contact, Link, Mechanism
+from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from frot.compiler.lowering.walk import has_time, subexpressions
 from frot.compiler.mechanics.mechanism import (
@@ -30,6 +29,7 @@ from frot.dsl.checked import (
     Reference,
     SurfacePlace,
 )
+from frot.dsl.data.classes import dataclass
 from frot.dsl.statements.connections import UNCONNECTED
 from frot.dsl.statements.equations import count
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.symbols import scalars_of
@@ -12,6 +10,7 @@ from frot.compiler.mechanics.mechanism import Contact
 from frot.compiler.report.dynamics import Dynamics, State, closes
 from frot.compiler.report.relations import Floats, Posture, turning_speeds
 from frot.dsl import default_values, evaluate
+from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
 
 # Rates and values that are zero beside the sizes of their terms.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -15,6 +14,7 @@ from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.mechanism import Contact, Link, Relation
 from frot.compiler.report.relations import Floats, Posture, Relations, is_kinematic
 from frot.dsl import Log, default_values, evaluate
+from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
 
 _STEPS = 60

@@ -11,7 +11,6 @@ import shutil
 import stat
 import tempfile
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -20,6 +19,7 @@ from frot.compiler.toolchain.cache_size import UNFINISHED, read_limit, shrink, s
 from frot.compiler.toolchain.compilers import KERNEL_FLAGS, MODEL_FLAGS, Toolchain
 from frot.compiler.toolchain.hold import Hold, hold
 from frot.compiler.toolchain.keeper import Keeper
+from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.errors import fail
 from frot.runtime.program import MANIFEST, Program, read_program
 

@@ -11,10 +11,10 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from frot.compiler.toolchain.keeper import Keeper
+from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.errors import fail
 
 _FLAGS = ("-std=c99", "-fPIC", "-ffp-contract=off")

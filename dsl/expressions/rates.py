@@ -7,9 +7,8 @@ in other words: it is converted. What is no number with its unit, but surely the
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from frot.dsl import checked
+from frot.dsl.data.classes import replace
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.turns import (
     CYCLES,

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
+from frot.dsl.data.classes import dataclass, field
 from frot.dsl.layout.pieces import COMMENT, Piece
 
 INDENT = 2

@@ -6,8 +6,7 @@ Words are NFC-normalised. Where a noun has two spellings the class of the node i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Source, Span
 
 # ------------------------------------------------------------------ expressions

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
+from frot.dsl.data.classes import dataclass
 from frot.runtime.fmi.names import model_identifier, variable_names
 from frot.runtime.program import (
     DEFAULT_POINTS,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import casadi as ca
 from frot.compiler.mechanics.geometry.figures import Ball, Flat, Oval, count_parameters, is_closed
 from frot.compiler.mechanics.geometry.paths import parameter_of
@@ -25,6 +23,7 @@ from frot.compiler.mechanics.mechanism import (
 )
 from frot.compiler.mechanics.spatial import X, Y, Z, cross, nowhere
 from frot.dsl.checked import World
+from frot.dsl.data.classes import dataclass
 
 STANDARD_GRAVITY = 9.81
 DOWN = {"+x": X, "-x": -X, "+y": Y, "-y": -Y, "+z": Z, "-z": -Z}

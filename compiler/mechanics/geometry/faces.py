@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 
 from frot.compiler.mechanics.geometry.figures import Flat, corners_of, figure_of
 from frot.compiler.mechanics.refuse import refuse_places
 from frot.dsl import Log
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import BodyGeometry, BodyPoint, Liaison, Model, Place
+from frot.dsl.data.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,8 +6,6 @@ has none. How figures touch stands in `touches.py`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from frot.compiler.lowering.walk import has_time, subexpressions
 from frot.compiler.mechanics.liaisons.motions import Axis
 from frot.dsl.checked import (
@@ -25,6 +23,7 @@ from frot.dsl.checked import (
     Variable,
 )
 from frot.dsl.checked.arrays import element
+from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 
 Point = BodyPoint | Frame

@@ -6,12 +6,12 @@ The function grows outwards. No surface needs charts so, and none of its points 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figures import Ball, Egg, Figure, Flat, Implicit, Straight
 from frot.compiler.mechanics.spatial import Pose, Z, cross
 from frot.compiler.mechanics.values import Lower, rate_by_time, unit_vector
+from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

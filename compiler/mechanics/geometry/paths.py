@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import casadi as ca
 from frot.compiler.mechanics.geometry.figures import (
     Ball,
@@ -19,6 +17,7 @@ from frot.compiler.mechanics.geometry.figures import (
 from frot.compiler.mechanics.spatial import Pose, X, Y, beside, nowhere, whole
 from frot.compiler.mechanics.values import Lower, rate_by_time, unit_vector
 from frot.dsl.checked import Expression
+from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,7 +7,6 @@ outside, -1 inside; the gap grows away from it on that side.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figures import (
@@ -25,6 +24,7 @@ from frot.compiler.mechanics.liaisons.moves import Moments
 from frot.compiler.mechanics.spatial import GROUND, Pose, Z, beside, cross, nowhere
 from frot.compiler.mechanics.values import Lower, unit_vector
 from frot.dsl.checked import Expression
+from frot.dsl.data.classes import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, eq=False)

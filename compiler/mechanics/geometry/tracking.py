@@ -10,7 +10,6 @@ parameter, and closed surfaces by their function: none of these has a place that
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figures import (
@@ -31,6 +30,7 @@ from frot.compiler.mechanics.geometry.paths import Trace, parameter_of, point_of
 from frot.compiler.mechanics.geometry.touches import Touch
 from frot.compiler.mechanics.spatial import Pose, Z, beside, cross
 from frot.compiler.mechanics.values import Lower
+from frot.dsl.data.classes import dataclass
 
 TURN = 16  # beginnings looked at along a round curve
 LONG = 32  # along a curve given by its points

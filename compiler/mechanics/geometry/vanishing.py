@@ -8,7 +8,6 @@ in its centre, nothing round has a nearest place.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.walk import is_fixed
@@ -38,6 +37,7 @@ from frot.compiler.mechanics.mechanism import Contact, Joint
 from frot.compiler.mechanics.spatial import Pose, cross, whole
 from frot.compiler.mechanics.values import Lower, unit_vector
 from frot.dsl.checked import Expression, Liaison
+from frot.dsl.data.classes import dataclass
 
 _NO_PLACE = "no single place of '{}' is the nearest"
 COUNT = 3  # numbers that tell where (FROT_WHERE)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import casadi as ca
 from frot.compiler.mechanics.geometry.contacts import Geometry
 from frot.compiler.mechanics.geometry.figures import Flat
@@ -14,6 +12,7 @@ from frot.compiler.mechanics.liaisons.motions import bare, name_of
 from frot.compiler.mechanics.liaisons.wrenches import wrench_along
 from frot.compiler.mechanics.mechanism import Contact, Joint
 from frot.compiler.mechanics.spatial import nowhere
+from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

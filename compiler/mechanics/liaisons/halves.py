@@ -9,13 +9,13 @@ loop is the weld, which has no friction. The motion and every reaction are those
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 from frot.compiler.mechanics.liaisons.joints import JOINTS, make_joint
 from frot.compiler.mechanics.mechanism import Contact, Joint, Point, point_body, turns
 from frot.compiler.mechanics.spanning import Groups, in_order
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Literal, Model
+from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.quantities.dimensions import BOOLEAN
 
 

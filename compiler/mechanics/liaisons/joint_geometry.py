@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 
 import casadi as ca
@@ -17,6 +16,7 @@ from frot.compiler.mechanics.liaisons.stated import state, value_of
 from frot.compiler.mechanics.liaisons.wrenches import Action, act
 from frot.compiler.mechanics.mechanism import Joint, Relation, point_body
 from frot.compiler.mechanics.spatial import Moving, Z, conjugate, cross, product
+from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,7 +8,6 @@ to those of b; all coordinates are zero where both coincide. What a motion leave
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
 
 from frot.compiler.mechanics.liaisons.locks import (
     LEFT,
@@ -38,6 +37,7 @@ from frot.compiler.mechanics.liaisons.motions import (
 )
 from frot.compiler.mechanics.mechanism import Joint, Point, is_particle, point_body
 from frot.dsl.checked import Expression, Liaison
+from frot.dsl.data.classes import dataclass, replace
 
 Options = Mapping[str, Expression]
 

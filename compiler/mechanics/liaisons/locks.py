@@ -7,11 +7,10 @@ it is a relation between velocities, of which no places are the integral.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from frot.compiler.mechanics.geometry.figures import Figure
 from frot.compiler.mechanics.liaisons.motions import Axis, Driven
 from frot.dsl.checked import Expression
+from frot.dsl.data.classes import dataclass
 
 LEFT = 2
 

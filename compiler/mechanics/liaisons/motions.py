@@ -8,10 +8,10 @@ How each moves axes stands in `moves.py`. The fields with defaults are the same 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from frot.dsl.checked import Expression
+from frot.dsl.data.classes import dataclass
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.geometry.figures import Figure

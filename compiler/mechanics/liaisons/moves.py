@@ -7,7 +7,6 @@ to their origin before the motion. What does not move has no entry.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
 from typing import Any
 
 import casadi as ca
@@ -46,6 +45,7 @@ from frot.compiler.mechanics.spatial import (
 )
 from frot.compiler.mechanics.values import NOW, Lower, rate_by_time, unit_vector
 from frot.dsl.checked import Expression
+from frot.dsl.data.classes import dataclass, field, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,7 +7,6 @@ by the velocity of the place b and by the angular velocity of its body.
 from __future__ import annotations
 
 import copy
-from dataclasses import replace
 
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
@@ -19,6 +18,7 @@ from frot.compiler.mechanics.mechanism import Joint, Mechanism, point_body
 from frot.compiler.mechanics.spatial import Moving, Pose, cross, nowhere, product
 from frot.dsl import Log
 from frot.dsl.checked import Liaison, Quantity
+from frot.dsl.data.classes import replace
 
 
 def value_of(lock: Stated, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:

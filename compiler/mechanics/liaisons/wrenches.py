@@ -8,7 +8,6 @@ The rate of the gap is the power of the wrench on the motion of b relative to a.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figures import Flat
@@ -38,6 +37,7 @@ from frot.compiler.mechanics.liaisons.motions import Axis, Follow, Motion, Reach
 from frot.compiler.mechanics.liaisons.moves import Column, Moments, angle_about, arc, way_of
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, beside, cross, nowhere
 from frot.compiler.mechanics.values import Lower, rate_by_time, unit_vector
+from frot.dsl.data.classes import dataclass, field, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,0 +1,1 @@
+"""What values of all rooms are made with: `classes`."""
