@@ -28,6 +28,10 @@
 #define NOISY 0.01
 /* Rejections after which the sizes of states no longer shrink with the step. */
 #define HOLD 6
+/* Shrinking of steps after which rounding of a guard is asked for, though none was rejected, where
+ * its error is this part of the bound: errors of order eight would have vanished. */
+#define UNHEARD 8
+#define AUDIBLE 0.01
 #define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
 
 frot_attempt frot_attempt_from(double t) {
@@ -61,11 +65,23 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   return status;
 }
 
+static void measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
+  frot_measure_noise(m, s, w, t);
+  s->heard = s->h;
+}
+
+/* Whether a guard has made the steps ever shorter, each with an error that was within its bound,
+ * and still does. What rounding makes of a guard is as large in the shortest: of its integral over
+ * the step the error is looked at, whose bound shrinks with the step. */
+static int shrinks_unheard(const frot_state *s, const frot_work *w, const frot_attempt *a) {
+  return !s->implicit && w->step.worst < 0 && a->ratio > AUDIBLE && UNHEARD * s->h < s->heard;
+}
+
 /* Take a guard that seems to dip for what it is: first by what rounding does to it, then by a
  * shorter step. */
 static int look_closer(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   if (a->looks++ == 0)
-    frot_measure_noise(m, s, w, a->t + a->h);
+    measure_noise(m, s, w, a->t + a->h);
   else
     a->h *= FROT_EARLY, a->to_due = 0;
   s->statistics.rejected++;
@@ -83,6 +99,10 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   }
   a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &a->part) : -1;
   a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
+  if (a->ratio <= 1 && shrinks_unheard(s, w, a)) {
+    measure_noise(m, s, w, t + h);
+    return FROT_DIVERGE; /* its stages made way */
+  }
   if (a->loose > 0) frot_judge_tie(s, a->ratio, a->loose), a->loose = 0;
   a->forced = a->blurred;
   if (a->forced) frot_take_forced(s, a);
@@ -123,7 +143,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   int unfound = s->implicit && status == FROT_DIVERGE && frot_has_motion(m);
   if ((a->ratio > 1 && w->step.noisy > NOISY) ||
       ((a->ratio > 1 || unfound) && a->rejections % PATIENCE == 0))
-    frot_measure_noise(m, s, w, t + h);
+    measure_noise(m, s, w, t + h);
   if (a->rejections % HOLD == 0) frot_hold_worth(s, w);
   frot_shorten(m, s, w, a);
   if (s->weak && a->passed < 0) frot_shorten_passage(m, s, w, a, h);

@@ -95,4 +95,5 @@ void frot_plan_next(const frot_model *m, frot_state *s, const frot_work *w, cons
   s->h = fmin(a->h * factor, fmin(a->longest, a->stable));
   if (s->weak) s->h = fmax(a->h, a->want); /* noise does not show how long it may be */
   if (a->to_due) s->h = fmax(s->h, planned);
+  s->heard = fmax(s->heard, s->h);
 }

@@ -70,6 +70,7 @@ struct frot_state {
   double t;                  /* time reached */
   double h;                  /* next step */
   double last_h, last_ratio; /* the last step and its error over the bound; 0: none */
+  double heard;              /* the longest step planned since rounding was measured last */
   double due;                /* when time next changes a condition, INFINITY if never */
   double h_max;
   double began; /* time of the start */
