@@ -8,17 +8,17 @@ if TYPE_CHECKING:
     from frot.compiler.product.dae import Dae
     from frot.compiler.report.report import Report
     from frot.compiler.toolchain.cache import find_program, program_key
-    from frot.compiler.toolchain.compilers import Toolchain, find_toolchain
+    from frot.compiler.toolchain.chosen import Toolchain, find_toolchain
     from frot.compiler.toolchain.objects import compile_library
 
 _HOMES = {
     "Dae": "product.dae",
     "Report": "report.report",
-    "Toolchain": "toolchain.compilers",
+    "Toolchain": "toolchain.chosen",
     "build": "driver",
     "compile_library": "toolchain.objects",
     "find_program": "toolchain.cache",
-    "find_toolchain": "toolchain.compilers",
+    "find_toolchain": "toolchain.chosen",
     "make_dae": "driver",
     "make_report": "driver",
     "print_stage": "driver",

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from frot.compiler.product.dae import Dae
     from frot.compiler.report.first_integrals import FirstIntegral
     from frot.compiler.report.report import Report
-    from frot.compiler.toolchain.compilers import Toolchain
+    from frot.compiler.toolchain.chosen import Toolchain
 
 
 def _silent(_: str) -> None:
@@ -106,9 +106,10 @@ def build(
     `file` is the name of the text in the places of its equations.
     """
     from frot.compiler.product.describe import describe
-    from frot.compiler.toolchain.cache import store, write_manifest
-    from frot.compiler.toolchain.compilers import MODEL_FLAGS, compile_objects, link_library
+    from frot.compiler.toolchain.chosen import MODEL_FLAGS
+    from frot.compiler.toolchain.compilers import compile_objects, link_library
     from frot.compiler.toolchain.objects import kept_kernel, kernel_folder
+    from frot.compiler.toolchain.storing import store, write_manifest
 
     lowered = lowered_of(model, log, tell)
     if lowered is None:

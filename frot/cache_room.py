@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from frot.compiler.toolchain.cache import cache_folder
 from frot.compiler.toolchain.cache_size import (
     Entry,
     bytes_of,
@@ -15,6 +14,7 @@ from frot.compiler.toolchain.cache_size import (
     sweep,
     write_limit,
 )
+from frot.dsl.files.folders import cache_folder
 
 
 def tell_cache(limit: str | None, clear: bool) -> str:

@@ -5,18 +5,25 @@ from __future__ import annotations
 import contextlib
 import ctypes as ct
 import functools
+import math
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from array import array
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import numpy as np
 from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.errors import fail
 from frot.runtime.program import Program
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+# What gives numbers to the kernel and takes them back must not wait for numpy: a run that prints
+# its summary needs none.
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
 
 OK, FULL, STOPPED, TERMINATED = 0, 1, 2, 3
 # A change of parameters or inputs that was taken back, and the message that tells it.
@@ -157,10 +164,15 @@ class Run:
     """
 
     status: int
-    segments: Floats
+    record: array[float]
     events: list[RawEvent]
     last: float
     interrupted: bool = False
+
+    @property
+    def segments(self) -> Floats:
+        """The record as an array of numpy."""
+        return as_floats(self.record)
 
 
 @contextlib.contextmanager
@@ -176,13 +188,28 @@ def _interrupts_noted(noted: list[BaseException]) -> Iterator[None]:
         signal.signal(signal.SIGINT, before)
 
 
-def _joined(chunks: list[Floats]) -> Floats:
+def zeros(count: int) -> array[float]:
+    """So many numbers in one piece of memory."""
+    return array("d", [0.0]) * count
+
+
+def as_floats(numbers: array[float]) -> Floats:
+    """The same memory as an array of numpy."""
+    import numpy as np
+
+    return np.frombuffer(numbers, dtype=np.float64)
+
+
+def _joined(chunks: list[array[float]]) -> array[float]:
     """One array; what is one already is not copied."""
-    return chunks[0] if len(chunks) == 1 else np.concatenate([np.empty(0), *chunks])
+    whole = chunks.pop(0) if chunks else zeros(0)
+    for chunk in chunks:
+        whole.extend(chunk)
+    return whole
 
 
-def _address(array: Floats) -> int:
-    return int(array.ctypes.data)
+def _address(numbers: array[float]) -> int:
+    return numbers.buffer_info()[0]
 
 
 class Engine:
@@ -193,8 +220,8 @@ class Engine:
         self.program = program
         self._library = _load(str(program.library))
         self._model = ct.addressof(ct.c_char.in_dll(self._library, "frot_the_model"))
-        self._state = np.zeros(-(-self._library.frot_state_size(self._model) // 8))
-        self._work = np.zeros(-(-self._library.frot_work_size(self._model) // 8) + 1)
+        self._state = zeros(-(-self._library.frot_state_size(self._model) // 8))
+        self._work = zeros(-(-self._library.frot_work_size(self._model) // 8) + 1)
         self.segment_size = int(self._library.frot_segment_size(self._model))
         self._library.frot_state_clear(self._model, self._s)
 
@@ -206,13 +233,13 @@ class Engine:
     def _w(self) -> int:
         return _address(self._work)
 
-    def save(self) -> Floats:
+    def save(self) -> bytes:
         """A copy of the whole instance."""
-        return self._state.copy()
+        return self._state.tobytes()
 
-    def restore(self, saved: Floats) -> None:
+    def restore(self, saved: bytes) -> None:
         """Put a copy made by `save` back."""
-        self._state[:] = saved
+        memoryview(self._state).cast("B")[:] = saved
 
     def set_parameter(self, index: int, value: float) -> None:
         """Set a parameter, in SI; takes effect at the next start or settle."""
@@ -226,9 +253,9 @@ class Engine:
         """Set an input, in SI."""
         self._library.frot_set_input(self._model, self._s, index, value)
 
-    def settle_parameters(self) -> tuple[int, Floats]:
+    def settle_parameters(self) -> tuple[int, array[float]]:
         """Status, and start, stop, tolerance, interval of the experiment (NaN where silent)."""
-        experiment = np.full(4, np.nan)
+        experiment = array("d", [math.nan]) * 4
         status = self._library.frot_settle_parameters(
             self._model, self._s, self._w, _address(experiment)
         )
@@ -264,7 +291,7 @@ class Engine:
         Ctrl-C stops it too, and what `watch` raises is raised.
         """
         events: list[RawEvent] = []
-        chunks: list[Floats] = []
+        chunks: list[array[float]] = []
         interrupted: list[BaseException] = []
 
         def monitor(_: int, time: float) -> int:
@@ -282,13 +309,13 @@ class Engine:
         self,
         t: float,
         callback: object,
-        chunks: list[Floats],
+        chunks: list[array[float]],
         events: list[RawEvent],
         interrupted: list[BaseException],
     ) -> Run:
         capacity, last = _CHUNK, 0.0
         while True:
-            buffer = np.empty(max(capacity, self.segment_size))
+            buffer = zeros(max(capacity, self.segment_size))
             raw = (RawEvent * (256 + self._library.frot_events_at_once(self._model)))()
             recorder = Recorder(_address(buffer), len(buffer), 0, raw, len(raw), 0)
             status = self._unless_refused(
@@ -299,8 +326,9 @@ class Engine:
                 )
             )
             if recorder.segment_used:
-                chunks.append(buffer[: recorder.segment_used])
-                last = float(buffer[recorder.last + _BEGIN])
+                last = buffer[recorder.last + _BEGIN]
+                del buffer[recorder.segment_used :]
+                chunks.append(buffer)
             events.extend(RawEvent.from_buffer_copy(raw[i]) for i in range(recorder.event_count))
             if any(not isinstance(error, KeyboardInterrupt) for error in interrupted):
                 raise interrupted[0]
@@ -311,39 +339,50 @@ class Engine:
                 return Run(status, _joined(chunks), events, last)
             capacity = min(2 * capacity, _LARGEST_CHUNK)
 
-    def sample(self, segments: Floats, times: Floats) -> Floats:
-        """Values (times x variables) over segments in order; times in ascending order."""
-        values = np.zeros((len(times), len(self.program.variables)))
+    def values(self, record: array[float], times: array[float]) -> array[float]:
+        """All variables at each of the times, over segments in order; times in ascending order.
+
+        Raises:
+            FrotError: A variable has no finite value (E0904).
+        """
+        found = zeros(len(times) * len(self.program.variables))
         status = self._library.frot_sample(
             self._model,
             self._s,
             self._w,
-            _address(segments),
-            len(segments),
+            _address(record),
+            len(record),
             _address(times),
             len(times),
-            _address(values),
+            _address(found),
         )
         if status != OK:
-            raise self._no_value(values, times, status)
-        return values
+            raise self._no_value(found, times, status)
+        return found
 
-    def _no_value(self, values: Floats, times: Floats, status: int) -> Exception:
+    def sample(self, record: array[float], times: Iterable[float]) -> Floats:
+        """The same as an array of numpy, times x variables."""
+        asked = array("d", times)
+        found = as_floats(self.values(record, asked))
+        return found.reshape(len(asked), len(self.program.variables))
+
+    def _no_value(self, values: array[float], times: array[float], status: int) -> Exception:
         """The error of a sample that gave no numbers: the first variable without one is named."""
-        rows, columns = np.nonzero(~np.isfinite(values))
         what = f"the variables have no value (status {status})"
-        if len(rows):
-            name = self.program.variables[int(columns[0])].name
-            what = f"variable '{name}' has no finite value at t = {times[rows[0]]:.17g}"
+        lost = next((k for k, value in enumerate(values) if not math.isfinite(value)), None)
+        if lost is not None:
+            row, column = divmod(lost, len(self.program.variables))
+            name = self.program.variables[column].name
+            what = f"variable '{name}' has no finite value at t = {times[row]:.17g}"
         return fail(
             "E0904",
             what,
             help="look for a division by zero, a root or a logarithm of a negative value",
         )
 
-    def energy(self) -> Floats:
+    def energy(self) -> array[float]:
         """Residual of the balance, energy scale, mechanical energy, dissipated, work."""
-        balance = np.zeros(5)
+        balance = zeros(5)
         self._library.frot_energy(self._model, self._s, self._w, _address(balance))
         return balance
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -140,6 +139,8 @@ class Program:
 
     def to_json(self) -> str:
         """The manifest: what holds wherever the program lies and whatever its file is called."""
+        from dataclasses import asdict
+
         data = asdict(replace(self, hold=None))
         for name in ("folder", "shown", "hold"):
             del data[name]

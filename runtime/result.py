@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import json
+from array import array
 from collections.abc import Iterator, Mapping
-from difflib import get_close_matches
+from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import numpy as np
 from frot.dsl.data.classes import dataclass
 from frot.dsl.files.writing import DATA, check_target, write_whole
-from frot.runtime.engine import Engine, Floats
-from frot.runtime.program import Program
+from frot.runtime.engine import Engine, as_floats
+from frot.runtime.program import IntegralInfo, Program
+
+# Loaded where values are asked for.
+if TYPE_CHECKING:
+    from frot.runtime.engine import Floats
 
 KINDS = (
     "stick",
@@ -107,7 +111,7 @@ class Figures:
     free: int = -1
 
 
-class Values(Mapping[str, Floats]):
+class Values(Mapping[str, "Floats"]):
     """Values of all variables at given times, by name."""
 
     def __init__(self, program: Program, values: Floats) -> None:
@@ -118,6 +122,8 @@ class Values(Mapping[str, Floats]):
     def __getitem__(self, name: str) -> Floats:
         """Values of the variable: an array, or a number for a single time."""
         if name not in self._columns:
+            from difflib import get_close_matches
+
             near = get_close_matches(name, self._columns, 1)
             hint = f"; did you mean '{near[0]}'?" if near else ""
             raise KeyError(f"no variable '{name}'{hint}")
@@ -130,7 +136,7 @@ class Values(Mapping[str, Floats]):
         return len(self._columns)
 
 
-class Result(Mapping[str, Floats]):
+class Result(Mapping[str, "Floats"]):
     """A run. `result["hoop.position.x"]` and `result.time` are arrays on the output grid, in SI.
 
     `at(t)[name]` gives values at any time of the run, from the dense output of the steps.
@@ -140,14 +146,13 @@ class Result(Mapping[str, Floats]):
         self,
         program: Program,
         engine: Engine,
-        time: Floats,
-        segments: Floats,
+        grid: array[float],
+        record: array[float],
         events: tuple[Event, ...],
         figures: Figures,
     ) -> None:
-        """Built by `simulate`; `segments` are the kernel's."""
+        """Built by `simulate`; `record` is the kernel's, of the segments one after the other."""
         self.program = program
-        self.time = time
         self.events = events
         self.figures = figures
         self.balance = Balance(*(float(x) for x in engine.energy()))
@@ -155,8 +160,19 @@ class Result(Mapping[str, Floats]):
             p.name: engine.get_parameter(k) for k, p in enumerate(program.parameters)
         }
         self._engine = engine
-        self._segments = segments
-        self._values = Values(program, engine.sample(segments, time))
+        self._grid, self._record = grid, record
+        self._sampled = engine.values(record, grid)
+
+    @cached_property
+    def time(self) -> Floats:
+        """The output grid, in s."""
+        return as_floats(self._grid)
+
+    @cached_property
+    def _values(self) -> Values:
+        shape = len(self._grid), len(self.program.variables)
+        rows = as_floats(self._sampled).reshape(shape)
+        return Values(self.program, rows)
 
     def __getitem__(self, name: str) -> Floats:
         return self.time if name == "time" else self._values[name]
@@ -174,27 +190,33 @@ class Result(Mapping[str, Floats]):
 
         Integrals that are known for the default parameters only are left out where these differ.
         """
-        own = [p.default == self.parameters[p.name] for p in self.program.parameters]
-        found: dict[str, Drift] = {}
-        for one in self.program.first_integrals:
-            if not (one.always or all(own)):
-                continue
-            parts = [self[name] for name in one.variables]
-            values = np.sum(parts, axis=0)
-            largest = max(float(np.max(np.abs(part))) for part in parts)
-            drift = float(np.max(np.abs(values - values[0])))
-            found[one.text] = Drift(float(values[0]), drift, largest, one.unit.name)
-        return found
+        return {one.text: self._drift(one) for one in self._kept()}
+
+    def _kept(self) -> list[IntegralInfo]:
+        """The first integrals that there are with the parameters of the run."""
+        own = all(p.default == self.parameters[p.name] for p in self.program.parameters)
+        return [one for one in self.program.first_integrals if one.always or own]
+
+    def _drift(self, one: IntegralInfo) -> Drift:
+        import numpy as np
+
+        parts = [self[name] for name in one.variables]
+        values = np.sum(parts, axis=0)
+        largest = max(float(np.max(np.abs(part))) for part in parts)
+        drift = float(np.max(np.abs(values - values[0])))
+        return Drift(float(values[0]), drift, largest, one.unit.name)
 
     def at(self, t: float | Floats) -> Values:
         """Values at time t (s), or at each of an array of times; ValueError outside the run."""
+        import numpy as np
+
         times = np.atleast_1d(np.asarray(t, dtype=np.float64))
         first, last = self.time[0], self.time[-1]
         if times.size and not (np.all(times >= first) and np.all(times <= last)):
             raise ValueError(f"the run goes from {first:.17g} s to {last:.17g} s")
         order = np.argsort(times, kind="stable")
         sampled = np.empty((len(times), len(self.program.variables)))
-        sampled[order] = self._engine.sample(self._segments, np.ascontiguousarray(times[order]))
+        sampled[order] = self._engine.sample(self._record, times[order])
         return Values(self.program, sampled[0] if np.ndim(t) == 0 else sampled)
 
     def save(self, path: str | Path) -> None:
@@ -204,6 +226,8 @@ class Result(Mapping[str, Floats]):
         write_whole(path, writers[path.suffix.lower()]())
 
     def _csv(self) -> bytes:
+        import csv
+
         text = io.StringIO(newline="")
         writer = csv.writer(text)
         modes = {v.name for v in self.program.variables if v.type == "mode"}
@@ -239,6 +263,8 @@ class Result(Mapping[str, Floats]):
         return (json.dumps(content, ensure_ascii=False, indent=1) + "\n").encode("utf-8")
 
     def _npz(self) -> bytes:
+        import numpy as np
+
         buffer = io.BytesIO()
         np.savez_compressed(buffer, **{name: self[name] for name in self})  # type: ignore[arg-type]
         return buffer.getvalue()
@@ -249,7 +275,7 @@ class Result(Mapping[str, Floats]):
         Of many events the first and the last are shown; `events` holds them all.
         """
         figures, balance = self.figures, self.balance
-        lines = [f"{self.program.name}: {self.time[0]:.6g} s to {self.time[-1]:.6g} s"]
+        lines = [f"{self.program.name}: {self._grid[0]:.6g} s to {self._grid[-1]:.6g} s"]
         told = [f"  {event.text}" for event in self.events]
         if len(told) > MOST_EVENTS:
             half = MOST_EVENTS // 2
@@ -278,9 +304,10 @@ class Result(Mapping[str, Floats]):
                 "many contacts, others were not looked for"
             )
         kept = [
-            f"  kept to {drift.drift:.1e} of {drift.largest:.6g} {drift.unit}: {name}"
-            for name, drift in self.first_integrals.items()
-            if name != "energy"
+            f"  kept to {drift.drift:.1e} of {drift.largest:.6g} {drift.unit}: {one.text}"
+            for one in self._kept()
+            if one.text != "energy"
+            for drift in [self._drift(one)]
         ]
         if not self.program.balanced:
             lines += kept
@@ -293,13 +320,15 @@ class Result(Mapping[str, Floats]):
         )
         lines += kept
         # Where nothing ever moves, all energies are rounding, and so is their balance.
-        kinetic = self.get("energy.kinetic")
-        moved = kinetic is None or bool(np.any(kinetic))
-        if moved and balance.relative > SUSPICIOUS:
+        if balance.relative > SUSPICIOUS and self._moved():
             lines.append(
                 "  warning: energy is not kept, do not trust this run; try a smaller tolerance"
             )
         return "\n".join(lines)
+
+    def _moved(self) -> bool:
+        kinetic = self.get("energy.kinetic")
+        return kinetic is None or bool(kinetic.any())
 
 
 def _counted(count: int, noun: str) -> str:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import time as clock
+from array import array
+from bisect import bisect_left
 from collections.abc import Callable, Mapping
 
-import numpy as np
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.errors import FrotError, fail
 from frot.runtime.engine import (
@@ -17,7 +18,6 @@ from frot.runtime.engine import (
     TERMINATED,
     Engine,
     Fault,
-    Floats,
     RawEvent,
 )
 from frot.runtime.program import (
@@ -139,8 +139,8 @@ def simulate(
     elif run.status != OK:
         end = engine.time
     reached = end if run.status != OK else max(end, engine.time)
-    kept = times[times < end]
-    grid = np.append(kept, end) if run.status != OK else times
+    kept = times[: bisect_left(times, end)]
+    grid = kept + array("d", [end]) if run.status != OK else times
     counts = engine.statistics
     figures = Figures(
         counts.steps,
@@ -154,14 +154,14 @@ def simulate(
     )
     events = tuple(_event(engine, raw) for raw in run.events if raw.t <= reached)
     result = None
-    if len(run.segments):
+    if run.record:
         try:
-            result = Result(program, engine, grid, run.segments, events, figures)
+            result = Result(program, engine, grid, run.record, events, figures)
         except FrotError:
             # Where a run ends in a fault, reactions may have no value, as in a jam.
             if run.status in _GOOD or not len(kept):
                 raise
-            result = Result(program, engine, kept, run.segments, events, figures)
+            result = Result(program, engine, kept, run.record, events, figures)
     if run.interrupted:
         raise Interrupted(end, result)
     if run.status == FULL:
@@ -188,7 +188,7 @@ def _choose(given: float | None, modelled: float, default: float) -> float:
     return default if math.isnan(modelled) else float(modelled)
 
 
-def _grid(begin: float, end: float, interval: float) -> Floats:
+def _grid(begin: float, end: float, interval: float) -> array[float]:
     """Times begin + k interval below `end`, and `end`."""
     if not (math.isfinite(interval) and interval > 0):
         raise fail(
@@ -203,9 +203,9 @@ def _grid(begin: float, end: float, interval: float) -> Floats:
             f"an interval of {interval:g} s gives {count:.3g} output times",
             help=f"choose an interval that gives at most {MOST_POINTS}",
         )
-    times = begin + np.arange(round(count * (1 + 1e-12)) + 1) * interval
+    times = array("d", (begin + k * interval for k in range(round(count * (1 + 1e-12)) + 1)))
     near = 1e-9 * interval
-    return np.append(times[times < end - near], end)
+    return times[: bisect_left(times, end - near)] + array("d", [end])
 
 
 def _event(engine: Engine, raw: RawEvent) -> Event:

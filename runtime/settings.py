@@ -6,7 +6,6 @@ import math
 import re
 from collections.abc import Mapping
 
-import numpy as np
 from frot.dsl.messages.errors import fail
 from frot.runtime.program import ParameterInfo, Program, Unit
 
@@ -33,7 +32,8 @@ def read_settings(
     index = {p.name: k for k, p in enumerate(known)}
     arrays = _arrays(known)
     values: dict[int, float] = {}
-    for name, value in sorted((given or {}).items(), key=lambda pair: str(pair[0]) not in arrays):
+    for name, raw in sorted((given or {}).items(), key=lambda pair: str(pair[0]) not in arrays):
+        value = _plain(raw)
         plain = str(name).replace(" ", "")
         if plain in arrays:
             items = arrays[plain]
@@ -50,7 +50,14 @@ def read_option(name: str, value: object, unit: str) -> float | None:
     if value is None:
         return None
     exponents = (0, 0, 1, 0, 0, 0, 0, 0) if unit == "s" else (0,) * 8
-    return parameter_value(ParameterInfo(name, "real", Unit(unit, exponents), 0.0, ""), value)
+    info = ParameterInfo(name, "real", Unit(unit, exponents), 0.0, "")
+    return parameter_value(info, _plain(value))
+
+
+def _plain(value: object) -> object:
+    """What numpy made, numbers and arrays, as what Python has for it."""
+    make = getattr(value, "tolist", None)
+    return value if make is None else make()
 
 
 def _arrays(known: tuple[ParameterInfo, ...]) -> dict[str, list[int]]:
@@ -93,7 +100,7 @@ def _whole(name: str, items: list[ParameterInfo], value: object) -> list[float]:
     shape = tuple(int(n) for n in last[2].split(","))
     if isinstance(value, str) and value.strip()[:1] in ("(", "{", "["):
         found = _items_of_text(name, items[0], value, shape)
-    elif isinstance(value, (list, tuple, np.ndarray)):
+    elif isinstance(value, (list, tuple)):
         found = _nested(value)
     else:
         return [parameter_value(item, value) for item in items]
@@ -109,9 +116,9 @@ def _whole(name: str, items: list[ParameterInfo], value: object) -> list[float]:
 
 def _nested(value: object) -> tuple[list[object], tuple[int, ...]]:
     """The items of nested sequences by rows, and their sizes: empty where rows differ."""
-    if not isinstance(value, (list, tuple, np.ndarray)):
+    if not isinstance(value, (list, tuple)):
         return [value], ()
-    rows = [_nested(row) for row in value]
+    rows = [_nested(_plain(row)) for row in value]
     inner = {shape for _, shape in rows}
     shape = (len(rows), *inner.pop()) if len(inner) == 1 else (len(rows), 0)
     return [item for items, _ in rows for item in items], shape
@@ -148,7 +155,7 @@ def parameter_value(info: ParameterInfo, value: object) -> float:
     try:
         if isinstance(value, str):
             number = _from_text(info, value)
-        elif isinstance(value, (bool, int, float, np.number, np.bool_)):
+        elif isinstance(value, (bool, int, float)):
             number = float(value)
         else:
             raise ValueError(f"{value!r} is not a number")

@@ -11,7 +11,7 @@ from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.product.units import unit_of
 from frot.compiler.report.first_integrals import FirstIntegral
-from frot.compiler.toolchain.compilers import MODEL_FLAGS, Toolchain
+from frot.compiler.toolchain.chosen import MODEL_FLAGS, Toolchain
 from frot.dsl import default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
 from frot.dsl.quantities.dimensions import dimension

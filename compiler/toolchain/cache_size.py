@@ -88,12 +88,6 @@ def sweep(cache: Path) -> None:
                 entry.remove()
 
 
-def used_now(folder: Path) -> None:
-    """Note that an entry is used; nothing happens where that cannot be written."""
-    with contextlib.suppress(OSError):
-        os.utime(folder)
-
-
 def read_limit(cache: Path) -> int:
     """The most bytes that are kept."""
     try:

@@ -7,19 +7,14 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Sequence
-from importlib.resources import files
 from pathlib import Path
 
-from frot.compiler.toolchain.cache import Kept, is_whole, seal, store, stored
-from frot.compiler.toolchain.compilers import (
-    KERNEL_FLAGS,
-    MODEL_FLAGS,
-    Toolchain,
-    compile_objects,
-    find_toolchain,
-    link_library,
-)
+from frot.compiler.toolchain.cache import Kept, is_whole, seal, stored
+from frot.compiler.toolchain.chosen import KERNEL_FLAGS, MODEL_FLAGS, Toolchain, find_toolchain
+from frot.compiler.toolchain.compilers import compile_objects, link_library
 from frot.compiler.toolchain.keeper import Keeper
+from frot.compiler.toolchain.storing import store
+from frot.dsl.files.folders import room
 from frot.runtime.program import MODEL_SOURCE
 
 KERNELS = "kernels"
@@ -77,7 +72,7 @@ def install_kernel(folder: Path, made: Sequence[Path], target: Path) -> None:
 
 def kernel_folder() -> Path:
     """Where the kernel's sources lie."""
-    return Path(str(files("frot.runtime.kernel")))
+    return room("frot.runtime.kernel")
 
 
 def kernel_sources(folder: Path) -> list[Path]:

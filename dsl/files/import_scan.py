@@ -13,6 +13,8 @@ from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 
+from frot.dsl.files.folders import room
+
 SUFFIX = ".frot"
 
 
@@ -41,9 +43,7 @@ def locate(head: str, importing: str) -> Path | None:
 
 def installed() -> Path:
     """The folder of the libraries that come with Frot."""
-    from importlib.resources import files
-
-    return Path(str(files("frot.models")))
+    return room("frot.models")
 
 
 # ------------------------------------------------------------------ what a text reads

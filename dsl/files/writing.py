@@ -5,7 +5,6 @@ from __future__ import annotations
 import errno
 import os
 import stat
-import tempfile
 from pathlib import Path
 
 from frot.dsl.messages.errors import fail
@@ -40,6 +39,8 @@ def write_whole(path: Path, content: bytes) -> None:
 
     A file that is there keeps its permissions, and a link stays one to the file written.
     """
+    import tempfile
+
     target = Path(os.path.realpath(path))
     try:
         if target.exists() and not target.is_file():

@@ -11,6 +11,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from frot.dsl.files.folders import cache_folder
+
 if TYPE_CHECKING:
     from frot.dsl.text.lex import Lexer
     from lark import Lark
@@ -23,16 +25,6 @@ OPTIONS = {
     "propagate_positions": True,
     "maybe_placeholders": False,
 }
-
-
-def cache_folder() -> Path:
-    """`$FROT_CACHE`, else the user's cache directory for Frot."""
-    override = os.environ.get("FROT_CACHE")
-    if override:
-        return Path(override)
-    from platformdirs import user_cache_dir
-
-    return Path(user_cache_dir("frot"))
 
 
 @cache

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 from front_door import HOOP, Door, Shell
-from frot.compiler.toolchain.cache import find_program, store
+from frot.compiler.toolchain.cache import find_program
 from frot.compiler.toolchain.cache_size import bytes_of, entries, shown, shrink, sweep, write_limit
 from frot.compiler.toolchain.hold import hold
+from frot.compiler.toolchain.storing import store
 
 import frot
 

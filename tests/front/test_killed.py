@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 from front_door import HOOP, Shell, script
-from frot.compiler.toolchain.compilers import Toolchain, compile_objects
+from frot.compiler.toolchain.chosen import Toolchain
+from frot.compiler.toolchain.compilers import compile_objects
 from frot.compiler.toolchain.keeper import Keeper
 from patience import PATIENCE
 

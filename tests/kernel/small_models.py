@@ -8,7 +8,8 @@ from pathlib import Path
 
 import casadi as ca
 from c_objects import c_objects
-from frot.compiler.toolchain.compilers import KERNEL_FLAGS, find_toolchain, link_library
+from frot.compiler.toolchain.chosen import KERNEL_FLAGS, find_toolchain
+from frot.compiler.toolchain.compilers import link_library
 from frot.compiler.toolchain.objects import kernel_folder, kernel_sources
 from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo
 

@@ -48,7 +48,7 @@ def test_its_length_stays_over_a_thousand_periods(run) -> None:
     result = run(pendulum_in_x_y(), stop=1000 * period, tolerance=1e-8, interval=period / 3.7)
     ends = np.hypot(result["x"], result["y"])
     assert np.abs(ends / 1.3 - 1).max() < 1e-6  # inside the steps: their dense output
-    segments = result._segments.reshape(-1, result._engine.segment_size)
+    segments = np.frombuffer(result._record).reshape(-1, result._engine.segment_size)
     x, y = segments[:, _first(result)], segments[:, _first(result) + 1]
     assert np.abs(np.hypot(x, y) / 1.3 - 1).max() < 1e-12
     assert result.balance.relative < 1e-5

@@ -44,7 +44,7 @@ def run(made: Engine, stop: float) -> Run:
 
 
 def values(made: Engine, done: Run, times: object) -> np.ndarray:
-    return made.sample(done.segments, np.asarray(times, dtype=float))
+    return made.sample(done.record, np.asarray(times, dtype=float))
 
 
 def solved(source: str, tolerance: float, times: object) -> tuple[np.ndarray, Engine]:

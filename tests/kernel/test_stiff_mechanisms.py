@@ -163,11 +163,11 @@ def test_a_run_goes_on_to_the_same_bits_from_where_it_was_saved() -> None:
     assert made.start(0.0, 1e-8, "rest") == OK
     assert made.advance(0.4).status == OK
     kept = made.save()
-    there = made.sample(made.advance(1.4).segments, np.array([1.4]))
+    there = made.sample(made.advance(1.4).record, np.array([1.4]))
     made.restore(kept)
     for t in (0.5, 0.9, 1.4):
         done = made.advance(t)
-    assert np.array_equal(made.sample(done.segments, np.array([1.4])), there)
+    assert np.array_equal(made.sample(done.record, np.array([1.4])), there)
 
 
 def test_andrews_squeezer() -> None:

@@ -178,7 +178,7 @@ def test_a_parameter_that_makes_a_condition_hold_fires_its_when(tmp_path) -> Non
     engine.set_parameter(0, 1.5)
     assert engine.settle() == OK
     run = engine.advance(3.0)
-    values = engine.sample(run.segments, np.array([3.0]))[0]
+    values = engine.sample(run.record, np.array([3.0]))[0]
     assert values == pytest.approx([1.0, 1.0], rel=1e-14)
 
 
