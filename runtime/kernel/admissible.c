@@ -203,7 +203,7 @@ int frot_is_admissible(const frot_instant *in, const int *chosen, int count) {
   frot_work *w = in->w;
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
   memcpy(w->reactions.along, in->s->data + in->l.along, sizeof(double) * 2 * (size_t)m->n_elements);
-  if (frot_group_reactions(m, w, g, w->search.trial, in->at_rest)) return 0;
+  if (frot_group_reactions(m, w, g, w->search.trial, in->resists)) return 0;
   if (!w->reactions.dependent) return frot_reactions_hold(in, chosen, count) && goes_on(in, g);
   return frot_others_carry(in, chosen, count) && goes_on(in, g);
 }

@@ -28,7 +28,7 @@ void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double 
 /* Note the rows of a group to look at in w->core.wanted. */
 static void want_rows(const frot_model *m, frot_work *w, const frot_group *g,
                       const frot_contact_mode *modes, int wanted) {
-  unsigned char all = wanted != FROT_MOTION || m->general;
+  unsigned char all = wanted >= FROT_READING || m->general;
   for (int i = 0; i < g->n_rows; i++)
     w->core.wanted[g->rows[i]] = all && frot_is_reading(m, g->rows[i]);
   for (int i = 0; i < g->n_contacts; i++) {
@@ -237,7 +237,7 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   w->core.t = t;
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
-  if (!frot_call_dynamics(m, s, w, t, q, v, d)) return FROT_NAN;
+  if (!frot_call_dynamics(m, s, w, t, q, v, d, wanted)) return FROT_NAN;
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_groups && status == FROT_OK; k++) {
     const frot_group *g = &m->groups[now->groups[k]];

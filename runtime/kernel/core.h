@@ -17,6 +17,7 @@ void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double 
 /* Which rows frot_dynamics looks at. */
 enum frot_wanted {
   FROT_MOTION,  /* those that act in the modes, and the readings that bound them */
+  FROT_INERTIA, /* the same, of which the inertia alone is wanted: loads may be no numbers */
   FROT_READING, /* the same and all readings */
   FROT_LAWS     /* every row of a closed contact, and all readings */
 };

@@ -65,7 +65,7 @@ static void spread_results(const frot_model *m, frot_work *w, const frot_island 
 }
 
 static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, double t,
-                       const double *q, const double *v, const double *d) {
+                       const double *q, const double *v, const double *d, int wanted) {
   const frot_island *island = &m->islands[i];
   const frot_island_extent *size = &w->awake.extent[i];
   double *at = take_inputs(s, w, island, &t, q, v, d);
@@ -79,9 +79,9 @@ static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, 
   scatter(r.qd, island->q, island->nq, w->core.qd);
   scatter(r.condition, island->conditions, island->n_located, w->core.condition);
   spread_results(m, w, island, &r);
-  if (!frot_all_finite(r.qd, (int)(r.end - r.qd)) || !frot_all_finite(matrix, size->matrices) ||
-      !frot_all_finite(entries, size->all_entries))
+  if (!frot_all_finite(matrix, size->matrices) || !frot_all_finite(entries, size->all_entries))
     return 0;
+  if (wanted != FROT_INERTIA && !frot_all_finite(r.qd, (int)(r.end - r.qd))) return 0;
   w->awake.power[i] = *r.power;
   w->core.power[0] += *r.power;
   if (!island->spread.call) return 1;
@@ -91,21 +91,25 @@ static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, 
   return frot_all_finite(effect, size->all_entries) && frot_all_finite(metric, size->metrics);
 }
 
+static int loads_finite(const frot_model *m, const frot_work *w) {
+  return frot_all_finite(w->core.h, w->layout.nw) && frot_all_finite(w->core.c, m->n_rows) &&
+         frot_all_finite(w->core.qd, m->nq) &&
+         frot_all_finite(w->core.coefficient, 2 * m->n_elements) &&
+         frot_all_finite(w->core.condition, m->n_located) &&
+         frot_all_finite(w->core.gap, m->n_contacts) && frot_all_finite(w->core.power, 1);
+}
+
 static int call_whole(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                      const double *v, const double *d) {
+                      const double *v, const double *d, int wanted) {
   frot_inputs(m, s, w, &t, q, v, d);
   double *res[] = {w->core.qd,          w->core.mass, w->core.h,   w->core.rows,
                    w->core.c,           w->core.rate, w->core.gap, w->core.condition,
                    w->core.coefficient, w->core.power};
   memcpy(w->call.res, res, sizeof res);
   frot_call(w, &m->dynamics);
-  if (!frot_all_finite(w->core.mass, m->n_matrix) || !frot_all_finite(w->core.h, w->layout.nw) ||
-      !frot_all_finite(w->core.rows, m->n_entries) || !frot_all_finite(w->core.c, m->n_rows) ||
-      !frot_all_finite(w->core.qd, m->nq) ||
-      !frot_all_finite(w->core.coefficient, 2 * m->n_elements) ||
-      !frot_all_finite(w->core.condition, m->n_located) ||
-      !frot_all_finite(w->core.gap, m->n_contacts) || !frot_all_finite(w->core.power, 1))
+  if (!frot_all_finite(w->core.mass, m->n_matrix) || !frot_all_finite(w->core.rows, m->n_entries))
     return 0;
+  if (wanted != FROT_INERTIA && !loads_finite(m, w)) return 0;
   if (!m->general) return 1;
   w->call.res[0] = w->core.effect, w->call.res[1] = w->core.metric;
   frot_call(w, &m->spread);
@@ -135,12 +139,12 @@ void frot_measure_islands(const frot_model *m, frot_work *w) {
 }
 
 int frot_call_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                       const double *v, const double *d) {
-  if (m->n_islands == 0) return call_whole(m, s, w, t, q, v, d);
+                       const double *v, const double *d, int wanted) {
+  if (m->n_islands == 0) return call_whole(m, s, w, t, q, v, d, wanted);
   const frot_awake_lists *now = w->awake.now;
   w->core.power[0] = 0;
   for (int k = 0; k < now->n_islands; k++)
-    if (!call_island(m, s, w, now->islands[k], t, q, v, d)) return 0;
+    if (!call_island(m, s, w, now->islands[k], t, q, v, d, wanted)) return 0;
   return 1;
 }
 

@@ -9,9 +9,9 @@ void frot_measure_islands(const frot_model *m, frot_work *w);
 
 /* The results of `dynamics` and `spread`, into w->core; of `kinematics`; of `sizes`, into
  * w->core.load. Where a model has no islands, those of the whole. The first returns 0 where a
- * result is no number. */
+ * result that is wanted (core.h) is no number. */
 int frot_call_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                       const double *v, const double *d);
+                       const double *v, const double *d, int wanted);
 void frot_call_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t,
                           const double *q, const double *v, const double *d);
 void frot_call_sizes(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,

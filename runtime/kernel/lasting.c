@@ -174,12 +174,12 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count) {
     double dt = way > 0 ? fmin(part * step, way) : part * step;
     slow = 0;
     if (move_on(in, g, dt, q, v) == FROT_OK && evaluate(in, in->t + dt, q, v) == FROT_OK &&
-        !frot_group_reactions(m, w, g, w->search.trial, in->at_rest))
+        !frot_group_reactions(m, w, g, w->search.trial, in->resists))
       lasts = still_holds(in, chosen, count, &slow);
   }
   memcpy(q, in->q, sizeof(double) * (size_t)m->nq);
   memcpy(v, in->v, sizeof(double) * (size_t)m->nv);
   evaluate(in, in->t, q, v);
-  frot_group_reactions(m, w, g, w->search.trial, in->at_rest);
+  frot_group_reactions(m, w, g, w->search.trial, in->resists);
   return lasts;
 }

@@ -14,7 +14,7 @@
 /* The inertia of the groups at the values as they are. */
 static int find_inertia(const frot_opening *p) {
   const frot_contact_mode *modes = (const void *)(p->s->data + p->w->layout.modes);
-  int status = frot_dynamics(p->m, p->s, p->w, p->t, p->q, p->v, p->d, modes, FROT_MOTION);
+  int status = frot_dynamics(p->m, p->s, p->w, p->t, p->q, p->v, p->d, modes, FROT_INERTIA);
   return status == FROT_OK ? frot_metric(p->m, p->w) : status;
 }
 

@@ -54,7 +54,7 @@ static int gives_bounds(const frot_instant *in, const int *chosen, int count) {
 /* The reactions of w->search.trial anew. Returns 0 where there are none. */
 static int solve(const frot_instant *in, int contact) {
   const frot_group *g = &in->m->groups[in->m->contact_group[contact]];
-  return !frot_group_reactions(in->m, in->w, g, in->w->search.trial, in->at_rest);
+  return !frot_group_reactions(in->m, in->w, g, in->w->search.trial, in->resists);
 }
 
 /* Put the worst at its bound or without load until nothing is beyond what is admissible. */

@@ -175,15 +175,19 @@ static void take_back(const frot_instant *in, const int *chosen, int count) {
 }
 
 /* What departs would be held at once by the friction of motion: where others can carry what it
- * cannot, less departs or nothing; else it is told as it was found. */
+ * cannot, less departs or nothing. Else some of what departs may do so without the rest: all that
+ * slips has the friction of motion, and what rests that of rest. If there is no such motion, it is
+ * told as it was found. */
 static int hold(const frot_instant *in, const int *chosen, int count, int *unsearched) {
+  frot_instant moving = *in;
+  moving.resists = NULL;
   take_back(in, chosen, count);
   int motions = frot_search_corners(in, chosen, count, unsearched);
   while (motions > 0 && note_departures(in, chosen, count))
     motions = frot_search_corners(in, chosen, count, unsearched);
-  if (motions > 0) return motions;
   take_back(in, chosen, count);
-  return search(in, chosen, count, unsearched);
+  if (motions == 0) motions = search(&moving, chosen, count, unsearched);
+  return motions > 0 ? motions : search(in, chosen, count, unsearched);
 }
 
 /* Motions of a component, the one preferred into w->best. What departs has the friction of motion
@@ -260,6 +264,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
                      s->data + l.unilateral,
                      s->data + l.left,
                      w->search.zero,
+                     w->search.at_rest,
                      w->search.at_rest,
                      t,
                      q,

@@ -13,7 +13,9 @@ typedef struct {
   const double *fired, *unilateral;
   const double *left;     /* n_elements: direction in which a rest was left at this instant */
   unsigned char *zero;    /* n_elements: its motion is zero */
-  unsigned char *at_rest; /* n_elements: and its friction that of rest: it has not departed */
+  unsigned char *at_rest; /* n_elements: and it has not departed: it may stay at rest */
+  /* n_elements: what slips from now on is resisted by the friction of rest; NULL: of motion */
+  const unsigned char *resists;
   double t;
   const double *q, *v;
 } frot_instant;

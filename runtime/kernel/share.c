@@ -277,7 +277,7 @@ enum frot_share frot_share_load(const frot_instant *in, const int *chosen, int c
   memcpy(w->share.before, trial, modes);
   for (int c = 0; c < count; c++) trial[chosen[c]].unloaded = 0;
   for (int i = 0; i < g->n_elements; i++) trial[m->n_contacts + g->elements[i]].at_bound = 0;
-  if (!g->general && !frot_group_reactions(m, w, g, trial, in->at_rest)) {
+  if (!g->general && !frot_group_reactions(m, w, g, trial, in->resists)) {
     p.held = w->span.rank, p.rows = p.held + count_with_two(&p);
     if (w->reactions.dependent && p.held > 0 && add_columns(&p)) {
       add_load(&p);
@@ -291,7 +291,7 @@ enum frot_share frot_share_load(const frot_instant *in, const int *chosen, int c
   } else {
     memcpy(trial, w->share.before, modes);
   }
-  if (frot_group_reactions(m, w, g, trial, in->at_rest)) return FROT_NO_SHARE;
+  if (frot_group_reactions(m, w, g, trial, in->resists)) return FROT_NO_SHARE;
   return found;
 }
 

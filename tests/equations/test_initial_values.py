@@ -153,3 +153,20 @@ end Switched;
 """
     result = frot.compile(text).simulate()
     assert result["x"][[0, -1]] == pytest.approx([1, np.exp(-3)], rel=1e-8)
+
+
+def test_a_coefficient_may_be_negative_where_the_start_is_looked_for() -> None:
+    """The rod lies along x there, and the coefficient is mu (1 - 0.5/0.3)."""
+    text = """
+planar model Falling
+  world(gravity = 9.81 m/s^2);
+  parameter Real mu = 0.4;
+  body b: rod(mass = 1 kg, length = 1 m);
+  liaison c: rotoide(ground, b.start) with coulomb(mu*(1 - b.position.x/(0.3 m)), radius = 1 cm);
+initial
+  b.position.x = 0.1 m;
+  experiment(stop = 0.1 s);
+end Falling;
+"""
+    result = frot.compile(text).simulate()
+    assert result["b.position.x"][0] == pytest.approx(0.1, rel=1e-12)

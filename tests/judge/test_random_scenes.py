@@ -30,7 +30,8 @@ SCENES = (
 # what turns with it, or rests where others are fast at the start; stages of a stiff step that ends
 # at an event are not found; a slip on a light plank is jammed by what lies on it, slowly beside the
 # terms of its acceleration; what departs is held at once by the friction of motion, where another
-# share of the load holds it; a damper to a body of another group brings a reaction to zero
+# share of the load holds it; a damper to a body of another group brings a reaction to zero; of two
+# pins that could depart together one does; a coefficient is negative where the start is looked for
 ONCE_WRONG = (
     (77, "corner", 0, (0,)),
     (77, "stack", 0, (2,)),
@@ -40,8 +41,10 @@ ONCE_WRONG = (
     (3001, "anything", 8, (0, 5, 10, 24)),
     (5150, "anything", 2, (13,)),
     (7001, "stack", 0, (10,)),
+    (9902, "anything", 2, (9,)),
     (9902, "anything", 6, (21,)),
     (9902, "anything", 7, (15,)),
+    (9902, "chain", 0, (0,)),
 )
 
 
