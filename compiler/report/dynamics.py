@@ -9,7 +9,8 @@ import numpy as np
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Relation
 from frot.compiler.mechanics.reduce import Reduced
-from frot.compiler.report.relations import Floats, is_kinematic
+from frot.compiler.report.numbers import Floats, Numbers
+from frot.compiler.report.relations import is_kinematic
 from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 
@@ -34,7 +35,7 @@ class State:
     other: Floats
 
     @property
-    def arguments(self) -> tuple[object, ...]:
+    def arguments(self) -> tuple[float | Floats, ...]:
         """In the order of the functions' arguments."""
         return self.t, self.q, self.v, self.u, self.p, self.sides, self.other
 
@@ -64,13 +65,13 @@ class Dynamics:
     """
 
     reduced: Reduced
-    function: ca.Function
-    relations: ca.Function
-    matrices: ca.Function
+    function: Numbers
+    relations: Numbers
+    matrices: Numbers
     others: ca.SX
     reaction: tuple[tuple[int, int], ...]
     friction: tuple[tuple[int, int], ...]
-    rates: ca.Function
+    rates: Numbers
 
     @property
     def arguments(self) -> list[ca.SX]:
@@ -80,17 +81,17 @@ class Dynamics:
 
     def at(self, state: State) -> Terms:
         """Evaluate the terms."""
-        mass, force, rows, bias, rate, gap = (np.array(x) for x in self.function(*state.arguments))
+        mass, force, rows, bias, rate, gap = self.function(*state.arguments)
         return Terms(mass, force.ravel(), rows, bias.ravel(), rate.ravel(), gap.ravel())
 
     def masses(self, state: State) -> tuple[Floats, Floats]:
         """The mass matrix and the rows, with the columns of auxiliary speeds."""
-        mass, rows = (np.array(x) for x in self.matrices(*state.arguments))
+        mass, rows = self.matrices(*state.arguments)
         return mass, rows
 
     def moved(self, state: State, way: Floats) -> State:
         """After a small motion, quaternions of size one."""
-        moves = np.array(self.rates(*state.arguments))
+        [moves] = self.rates(*state.arguments)
         q = state.q + moves @ way
         for turn in self.reduced.symbols.turns:
             part = slice(turn.coordinate, turn.coordinate + 4)
@@ -111,7 +112,7 @@ class Dynamics:
         places = [x for x in self.reaction if used[x[1]] and not is_kinematic(links[x[1]])]
         still = replace(state, v=0 * state.v)
         for _ in range(_STEPS):
-            rows, rate, gap = (np.array(x) for x in self.relations(*still.arguments))
+            rows, rate, gap = self.relations(*still.arguments)
             held_rows, own = rows[held, :nv], rate.ravel()[held]
             rows = rows[[r for r, _ in places], :nv]
             short = gap.ravel()[[k for _, k in places]]
@@ -193,17 +194,13 @@ def make_dynamics(reduced: Reduced) -> Dynamics:
         friction += [(row, k) for row in (rows.tangent, rows.rolling) if row >= 0]
     return Dynamics(
         reduced=reduced,
-        function=ca.Function("motion", arguments, [ca.densify(x) for x in outputs]),
-        matrices=ca.Function("matrices", arguments, [ca.densify(x) for x in (mass, reduced.rows)]),
-        relations=ca.Function(
-            "relations",
-            arguments,
-            [ca.densify(x) for x in (reduced.rows, reduced.rate, reduced.gap)],
-        ),
+        function=Numbers("motion", arguments, outputs),
+        matrices=Numbers("matrices", arguments, (mass, reduced.rows)),
+        relations=Numbers("relations", arguments, (reduced.rows, reduced.rate, reduced.gap)),
         others=others,
         reaction=tuple(reaction),
         friction=tuple(friction),
-        rates=ca.Function("rates", arguments, [ca.densify(ca.jacobian(s.rates, s.v))]),
+        rates=Numbers("rates", arguments, [ca.jacobian(s.rates, s.v)]),
     )
 
 

@@ -194,9 +194,9 @@ def _constant_sums(
 def _sizes(values: Floats, kinds: list[Dimension]) -> Floats:
     """The largest value among all of one kind: what is rounding beside it is zero."""
     largest = np.max(np.abs(values), axis=0)
-    of_kind = {
-        kind: max(x for x, k in zip(largest, kinds, strict=True) if k == kind) for kind in kinds
-    }
+    of_kind: dict[Dimension, float] = {}
+    for kind, size in zip(kinds, largest, strict=True):
+        of_kind[kind] = max(of_kind.get(kind, 0.0), size)
     return np.array([of_kind[kind] or 1.0 for kind in kinds])
 
 

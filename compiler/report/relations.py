@@ -33,7 +33,7 @@ class Posture:
     sides: Floats
 
     @property
-    def arguments(self) -> tuple[object, ...]:
+    def arguments(self) -> tuple[float | Floats, ...]:
         """In the order of the functions' arguments."""
         return self.t, self.q, self.u, self.p, self.sides
 

@@ -8,7 +8,8 @@ from frot.compiler.lowering.symbols import scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.mechanism import Contact
 from frot.compiler.report.dynamics import Dynamics, State, closes
-from frot.compiler.report.relations import Floats, Posture, turning_speeds
+from frot.compiler.report.numbers import Floats, Numbers
+from frot.compiler.report.relations import Posture, turning_speeds
 from frot.dsl import default_values, evaluate
 from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
@@ -45,9 +46,7 @@ class Search:
         self.dynamics, self.start = dynamics, start
         state = ca.vertcat(s.t, s.q, s.v)
         slope = ca.jacobian(functions, state)
-        self._function = ca.Function(
-            "functions", dynamics.arguments, [ca.densify(x) for x in (functions, slope)]
-        )
+        self._function = Numbers("functions", dynamics.arguments, (functions, slope))
         self._parts = self._unilateral()
         motions = [m for h in dynamics.reduced.mechanism.coordinates for m in h.motions]
         self._turning = turning_speeds(motions)
@@ -94,8 +93,8 @@ class Search:
         if solved is None:
             return None
         acceleration, terms = solved
-        values, slope = (np.array(x) for x in self._function(*state.arguments))
-        moves = np.array(self.dynamics.rates(*state.arguments))
+        values, slope = self._function(*state.arguments)
+        [moves] = self.dynamics.rates(*state.arguments)
         rate = np.concatenate([[1.0], moves @ state.v, acceleration])
         size = np.concatenate([[1.0], np.abs(moves) @ np.abs(state.v), self._sizes(state, terms)])
         if not (np.all(np.isfinite(values)) and np.all(np.isfinite(slope))):

@@ -12,7 +12,8 @@ from frot.compiler.lowering.lower import looking_at, state_arguments
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.mechanism import Contact, Link, Relation
-from frot.compiler.report.relations import Floats, Posture, Relations, is_kinematic
+from frot.compiler.report.numbers import Floats, Numbers
+from frot.compiler.report.relations import Posture, Relations, is_kinematic
 from frot.dsl import Log, default_values, evaluate
 from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
@@ -63,8 +64,8 @@ def find_start(system: Assembled) -> Start | None:
     p = _numbers(evaluate(k.value, values) for k in symbols.parameters)
     begin = model.experiment.start
     t = 0.0 if begin is None else as_number(evaluate(begin, values))
-    guess = ca.Function("guess", [symbols.t, symbols.u, symbols.p], initial.start)
-    q, v, y, discrete = (np.array(x).ravel() for x in guess(t, u, p))
+    guess = Numbers("guess", [symbols.t, symbols.u, symbols.p], initial.start)
+    q, v, y, discrete = (x.ravel() for x in guess(t, u, p))
 
     links = reduced.mechanism.contacts
     parts = np.array([may_part(x, values) for x in links], dtype=bool)
@@ -77,22 +78,21 @@ def find_start(system: Assembled) -> Start | None:
     if later.numel() and located.numel() and ca.depends_on(located, later):
         return None
     witness = system.resolve(reduced.witness)
-    look = ca.Function("look", state, [ca.densify(x) for x in (witness, located)])
-    function = ca.Function("position", state, [ca.densify(x) for x in outputs])
+    look = Numbers("look", state, (witness, located))
+    function = Numbers("position", state, outputs)
     flags = np.zeros(len(reduced.conditions.flags))
     sides = np.ones(len(links))
     none = np.ones(len(system.elements))
 
-    def arguments() -> list[ca.DM]:
-        d = np.concatenate([flags, sides, none, discrete])
-        return [ca.DM(x) for x in (t, q, v, u, p, d, y)]
+    def arguments() -> list[float | Floats]:
+        return [t, q, v, u, p, np.concatenate([flags, sides, none, discrete]), y]
 
     def settle(used: NDArray[np.bool_]) -> bool:
         nonlocal q
         if not q.size:
             return True
         for _ in range(_STEPS):
-            value, slopes, sizes, gaps, rows = (np.array(x) for x in function(*arguments()))
+            value, slopes, sizes, gaps, rows = function(*arguments())
             short = np.concatenate([value.ravel(), gaps.ravel()[used]])
             down = np.vstack([slopes.reshape(-1, q.size), rows[used].reshape(-1, q.size)])
             scale = np.concatenate([sizes.ravel(), np.abs(rows[used]) @ (np.abs(q) + 1)])
@@ -106,7 +106,7 @@ def find_start(system: Assembled) -> Start | None:
         return False
 
     def choose_sides() -> None:
-        three = np.array(look.call(arguments())[0]).reshape(-1, 3)
+        three = look(*arguments())[0].reshape(-1, 3)
         for k, one in enumerate(three[: len(links)]):
             known = one[np.abs(one) > _TOUCHES]
             sides[k] = np.sign(known[0]) if known.size else 1.0
@@ -120,15 +120,15 @@ def find_start(system: Assembled) -> Start | None:
     lengths = 1 + np.max(np.abs(q), initial=0.0)
     for _ in range(len(links) + 1):
         found = settle(used)
-        gaps = np.array(function.call(arguments())[3]).ravel()
+        gaps = function(*arguments())[3].ravel()
         below = kept & ~used & (gaps < -_TOUCHES * lengths)
         if not below.any():
             break
         used |= below
-    flags = (np.array(look.call(arguments())[1]).ravel() > 0).astype(float)
-    gaps = np.array(function.call(arguments())[3]).ravel()
-    own = ca.Function("own", state, [system.resolve(symbols.q)])
-    posture = Posture(t, np.array(own(*arguments())).ravel(), u, p, sides)
+    flags = (look(*arguments())[1].ravel() > 0).astype(float)
+    gaps = function(*arguments())[3].ravel()
+    own = Numbers("own", state, [system.resolve(symbols.q)])
+    posture = Posture(t, own(*arguments())[0].ravel(), u, p, sides)
     closed = kept & (np.abs(gaps) <= _TOUCHES * lengths)
     return Start(posture, q, flags, discrete, y, closed, found)
 
@@ -160,8 +160,8 @@ def posture_of(relations: Relations, system: Assembled, start: Start) -> Posture
         values.append(variables.coordinate(link.liaison, k)[0])
     there = start.posture
     now = [own.t, own.q, own.u, own.p, own.sides]
-    function = ca.Function("free", now, [ca.densify(column(values))])
-    q = np.array(function(*there.arguments)).ravel()
+    function = Numbers("free", now, [column(values)])
+    q = function(*there.arguments)[0].ravel()
     sides = np.ones(len(relations.links))
     return relations.sided(Posture(there.t, q, there.u, there.p, sides))
 

@@ -164,12 +164,12 @@ def _written_init(cls: type, frozen: bool) -> Callable[..., None]:
 def _comparing(every: dict[str, Field], frozen: bool) -> dict[str, Any]:
     """Objects of one class are equal where their fields are; only what is frozen has a hash."""
     names = [name for name, one in every.items() if one.compare]
-    if len(names) > 1:
+    if names:
         values: Callable[[object], Any] = attrgetter(*names)
     else:
 
         def values(one: object) -> Any:
-            return tuple(getattr(one, name) for name in names)
+            return ()
 
     def __eq__(self: object, other: object) -> bool:
         return bool(values(self) == values(other)) if type(self) is type(other) else NotImplemented
