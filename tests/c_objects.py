@@ -1,12 +1,18 @@
-"""C sources to objects, each compiled once in a session: the same text with the same flags."""
+"""C sources to objects, each compiled once: the same text with the same flags.
+
+The kernel with its own flags is compiled already: these objects are the ones that programs link.
+"""
 
 from __future__ import annotations
 
+import functools
 import re
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
+from frot.compiler.toolchain.compilers import KERNEL_FLAGS, find_toolchain
+from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_sources
 from made_once import made_once
 
 # What tests under sanitizers compile with: all the same, so that the kernel is compiled once.
@@ -25,6 +31,8 @@ def c_objects(sources: Sequence[Path], include: Sequence[Path], flags: Sequence[
 
 def _object(source: Path, include: Sequence[Path], flags: Sequence[str]) -> Path:
     texts = _with_headers(source, [source.parent, *include])
+    if tuple(flags) == KERNEL_FLAGS and texts == _kernel_texts().get(source.name):
+        return _kernel_objects() / f"{source.stem}.o"
     key = repr((source.name, sorted(texts.items()), *flags))
 
     def fill(folder: Path) -> None:
@@ -35,15 +43,30 @@ def _object(source: Path, include: Sequence[Path], flags: Sequence[str]) -> Path
     return made_once(key, fill) / "it.o"
 
 
+@functools.cache
+def _kernel_objects() -> Path:
+    return kept_kernel(find_toolchain()).folder
+
+
+@functools.cache
+def _kernel_texts() -> dict[str, dict[str, bytes]]:
+    """Each source of the kernel with its headers."""
+    folder = kernel_folder()
+    return {source.name: _with_headers(source, [folder]) for source in kernel_sources(folder)}
+
+
 def _with_headers(source: Path, folders: Sequence[Path]) -> dict[str, bytes]:
     """The source and all headers it reads from these folders, by name."""
-    texts = {source.name: source.read_bytes()}
-    waiting = [texts[source.name]]
+    waiting, texts = [source], {source.name: source.read_bytes()}
     while waiting:
-        for found in _INCLUDE.findall(waiting.pop()):
-            name = found.decode()
+        for name in _included(texts[waiting.pop().name]):
             path = next((f / name for f in folders if (f / name).is_file()), None)
             if path is not None and name not in texts:
                 texts[name] = path.read_bytes()
-                waiting.append(texts[name])
+                waiting.append(path)
     return texts
+
+
+@functools.cache
+def _included(text: bytes) -> tuple[str, ...]:
+    return tuple(found.decode() for found in _INCLUDE.findall(text))

@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from c_objects import c_objects
+from frot.compiler.toolchain.compilers import KERNEL_FLAGS
+from frot.compiler.toolchain.objects import only_seen
 from frot.runtime import fmi
 from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo
 
 HERE = Path(__file__).parent
 OK, WARNING, DISCARD, ERROR = range(4)
 MOST_WORK = 20_000
-FLAGS = ("-O2", "-std=c99", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off")
 
 ONE = Unit("1")
 METRE = Unit("m", (1, 0, 0, 0, 0, 0, 0, 0), "mm", 1e-3)
@@ -28,15 +29,11 @@ TIME, MU, STIFFNESS, X0, MASS, COUNT, PULLED, WEIGHT, PUSH = range(9)
 MODE, X, V, REACTION, FRICTION, CLOCK = range(9, 15)
 
 
-def compile_library(
-    sources: Sequence[Path], include: Sequence[Path], target: Path, generated: str = ""
-) -> None:
-    """As the program's own library, with warnings as errors in all but a generated file."""
-    objects = c_objects([s for s in sources if s.name == generated], include, FLAGS)
-    ours = [s for s in sources if s.name != generated]
-    objects += c_objects(ours, include, (*FLAGS, "-Wall", "-Wextra", "-Werror"))
-    command = ["cc", "-shared", "-o", str(target), *map(str, objects), "-lm"]
-    subprocess.run(command, check=True)
+def compile_library(sources: Sequence[Path], include: Sequence[Path], target: Path) -> None:
+    """As the program's own library, what is compiled already taken as it is."""
+    objects = c_objects(sources, include, KERNEL_FLAGS)
+    seen = only_seen(target.parent)
+    subprocess.run(["cc", "-shared", "-o", target, *objects, *seen, "-lm"], check=True)
 
 
 def hand_program(folder: Path) -> Program:
@@ -73,7 +70,7 @@ def hand_program(folder: Path) -> Program:
         contacts=("guide",),
         experiment=ExperimentInfo(0.0, 12.0, 1e-10, None, "rest"),
         compiler=("cc",),
-        flags=FLAGS,
+        flags=KERNEL_FLAGS,
         folder=folder,
     )
 

@@ -20,10 +20,12 @@ import pytest
 from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 from fmu_host import METRE, ONE, RADIAN, Host, compile_library
+from frot.compiler.toolchain.objects import kernel_folder, kernel_sources
 from frot.runtime import fmi
 from frot.runtime.fmi.names import model_identifier, structured_name, variable_names
 from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo
 
+KERNEL = {source.name for source in kernel_sources(kernel_folder())}
 VERSIONS = ("2.0", "3.0")
 
 
@@ -89,17 +91,22 @@ def test_sources_compile_as_listed(
     assert rows[0] == rows[1]
 
 
-@pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("dialect", ["c99", "gnu99", "gnu17"])
 def test_sources_compile_in_every_dialect(
-    archives: dict[str, Path], version: str, dialect: str, tmp_path: Path
+    archives: dict[str, Path], dialect: str, tmp_path: Path
 ) -> None:
     """Importers build with the compiler's extensions on, as CMake does."""
-    with zipfile.ZipFile(archives[version]) as file:
-        names = [name for name in file.namelist() if name.startswith("sources/")]
-        file.extractall(tmp_path, names)
-    compiled = [str(tmp_path / name) for name in names if name.endswith(".c")]
-    command = ["cc", f"-std={dialect}", "-fsyntax-only", "-Wall", "-Wextra", *compiled]
+    compiled: dict[tuple[str, bytes], Path] = {}
+    for version in VERSIONS:
+        with zipfile.ZipFile(archives[version]) as file:
+            names = [name for name in file.namelist() if name.startswith("sources/")]
+            file.extractall(tmp_path / version, names)
+        headers = b"".join((tmp_path / version / n).read_bytes() for n in names if n.endswith(".h"))
+        for path in (tmp_path / version / n for n in names if n.endswith(".c")):
+            # Both versions carry the same kernel: once is enough.
+            seen = path.read_bytes() if path.name in KERNEL else headers + path.read_bytes()
+            compiled.setdefault((path.name, seen), path)
+    command = ["cc", f"-std={dialect}", "-fsyntax-only", "-Wall", "-Wextra", *compiled.values()]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
 

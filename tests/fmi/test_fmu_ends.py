@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import functools
 import math
 import sys
 from pathlib import Path
@@ -29,10 +28,10 @@ MODEL: Small = ball(
 def archives_that_end(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     folder = tmp_path_factory.mktemp("ending")
     program = build(MODEL, folder / "model")
-    archives, compiler = {}, functools.partial(compile_library, generated="model.c")
+    archives = {}
     for version in ("2.0", "3.0"):
         archives[version] = folder / f"Ending{version[0]}.fmu"
-        fmi.export(program, archives[version], version, compiler)
+        fmi.export(program, archives[version], version, compile_library)
     return archives
 
 

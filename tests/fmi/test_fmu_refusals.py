@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from pathlib import Path
 
 import pytest
@@ -32,10 +31,10 @@ CHANGES = {"floor": (H, 1.5, "inside by 0.5 m"), "law": (MU, -0.2, "must not be 
 def floors(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[int, Path], bytes]:
     folder = tmp_path_factory.mktemp("floor")
     program = frot.compile(FLOOR).program()
-    libraries, compiler = {}, functools.partial(compile_library, generated="model.c")
+    libraries = {}
     for number in (2, 3):
         archive, version = folder / f"Floor{number}.fmu", f"{number}.0"
-        fmi.export(program, archive, version, compiler)
+        fmi.export(program, archive, version, compile_library)
         libraries[number] = unpack_library(archive, version, folder / version)
     return libraries, program.key.encode()
 
