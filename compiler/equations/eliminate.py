@@ -201,6 +201,8 @@ def _learn_rates(symbol: ca.SX, chains: Chains, resolver: Resolver) -> None:
 
 def resolve_all(value: ca.SX, chains: Chains, resolver: Resolver) -> ca.SX:
     """The value in terms of the unknowns left, derivatives of removed ones included."""
+    if not resolver.known:
+        return value
     for symbol in ca.symvar(value):
         _learn_rates(symbol, chains, resolver)
     return resolver.resolve(value)

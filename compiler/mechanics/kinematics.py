@@ -121,6 +121,8 @@ class Kinematics:
         self.track_rates: dict[Liaison, ca.SX] = {}
         self.spots: dict[int, Spotted] = {}
         self.starts: dict[int, ca.SX] = {}
+        # of points and frames, each beside the motion of the body that it is of
+        self._moving: dict[Frame | BodyPoint, tuple[Moving, Moving]] = {}
         self.sides = {
             link.liaison: symbols.sides[k]
             for k, link in enumerate(mechanism.contacts)
@@ -267,6 +269,14 @@ class Kinematics:
         """Axes of a body (at G), of a frame, or of a body at one of its points."""
         if isinstance(owner, Body):
             return self.bodies[owner]
+        own = self.bodies[point_body(owner)]
+        known, made = self._moving.get(owner, (None, own))
+        if known is not own:
+            made = self._moved(owner)
+            self._moving[owner] = own, made
+        return made
+
+    def _moved(self, owner: Frame | BodyPoint) -> Moving:
         if isinstance(owner, BodyPoint):
             return self._shifted(self.bodies[owner.body], self.local_point(owner))
         base = self.moving(owner.owner)

@@ -39,6 +39,7 @@ class Variables:
     drives: dict[Liaison, list[tuple[str, ca.SX]]]
     corners: Mapping[Liaison, tuple[Liaison, ...]]
     frictions: dict[Liaison, ca.SX] = field(default_factory=dict)
+    _inertias: dict[Body, ca.SX] = field(default_factory=dict, repr=False)
 
     def quantity(self, node: Quantity) -> ca.SX:
         """Value of a variable named in the text."""
@@ -107,11 +108,13 @@ class Variables:
 
     def inertia_in_ground(self, body: Body) -> ca.SX:
         """Inertia (3 x 3) about G along ground axes; in a planar model only that about z."""
-        own = inertia_of(body, self.kinematics.planar, self.kinematics.fixed.lower)
-        if _is_round(own):  # it does not see by how much axes are not of length 1
-            return own
-        axes = self.kinematics.pose(body).axes
-        return ca.sparsify(axes @ own @ axes.T)
+        if body not in self._inertias:
+            own = inertia_of(body, self.kinematics.planar, self.kinematics.fixed.lower)
+            if not _is_round(own):  # one that is does not see by how much axes are off length 1
+                axes = self.kinematics.pose(body).axes
+                own = ca.sparsify(axes @ own @ axes.T)
+            self._inertias[body] = own
+        return self._inertias[body]
 
     def effort(self, liaison: Liaison, coordinate: str) -> Effort:
         """One unit along a coordinate of a liaison."""

@@ -27,7 +27,6 @@ _OPERAND = re.compile(r"\ba(\d+)\b|\barg\[(\d+)\]\[(\d+)\]")
 _SET = re.compile(r"^  a(\d+)=(.*);$")
 _RESULT = re.compile(r"^  res\[(\d+)\]\[(\d+)\]=(a\d+);$")
 _NAMED = re.compile(r"(#\d+|-?[\d.]+(e[-+]?\d+)?)$")
-_GIVEN = re.compile(r"arg\[\d+\]\[\d+\]$|-?[\d.]+(e[-+]?\d+)?$")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,14 +43,22 @@ class _Statement:
     result: bool
 
 
-def roll(statements: Sequence[str]) -> list[range | tuple[range, int]] | None:
-    """Stretches of the statements in order: with a period where they repeat; None if few do."""
+def roll(name: str, statements: Sequence[str], passed: str) -> Roller | None:
+    """What writes the functions of a function `name` whose statements repeat; None if few do.
+
+    `passed` are the parameters of a piece in C.
+    """
     if len(statements) < LEAST:
         return None
-    forms = [statement.form for statement in _parse(statements)]
-    found = _stretches(forms)
+    parsed = _parse(statements)
+    found = _stretches([statement.form for statement in parsed])
     if sum(len(places) for places, _ in found) < len(statements) // 2:
         return None
+    return Roller(name, parsed, passed, _parts(found, len(statements)))
+
+
+def _parts(found: Sequence[tuple[range, int]], count: int) -> list[range | tuple[range, int]]:
+    """Stretches of the statements in order: with a period where they repeat."""
     parts: list[range | tuple[range, int]] = []
     at = 0
     for places, period in found:
@@ -59,8 +66,8 @@ def roll(statements: Sequence[str]) -> list[range | tuple[range, int]] | None:
             parts.append(range(at, places.start))
         parts.append((places, period))
         at = places.stop
-    if at < len(statements):
-        parts.append(range(at, len(statements)))
+    if at < count:
+        parts.append(range(at, count))
     return parts
 
 
@@ -70,29 +77,37 @@ def _parse(statements: Sequence[str]) -> list[_Statement]:
     An argument or a number that was only named is put in where it is used.
     """
     made: dict[str, int] = {}
-    given: dict[str, str] = {}
+    given: dict[str, tuple[str, int | None]] = {}
     parsed: list[_Statement] = []
+    operands: list[int] = []
+
+    def mark(x: re.Match[str]) -> str:
+        if x[1] is None:
+            operands.append(-1 - int(x[3]))
+            return f"#{x[2]}"
+        if x[1] not in given:
+            operands.append(made[x[1]])
+            return "@"
+        form, operand = given[x[1]]
+        if operand is not None:
+            operands.append(operand)
+        return form
+
     for k, line in enumerate(statements):
         found = _SET.match(line)
         result = None if found else _RESULT.match(line)
-        text = found[2] if found else result[3] if result else ""
-        text = re.sub(r"\ba(\d+)\b", lambda x: given.get(x[1], x[0]), text)
-        operands: list[int] = []
-
-        def mark(x: re.Match[str], operands: list[int] = operands) -> str:
-            operands.append(made[x[1]] if x[1] else -1 - int(x[3]))
-            return "@" if x[1] else f"#{x[2]}"
-
-        form = _OPERAND.sub(mark, text)
+        operands.clear()
         if found:
+            form = _OPERAND.sub(mark, found[2])
             made[found[1]] = k
             given.pop(found[1], None)
-            if _GIVEN.match(text):
-                given[found[1]] = f"({text})" if text.startswith("-") else text
+            if _NAMED.match(form):
+                named = f"({form})" if form.startswith("-") else form
+                given[found[1]] = named, operands[0] if operands else None
             parsed.append(_Statement(form, tuple(operands), int(found[1]), False))
         else:
             assert result is not None
-            form = f"res[{result[1]}]={form}"
+            form = f"res[{result[1]}]={_OPERAND.sub(mark, result[3])}"
             parsed.append(_Statement(form, tuple(operands), int(result[2]), True))
     return parsed
 
@@ -129,18 +144,21 @@ def _stretches(forms: Sequence[str]) -> list[tuple[range, int]]:
 class Roller:
     """Writes the functions of one straight function that is rolled."""
 
-    def __init__(self, name: str, statements: Sequence[str], passed: str) -> None:
-        """`passed` are the parameters of a piece in C."""
+    def __init__(
+        self,
+        name: str,
+        statements: Sequence[_Statement],
+        passed: str,
+        parts: Sequence[range | tuple[range, int]],
+    ) -> None:
+        """Made by `roll`; `parts` are stretches in order, with a period where they repeat."""
         self._name, self._passed = name, passed
-        self._all = _parse(statements)
-        self._number = 0
+        self._all, self._parts = statements, parts
 
-    def write(
-        self, parts: Sequence[range | tuple[range, int]], longest: int
-    ) -> tuple[list[str], list[str]]:
+    def write(self, longest: int) -> tuple[list[str], list[str]]:
         """C of the pieces, and the names of their functions in the order of the calls."""
         pieces: list[tuple[range, int]] = []
-        for part in parts:
+        for part in self._parts:
             if isinstance(part, tuple):
                 pieces.append(part)
                 continue

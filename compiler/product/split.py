@@ -12,7 +12,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from frot.compiler.product.roll import Roller, roll
+from frot.compiler.product.roll import roll
 
 # Statements of a piece. GCC takes least for some hundreds; a call costs nothing beside them.
 LONGEST = 500
@@ -52,9 +52,9 @@ def _rewritten(name: str, lines: list[str]) -> list[str]:
     statements = [line for line in body if not _DECLARED.match(line)]
     if end != "  return 0;" or not all(map(_is_plain, statements)):
         return lines
-    parts = roll(statements)
-    if parts is not None:
-        made, names = Roller(name, statements, _PASSED).write(parts, LONGEST)
+    roller = roll(name, statements, _PASSED)
+    if roller is not None:
+        made, names = roller.write(LONGEST)
         return [*made, head, *(f"  {piece}(arg, res, w);" for piece in names), end, brace]
     short = list(_with_loops(statements))
     if len(short) <= LONGEST:

@@ -53,24 +53,26 @@ class FirstIntegral:
 
 
 def first_integrals_of(system: Assembled) -> tuple[FirstIntegral, ...]:
-    """Those of a system whose start is found; else none."""
+    """Those of a system whose start is found; of more than `MOST_SPEEDS` the energy at most."""
     reduced = system.reduced
     if not reduced.mechanism.model.bodies or reduced.variables.kinematics.tracks:
         return ()
+    if reduced.symbols.v.numel() > MOST_SPEEDS:
+        return find_first_integrals(reduced, None)
     start = find_start(system)
     return () if start is None else find_first_integrals(system.reduced, start.posture)
 
 
-def find_first_integrals(reduced: Reduced, start: Posture) -> tuple[FirstIntegral, ...]:
+def find_first_integrals(reduced: Reduced, start: Posture | None) -> tuple[FirstIntegral, ...]:
     """All that are found, in the order of the candidates, none that follows from others linearly.
 
     Beside the candidates with names, combinations: momenta along and about any axis of the ground,
     and the energy in a frame that turns or moves steadily (P. Painlevé 1895; C. Jacobi). Of more
-    speeds than `MOST_SPEEDS` only the energy is looked at.
+    speeds than `MOST_SPEEDS` only the energy is looked at, for which no start is needed.
     """
     if not reduced.symbols.v.numel():
         return ()
-    if reduced.symbols.v.numel() > MOST_SPEEDS:
+    if reduced.symbols.v.numel() > MOST_SPEEDS or start is None:
         return _energy_alone(reduced)
     dynamics = make_dynamics(reduced)
     listed = list_candidates(reduced)

@@ -98,6 +98,8 @@ def _figures(
         touch = geometry.touch
         place = kinematics.position(link.b) if touch is None else touch.place
         pairs = list(_pairs(link))
+    if liaison not in kinematics.tangents and not pairs:
+        return
     first, second = (kinematics.pose(point) for point in points)
     texts = [" ".join(x.span.text.split()) for x in (liaison.a, liaison.b)]
     name, other = reversed(texts) if swapped else texts
