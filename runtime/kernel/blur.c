@@ -21,12 +21,7 @@
 
 /* y (n_speeds) <- L' v, by the mass matrix A = L L'. */
 static void into_metric(frot_work *w, const frot_group *g, const double *v, double *y) {
-  double *column = w->relations.step;
-  memset(y, 0, sizeof(double) * (size_t)g->n_speeds);
-  for (int k = 0; k < g->n_speeds; k++) {
-    frot_mass_column(w, g, k, column);
-    for (int i = 0; i < g->n_speeds; i++) y[i] += v[k] * column[i];
-  }
+  frot_momenta(w, g, v, y);
   frot_inwards(w, g, y);
 }
 

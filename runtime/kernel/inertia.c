@@ -36,11 +36,18 @@ void frot_outwards(const frot_work *w, const frot_group *g, double *x) {
     frot_backward(factor, g->n_speeds, g->n_speeds, x);
 }
 
+/* Column k of a large tree's matrix (n). */
+static void tree_column(const frot_work *w, const frot_group *g, int k, double *column) {
+  memset(column, 0, sizeof(double) * (size_t)g->n);
+  column[k] = 1;
+  frot_tree_times(g, w->core.mass + g->matrix, w->core.twist, column);
+}
+
 double frot_mass_column(const frot_work *w, const frot_group *g, int k, double *column) {
   const double *mass = w->core.mass + g->matrix;
   if (g->n_links > 0) {
     double *whole = w->core.momenta;
-    frot_tree_column(g, mass, w->core.twist, k, whole);
+    tree_column(w, g, k, whole);
     memcpy(column, whole, sizeof(double) * (size_t)g->n_speeds);
     return whole[k];
   }
@@ -48,18 +55,41 @@ double frot_mass_column(const frot_work *w, const frot_group *g, int k, double *
   return mass[k * g->n + k];
 }
 
-void frot_whole_column(frot_work *w, const frot_group *g, int k, double *column) {
+void frot_momenta(const frot_work *w, const frot_group *g, const double *x, double *y) {
+  int ns = g->n_speeds;
+  if (g->n_links > 0) {
+    double *whole = w->core.momenta;
+    memcpy(whole, x, sizeof(double) * (size_t)ns);
+    memset(whole + ns, 0, sizeof(double) * (size_t)(g->n - ns));
+    frot_tree_times(g, w->core.mass + g->matrix, w->core.twist, whole);
+    memcpy(y, whole, sizeof(double) * (size_t)ns);
+    return;
+  }
+  memset(y, 0, sizeof(double) * (size_t)ns);
+  const double *column = w->core.mass + g->matrix;
+  for (int k = 0; k < ns; k++, column += g->n)
+    for (int i = 0; i < ns; i++) y[i] += x[k] * column[i];
+}
+
+void frot_own_inertias(const frot_work *w, const frot_group *g, double *own) {
   const double *mass = w->core.mass + g->matrix;
   if (g->n_links > 0)
-    frot_tree_column(g, mass, w->core.twist, k, column);
+    frot_tree_diagonal(g, mass, w->core.inertia, own);
   else
-    memcpy(column, mass + k * g->n, sizeof(double) * (size_t)g->n);
+    for (int k = 0; k < g->n; k++) own[k] = mass[k * g->n + k];
+}
+
+void frot_whole_column(const frot_work *w, const frot_group *g, int k, double *column) {
+  if (g->n_links > 0)
+    tree_column(w, g, k, column);
+  else
+    memcpy(column, w->core.mass + g->matrix + k * g->n, sizeof(double) * (size_t)g->n);
 }
 
 double frot_group_metric(frot_work *w, const frot_group *g, int i, int k) {
   if (g->general) return w->core.metric[g->metric + k * g->n_speeds + i];
   if (g->n_links == 0) return w->core.mass[g->matrix + k * g->n + i];
-  frot_tree_column(g, w->core.mass + g->matrix, w->core.twist, k, w->core.momenta);
+  tree_column(w, g, k, w->core.momenta);
   return w->core.momenta[i];
 }
 

@@ -16,7 +16,12 @@ void frot_outwards(const frot_work *w, const frot_group *g, double *x);
 double frot_mass_column(const frot_work *w, const frot_group *g, int k, double *column);
 
 /* column (n) <- that of the unknown k in the whole matrix; of any group. */
-void frot_whole_column(frot_work *w, const frot_group *g, int k, double *column);
+void frot_whole_column(const frot_work *w, const frot_group *g, int k, double *column);
+
+/* y <- A x for speeds x (n_speeds), and the diagonal of the whole matrix (n), of a group that is
+ * not general. */
+void frot_momenta(const frot_work *w, const frot_group *g, const double *x, double *y);
+void frot_own_inertias(const frot_work *w, const frot_group *g, double *own);
 
 /* Entry of the metric for two unknowns of a group. */
 double frot_group_metric(frot_work *w, const frot_group *g, int i, int k);

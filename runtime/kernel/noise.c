@@ -30,6 +30,64 @@ static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, doubl
   }
 }
 
+/* The largest of coordinates and speeds: of what turns, of what moves. */
+typedef struct {
+  double coordinate[2], speed[2];
+} largest_of;
+
+static void take_larger(largest_of *to, const largest_of *from) {
+  for (int k = 0; k < 2; k++) {
+    to->coordinate[k] = fmax(to->coordinate[k], from->coordinate[k]);
+    to->speed[k] = fmax(to->speed[k], from->speed[k]);
+  }
+}
+
+static largest_of own_largest(const frot_model *m, const frot_work *w, int speed) {
+  largest_of own = {{0, 0}, {0, 0}};
+  int turns = m->speed_turns[speed] != 0, at = m->speed_coordinate[speed];
+  own.speed[turns] = fabs(w->step.z0[m->nq + speed]);
+  if (at >= 0) own.coordinate[turns] = fabs(w->step.z0[at]);
+  return own;
+}
+
+static void raise_size(const frot_model *m, int speed, const largest_of *by, double *size) {
+  int turns = m->speed_turns[speed] != 0, at = m->speed_coordinate[speed];
+  size[m->nq + speed] = fmax(size[m->nq + speed], by->speed[turns]);
+  if (at >= 0) size[at] = fmax(size[at], by->coordinate[turns]);
+}
+
+/* Each step of a tree shares inertia with what it carries, looked through inwards, and with what
+ * carries it, outwards. */
+static void note_in_tree(const frot_model *m, frot_work *w, const frot_group *g, double *size) {
+  largest_of *found = (largest_of *)(void *)w->core.twist;
+  for (int outwards = 0; outwards < 2; outwards++) {
+    memset(found, 0, sizeof(largest_of) * (size_t)g->n_links);
+    for (int i = 0; i < g->n_links; i++) {
+      int k = outwards ? i : g->n_links - 1 - i;
+      const frot_link *s = &g->links[k];
+      if (outwards && s->above >= 0) found[k] = found[s->above];
+      for (int j = 0; j < s->count && !s->auxiliary; j++) {
+        largest_of own = own_largest(m, w, g->unknowns[s->first + j]);
+        take_larger(&found[k], &own);
+      }
+      for (int j = 0; j < s->count && !s->auxiliary; j++)
+        raise_size(m, g->unknowns[s->first + j], &found[k], size);
+      if (!outwards && s->above >= 0) take_larger(&found[s->above], &found[k]);
+    }
+  }
+}
+
+static void note_in_matrix(const frot_model *m, frot_work *w, const frot_group *g, double *size) {
+  double *column = w->core.rest;
+  for (int k = 0; k < g->n_speeds; k++) {
+    int carrier = g->unknowns[k];
+    largest_of own = own_largest(m, w, carrier);
+    frot_whole_column(w, g, k, column);
+    for (int l = 0; l < g->n_speeds; l++)
+      if (column[l] != 0) raise_size(m, g->unknowns[l], &own, size);
+  }
+}
+
 /* Sizes of what rounding moves: of a value itself, and of a coordinate or speed the largest of its
  * kind among those that its inertia is shared with. For bodies carried by bodies are placed by sums
  * of these, in which a small one is no better than the largest. */
@@ -37,18 +95,10 @@ static void note_neighbours(const frot_model *m, frot_work *w, double *size) {
   for (int j = 0; j < m->nq + m->nv; j++) size[j] = fabs(w->step.z0[j]);
   for (int i = 0; i < w->awake.now->n_groups; i++) {
     const frot_group *g = &m->groups[w->awake.now->groups[i]];
-    double *column = w->core.rest;
-    for (int k = 0; k < g->n_speeds && !g->general; k++) {
-      int carrier = g->unknowns[k], from = m->speed_coordinate[carrier];
-      frot_whole_column(w, g, k, column);
-      for (int l = 0; l < g->n_speeds; l++) {
-        int carried = g->unknowns[l], to = m->speed_coordinate[carried];
-        if (column[l] == 0 || m->speed_turns[carrier] != m->speed_turns[carried]) continue;
-        double *speed = &size[m->nq + carried];
-        *speed = fmax(*speed, fabs(w->step.z0[m->nq + carrier]));
-        if (from >= 0 && to >= 0) size[to] = fmax(size[to], fabs(w->step.z0[from]));
-      }
-    }
+    if (g->n_links > 0)
+      note_in_tree(m, w, g, size);
+    else if (!g->general)
+      note_in_matrix(m, w, g, size);
   }
 }
 

@@ -7,6 +7,10 @@
 #include "linear.h"
 #include "tolerances.h"
 
+/* Loads that are spread one by one. Of more unknowns those that are far apart go together: far
+ * loads do less to each other, and the sizes of a thousand would cost a thousand solutions. */
+#define MOST_ALONE 32
+
 double frot_row_size(const frot_model *m, const frot_work *w, int row, const double *v) {
   const frot_group *g = frot_group_of(m, row);
   const double *entries = frot_entries(m, w->core.rows, row);
@@ -59,15 +63,28 @@ double frot_least_length(const frot_model *m, frot_work *w, int row, double own)
   return FROT_DEPENDENT * fmax(own, beside);
 }
 
+/* column (n) <- the loads of every MOST_ALONE-th unknown from `first` on. What sums of them cancel
+ * by is no rounding: their signs are those of the Thue-Morse sequence, which repeats in no period.
+ * Returns whether there are any. */
+static int pick_loads(const frot_group *g, const double *load, int first, int n, double *column) {
+  int any = 0, place = 0;
+  memset(column, 0, sizeof(double) * (size_t)n);
+  for (int k = first; k < n; k += MOST_ALONE, place++) {
+    int odd = 0;
+    for (int bits = place; bits > 0; bits >>= 1) odd ^= bits & 1;
+    double own = load[g->unknowns[k]];
+    column[k] = odd ? -own : own, any |= own != 0;
+  }
+  return any;
+}
+
 /* size <- |L^-1| load (n_speeds), column after column of the inverse. */
 static void spread_along_tree(frot_work *w, const frot_group *g, const double *load, double *size) {
   int ns = g->n_speeds;
   double *column = w->core.rest;
   memset(size, 0, sizeof(double) * (size_t)ns);
-  for (int k = 0; k < ns; k++) {
-    memset(column, 0, sizeof(double) * (size_t)ns);
-    column[k] = load[g->unknowns[k]];
-    if (column[k] == 0) continue;
+  for (int k = 0; k < ns && k < MOST_ALONE; k++) {
+    if (!pick_loads(g, load, k, ns, column)) continue;
     frot_inwards(w, g, column);
     for (int i = 0; i < ns; i++) size[i] += fabs(column[i]);
   }
@@ -93,10 +110,8 @@ static void spread_in_inverse(frot_work *w, const frot_group *g, const double *l
   int n = g->general ? g->n : g->n_speeds;
   double *column = w->core.rest;
   memset(size, 0, sizeof(double) * (size_t)n);
-  for (int k = 0; k < n; k++) {
-    memset(column, 0, sizeof(double) * (size_t)n);
-    column[k] = load[g->unknowns[k]];
-    if (column[k] == 0) continue;
+  for (int k = 0; k < n && k < MOST_ALONE; k++) {
+    if (!pick_loads(g, load, k, n, column)) continue;
     if (g->general) {
       frot_lu_apply(w->core.lu + g->matrix, n, w->core.lu_pivot + g->vector,
                     w->core.lu_scale + 2 * g->vector, column);
@@ -133,10 +148,11 @@ void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, d
  * of a light body on a heavy one, the loads of both are in its coordinates, where they cancel, and
  * |A^-1| load gives it what the heavy one's weight would do to the light one's mass. */
 static double motion_by_each(frot_work *w, const frot_group *g, const double *load) {
-  double sum = 0;
+  double *mass = w->core.rest, sum = 0;
+  frot_own_inertias(w, g, mass);
   for (int k = 0; k < g->n_speeds; k++) {
-    double mass = frot_mass_column(w, g, k, w->core.rest), own = load[g->unknowns[k]];
-    if (own != 0 && mass > 0) sum += own * own / mass;
+    double own = load[g->unknowns[k]];
+    if (own != 0 && mass[k] > 0) sum += own * own / mass[k];
   }
   return sqrt(sum);
 }

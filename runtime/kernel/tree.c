@@ -299,14 +299,14 @@ static inline void momentum(int width, const double *mass, const double *motion,
   times(width, p, motion, own);
 }
 
-static inline void make_column(int width, const frot_group *g, const double *data, double *twist,
-                               int unknown, double *result) {
-  memset(result, 0, sizeof(double) * (size_t)g->n);
+static inline void multiply(int width, const frot_group *g, const double *data, double *twist,
+                            double *x) {
   for (int k = 0; k < g->n_links; k++) {
     const frot_link *s = &g->links[k];
     double *motion = carry_to(width, s, k, data, twist);
-    int j = unknown - s->first;
-    if (j >= 0 && j < s->count) add_times(width, motion, 1, data + s->data + width * j);
+    for (int j = 0; j < s->count; j++)
+      if (x[s->first + j] != 0)
+        add_times(width, motion, x[s->first + j], data + s->data + width * j);
   }
   for (int k = 0; k < g->n_links; k++) {
     double own[SPACE];
@@ -317,9 +317,28 @@ static inline void make_column(int width, const frot_group *g, const double *dat
     const frot_link *s = &g->links[k];
     const double *whole = twist + width * k;
     for (int j = 0; j < s->count; j++)
-      result[s->first + j] = dot(width, data + s->data + width * j, whole);
+      x[s->first + j] = dot(width, data + s->data + width * j, whole);
     if (s->above >= 0)
       add_wrench(width, s->faces_ground, arm_of(width, s, data), whole, twist + width * s->above);
+  }
+}
+
+/* Composite bodies: the inertia of all that a step carries. */
+static inline void take_diagonal(int width, const frot_group *g, const double *data,
+                                 double *inertia, double *diagonal) {
+  int size = inertia_size(width);
+  for (int k = 0; k < g->n_links; k++)
+    own_inertia(width, mass_of(width, &g->links[k], data), inertia + size * k);
+  for (int k = g->n_links - 1; k >= 0; k--) {
+    const frot_link *s = &g->links[k];
+    const double *whole = inertia + size * k;
+    for (int j = 0; j < s->count; j++) {
+      double momenta[SPACE];
+      times(width, whole, data + s->data + width * j, momenta);
+      diagonal[s->first + j] = dot(width, data + s->data + width * j, momenta);
+    }
+    if (s->above >= 0)
+      add_inertia(width, s->faces_ground, arm_of(width, s, data), whole, inertia + size * s->above);
   }
 }
 
@@ -359,12 +378,19 @@ void frot_tree_backward(const frot_group *g, const double *data, const double *f
     outwards(SPACE, g, data, factor, twist, x);
 }
 
-void frot_tree_column(const frot_group *g, const double *data, double *twist, int k,
-                      double *column) {
+void frot_tree_times(const frot_group *g, const double *data, double *twist, double *x) {
   if (g->width == PLANE)
-    make_column(PLANE, g, data, twist, k, column);
+    multiply(PLANE, g, data, twist, x);
   else
-    make_column(SPACE, g, data, twist, k, column);
+    multiply(SPACE, g, data, twist, x);
+}
+
+void frot_tree_diagonal(const frot_group *g, const double *data, double *inertia,
+                        double *diagonal) {
+  if (g->width == PLANE)
+    take_diagonal(PLANE, g, data, inertia, diagonal);
+  else
+    take_diagonal(SPACE, g, data, inertia, diagonal);
 }
 
 double frot_tree_square(const frot_group *g, const double *data, double *twist, const double *v) {

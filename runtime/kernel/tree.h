@@ -32,9 +32,11 @@ void frot_tree_forward(const frot_group *g, const double *data, const double *fa
 void frot_tree_backward(const frot_group *g, const double *data, const double *factor,
                         double *twist, double *x);
 
-/* column (n) <- what a unit of the unknown k, which may be auxiliary, makes of momenta: M e_k. */
-void frot_tree_column(const frot_group *g, const double *data, double *twist, int k,
-                      double *column);
+/* x <- M x (n): what unknowns, auxiliary ones among them, make of momenta. */
+void frot_tree_times(const frot_group *g, const double *data, double *twist, double *x);
+
+/* The diagonal of M (n). */
+void frot_tree_diagonal(const frot_group *g, const double *data, double *inertia, double *diagonal);
 
 /* v' M v of speeds (nv, at their places in the model). */
 double frot_tree_square(const frot_group *g, const double *data, double *twist, const double *v);
