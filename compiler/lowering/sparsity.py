@@ -45,10 +45,11 @@ def factor_pattern(rows: Integers, columns: Integers, n: int) -> Factors:
     whole = sp.csr_matrix((np.ones(len(rows)), (rows, columns)), (n, n)) + sp.eye(n)
     both = sp.csr_matrix(whole + whole.T)
     cuthill_mckee = reverse_cuthill_mckee(both, symmetric_mode=True).astype(np.intp)
-    tried = (_minimum_degree(both, n), cuthill_mckee, natural)
-    best = min((_eliminate(rows, columns, order, n) for order in tried), key=lambda f: f.work)
-    levelled = _eliminate(rows, columns, _by_levels(best), n)
-    return levelled if levelled.work <= best.work else best
+    best = _eliminate(rows, columns, _minimum_degree(both, n), n)
+    assert best is not None
+    for order in (cuthill_mckee, natural):
+        best = _eliminate(rows, columns, order, n, best.work) or best
+    return _eliminate(rows, columns, _by_levels(best), n, best.work + 1) or best
 
 
 def _by_levels(factors: Factors) -> Integers:
@@ -77,8 +78,13 @@ def _minimum_degree(both: sp.csr_matrix, n: int) -> Integers:
     return np.argsort(position).astype(np.intp)
 
 
-def _eliminate(rows: Integers, columns: Integers, order: Integers, n: int) -> Factors:
-    """Fill-in, row by row: what row k takes over from each row j < k that it is reduced by."""
+def _eliminate(
+    rows: Integers, columns: Integers, order: Integers, n: int, limit: int | None = None
+) -> Factors | None:
+    """Fill-in, row by row: what row k takes over from each row j < k that it is reduced by.
+
+    None as soon as the work comes to `limit`: a bad order fills the matrix.
+    """
     position = np.empty(n, dtype=np.intp)
     position[order] = np.arange(n)
     own: list[set[int]] = [{k} for k in range(n)]
@@ -86,11 +92,16 @@ def _eliminate(rows: Integers, columns: Integers, order: Integers, n: int) -> Fa
         own[i].add(j)
     upper: list[list[int]] = []
     starts, listed, diagonal = [0], list[int](), list[int]()
+    work = 0
     for k in range(n):
         filled = own[k]
         waiting = sorted((j for j in filled if j < k), reverse=True)
         while waiting:
-            new = [c for c in upper[waiting.pop()] if c not in filled]
+            above = upper[waiting.pop()]
+            work += 1 + len(above)
+            if limit is not None and work >= limit:
+                return None
+            new = [c for c in above if c not in filled]
             filled.update(new)
             below = [c for c in new if c < k]
             if below:
