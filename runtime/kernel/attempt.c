@@ -5,7 +5,6 @@
 
 #include "awake.h"
 #include "blame.h"
-#include "blur.h"
 #include "crossing.h"
 #include "ends.h"
 #include "error.h"
@@ -106,7 +105,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   if (a->loose > 0) frot_judge_tie(s, a->ratio, a->loose), a->loose = 0;
   a->forced = a->blurred;
   if (a->forced) frot_take_forced(s, a);
-  if (s->weak && a->ratio <= 1) a->ratio = fmax(a->ratio, pow(frot_turning(m, s, w, t, h), 8));
+  if (s->weak && a->ratio <= 1) a->ratio = fmax(a->ratio, pow(w->step.turning, 8));
   if (status == FROT_OK && !frot_passage_is_laid(m, s, w, a)) {
     s->statistics.rejected++;
     return FROT_DIVERGE;

@@ -41,6 +41,8 @@ static double noise_of(const frot_model *m, frot_work *w, int row, double at, do
                        double *across) {
   double along = 0, beside = 0, turn = turn_of(m, w, row);
   double gap = NOISE * FROT_ROUNDING * frot_gap_size(m, w, row, w->step.z1);
+  if (at > -FROT_AROUND && at < 1 + FROT_AROUND && w->span.left[row] > 0)
+    w->step.turning = fmax(w->step.turning, turn / MOST_TURN);
   for (int i = 1; i <= DP_STAGES; i++) {
     double left = fabs(w->step.left[m->n_rows * i + row]), distance = fabs(dp_c[i] - at) * h;
     if (w->step.near[i] || !(left > 0)) continue;
@@ -95,6 +97,7 @@ static void excuse(const frot_model *m, const frot_state *s, frot_work *w, const
 
 void frot_excuse_noise(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   const frot_awake_lists *now = w->awake.now;
+  w->step.turning = 0;
   for (int k = 0; k < now->n - FROT_QUADRATURES; k++) {
     int speed = now->states[k] - m->nq;
     if (speed >= 0) w->step.excused[speed] = w->step.excused[m->nv + speed] = 0;
@@ -104,17 +107,4 @@ void frot_excuse_noise(const frot_model *m, frot_state *s, frot_work *w, double 
     excuse(m, s, w, g, dp_e5, t, h, w->step.excused);
     excuse(m, s, w, g, dp_e3, t, h, w->step.excused + m->nv);
   }
-}
-
-double frot_turning(const frot_model *m, const frot_state *s, frot_work *w, double t, double h) {
-  double most = 0;
-  for (int k = 0; k < w->awake.now->n_contacts && s->weak; k++) {
-    int i = w->awake.now->contacts[k];
-    if (!frot_is_loop(m, s, w, i)) continue;
-    int row = m->contacts[i].row_n;
-    double at = (s->data[w->layout.posture + row] - t) / h;
-    if (at > -FROT_AROUND && at < 1 + FROT_AROUND && w->span.left[row] > 0)
-      most = fmax(most, turn_of(m, w, row) / MOST_TURN);
-  }
-  return most;
 }

@@ -7,11 +7,9 @@
 
 /* What rounding makes of the error of the speeds along weak rows in the step h that ran: no error
  * of the motion. w->step.excused (2 nv) <- what is to be left out of their estimates by the weights
- * dp_e5 and dp_e3. After frot_run_stages. */
+ * dp_e5 and dp_e3. w->step.turning <- how much the directions of weak rows turn, over what they
+ * may: a motion that leaves its way, or one that the step is too long for, is more than 1. After
+ * frot_run_stages. */
 void frot_excuse_noise(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
-
-/* How much the directions of weak rows turn in the step that ran, over what they may: a motion that
- * leaves its way, or one that the step is too long for, is more than 1. */
-double frot_turning(const frot_model *m, const frot_state *s, frot_work *w, double t, double h);
 
 #endif

@@ -95,6 +95,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
 }
 
 double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  w->step.turning = 0;
   if (s->implicit) return frot_implicit_error(m, s, w, h);
   size_own_states(m, s, w, h);
   frot_excuse_noise(m, s, w, t, h);

@@ -138,8 +138,8 @@ typedef struct {
 
 /* stages.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones at the
  * stage that runs, unknowns of the blocks at the end, dense output f (DP_DENSE x nz); the state
- * whose error is the worst, or -1, and what part of that rounding may be (error.h). Between steps
- * z1 and z are scratch. crossing.h: what is left of each row in each stage ((DP_STAGES + 1) x
+ * whose error is the worst, or -1, and what part of that rounding may be (error.h); blur.h. Between
+ * steps z1 and z are scratch. crossing.h: what is left of each row in each stage ((DP_STAGES + 1) x
  * n_rows) and its first direction; the slope at the start, what is doubtful in slopes near
  * postures, and excused in errors. */
 typedef struct {
@@ -147,7 +147,7 @@ typedef struct {
   unsigned char *near;
   double *k, *z0, *z1, *z, *y_end, *f;
   int worst;
-  double noisy;
+  double noisy, turning;
 } frot_step_work;
 
 /* sizes.h (nq each, own nq + nv); the states that are no coordinates, `count` of them. */
