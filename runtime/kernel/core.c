@@ -145,13 +145,18 @@ static void effects_of_four(const frot_model *m, frot_work *w, const frot_group 
   int ns = g->n_speeds, from = one[0] > two[0] ? one[0] : two[0];
   int to = one[1] < two[1] ? one[1] : two[1], at = FROT_ABREAST * from;
   frot_dot_fours(fours + first * ns + at, fours + other * ns + at, to - from, product);
-  for (int a = 0; a < FROT_ABREAST && first + a < count; a++) {
+  int rows = count - first < FROT_ABREAST ? count - first : FROT_ABREAST;
+  int columns = acting - other < FROT_ABREAST ? acting - other : FROT_ABREAST;
+  const int *column = listed + other;
+  for (int a = 0; a < rows; a++) {
     int i = listed[first + a], reads = m->row_reads[g->rows[i]];
     double *effects = w->core.delassus + g->square + i * g->n_rows;
-    const double *row = product + FROT_ABREAST * a, *rows = w->core.rows + g->entries + reads;
-    for (int b = 0; b < FROT_ABREAST && other + b < acting; b++) {
-      int j = listed[other + b];
-      effects[j] = reads >= 0 ? row[b] - rows[j * g->n] : row[b];
+    const double *row = product + FROT_ABREAST * a;
+    if (reads < 0) {
+      for (int b = 0; b < columns; b++) effects[column[b]] = row[b];
+    } else {
+      const double *read = w->core.rows + g->entries + reads;
+      for (int b = 0; b < columns; b++) effects[column[b]] = row[b] - read[column[b] * g->n];
     }
   }
 }
