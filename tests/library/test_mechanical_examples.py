@@ -168,6 +168,60 @@ def test_a_point_on_a_sphere_runs_a_great_circle() -> None:
     assert np.abs(result["held"] - 4).max() < 1e-9
 
 
+def test_a_point_on_a_frame_that_turns_freely() -> None:
+    result = frot.load(MODELS / "free_frame.frot").simulate()
+    kept = (2 + 0.5**2) * 3
+
+    def rate(t: float, y: np.ndarray) -> list[float]:
+        return [y[1], (kept / (2 + y[0] ** 2)) ** 2 * y[0], kept / (2 + y[0] ** 2)]
+
+    at, (x, speed, angle) = result.at(2), solved(rate, [0.5, 0.4, 0], 2)
+    assert [at["x"], at["axle.angle"]] == pytest.approx([x, angle], abs=1e-9)
+    assert at["point.position.z"] == pytest.approx(2 * 2 - 9.81 * 2, abs=1e-10)
+    assert at["press"] == pytest.approx(2 * 2 * kept * speed / (2 + x**2) ** 2, rel=1e-9)
+    assert np.abs(result["C"] - kept).max() < 1e-9
+
+
+def test_a_geodesic_of_a_cone_unrolls_to_a_straight_line() -> None:
+    result = frot.load(MODELS / "geodesic_of_a_cone.frot").simulate()
+    a, s0, way = 0.5, 0.8, 1.5 * result.time
+    s, angle = np.hypot(s0, way), np.arctan2(way, s0) / np.sin(a)
+    for name, want in (
+        ("x", s * np.sin(a) * np.cos(angle)),
+        ("y", s * np.sin(a) * np.sin(angle)),
+        ("z", s * np.cos(a)),
+    ):
+        assert np.abs(result[f"point.position.{name}"] - want).max() < 1e-9
+    assert np.abs(result["swept"] - s0 * np.sin(a) * 1.5).max() < 1e-10
+    # across the generators it bends by v^2 cos(a)/r, at the part (s0/s)^2 of the speed's square
+    bend = 1.5**2 * (s0 / s) ** 2 * np.cos(a) / (s * np.sin(a))
+    assert result["held"] == pytest.approx(bend, rel=1e-8)
+
+
+def test_the_middle_of_a_rod_on_a_cycloid_keeps_time() -> None:
+    model = frot.load(MODELS / "centre_on_a_curve.frot")
+    for s0 in (1.5, 0.3):
+        result = model.simulate(parameters={"s0": s0})
+        swing = s0 * np.cos(np.sqrt(9.81 / (4 * 0.5)) * result.time)
+        assert np.abs(result["s"] - swing).max() < 1e-8
+        assert np.abs(result["bar.angle"] - 3 * result.time).max() < 1e-10
+
+
+def test_a_solid_on_four_points_glides_whatever_their_reactions_are() -> None:
+    """One reaction of the four is free; the weight and the motion are not."""
+    model = frot.load(MODELS / "five_points.frot")
+    report = model.report()
+    assert (report.mobility.hyperstatic, report.mobility.degrees_of_freedom) == (1, 3)
+    assert [loop.cure for loop in report.analysis.loops] == [(("foot[1]", ""),)]
+    result, w = model.simulate(), 2
+    t = result.time
+    assert result["weight"] == pytest.approx(5 * 9.81, rel=1e-11)
+    assert np.abs(result["centre"] - t).max() < 1e-10
+    assert np.abs(result["M[1].position.x"] - (t - np.sin(w * t))).max() < 1e-9
+    assert np.abs(result["M[1].position.y"] - np.cos(w * t)).max() < 1e-9
+    assert max(np.abs(result[f"{k}.position.z"]).max() for k in ("M[1]", "M[3]")) < 1e-13
+
+
 def test_a_slider_crank_with_a_flexible_rod() -> None:
     """The digits of the test set, whose initial values have nine: theirs is what is left."""
     path = MODELS.parent / "tests" / "reference" / "flexible_slider_crank.json"
