@@ -44,8 +44,12 @@ def reduced_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) ->
     mechanism = mechanize(model, log)
     if mechanism is None:
         return None
+    from frot.compiler.lowering.checks import refuse_values
     from frot.compiler.mechanics.reduce import reduce
 
+    refuse_values(mechanism, log)
+    if log.failed:
+        return None
     tell("the equations of motion")
     return reduce(mechanism, log)
 

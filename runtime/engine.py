@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 OK, FULL, STOPPED, TERMINATED = 0, 1, 2, 3
+VANISHED = 32
 # A change of parameters or inputs that was taken back, and the message that tells it.
 REFUSALS = {10: "E0401", 24: "E0908"}
 INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
@@ -368,6 +369,9 @@ class Engine:
 
     def _no_value(self, values: array[float], times: array[float], status: int) -> Exception:
         """The error of a sample that gave no numbers: the first variable without one is named."""
+        if status == VANISHED:
+            places = tuple(f"at {place}" for place in self.fault_places)
+            return fail("E0911", self.fault_text, notes=places)
         what = f"the variables have no value (status {status})"
         lost = next((k for k, value in enumerate(values) if not math.isfinite(value)), None)
         if lost is not None:

@@ -16,6 +16,7 @@ from frot.runtime.engine import (
     OK,
     STOPPED,
     TERMINATED,
+    VANISHED,
     Engine,
     Fault,
     RawEvent,
@@ -48,7 +49,7 @@ CODES = {
     25: "E0908",
     30: "E0909",
     POSTURE: "E0910",
-    32: "E0911",
+    VANISHED: "E0911",
 }
 
 
@@ -255,13 +256,13 @@ _HELP = {
     16: "look at what switches at that time; change a coefficient or the starting values a little",
     17: "correct the expression, or keep the motion away from there",
     18: "look at what is named: at a denominator, a root or a logarithm that comes to zero, at "
-    "growth without limit, or at a load that jams a liaison",
+    "growth without limit, at a load that jams a liaison, or at drives that contradict each other",
     22: "give start values near the solution, or keep the motion away from there",
     23: "look at what leads there, or weaken the assertion",
     30: "write the event so that it says one thing",
     POSTURE: "give it more speed there, or keep it away from there by a stop or by other lengths",
-    32: "state or guess another place, keep the motion away from there, or give the figure another "
-    "form; what touches along a line is a `lineaire_rectiligne`, or a model of the plane",
+    VANISHED: "state or guess another place, keep the motion away from there, or give the figure "
+    "another form; what touches along a line is a `lineaire_rectiligne`, or a model of the plane",
     19: "give every body a mass and an inertia of a usual size",
     20: "leave friction out of some of the liaisons that act on each other",
 }

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from math import isfinite
 
 import casadi as ca
 from frot.compiler.equations.eliminate import Pivot
-from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.lowering.walk import as_number, is_fixed
 from frot.compiler.mechanics.mechanism import Mechanism
+from frot.dsl import Log, default_values, evaluate
 from frot.dsl.catalogue import Argument
 from frot.dsl.checked import (
     Binary,
@@ -30,12 +32,13 @@ POSITIVE, NOT_NEGATIVE, FINITE, NOT_BELOW_PREVIOUS, NOT_ZERO = range(5)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Check:
-    """`value` must satisfy `rule` (frot_rule); `subject` names it in a sentence."""
+    """`value` must satisfy `rule` (frot_rule); `subject` names it, `notes` say why."""
 
     rule: int
     subject: str
     value: Expression | ca.SX
     span: Span | None
+    notes: tuple[str, ...] = ()
 
 
 def parameter_checks(
@@ -102,8 +105,34 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
                 )
 
 
+_RULES = {
+    POSITIVE: ("must be positive", lambda x, before: x > 0),
+    NOT_NEGATIVE: ("must not be negative", lambda x, before: x >= 0),
+    NOT_BELOW_PREVIOUS: (
+        "must not be below the coefficient of motion",
+        lambda x, before: x >= before,
+    ),
+}
+
+
+def refuse_values(mechanism: Mechanism, log: Log) -> None:
+    """Report the first that the defaults of the parameters break: the model has no meaning then."""
+    values, before = default_values(mechanism.model, {}), 0.0
+    for check in _checks(mechanism, ()):
+        assert isinstance(check.value, Expression)
+        x = as_number(evaluate(check.value, values))
+        if check.rule in _RULES and isfinite(x):
+            rule, holds = _RULES[check.rule]
+            if not holds(x, before):
+                message = f"the {check.subject} is {x:.9g}: it {rule}"
+                log.report("E0401", message, check.span, notes=check.notes)
+                return
+        before = x
+
+
 # Part of the cube of the moments' sum that rounding may take from a product that is zero: a plate.
 _FLAT = 1e-12
+_TRIANGLE = "masses give no moment of inertia that is larger than the two others together"
 
 
 def _principal_moments(owner: str, inertia: Expression) -> Iterator[Check]:
@@ -131,6 +160,11 @@ def _principal_moments(owner: str, inertia: Expression) -> Iterator[Check]:
         subject = f"moment {k + 1} of the inertia of {owner}"
         yield Check(NOT_NEGATIVE, subject, own[k][k], span)
     total = of("+", of("+", own[0][0], own[1][1]), own[2][2])
+    for i, k in ((0, 1), (0, 2), (1, 2)):
+        uneven = Call("abs", (of("-", own[i][k], own[k][i]),), item, span)
+        rest_of_it = of("-", of("*", Literal(_FLAT, REAL, span), total), uneven)
+        subject = f"difference of items [{i + 1}, {k + 1}] and [{k + 1}, {i + 1}], taken from zero,"
+        yield Check(NOT_NEGATIVE, f"{subject} of the inertia of {owner}", rest_of_it, span)
     twice, nothing = Literal(2.0, item, span), Literal(0.0, item, span)
     rest: list[list[Expression]] = [
         [of("-", total if i == k else nothing, of("*", twice, x)) for k, x in enumerate(line)]
@@ -142,7 +176,7 @@ def _principal_moments(owner: str, inertia: Expression) -> Iterator[Check]:
         ("product of what each two principal moments are more than the third,", rest),
     ):
         value = of("+", determinant(matrix), cube)
-        yield Check(NOT_NEGATIVE, f"{subject} of the inertia of {owner}", value, span)
+        yield Check(NOT_NEGATIVE, f"{subject} of the inertia of {owner}", value, span, (_TRIANGLE,))
 
 
 def _direction(axis: Expression) -> Expression:
@@ -207,4 +241,5 @@ def _moments(owner: str, inertia: Expression) -> Iterator[Check]:
         yield Check(NOT_NEGATIVE, subject, moment, inertia.span)
         others = Binary("+", moments[k - 1], moments[k - 2], item, inertia.span)
         rest = Binary("-", others, moment, item, inertia.span)
-        yield Check(NOT_NEGATIVE, f"sum of the other moments less {subject}", rest, inertia.span)
+        less = f"sum of the other moments less {subject}"
+        yield Check(NOT_NEGATIVE, less, rest, inertia.span, (_TRIANGLE,))

@@ -65,7 +65,9 @@ def _stated(
     found = stated_liaison(of, arguments, node.kind.span, scope)
     if found is None:
         return None
-    kind, (a, b, *_), relations = found
+    kind, (a, b, *others), relations = found
+    if not others and not _parts_agree(node, kind.name, a, b, scope):
+        return None
     if node.driven is not None:
         scope.log.report("E0204", f"{of.name!r} has no coordinate to drive", node.driven_span)
         return None

@@ -5,6 +5,8 @@
 
 #include "blocks.h"
 #include "core.h"
+#include "groups.h"
+#include "tolerances.h"
 
 /* Distance in m, or in radii, from where a figure has no tangent or normal at which a failure is
  * that of it. */
@@ -54,6 +56,35 @@ static int wrong_contact(const frot_model *m, const frot_work *w, int status) {
   return blamed;
 }
 
+/* Whether no speed of its group moves the row of a contact, but for rounding of its lengths. */
+static int is_unmoved(const frot_model *m, const frot_state *s, const frot_work *w, int contact) {
+  int row = m->contacts[contact].row_n;
+  const frot_group *g = frot_group_of(m, row);
+  const double *entries = frot_entries(m, w->core.rows, row);
+  double least = FROT_CANCELS * s->data[w->layout.reach + contact];
+  for (int k = 0; k < g->n_speeds; k++)
+    if (fabs(entries[k]) > least) return 0;
+  return 1;
+}
+
+int frot_taken_apart(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                     const double *v) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  int apart = -1;
+  for (double later = s->h_max; apart < 0 && later <= 100 * s->h_max; later *= 10) {
+    if (frot_kinematics(m, s, w, t + later, q, v, s->data + w->layout.d) != FROT_OK) return -1;
+    double most = FROT_AGREES;
+    for (int i = 0; i < m->n_contacts; i++) {
+      const frot_contact *c = &m->contacts[i];
+      if (!modes[i].closed || c->reduced || c->row_n < 0 || c->kinematic) continue;
+      double reach = s->data[w->layout.reach + i],
+             part = fabs(w->core.gap[i]) / (reach > 0 ? reach : 1);
+      if (part > most && is_unmoved(m, s, w, i)) most = part, apart = i;
+    }
+  }
+  return apart;
+}
+
 int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t,
                    double h) {
   int equation = status == FROT_NAN ? wrong_equation(m, s, w) : -1;
@@ -62,6 +93,9 @@ int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status,
     return frot_fail_evaluation(m, s, w, status, t);
   int blamed = wrong_contact(m, w, status), state = -1;
   int load = status == FROT_NAN && blamed < 0 ? wrong_load(m, s, w) : -1;
+  int apart = -1;
+  if (status == FROT_DIVERGE) apart = frot_taken_apart(m, s, w, t, w->step.z1, w->step.z1 + m->nq);
+  if (apart >= 0) return frot_fail(s, status, t, apart, 0, -1, h);
   if (status == FROT_DIVERGE && w->step.worst >= 0) {
     int own = w->step.worst < m->nq && m->q_speed[w->step.worst] < 0;
     if (own) blamed = -1;
@@ -101,4 +135,15 @@ int frot_name_vanished(const frot_model *m, frot_state *s, frot_work *w, int sta
   frot_fail(s, FROT_VANISHED, s->fault.t, -1, lost, -1, 0);
   memcpy(s->fault.where, where, sizeof s->fault.where);
   return FROT_VANISHED;
+}
+
+int frot_name_vanished_there(const frot_model *m, frot_state *s, frot_work *w, int status,
+                             double t) {
+  int phase = s->phase;
+  frot_fault fault = s->fault;
+  s->fault = frot_no_fault(t), s->fault.status = status;
+  status = frot_name_vanished(m, s, w, status, w->step.z1);
+  s->phase = phase;
+  if (status != FROT_VANISHED) s->fault = fault;
+  return status;
 }

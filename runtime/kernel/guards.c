@@ -143,7 +143,7 @@ void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w
            second = w->core.lam[element->bounded_by[1]];
     double size = hypot(first, second);
     double largest = s->data[w->layout.scale_g + frot_element_guard(m, e) + 1];
-    if (size > FROT_VANISHED * largest)
+    if (size > FROT_NO_DIRECTION * largest)
       along[0] = first / size, along[1] = second / size;
     else
       along[0] = -along[0], along[1] = -along[1]; /* it passes through zero */

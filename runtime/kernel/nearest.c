@@ -172,11 +172,20 @@ static double scene_of(const frot_opening *p) {
   return scene;
 }
 
+/* What no unknown can mend, where there are none: what time prescribes is to agree by itself. */
+static int look_at_statements(frot_opening *p) {
+  int status = frot_evaluate_statements(p);
+  if (status != FROT_OK) return frot_no_number(p, status);
+  for (int i = 0; i < p->n; i++)
+    if (!frot_is_still(p, i, frot_statement_size(p, i))) return frot_contradiction(p);
+  return FROT_OK;
+}
+
 /* Damped Gauss-Newton to the nearest values in the metric. */
 static int solve(frot_opening *p) {
   frot_work *w = p->w;
   double last = INFINITY;
-  if (frot_opening_count(p) == 0) return FROT_OK;
+  if (frot_opening_count(p) == 0) return look_at_statements(p);
   if (!p->velocity) frot_begin_units(p);
   for (int pass = 0;; pass++) {
     int status = find_inertia(p);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "blame.h"
 #include "blocks.h"
 #include "core.h"
 #include "frozen.h"
@@ -232,6 +233,8 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
       int fault = unsearched                  ? FROT_TOO_LARGE
                   : only_loops(in, chosen[0]) ? FROT_POSTURE
                                               : FROT_IMPASSE;
+      int apart = fault == FROT_POSTURE ? frot_taken_apart(m, in->s, w, t, in->q, in->v) : -1;
+      if (apart >= 0) return frot_fail(in->s, FROT_DIVERGE, t, apart, 0, -1, 0);
       int begins = fault == FROT_POSTURE && in->s->statistics.steps == 0; /* text.c */
       return frot_fail(in->s, fault, t, chosen[0], -1, -1, begins ? 0 : count);
     }

@@ -1,6 +1,7 @@
 /* Values of the variables: at the time reached, and anywhere in recorded segments. */
 #include <string.h>
 
+#include "blame.h"
 #include "blocks.h"
 #include "invariants.h"
 #include "core.h"
@@ -92,7 +93,7 @@ int frot_sample(const frot_model *m, frot_state *s, frot_work *w, const double *
       at = next;
     double t = fmax(times[i], frot_record_begin(at));
     int status = frot_segment_values(m, s, w, at, t, values + i * m->n_variables);
-    if (status != FROT_OK) return status;
+    if (status != FROT_OK) return frot_name_vanished_there(m, s, w, status, t);
   }
   return FROT_OK;
 }

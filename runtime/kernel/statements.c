@@ -71,6 +71,10 @@ static double speed_along(const frot_opening *p, int i) {
   return sqrt(length * motion);
 }
 
+int frot_is_still(const frot_opening *p, int i, double reach) {
+  return fabs(p->w->relations.residual[i]) <= FROT_MOVED_BY_TIME * (reach + 1);
+}
+
 int frot_evaluate_statements(frot_opening *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
@@ -111,7 +115,8 @@ int frot_evaluate_statements(frot_opening *p) {
     if (steepest <= FROT_CONSTANT * w->opening.reach[i]) {
       /* the lengths cancel out: no unknown moves this gap, and none is moved for it */
       memset(equation, 0, sizeof(double) * (size_t)nx);
-      if (p->velocity) w->relations.residual[n] = w->relations.size[n] = 0;
+      if (p->velocity && frot_is_still(p, n, w->opening.reach[i]))
+        w->relations.residual[n] = w->relations.size[n] = 0;
     }
     n++;
   }
@@ -167,6 +172,7 @@ int frot_contradiction(const frot_opening *p) {
       if (p->use[i] && !(m->contacts[i].kinematic && !p->velocity) && at++ == rows[k]) contact = i;
   }
   if (items[0] < 0) items[0] = items[1], items[1] = -1;
+  if (items[0] < 0 && p->velocity) items[1] = -2;
   /* the least-squares solution shares the contradiction out among the equations */
   double apart = fabs(p->w->relations.residual[worst]) +
                  (other < 0 ? 0 : fabs(p->w->relations.residual[other]));

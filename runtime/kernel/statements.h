@@ -40,6 +40,9 @@ static inline int frot_is_attached(const frot_opening *p, int k) {
  * of the terms (w->relations.size); sets p->n. FROT_OK or the status of a failed evaluation. */
 int frot_evaluate_statements(frot_opening *p);
 
+/* Whether equation i, which no unknown moves, holds: to rounding of lengths `reach`. */
+int frot_is_still(const frot_opening *p, int i, double reach);
+
 /* Size of the terms of equation i at the present values. */
 double frot_statement_size(const frot_opening *p, int i);
 /* Whether equation i holds, against the sizes of its terms and its residual before. */

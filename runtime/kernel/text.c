@@ -71,9 +71,9 @@ static void initial_text(const frot_model *m, const frot_fault *f, char *text, s
     snprintf(text, size, "the initial statement `%s` gives no finite number", one);
   else if (f->contact >= 0 && f->item < 0)
     snprintf(text, size,
-             "no positions were found at which liaison '%s' holds together with the others: in the "
-             "last ones that were tried %.3g %s are left",
-             contact_name(m, f->contact), f->value, unit);
+             "no %s were found at which liaison '%s' holds together with the others: in the last "
+             "ones that were tried %.3g %s are left",
+             f->other == -2 ? "speeds" : "positions", contact_name(m, f->contact), f->value, unit);
   else if (f->contact >= 0)
     snprintf(text, size,
              "the initial values contradict liaison '%s': `%s` puts the bodies into each other or "
@@ -240,6 +240,13 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
           f->t);
       return;
     case FROT_DIVERGE:
+      if (f->item >= 0) {
+        snprintf(text, size,
+                 "liaison '%s': time takes apart what it joins from t = %.17g on, and no body that "
+                 "could follow is free to",
+                 name, f->t);
+        return;
+      }
       if (f->other >= 0 && m->states) {
         snprintf(text, size,
                  "'%s' cannot be followed beyond t = %.17g: the step goes to zero, for its rate "

@@ -25,6 +25,9 @@
 #define FROT_CANCELS 1e-12
 /* Part by which a gap or a statement may change with the unknowns and still be constant. */
 #define FROT_CONSTANT 1e-12
+/* Part of the lengths a gap is made of, and of 1 in SI, for those that time prescribes are not among
+ * them, by which it may be off, or change in a second, though no unknown moves it. */
+#define FROT_MOVED_BY_TIME 1e-9
 /* Residual of a statement, in what its unknowns could change in it, that no digit of them mends. */
 #define FROT_NO_DIGIT 1e-14
 /* Part of what it is made of by which a value that time alone changes is constant in a step. */
@@ -70,7 +73,7 @@ static inline double frot_guard_tolerance(double tolerance) {
 /* Part of its size in the next step by which a condition moves that has no rate. */
 #define FROT_FLAT 1e-10
 /* Part of its largest size below which a pin's reaction has no direction. */
-#define FROT_VANISHED 1e-9
+#define FROT_NO_DIRECTION 1e-9
 /* Events of the text that follow each other in one ratio, to this part of it, have a limit, and
  * crowd when their distance is this part of the first. */
 #define FROT_ONE_RATIO 0.01

@@ -1,0 +1,117 @@
+"""Bodies and liaisons that cannot be: told with what is named, where, before or in a run."""
+
+from __future__ import annotations
+
+import pytest
+
+import frot
+
+SPACE = "model M\n  {}\n  experiment(stop = 0.2 s);\nend M;\n"
+SOLID = "body b: solid(mass = 1 kg, inertia = {});"
+CUBE = "body b: box(mass = 1 kg, size = (1, 1, 1) m); "
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (
+            SOLID.format("(1, 1, 3) kg.m^2"),
+            "the sum of the other moments less moment 3 of the inertia of body 'b' is -1",
+        ),
+        (
+            SOLID.format("((1, 0.9, 0), (0.9, 1, 0), (0, 0, 1)) kg.m^2"),
+            "the product of what each two principal moments are more than the third",
+        ),
+        (
+            SOLID.format("((1, 0.1, 0), (0.1, 1, 0.2), (0, 0.1, 1)) kg.m^2"),
+            "the difference of items [2, 3] and [3, 2], taken from zero, of the inertia of body "
+            "'b' is -0.1",
+        ),
+        (
+            CUBE + "liaison j: cardan(ground, b, axis_a = x, axis_b = (2, 0, 0));",
+            "product of the axes of liaison 'j', which must cross, is 0",
+        ),
+        (
+            CUBE + "liaison j: cardan(ground, b, axis_a = (0, 0, 0));",
+            "the length of the axis_a of liaison 'j' is 0",
+        ),
+        (
+            CUBE + "surface s on b: plane(through = (0, 0, 0) m, normal = (0, 0, 0));",
+            "the length of the normal of surface 's' is 0",
+        ),
+    ],
+)
+def test_inertias_and_directions_are_told_before_anything_runs(given: str, told: str) -> None:
+    """With the line of the text; one mistake is one message."""
+    with pytest.raises(frot.FrotError) as raised:
+        frot.compile(SPACE.format(given)).report()
+    (one,) = raised.value.diagnostics
+    assert one.code == "E0401"
+    assert told in one.message
+    assert "--> <text>:2:" in str(raised.value)
+
+
+def test_a_liaison_of_ones_own_does_not_join_a_body_to_itself() -> None:
+    own = "liaison Same(a: frame, b: frame)\n  geometric a.position.x = b.position.x;\nend Same;\n"
+    with pytest.raises(frot.FrotError, match=r"both places of liaison 'j' are on body 'b'"):
+        frot.compile(own + SPACE.format(CUBE + "frame f on b; liaison j: Same(b, f);"))
+
+
+ROD = "planar model M\n  body a: rod(mass = 1 kg, length = 1 m);\n  {}\n"
+ROD += "  experiment(stop = 2 s);\nend M;\n"
+DRIVEN = "liaison p: rotoide(ground, a.start) driven(angle = {}); "
+
+
+@pytest.mark.parametrize(
+    ("liaisons", "told"),
+    [
+        # two drives of one pin: at different speeds, and from t = 0 on with different accelerations
+        (
+            DRIVEN.format("time/(1 s)") + DRIVEN.format("2*time/(1 s)").replace("p:", "q:"),
+            "no speeds were found at which liaison 'q' holds together with the others",
+        ),
+        (
+            DRIVEN.format("(time/(1 s))^2") + DRIVEN.format("2*(time/(1 s))^2").replace("p:", "q:"),
+            "liaison 'q': time takes apart what it joins from t = 0 on",
+        ),
+        # the second goes its own way slowly, beside a body that is free
+        (
+            DRIVEN.format("time/(1 s)")
+            + DRIVEN.format("time/(1 s) + (time/(1 s))^8").replace("p:", "q:")
+            + "body free: particle(mass = 1 kg);",
+            "liaison 'q': time takes apart what it joins from t = 0.0",
+        ),
+        # nothing moves, and a rod is too long
+        (
+            DRIVEN.format("0*time/(1 s)") + "frame f on ground at (2, 0) m; "
+            "liaison t: tige(a.tip, f, length = 1.5 m);",
+            "no positions were found at which liaison 't' holds together with the others: in the "
+            "last ones that were tried 0.5 in SI are left",
+        ),
+    ],
+)
+def test_what_time_prescribes_against_itself_is_told_with_the_liaison(
+    liaisons: str, told: str
+) -> None:
+    with pytest.raises(frot.FrotError) as raised:
+        frot.compile(ROD.format(liaisons)).simulate()
+    assert told in str(raised.value)
+
+
+def test_drives_that_agree_are_no_contradiction() -> None:
+    text = DRIVEN.format("time/(1 s)") + DRIVEN.format("1*time/(1 s)").replace("p:", "q:")
+    result = frot.compile(ROD.format(text)).simulate()
+    assert abs(result["p.angle"][-1] - 2) < 1e-12
+
+
+def test_a_plane_that_loses_its_normal_in_a_run_is_named() -> None:
+    """At t = 0.1 s, which lies between two steps and is asked for by the output grid."""
+    text = (
+        "body b: particle(mass = 1 kg); surface s on ground: "
+        "plane(through = (0, 0, 0) m, normal = (0, 0, 1 - 10*time/(1 s))); "
+        "liaison j: point_surface(b, s);"
+    )
+    with pytest.raises(frot.FrotError) as raised:
+        frot.compile(SPACE.format(text)).simulate()
+    assert "E0911" in str(raised.value)
+    assert "liaison 'j': 's' has no direction at t = 0.1" in str(raised.value)
