@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import isfinite
 
 import casadi as ca
 from frot.compiler.equations.eliminate import Pivot
@@ -105,28 +104,37 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
                 )
 
 
-_RULES = {
-    POSITIVE: ("must be positive", lambda x, before: x > 0),
-    NOT_NEGATIVE: ("must not be negative", lambda x, before: x >= 0),
-    NOT_BELOW_PREVIOUS: (
-        "must not be below the coefficient of motion",
-        lambda x, before: x >= before,
-    ),
+_MUST: Mapping[int, str] = {
+    POSITIVE: "must be positive",
+    NOT_NEGATIVE: "must not be negative",
+    NOT_BELOW_PREVIOUS: "must not be below the coefficient of motion",
 }
+
+
+class _Defaults(dict[Parameter, object]):
+    """Values of parameters; those of a shape's own constants are found when they are asked for."""
+
+    def __missing__(self, parameter: Parameter) -> object:
+        self[parameter] = evaluate(parameter.value, self)
+        return self[parameter]
 
 
 def refuse_values(mechanism: Mechanism, log: Log) -> None:
     """Report the first that the defaults of the parameters break: the model has no meaning then."""
-    values, before = default_values(mechanism.model, {}), 0.0
+    values, before = _Defaults(default_values(mechanism.model, {})), 0.0
     for check in _checks(mechanism, ()):
         assert isinstance(check.value, Expression)
-        x = as_number(evaluate(check.value, values))
-        if check.rule in _RULES and isfinite(x):
-            rule, holds = _RULES[check.rule]
-            if not holds(x, before):
-                message = f"the {check.subject} is {x:.9g}: it {rule}"
-                log.report("E0401", message, check.span, notes=check.notes)
-                return
+        if not is_fixed(check.value):
+            continue
+        try:
+            x = as_number(evaluate(check.value, values))
+        except ValueError:  # no number at all: told by the run
+            continue
+        broken = {POSITIVE: x <= 0, NOT_NEGATIVE: x < 0, NOT_BELOW_PREVIOUS: x < before}
+        if broken.get(check.rule):
+            message = f"the {check.subject} is {x:.9g}: it {_MUST[check.rule]}"
+            log.report("E0401", message, check.span, notes=check.notes)
+            return
         before = x
 
 

@@ -13,6 +13,8 @@ from frot.dsl import Log
 from frot.dsl.checked import (
     BodyPoint,
     Curve,
+    Derivative,
+    Expression,
     Force,
     Law,
     Liaison,
@@ -20,7 +22,10 @@ from frot.dsl.checked import (
     Model,
     Place,
     Quantity,
+    Reference,
     Surface,
+    Time,
+    Variable,
 )
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import dimension
@@ -35,9 +40,14 @@ REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mod
 def refuse_unknown(model: Model, log: Log) -> None:
     """Tell every kind, law, force and option of the model that has no mechanics yet."""
     shapes: tuple[Curve | Surface, ...] = (*model.curves, *model.surfaces)
+    own = set(model.variables)
     for shaped in shapes:
         for name, argument in shaped.arguments.items():
-            if not is_fixed(argument) and not follows_time(argument, "uvxyz"):
+            of_text = any(
+                isinstance(node, Reference) and node.target in own
+                for node in subexpressions(argument)
+            )
+            if of_text or not (is_fixed(argument) or follows_time(argument, "uvxyz")):
                 what = f"'{name}' of a curve or surface that depends on other than time and place"
                 refuse(log, what, argument.span)
     for frame in model.frames:
@@ -46,6 +56,9 @@ def refuse_unknown(model: Model, log: Log) -> None:
                 continue
             if not follows_time(value):
                 refuse(log, "a frame that depends on other than time", value.span)
+        if not isinstance(frame.axis, str) and not _is_given(frame.axis):
+            what = f"an axis of frame '{frame.name}' that changes"
+            refuse(log, what, frame.axis.span, "let its angle change, or that of a frame it is on")
     for body in model.bodies:
         for argument in body.arguments.values():
             if not is_fixed(argument):
@@ -60,6 +73,7 @@ def refuse_unknown(model: Model, log: Log) -> None:
                 liaison.span,
                 _one_of("liaisons", known),
             )
+        _refuse_options(liaison, log)
         _refuse_drive(liaison, model.planar, log)
         for law in liaison.laws:
             _refuse_law(liaison, law, model.planar, log)
@@ -89,6 +103,34 @@ def refuse_unknown(model: Model, log: Log) -> None:
                     node.span,
                     "every result holds the mode of each liaison by its name",
                 )
+
+
+def _refuse_options(liaison: Liaison, log: Log) -> None:
+    """Directions belong to the places; lengths may change as time tells."""
+    for argument in liaison.kind.arguments:
+        value = liaison.options.get(argument.name)
+        if value is None or argument.name == "unilateral":
+            continue
+        if argument.kind == "axis" and not _is_given(value):
+            what = f"'{argument.name}' of a {spelled(liaison)} that changes"
+            refuse(log, what, value.span, "let a frame turn with time and join that")
+        elif not (_is_given(value) or follows_time(value)):
+            driven = argument.name in liaison.kind.coordinates
+            refuse(
+                log,
+                f"'{argument.name}' of a {spelled(liaison)} that depends on other than time",
+                value.span,
+                f"write `driven({argument.name} = ...)`" if driven else "let it depend on time",
+            )
+
+
+def _is_given(value: Expression) -> bool:
+    """Whether no time and no motion changes a value: parameters and inputs give it."""
+    return not any(
+        isinstance(node, Time | Quantity | Derivative)
+        or (isinstance(node, Reference) and isinstance(node.target, Variable))
+        for node in subexpressions(value)
+    )
 
 
 def _refuse_drive(liaison: Liaison, planar: bool, log: Log) -> None:

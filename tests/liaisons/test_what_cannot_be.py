@@ -51,6 +51,36 @@ def test_inertias_and_directions_are_told_before_anything_runs(given: str, told:
     assert "--> <text>:2:" in str(raised.value)
 
 
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (
+            "liaison j: rotoide(g, b, axis = (time/(1 s), 0, 1));",
+            "'axis' of a rotoïde that changes",
+        ),
+        ("liaison j: rotoide(g, b, axis = (b.ex.x, 0, 1));", "'axis' of a rotoïde that changes"),
+        (
+            "liaison j: appui_plan(g, b, normal = (x, 0, 1));",
+            "'normal' of a appui_plan that changes",
+        ),
+        ("frame f on b rotated(axis = (time/(1 s), 0, 1), angle = 1);", "axis of frame 'f' that"),
+        ("liaison j: tige(g, b, length = x*2 m);", "'length' of a tige that depends on other"),
+        (
+            "surface s on ground: sphere(radius = (1 + x)*1 m); liaison j: point_surface(b, s);",
+            "'radius' of a curve or surface that depends on other than time and place",
+        ),
+    ],
+)
+def test_what_does_not_change_with_the_motion_is_refused_by_name(given: str, told: str) -> None:
+    own = "Real x; frame g on ground at (2, 0, 0) m; " + CUBE + given
+    text = SPACE.replace("  experiment", "equation\n  x = 1 + time/(1 s);\n  experiment")
+    with pytest.raises(frot.FrotError) as raised:
+        frot.compile(text.format(own)).report()
+    (one,) = raised.value.diagnostics
+    assert one.code == "E0701"
+    assert told in one.message
+
+
 def test_a_liaison_of_ones_own_does_not_join_a_body_to_itself() -> None:
     own = "liaison Same(a: frame, b: frame)\n  geometric a.position.x = b.position.x;\nend Same;\n"
     with pytest.raises(frot.FrotError, match=r"both places of liaison 'j' are on body 'b'"):
