@@ -7,12 +7,13 @@
 /* Record the fault `status` of a step h at t, with what is to blame: a block of equations, the
  * contact of a coefficient or the force that is no number (by the values w->step.z1 of the last
  * evaluation) or, when the step goes to zero, the state whose error forced it, or the contact that
- * time takes apart, or that with the largest reaction where that is a coordinate or a speed. Returns the status. */
+ * time takes apart, or that with the largest reaction where that is a coordinate or a speed.
+ * Returns the status. */
 int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t,
                    double h);
 
-/* The closed contact whose bodies time takes apart most in the run after t, where the values q and v
- * stay and no speed moves them along it; -1 if none. */
+/* The closed contact whose bodies time takes apart most in the run after t, where the values q and
+ * v stay and no speed moves them along it; -1 if none. */
 int frot_taken_apart(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                      const double *v);
 

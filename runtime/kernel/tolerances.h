@@ -25,8 +25,8 @@
 #define FROT_CANCELS 1e-12
 /* Part by which a gap or a statement may change with the unknowns and still be constant. */
 #define FROT_CONSTANT 1e-12
-/* Part of the lengths a gap is made of, and of 1 in SI, for those that time prescribes are not among
- * them, by which it may be off, or change in a second, though no unknown moves it. */
+/* Part of the lengths a gap is made of, and of 1 in SI, for those that time prescribes are not
+ * among them, by which it may be off, or change in a second, though no unknown moves it. */
 #define FROT_MOVED_BY_TIME 1e-9
 /* Residual of a statement, in what its unknowns could change in it, that no digit of them mends. */
 #define FROT_NO_DIGIT 1e-14
