@@ -361,11 +361,15 @@ class Engine:
             raise self._no_value(found, times, status)
         return found
 
-    def sample(self, record: array[float], times: Iterable[float]) -> Floats:
-        """The same as an array of numpy, times x variables."""
-        asked = array("d", times)
-        found = as_floats(self.values(record, asked))
-        return found.reshape(len(asked), len(self.program.variables))
+    def sample(self, segments: array[float] | Floats, times: Iterable[float]) -> Floats:
+        """The same of segments that are held otherwise, and copied."""
+        record: array[float] = array("d", segments.tobytes())
+        return self.rows(record, array("d", times))
+
+    def rows(self, record: array[float], times: array[float]) -> Floats:
+        """The values as an array of numpy, times x variables."""
+        found = as_floats(self.values(record, times))
+        return found.reshape(len(times), len(self.program.variables))
 
     def _no_value(self, values: array[float], times: array[float], status: int) -> Exception:
         """The error of a sample that gave no numbers: the first variable without one is named."""

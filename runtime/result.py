@@ -216,7 +216,7 @@ class Result(Mapping[str, "Floats"]):
             raise ValueError(f"the run goes from {first:.17g} s to {last:.17g} s")
         order = np.argsort(times, kind="stable")
         sampled = np.empty((len(times), len(self.program.variables)))
-        sampled[order] = self._engine.sample(self._record, times[order])
+        sampled[order] = self._engine.rows(self._record, array("d", times[order]))
         return Values(self.program, sampled[0] if np.ndim(t) == 0 else sampled)
 
     def save(self, path: str | Path) -> None:

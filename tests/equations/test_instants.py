@@ -66,7 +66,7 @@ WHENS = {
 
 def times_of_change(result: frot.Result, name: str) -> list[float]:
     """The ends of the steps at which a value that jumps has another value than before."""
-    starts = result._segments.reshape(-1, result._engine.segment_size)[:, 2]
+    starts = np.frombuffer(result._record).reshape(-1, result._engine.segment_size)[:, 2]
     values = result.at(np.unique(np.clip(starts, 0, result.time[-1])))[name]
     at = np.unique(starts)[1:][np.diff(values) != 0]
     return list(at)
