@@ -11,6 +11,8 @@
 /* Distance in m, or in radii, from where a figure has no tangent or normal at which a failure is
  * that of it. */
 #define VANISHED 1e-6
+/* Part of the time by which it is looked beyond the instant at which the step goes to zero. */
+#define BEYOND 1e-12
 
 /* The applied force that is no number at the last evaluation (values w->step.z1), or -1. */
 static int wrong_load(const frot_model *m, frot_state *s, frot_work *w) {
@@ -93,6 +95,12 @@ int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status,
     return frot_fail_evaluation(m, s, w, status, t);
   int blamed = wrong_contact(m, w, status), state = -1;
   int load = status == FROT_NAN && blamed < 0 ? wrong_load(m, s, w) : -1;
+  if (status ==
+      FROT_DIVERGE) { /* a force may come to where it has no value with a slope without end */
+    w->core.t = t + BEYOND * fmax(fabs(t), s->h_max);
+    load = wrong_load(m, s, w);
+    if (load >= 0) return frot_fail(s, FROT_NAN, t, -1, load, -1, h);
+  }
   int apart = -1;
   if (status == FROT_DIVERGE) apart = frot_taken_apart(m, s, w, t, w->step.z1, w->step.z1 + m->nq);
   if (apart >= 0) return frot_fail(s, status, t, apart, 0, -1, h);
