@@ -154,6 +154,11 @@ int frot_all_held(const frot_instant *in, int i) {
   return 1;
 }
 
+int frot_must_press(const frot_instant *in, int i) {
+  if (in->unilateral[i] != 0) return 1;
+  return frot_sign_matters(in->m, in->w->search.trial, i) && !frot_all_held(in, i);
+}
+
 void frot_turn_side(const frot_instant *in, int i) {
   const frot_model *m = in->m;
   frot_contact_mode *trial = in->w->search.trial;

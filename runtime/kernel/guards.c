@@ -8,6 +8,8 @@
 #include "terms.h"
 #include "tolerances.h"
 
+#define AGREES 0.5 /* cosine by which a direction is the one before, however small the reaction */
+
 int frot_sign_matters(const frot_model *m, const frot_contact_mode *modes, int i) {
   const frot_group *g = &m->groups[m->contact_group[i]];
   for (int k = 0; k < g->n_elements; k++) {
@@ -132,6 +134,12 @@ int frot_guards_read_loads(const frot_model *m, const frot_work *w,
   return 0;
 }
 
+/* Whether the reaction of a pin, of this size, is more than zero in the terms it had. */
+static int has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e,
+                         double size) {
+  return size > FROT_NO_DIRECTION * s->data[w->layout.scale_g + frot_element_guard(m, e) + 1];
+}
+
 void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   for (int i = 0; i < now->n_elements; i++) {
@@ -142,11 +150,25 @@ void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w
     double first = w->core.lam[element->bounded_by[0]],
            second = w->core.lam[element->bounded_by[1]];
     double size = hypot(first, second);
-    double largest = s->data[w->layout.scale_g + frot_element_guard(m, e) + 1];
-    if (size > FROT_NO_DIRECTION * largest)
+    int agrees = along[0] * first + along[1] * second > AGREES * size;
+    if (agrees || has_direction(m, s, w, e, size))
       along[0] = first / size, along[1] = second / size;
-    else
-      along[0] = -along[0], along[1] = -along[1]; /* it passes through zero */
+  }
+}
+
+void frot_pass_references(const frot_model *m, frot_state *s, frot_work *w,
+                          const frot_contact_mode *modes) {
+  for (int e = 0; e < m->n_elements; e++) {
+    const frot_element *element = &m->elements[e];
+    const double *fired = s->data + w->layout.fired + frot_element_guard(m, e);
+    if (element->bound != FROT_BY_PIN || fired[1] == 0) continue;
+    if (frot_element_mode(m, modes, e)->friction <= FROT_STICK) continue;
+    if (frot_group_reactions(m, w, frot_group_of(m, element->row), modes, NULL)) continue;
+    double first = w->core.lam[element->bounded_by[0]],
+           second = w->core.lam[element->bounded_by[1]];
+    double *along = s->data + w->layout.along + 2 * e;
+    if (!has_direction(m, s, w, e, hypot(first, second)))
+      along[0] = -along[0], along[1] = -along[1];
   }
 }
 

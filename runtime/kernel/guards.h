@@ -33,6 +33,10 @@ double frot_reaction_size(const frot_model *m, const frot_work *w, int row);
  * reaction has a corner where it passes through zero: while a pin slips, its second guard is its
  * reaction along the reference, so that no step goes over the corner. */
 void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w);
+/* Turn those round that have fired and whose reaction passes through zero in `modes`, after
+ * frot_dynamics at the event. Of one that is as small for long it is not known to pass. */
+void frot_pass_references(const frot_model *m, frot_state *s, frot_work *w,
+                          const frot_contact_mode *modes);
 
 /* Whether the sign of a bilateral reaction matters: friction follows it. */
 int frot_sign_matters(const frot_model *m, const frot_contact_mode *modes, int contact);

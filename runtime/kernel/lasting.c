@@ -23,8 +23,7 @@
 #define LATEST 0.1
 #define CLEARLY 1e-8 /* part of its terms by which what was zero has fallen then */
 
-/* What is left of an inequality, over the size of its terms: of a contact. */
-static double margin_of_contact(const frot_instant *in, int i) {
+double frot_margin_of_contact(const frot_instant *in, int i) {
   const frot_work *w = in->w;
   const frot_contact_mode *mode = &w->search.trial[i];
   int row = in->m->contacts[i].row_n;
@@ -41,8 +40,7 @@ static double margin_of_contact(const frot_instant *in, int i) {
   return size > 0 ? value / size : 0;
 }
 
-/* The same of an element. */
-static double margin_of_element(const frot_instant *in, int e) {
+double frot_margin_of_element(const frot_instant *in, int e) {
   const frot_model *m = in->m;
   const frot_work *w = in->w;
   const frot_element *element = &m->elements[e];
@@ -78,11 +76,11 @@ static int note_margins(const frot_instant *in, const int *chosen, int count) {
   for (int k = 0; k < m->n_contacts + m->n_elements; k++) margin[k] = 1;
   for (int c = 0; c < count; c++) {
     double *own = margin + chosen[c];
-    *own = margin_of_contact(in, chosen[c]);
+    *own = frot_margin_of_contact(in, chosen[c]);
     if (in->fired[chosen[c]] != 0 && *own < 1) *own = 0;
     for (int e = 0; e < m->n_elements; e++) {
       if (m->elements[e].contact != chosen[c]) continue;
-      own = margin + m->n_contacts + e, *own = margin_of_element(in, e);
+      own = margin + m->n_contacts + e, *own = frot_margin_of_element(in, e);
       if (fired(in, e) && *own < 1) *own = 0;
     }
   }
@@ -142,7 +140,7 @@ static int still_holds(const frot_instant *in, const int *chosen, int count, int
     int i = chosen[c];
     const frot_contact_mode *mode = &in->w->search.trial[i];
     if (margin[i] < 1) {
-      double now = margin_of_contact(in, i);
+      double now = frot_margin_of_contact(in, i);
       if (now < 0 && mode->closed && in->unilateral[i] == 0 && frot_all_held(in, i)) {
         if (margin[i] <= FROT_ZERO) frot_turn_side(in, i);
       } else if (now < 0 && now < margin[i] - CLEARLY) {
@@ -153,7 +151,7 @@ static int still_holds(const frot_instant *in, const int *chosen, int count, int
     }
     for (int e = 0; e < m->n_elements; e++) {
       if (m->elements[e].contact != i || !(margin[m->n_contacts + e] < 1)) continue;
-      double now = margin_of_element(in, e);
+      double now = frot_margin_of_element(in, e);
       if (now < 0 && now < margin[m->n_contacts + e] - CLEARLY) return 0;
       *slow |= now < 0;
     }

@@ -11,6 +11,7 @@
 #include "probe.h"
 #include "spare.h"
 #include "stages.h"
+#include "tolerances.h"
 
 /* Time from which on steps are measured by its resolution, in longest steps. */
 #define LEAST_TIME 1e-12
@@ -25,6 +26,7 @@
 #define CUT 0.25
 #define HALF 0.5 /* of the implicit method, whose stages were not found */
 #define SAFETY 0.9
+#define ALL_NOISE 1.5 /* where the error is below what rounding does */
 #define SAFETY_OF_MOTION 0.7
 
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
@@ -90,8 +92,8 @@ void frot_plan_next(const frot_model *m, frot_state *s, const frot_work *w, cons
   factor = fmin(fmax(factor, LEAST_PART), a->rejections ? 1 : MOST_GROWTH);
   if (factor < 1 && !a->to_due && frot_foresees_posture(m, s, w, a->t, a->h))
     factor = 1; /* a tied step need not be shorter */
-  if (w->step.noisy >= 1)
-    factor = fmax(factor, 1); /* noise grows with the step as its bound does */
+  /* noise grows with the step as its bound does: an error that is all noise says no more */
+  if (w->step.noisy >= 1) factor = fmax(factor, w->step.noisy > FROT_NOISE_MARGIN ? ALL_NOISE : 1);
   s->h = fmin(a->h * factor, fmin(a->longest, a->stable));
   if (s->weak) s->h = fmax(a->h, a->want); /* noise does not show how long it may be */
   if (a->to_due) s->h = fmax(s->h, planned);

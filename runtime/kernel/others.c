@@ -23,7 +23,7 @@ static int find_worst(const frot_instant *in, const int *chosen, int count, int 
   int worst_contact = -1, worst_element = -1;
   for (int c = 0; c < count; c++) {
     int i = chosen[c];
-    if (!frot_is_loaded(m, trial, i) || in->unilateral[i] == 0) continue;
+    if (!frot_is_loaded(m, trial, i) || !frot_must_press(in, i)) continue;
     double left = frot_pressure(in, i);
     if (left < most) most = left, worst_contact = i;
   }
@@ -83,7 +83,7 @@ static int find_corner(const frot_instant *in, const int *chosen, int count, int
   for (int k = first; k < all; k++) {
     int e = k - count, contact = e < 0 ? chosen[k] : m->elements[e].contact, among = e < 0;
     for (int c = 0; c < count; c++) among |= chosen[c] == contact;
-    if (!among || (e < 0 ? !frot_is_loaded(m, trial, contact) || in->unilateral[contact] == 0
+    if (!among || (e < 0 ? !frot_is_loaded(m, trial, contact) || !frot_must_press(in, contact)
                          : !frot_is_held(m, trial, e)))
       continue;
     for (int way = 1; way >= (e < 0 ? 1 : -1); way -= 2) {

@@ -301,6 +301,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   frot_find_frozen(m, s, w, modes, frozen);
   for (int k = 0; k < m->nv; k++)
     if (frozen[k] != 0) v[k] = 0;
+  frot_pass_references(m, s, w, modes);
   memset(fired, 0, sizeof(double) * (size_t)l.nf);
   for (int i = 0; i < m->n_contacts; i++)
     if (memcmp(&modes[i], &w->search.before[i], sizeof *modes) != 0) frot_forget_guards(m, s, i, 1);

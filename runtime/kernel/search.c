@@ -5,101 +5,9 @@
 #include <string.h>
 
 #include "core.h"
+#include "options.h"
 #include "reactions.h"
 #include "tolerances.h"
-
-#define OPTIONS 40 /* of one contact: two elements with four modes each, two sides, open */
-#define LAWS 2     /* elements of one contact at most */
-
-/* Modes of a contact and of its elements. */
-typedef struct {
-  frot_contact_mode contact, element[LAWS];
-} option;
-
-static const frot_contact_mode OPEN = {0, 1, 0, 0, 0, {0}};
-
-int frot_bounds_something(const frot_model *m, const frot_work *w, int element) {
-  const double *k = w->core.coefficient + 2 * element;
-  return !(m->elements[element].fixed && k[0] == 0 && k[1] == 0);
-}
-
-/* Elements of a contact; returns how many. */
-static int elements_of(const frot_model *m, int contact, int own[LAWS]) {
-  int n = 0;
-  for (int e = 0; e < m->n_elements && n < LAWS; e++)
-    if (m->elements[e].contact == contact) own[n++] = e;
-  return n;
-}
-
-/* The direction in which rest ends now; a prescribed motion says itself. */
-static int direction_left(const frot_instant *in, int e) {
-  int left = (int)in->left[e];
-  if (left != 0 && in->m->elements[e].prescribed)
-    return in->w->core.c[in->m->elements[e].row] > 0 ? 1 : -1;
-  return left;
-}
-
-/* The modes one element may take. */
-static int element_options(const frot_instant *in, int e, int forced, frot_contact_mode *list) {
-  static const signed char ways[3] = {FROT_STICK, FROT_SLIP_FORWARD, FROT_SLIP_BACKWARD};
-  const frot_contact_mode still = {0, 0, 0, FROT_STICK, 0, {0}};
-  int n = 0, left = direction_left(in, e);
-  list[0] = still;
-  if (!frot_bounds_something(in->m, in->w, e)) return list[0].friction = FROT_NONE, 1;
-  if (!in->zero[e]) {
-    double rate = in->w->core.rate[in->m->elements[e].row];
-    return list[0].friction = rate > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD, 1;
-  }
-  if (!in->at_rest[e]) { /* it departs, in either direction */
-    list[0].friction = FROT_SLIP_FORWARD;
-    list[1] = still, list[1].friction = FROT_SLIP_BACKWARD;
-    return 2;
-  }
-  if (left != 0 && forced)
-    return list[0].friction = left > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD, 1;
-  if (left != 0 && !in->m->elements[e].prescribed) /* others may hold what it cannot */
-    list[n] = still, list[n++].at_bound = (signed char)-left;
-  for (int k = 0; k < 3; k++) list[n] = still, list[n++].friction = ways[k];
-  return n;
-}
-
-static int contact_options(const frot_instant *in, int i, int forced, option *list) {
-  const frot_contact *contact = &in->m->contacts[i];
-  frot_contact_mode before = in->w->search.before[i], modes[LAWS][4];
-  int own[LAWS], counts[LAWS] = {1, 1}, laws = elements_of(in->m, i, own), n = 0;
-  int can_open = in->unilateral[i] != 0 && frot_has_normal(contact);
-  int one_sided = can_open || !frot_has_normal(contact), acts = 0;
-  int changes = forced && before.closed && in->fired[i] != 0;
-  memset(modes, 0, sizeof modes);
-  for (int k = 0; k < laws; k++) {
-    counts[k] = element_options(in, own[k], forced, modes[k]);
-    acts |= modes[k][0].friction != FROT_NONE;
-  }
-  /* a reaction that came to zero may stay there, if others carry the load */
-  int unloads = before.closed && can_open && !contact->reduced && in->fired[i] != 0;
-  for (int a = 0; a < counts[0] && !(changes && can_open); a++)
-    for (int b = 0; b < counts[1]; b++)
-      for (int side = 1; side >= -1; side -= 2) {
-        int held = modes[0][a].friction <= FROT_STICK && modes[1][b].friction <= FROT_STICK;
-        int turns = changes && !one_sided;
-        if (side < 0 && (one_sided || !acts)) continue;
-        if (turns && side == before.side) continue;
-        /* the side follows from the reaction, but friction at its bound from the side */
-        if (side < 0 && !turns && held && !modes[0][a].at_bound && !modes[1][b].at_bound) continue;
-        for (int unloaded = unloads; unloaded >= 0; unloaded--, n++)
-          list[n] = (option){{1, (signed char)side, (signed char)unloaded, 0, 0, {0}},
-                             {modes[0][a], modes[1][b]}};
-      }
-  if (can_open) list[n] = (option){OPEN, {{0}, {0}}}, n++;
-  return n;
-}
-
-static void take(const frot_instant *in, int i, const option *chosen) {
-  int own[LAWS], laws = elements_of(in->m, i, own);
-  in->w->search.trial[i] = chosen->contact;
-  for (int k = 0; k < laws; k++)
-    in->w->search.trial[in->m->n_contacts + own[k]] = chosen->element[k];
-}
 
 static int same(const frot_contact_mode *a, const frot_contact_mode *b) {
   return a->closed == b->closed && a->friction == b->friction && (!a->closed || a->side == b->side);
@@ -108,9 +16,9 @@ static int same(const frot_contact_mode *a, const frot_contact_mode *b) {
 /* How much a combination is preferred: rest first, then continuity, or the other way round. */
 static int preference(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
-  int rest = 0, kept = 0, own[LAWS];
+  int rest = 0, kept = 0, own[FROT_LAWS_OF_CONTACT];
   for (int c = 0; c < count; c++) {
-    int laws = elements_of(m, chosen[c], own);
+    int laws = frot_laws_of(m, chosen[c], own);
     kept += same(&in->w->search.trial[chosen[c]], &in->w->search.before[chosen[c]]);
     for (int k = 0; k < laws; k++) {
       const frot_contact_mode *mode = frot_element_mode(m, in->w->search.trial, own[k]);
@@ -118,7 +26,7 @@ static int preference(const frot_instant *in, const int *chosen, int count) {
       kept += same(mode, frot_element_mode(m, in->w->search.before, own[k]));
     }
   }
-  int big = (1 + LAWS) * m->n_contacts + 1;
+  int big = (1 + FROT_LAWS_OF_CONTACT) * m->n_contacts + 1;
   return in->s->options.on_indeterminate == FROT_CONTINUE ? kept * big + rest : rest * big + kept;
 }
 
@@ -152,9 +60,9 @@ static int count_motion(const frot_instant *in, const int *chosen, int motions) 
 
 static void remember(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
-  int own[LAWS];
+  int own[FROT_LAWS_OF_CONTACT];
   for (int c = 0; c < count; c++) {
-    int laws = elements_of(m, chosen[c], own);
+    int laws = frot_laws_of(m, chosen[c], own);
     in->w->search.best[chosen[c]] = in->w->search.trial[chosen[c]];
     for (int k = 0; k < laws; k++)
       in->w->search.best[m->n_contacts + own[k]] = in->w->search.trial[m->n_contacts + own[k]];
@@ -166,14 +74,14 @@ static void remember(const frot_instant *in, const int *chosen, int count) {
 static int enumerate(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
                      const unsigned char *certain) {
   frot_work *w = in->w;
-  option lists[OPTIONS];
+  frot_option lists[FROT_OPTIONS];
   int *options = w->search.choice, *digit = w->search.choice + count, motions = 0, best = 0,
       any = 0;
   for (int c = 0; c < count; c++) {
     int fixed = certain && certain[chosen[c]];
-    options[c] = fixed ? 1 : contact_options(in, chosen[c], forced, lists);
+    options[c] = fixed ? 1 : frot_contact_options(in, chosen[c], forced, lists);
     digit[c] = 0;
-    if (!fixed) take(in, chosen[c], &lists[0]);
+    if (!fixed) frot_take_option(in, chosen[c], &lists[0]);
   }
   size_t modes = (size_t)(in->m->n_contacts + in->m->n_elements);
   memcpy(w->search.guess, w->search.trial, sizeof *w->search.trial * modes);
@@ -189,18 +97,18 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
     for (; c < count; c++) {
       if (options[c] > 1) {
         digit[c] = (digit[c] + 1) % options[c];
-        contact_options(in, chosen[c], forced, lists);
-        take(in, chosen[c], &lists[digit[c]]);
+        frot_contact_options(in, chosen[c], forced, lists);
+        frot_take_option(in, chosen[c], &lists[digit[c]]);
         if (digit[c] != 0) break;
       }
     }
     if (c == count) return motions;
     for (int k = 0; k < count; k++) {
       if (options[k] > 1) {
-        contact_options(in, chosen[k], forced, lists);
-        take(in, chosen[k], &lists[digit[k]]);
+        frot_contact_options(in, chosen[k], forced, lists);
+        frot_take_option(in, chosen[k], &lists[digit[k]]);
       } else {
-        int own[LAWS], laws = elements_of(in->m, chosen[k], own);
+        int own[FROT_LAWS_OF_CONTACT], laws = frot_laws_of(in->m, chosen[k], own);
         w->search.trial[chosen[k]] = w->search.guess[chosen[k]];
         for (int j = 0; j < laws; j++)
           w->search.trial[in->m->n_contacts + own[j]] = w->search.guess[in->m->n_contacts + own[j]];
@@ -212,10 +120,10 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
 int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
-  int own[LAWS];
+  int own[FROT_LAWS_OF_CONTACT];
   memset(w->search.trial, 0, sizeof *w->search.trial * (size_t)(m->n_contacts + m->n_elements));
   for (int c = 0; c < count; c++) {
-    int laws = elements_of(m, chosen[c], own);
+    int laws = frot_laws_of(m, chosen[c], own);
     w->search.trial[chosen[c]] = w->search.before[chosen[c]];
     if (!w->search.before[chosen[c]].closed) return 0;
     for (int k = 0; k < laws; k++) {
@@ -234,7 +142,7 @@ int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count) {
 
 /* Whether a guard of the contact or of its elements fired. */
 static int left_here(const frot_instant *in, int i) {
-  int own[LAWS], laws = elements_of(in->m, i, own), any = in->fired[i] != 0;
+  int own[FROT_LAWS_OF_CONTACT], laws = frot_laws_of(in->m, i, own), any = in->fired[i] != 0;
   for (int k = 0; k < laws; k++) any |= in->left[own[k]] != 0;
   return any;
 }
@@ -243,11 +151,11 @@ static int left_here(const frot_instant *in, int i) {
 static int search_near(const frot_instant *in, const int *chosen, int count, int forced,
                        int lasting, int ends) {
   unsigned char *certain = in->w->search.certain;
-  option lists[OPTIONS];
+  frot_option lists[FROT_OPTIONS];
   double combinations = 1;
   frot_guess_modes(in, chosen, count, ends, certain);
   for (int c = 0; c < count; c++) {
-    int options = contact_options(in, chosen[c], forced, lists);
+    int options = frot_contact_options(in, chosen[c], forced, lists);
     if (left_here(in, chosen[c])) certain[chosen[c]] = 0;
     if (certain[chosen[c]]) continue;
     if (combinations * options > FROT_ENOUGH)
@@ -255,16 +163,23 @@ static int search_near(const frot_instant *in, const int *chosen, int count, int
     else
       combinations *= options;
   }
-  return enumerate(in, chosen, count, forced, lasting, certain);
+  int motions = enumerate(in, chosen, count, forced, lasting, certain);
+  if (motions > 0) return motions;
+  frot_guess_modes(in, chosen, count, ends, certain);
+  if (!frot_mend_modes(in, chosen, count, forced)) return 0;
+  if (lasting && !frot_lasts(in, chosen, count)) return 0;
+  remember(in, chosen, count);
+  return 1;
 }
 
 static int search_all(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
                       int *unsearched) {
   frot_work *w = in->w;
   const frot_model *m = in->m;
-  option lists[OPTIONS];
+  frot_option lists[FROT_OPTIONS];
   double combinations = 1;
-  for (int c = 0; c < count; c++) combinations *= contact_options(in, chosen[c], forced, lists);
+  for (int c = 0; c < count; c++)
+    combinations *= frot_contact_options(in, chosen[c], forced, lists);
   memset(w->search.trial, 0, sizeof *w->search.trial * (size_t)(m->n_contacts + m->n_elements));
   if (combinations <= FROT_ENOUGH) return enumerate(in, chosen, count, forced, lasting, NULL);
   *unsearched = 1;

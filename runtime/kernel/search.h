@@ -43,9 +43,19 @@ int frot_others_carry(const frot_instant *in, const int *chosen, int count);
  * follows from its reaction. */
 int frot_all_held(const frot_instant *in, int contact);
 
+/* Whether the reaction of a contact in w->search.trial has the sign of its side: it can part, or
+ * friction that slips follows it. */
+int frot_must_press(const frot_instant *in, int contact);
+
 /* The side of a contact that its reaction presses on is the other: friction at its bound, whose
  * line goes through zero with the reaction, turns with it. */
 void frot_turn_side(const frot_instant *in, int contact);
+
+/* What is left of an inequality of w->search.trial, over the size of its terms, negative where it
+ * does not hold: of a contact that presses or parts, of an element that rests or starts to slip; 1
+ * where there is none (lasting.c). */
+double frot_margin_of_contact(const frot_instant *in, int contact);
+double frot_margin_of_element(const frot_instant *in, int element);
 
 /* Whether the motion of w->search.trial, which frot_is_admissible has found good, lasts: what is
  * zero in it at the instant is not past its bound a little later (lasting.c). Gives a reaction that
@@ -91,5 +101,9 @@ int frot_search_corners(const frot_instant *in, const int *chosen, int count, in
  * bound is past it. */
 void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int ends,
                       unsigned char *certain);
+
+/* Change the modes of w->search.trial one by one, the worst first, until they are admissible;
+ * `forced` as in frot_search. Returns whether they are (mend.c). */
+int frot_mend_modes(const frot_instant *in, const int *chosen, int count, int forced);
 
 #endif

@@ -58,7 +58,7 @@ static int laws_of(const frot_instant *in, int contact, int e[2]) {
 
 /* Whether the reactions of a contact are sums of edges. */
 static int has_cone(const frot_instant *in, int contact) {
-  return frot_is_loaded(in->m, in->w->search.trial, contact) && in->unilateral[contact] != 0;
+  return frot_is_loaded(in->m, in->w->search.trial, contact) && frot_must_press(in, contact);
 }
 
 /* One more column: what the reaction x (n_speeds) does to the rows that hold, and `balance` of it
@@ -89,14 +89,14 @@ static void add_edges(program *p, int contact, int row) {
   const frot_instant *in = p->in;
   const frot_model *m = in->m;
   const frot_work *w = in->w;
-  int e[2], laws = laws_of(in, contact, e);
+  int e[2], laws = laws_of(in, contact, e), side = w->search.trial[contact].side;
   size_t size = sizeof(double) * (size_t)p->g->n_speeds;
   double *normal = p->share->normal, *x = w->core.rest, length;
   memset(normal, 0, size);
-  add_reaction(p, m->contacts[contact].row_n, 1, normal);
+  add_reaction(p, m->contacts[contact].row_n, side, normal);
   for (int k = 0; k < m->n_elements; k++)
     if (m->elements[k].contact == contact && m->elements[k].bound == FROT_BY_NORMAL)
-      add_reaction(p, m->elements[k].row, w->reactions.ratio[k], normal);
+      add_reaction(p, m->elements[k].row, side * w->reactions.ratio[k], normal);
   length = sqrt(frot_dot(normal, normal, p->g->n_speeds));
   for (int i = 0; i < (laws > 0 ? laws : 1); i++)
     for (int s = 0; s < (laws > 0 ? 2 : 1); s++) {

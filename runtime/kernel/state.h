@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 8
+#define FROT_LAYOUT_VERSION 9
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -53,8 +53,9 @@ struct frot_state {
   double foreseen; /* the nearest singular posture, as the last step shows it, or INFINITY */
   int weak;        /* rows of loops are weak: crossing.h */
   int tied; /* stages are put onto the relations of loops: crossing.h; < 0: not for some steps */
-  double across; /* error, to its bound, of the last step that tried to pass a posture ahead */
-  int implicit;  /* the next step is made by the implicit method */
+  double across;  /* error, to its bound, of the last step that tried to pass a posture ahead */
+  int implicit;   /* the next step is made by the implicit method */
+  int unmeasured; /* steps since rounding was measured: see step.c */
   int stiff_steps, calm_steps; /* see stiffness.h */
   int patience, stay;
   double felt, explicit_step; /* see stiffness.h */

@@ -9,6 +9,7 @@
 #include "conditions.h"
 #include "crossing.h"
 #include "ends.h"
+#include "error.h"
 #include "falls.h"
 #include "groups.h"
 #include "jacobian.h"
@@ -22,9 +23,12 @@
 #include "spare.h"
 #include "stages.h"
 #include "stiffness.h"
+#include "tolerances.h"
 
-/* What is left of the measure of rounding a step later. */
+/* What is left of the measure of rounding a step later, and steps that their error limits after
+ * which it is measured though none of them fails. */
 #define FORGET 0.99
+#define MEASURED 64
 /* Part of its length at least to which a step is shortened in which a guard seems to fall and does
  * not. */
 #define SHORTER 0.25
@@ -149,6 +153,15 @@ static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
   return s->pending ? FROT_OK : keep(m, s, w, a, guard);
 }
 
+/* An error that is rounding grows with the step, not with its ninth power: it may keep steps short
+ * without one that fails. */
+static void look_at_noise(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a) {
+  if (s->implicit || !(a->ratio > FROT_LIMITING)) return;
+  if (++s->unmeasured < MEASURED) return;
+  s->unmeasured = 0;
+  frot_measure_noise(m, s, w, a->t + a->h);
+}
+
 static int step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_attempt a = frot_attempt_from(*frot_segment_at(m, s->data + w->layout.segment).t1);
   if (s->due <= a.t) {
@@ -160,6 +173,7 @@ static int step(const frot_model *m, frot_state *s, frot_work *w) {
     status = frot_begin_step(m, s, w, &a); /* no Jacobian */
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, a.t, 0);
   status = take(m, s, w, &a);
+  if (status == FROT_OK && !s->pending) look_at_noise(m, s, w, &a);
   frot_see_anew(w);
   w->reactions.follow = 0;
   return status;

@@ -1,0 +1,97 @@
+"""Rods on dry pins let go from rest: modes are found however many there are, and steps go on."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import frot
+
+DOWN, LEVEL, UP = -np.pi / 2, 0.0, np.pi / 2
+
+
+@cache
+def chain(n: int) -> frot.Model:
+    at = ["ground", *(f"b{i}.tip" for i in range(n - 1))]
+    parts = [
+        f"""
+  parameter Angle A{i} = 0 rad;
+  body b{i}: rod(mass = 1 kg, length = 1 m);
+  liaison j{i}: rotoide({at[i]}, b{i}.start) with coulomb(mu, mu_s = mu*more, radius = 1 cm);"""
+        for i in range(n)
+    ]
+    starts = [f"  b{i}.angle = A{i};\n  b{i}.angular_velocity = 0 rad/s;\n" for i in range(n)]
+    return frot.compile(f"""planar model Chain
+  world(gravity = 9.81 m/s^2);
+  parameter Real mu = 0.1;
+  parameter Real more = 1;
+{"".join(parts)}
+initial
+{"".join(starts)}
+  experiment(stop = 1 s);
+end Chain;
+""")
+
+
+def run(angles: list[float], stop: float, tolerance: float, **values: float) -> frot.Result:
+    every = {f"A{i}": float(a) for i, a in enumerate(angles)} | values
+    return chain(len(angles)).simulate(stop=stop, tolerance=tolerance, parameters=every)
+
+
+def test_rounding_keeps_no_steps_short_though_none_fails() -> None:
+    """At 1e-13 the estimate is rounding; steps that follow it shorten without end."""
+    angles = [-0.22, 2.31, -1.1, -2.87, 1.96, -2.63, -2.44, 2.78, 1.52, -0.97]
+    loose, tight = (run(angles, 0.2, tolerance) for tolerance in (1e-10, 1e-13))
+    assert tight.figures.steps < 5 * loose.figures.steps
+    for i in range(10):
+        assert tight[f"b{i}.angle"][-1] == pytest.approx(loose[f"b{i}.angle"][-1], abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("angles", "values"),
+    [
+        ([UP, LEVEL, DOWN, UP, DOWN, UP, LEVEL, np.pi, UP, LEVEL], {"mu": 0.03}),
+        ([-0.7] * 14, {"mu": 0.1, "more": 1.3}),
+        ([-0.7] * 14, {"mu": 0.3, "more": 1.3}),
+    ],
+)
+def test_many_pins_depart_each_at_its_bound(angles: list[float], values: dict[str, float]) -> None:
+    """A pin at rest is held within its bound, one that slips has the friction of motion."""
+    result = run(angles, 0.2, 1e-9, **values)
+    mu, most = values["mu"], values["mu"] * values.get("more", 1)
+    for t in (0.05, 0.1, 0.15, 0.2):
+        now = result.at(t)
+        for i in range(len(angles)):
+            couple, slip = float(now[f"j{i}.torque"]), float(now[f"j{i}.slip"])
+            bound = 0.01 * np.hypot(now[f"j{i}.force.x"], now[f"j{i}.force.y"])
+            if slip == 0:
+                assert abs(couple) <= most * bound * (1 + 1e-6)
+            else:
+                assert couple == pytest.approx(-np.sign(slip) * mu * bound, rel=1e-6)
+    assert abs(result.balance.residual) <= 1e-7 * result.balance.scale
+
+
+def test_a_bar_slides_on_three_feet_that_cannot_part() -> None:
+    """Their friction is mu times the weight while all of them press: where friction is least one
+    pulls, another share of the weight has none that does."""
+    feet = "".join(
+        f"""
+  frame f{i} on bar at ({x} m, -1.2 m);
+  liaison c{i}: contact_ponctuel(ground.line, f{i}, unilateral = false)
+    with coulomb(mu, mu_s = 1.2*mu);"""
+        for i, x in enumerate((-0.5, -0.06, 0.5))
+    )
+    result = frot.compile(f"""planar model Slide
+  world(gravity = 9.81 m/s^2);
+  parameter Real mu = 0.33;
+  body bar: rod(mass = 2 kg, length = 1 m);{feet}
+initial
+  bar.position = (0, 1.2) m;
+  bar.angle = 0;
+  bar.velocity = (3, 0) m/s;
+  experiment(stop = 0.5 s, tolerance = 1e-9);
+end Slide;
+""").simulate()
+    assert result["bar.velocity.x"][-1] == pytest.approx(3 - 0.33 * 9.81 * 0.5, rel=1e-9)
