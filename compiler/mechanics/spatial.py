@@ -91,8 +91,9 @@ def turning(axis: ca.SX, angle: ca.SX) -> ca.SX:
 def beside(axis: ca.SX) -> tuple[ca.SX, ca.SX]:
     """Two unit vectors that make a right-handed trihedral with a unit vector, it being the last.
 
-    For z these are x and y. The axis depends on parameters at most, so that no motion meets the
-    places where the choice changes.
+    For z these are x and y. They jump where the choice changes: no motion meets these places where
+    the axis depends on parameters at most. Beside others they serve as directions of rows, not of
+    coordinates (see `values.beside_given`).
     """
     for k, pair in enumerate(((Y, Z), (Z, X), (X, Y))):
         if axis.nnz() == 1 and axis[k].is_one():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import casadi as ca
-from frot.compiler.mechanics.spatial import X, Y, Z, whole
+from frot.compiler.mechanics.spatial import X, Y, Z, beside, cross, whole
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Expression, Literal, Time
 from frot.dsl.messages.source import Source, Span
@@ -23,6 +23,45 @@ def unit_vector(given: Expression | str, lower: Lower) -> ca.SX:
     assert not isinstance(given, str)
     vector = whole(lower(given))
     return ca.sparsify(vector / ca.norm_2(vector))
+
+
+def beside_given(given: Expression | str, lower: Lower) -> tuple[ca.SX, ca.SX]:
+    """Two unit vectors beside that of `unit_vector`, as `beside` finds them.
+
+    Where time turns the direction n they turn with it, without a jump: from where they stand at
+    time 0 on they keep their angle to the plane of n and `reference` e.
+    """
+    n, now = unit_vector(given, lower), lower(NOW)
+    if not ca.depends_on(n, now):
+        return beside(n)
+    e = reference(n, now)
+    one = e - ca.dot(e, n) * n
+    one = one / ca.norm_2(one)
+    other = cross(n, one)
+    began, own, next_to_own = (_at_zero(x, now) for x in (n, one, other))
+    first, _ = beside(began)
+    cosine, sine = ca.dot(first, own), ca.dot(first, next_to_own)
+    return cosine * one + sine * other, cosine * other - sine * one
+
+
+def reference(n: ca.SX, now: ca.SX) -> ca.SX:
+    """The fixed unit vector (3) e from which directions beside n(time) are counted.
+
+    That is n' x n'' at time 0: the axis of every steady turn of n, and of every turn that keeps n
+    in a plane, so that n never comes to it. From rest (n' = 0) n x n'' serves, and beside an n
+    that stands any vector.
+    """
+    rate = ca.jacobian(n, now)
+    start, rate, bend = (_at_zero(x, now) for x in (n, rate, ca.jacobian(rate, now)))
+    e, _ = beside(start)
+    for way in (cross(start, bend), cross(rate, bend)):
+        length = ca.norm_2(way)
+        e = ca.if_else(length > 0, way / length, e)
+    return e
+
+
+def _at_zero(value: ca.SX, now: ca.SX) -> ca.SX:
+    return ca.substitute(ca.densify(value), now, ca.SX(0))
 
 
 def rate_by_time(value: ca.SX, lower: Lower) -> ca.SX:

@@ -75,6 +75,18 @@ int frot_is_still(const frot_opening *p, int i, double reach) {
   return fabs(p->w->relations.residual[i]) <= FROT_MOVED_BY_TIME * (reach + 1);
 }
 
+/* Components of one vector are sized together: in axes that stand askew by a rounding, one of them
+ * is rounding of the others. */
+static void size_vectors(frot_opening *p, const int *statement, int n) {
+  double *size = p->w->relations.size;
+  for (int first = 0, end; first < n; first = end) {
+    double largest = 0;
+    for (end = first; end < n && statement[end] == statement[first]; end++)
+      largest = fmax(largest, size[end]);
+    for (int i = first; i < end; i++) size[i] = largest;
+  }
+}
+
 int frot_evaluate_statements(frot_opening *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
@@ -92,6 +104,7 @@ int frot_evaluate_statements(frot_opening *p) {
     frot_call(w, call);
     status = through_blocks(p, n);
     if (status != FROT_OK) return status;
+    size_vectors(p, p->velocity ? m->velocity_statement : m->position_statement, n);
     /* slopes that are rounding of what cancels out tell no way */
     for (int i = 0; i < n; i++)
       if (reach_of(p, i) <= FROT_CONSTANT * w->relations.size[i])

@@ -14,8 +14,8 @@ from frot.compiler.mechanics.geometry.figures import (
     Sheet,
     Straight,
 )
-from frot.compiler.mechanics.spatial import Pose, X, Y, beside, nowhere, whole
-from frot.compiler.mechanics.values import Lower, rate_by_time, unit_vector
+from frot.compiler.mechanics.spatial import Pose, X, Y, nowhere, whole
+from frot.compiler.mechanics.values import Lower, beside_given, rate_by_time, unit_vector
 from frot.dsl.checked import Expression
 from frot.dsl.data.classes import dataclass
 
@@ -80,7 +80,7 @@ def _semi_axes(figure: Figure, lower: Lower) -> tuple[tuple[ca.SX, ca.SX], tuple
         radius = lower(figure.radius)
         return (radius, X), (radius, Y)
     assert isinstance(figure, Ring | Oval)
-    first, second = beside(unit_vector(figure.axis.given, lower))
+    first, second = beside_given(figure.axis.given, lower)
     if isinstance(figure, Ring):
         radius = lower(figure.radius)
         return (radius, first), (radius, second)

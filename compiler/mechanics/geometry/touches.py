@@ -21,8 +21,8 @@ from frot.compiler.mechanics.geometry.figures import (
     Straight,
 )
 from frot.compiler.mechanics.liaisons.moves import Moments
-from frot.compiler.mechanics.spatial import GROUND, Pose, Z, beside, cross, nowhere
-from frot.compiler.mechanics.values import Lower, unit_vector
+from frot.compiler.mechanics.spatial import GROUND, Pose, Z, cross, nowhere
+from frot.compiler.mechanics.values import Lower, beside_given, unit_vector
 from frot.dsl.checked import Expression
 from frot.dsl.data.classes import dataclass, field
 
@@ -89,7 +89,7 @@ def spread_of(figure: Ring | Oval | Egg, pose: Pose, lower: Lower) -> ca.SX:
 
 def oval_axes(figure: Oval, lower: Lower) -> tuple[ca.SX, ca.SX]:
     """The directions of the semi-axes in the axes of the figure's point."""
-    return beside(unit_vector(figure.axis.given, lower))
+    return beside_given(figure.axis.given, lower)
 
 
 def depth_of(figure: Figure, pose: Pose, normal: ca.SX, lower: Lower) -> ca.SX:

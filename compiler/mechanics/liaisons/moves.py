@@ -43,7 +43,7 @@ from frot.compiler.mechanics.spatial import (
     turn_in_plane,
     turning,
 )
-from frot.compiler.mechanics.values import NOW, Lower, rate_by_time, unit_vector
+from frot.compiler.mechanics.values import NOW, Lower, beside_given, rate_by_time, unit_vector
 from frot.dsl.checked import Expression
 from frot.dsl.data.classes import dataclass, field, replace
 
@@ -212,8 +212,19 @@ def _move_turn(motion: Turn, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> 
 
 
 def _move_slide(motion: Slide, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
-    along = motion.sign * base.pose.direction(way_of(motion, lower))
-    return Moved(_slid(base, along, q, v), (Column(nowhere(), along),), along * q)
+    """Time may turn the way e in the axes of the base: e' q is no speed, 2 e' q' + e'' q bias."""
+    local = motion.sign * way_of(motion, lower)
+    along, turns = base.pose.direction(local), rate_by_time(local, lower)
+    there = _slid(base, along, q, v)
+    if turns.nnz():
+        moves = base.pose.direction(turns) * q
+        bends = base.pose.direction(2 * turns * v + rate_by_time(turns, lower) * q)
+        there = replace(
+            there,
+            linear=there.linear + moves,
+            linear_bias=there.linear_bias + bends + 2 * cross(base.angular, moves),
+        )
+    return Moved(there, (Column(nowhere(), along),), along * q)
 
 
 def _move_screw(motion: Screw, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
@@ -284,15 +295,16 @@ def _move_steady(motion: Steady, base: Moving, q: ca.SX, v: ca.SX, lower: Lower)
 
 
 def _move_spot(motion: Spot, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
-    first, second = beside(unit_vector(motion.axis.given, lower))
+    first, second = beside_given(motion.axis.given, lower)
     way = base.pose.direction(first * q[0] + second * q[1])
     return Moved(base.shifted(way), (), way)
 
 
 def way_of(motion: Slide, lower: Lower) -> ca.SX:
     """The unit vector of a slide in the axes of its base."""
-    local = unit_vector(motion.axis.given, lower)
-    return local if motion.side is None else beside(local)[motion.side]
+    if motion.side is None:
+        return unit_vector(motion.axis.given, lower)
+    return beside_given(motion.axis.given, lower)[motion.side]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -13,8 +13,8 @@ import casadi as ca
 from frot.compiler.mechanics.geometry.touches import depth_of
 from frot.compiler.mechanics.liaisons.motions import Roll
 from frot.compiler.mechanics.liaisons.moves import Column, Moved, rates
-from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, axes_of, beside, cross, nowhere
-from frot.compiler.mechanics.values import Lower, unit_vector
+from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, axes_of, cross, nowhere
+from frot.compiler.mechanics.values import Lower, beside_given, unit_vector
 
 
 def roll(
@@ -39,6 +39,6 @@ def roll(
     takes, bends = ca.sparsify(takes), ca.sparsify(bends)
     moving = Moving(pose, v, plane.linear + takes, nowhere(), plane.linear_bias + bends)
     columns = tuple(Column(e, ca.sparsify(-ca.dot(e, lever) * normal)) for e in (X, Y, Z))
-    ways = (plane.pose.direction(way) for way in beside(local))
+    ways = (plane.pose.direction(way) for way in beside_given(motion.axis.given, lower))
     spot = ca.vertcat(*(ca.dot(way, takes) for way in ways))
     return Moved(moving, columns, depth, back=-depth), spot

@@ -36,7 +36,7 @@ from frot.compiler.mechanics.liaisons.locks import (
 from frot.compiler.mechanics.liaisons.motions import Axis, Follow, Motion, Reach, Screw, Slide, Turn
 from frot.compiler.mechanics.liaisons.moves import Column, Moments, angle_about, arc, way_of
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, beside, cross, nowhere
-from frot.compiler.mechanics.values import Lower, rate_by_time, unit_vector
+from frot.compiler.mechanics.values import Lower, beside_given, rate_by_time, unit_vector
 from frot.dsl.data.classes import dataclass, field, replace
 
 
@@ -144,10 +144,10 @@ def _twist(about: ca.SX, gap: ca.SX) -> Action:
 
 def _along(pose: Pose, axis: Axis, lower: Lower, side: int | None = None) -> ca.SX:
     """Ground components of an axis, of one of the two beside it, or of its left in the plane."""
+    if side is not None and side != LEFT:
+        return pose.direction(beside_given(axis.given, lower)[side])
     local = unit_vector(axis.given, lower)
-    if side == LEFT:
-        return pose.direction(cross(Z, local))
-    return pose.direction(local if side is None else beside(local)[side])
+    return pose.direction(local if side is None else cross(Z, local))
 
 
 def _way(lock: Way, a: Pose, b: Pose, lower: Lower) -> Action:
@@ -200,7 +200,7 @@ def _no_slip(lock: NoSlip, found: Touch, a: Pose, lower: Lower) -> Action:
     if lock.planar:
         way = cross(found.normal, Z)
     elif isinstance(lock.a, Flat):
-        way = a.direction(beside(unit_vector(lock.a.axis.given, lower))[lock.side])
+        way = a.direction(beside_given(lock.a.axis.given, lower)[lock.side])
     else:
         way = beside(found.normal)[lock.side]
     column, own = Column(nowhere(), way), ca.dot(way, found.drift)
