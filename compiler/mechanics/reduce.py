@@ -207,9 +207,10 @@ def _without_rounding(
     mechanism: Mechanism,
     geometry: list[Geometry | JointGeometry | RelationGeometry],
 ) -> ca.SX:
-    """The rows of liaisons that close loops, where what cancels out is zero.
+    """The rows of liaisons that close loops, zero where all that is in them cancels out.
 
-    A row that is rounding alone (two pins on one shaft, turned anyhow) would hold what is free.
+    A row that is rounding alone (two pins on one shaft, turned anyhow) would hold what is free. A
+    small entry beside larger ones stays: it may be on its way from zero, and must not jump.
     """
     rows = ca.sparsify(rows)
     first = [rows_of.reaction[0] for rows_of in link_rows(mechanism.contacts)]
@@ -219,10 +220,15 @@ def _without_rounding(
         if isinstance(link, Relation) and not isinstance(link.lock, Stated)
     }
     entries = list(ca.vertsplit(ca.vec(rows.nz[:]))) if rows.nnz() else []
+    of_row: dict[int, list[int]] = {}
     for k, row in enumerate(rows.sparsity().row()):
-        if row in sizes and not entries[k].is_constant():
-            least = _ROUNDING * sizes[row]
-            entries[k] = ca.if_else(ca.fabs(entries[k]) > least, entries[k], 0)
+        of_row.setdefault(row, []).append(k)
+    for row, places in of_row.items():
+        if row not in sizes or any(entries[k].is_constant() for k in places):
+            continue
+        whole = sum((ca.fabs(entries[k]) for k in places), ca.SX(0)) > _ROUNDING * sizes[row]
+        for k in places:
+            entries[k] = ca.if_else(whole, entries[k], 0)
     return ca.SX(rows.sparsity(), ca.vertcat(*entries)) if entries else rows
 
 
