@@ -166,6 +166,8 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     steps, potential = _masses(mechanism, variables, loads.pushes)
     motion = write_out(steps, symbols.v.numel(), speeds.numel(), large)
     settled = variables.settled
+    rows = _without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry)
+    bias = settled(kinematics.rate(settled(rates)))
     conditions.values = [settled(value) for value in conditions.values]
     equations.values[:] = [settled(value) for value in equations.values]
     return Reduced(
@@ -181,8 +183,8 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         force=settled(motion.force + loads.force),
         force_size=settled(motion.size + loads.size),
         load_sizes=settled(column(loads.sizes)),
-        rows=_without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry),
-        bias=settled(_agreeing(kinematics.rate(settled(rates)), mechanism, kinematics, geometry)),
+        rows=rows,
+        bias=_agreeing(bias, rows, mechanism, kinematics, geometry, settled),
         rate=settled(rates),
         gap=settled(column(g.gap for g in geometry)),
         witness=settled(column(g.witness for g in geometry)),
@@ -234,11 +236,13 @@ def _without_rounding(
 
 def _agreeing(
     bias: ca.SX,
+    rows: ca.SX,
     mechanism: Mechanism,
     kinematics: Kinematics,
     geometry: list[Geometry | JointGeometry | RelationGeometry],
+    settled: Callable[[ca.SX], ca.SX],
 ) -> ca.SX:
-    """The rows' accelerations by time and speeds, where what drives cancel out is zero.
+    """The rows' accelerations by time and speeds; zero where drives cancel out and nothing moves.
 
     Two drives that say the same differ by rounding, which no speed tells the kernel the size of.
     """
@@ -251,11 +255,15 @@ def _agreeing(
         if not isinstance(link, Relation) or isinstance(link.lock, Stated):
             continue
         size, row = ca.SX(0), rows_of.reaction[0]
+        moves = ca.norm_1(rows[row, :]) if rows[row, :].nnz() else ca.SX(0)
+        if moves.is_constant() and not moves.is_zero():
+            continue
         for place in (link.joint.a, link.joint.b):
             there = kinematics.moving(place)
             turns = ca.norm_1(there.angular_bias) + ca.sumsqr(there.angular)
             size += ca.norm_1(there.linear_bias) + (1 + own.reach) * turns
-        bias[row] = ca.if_else(ca.fabs(bias[row]) > _ROUNDING * size, bias[row], 0)
+        told = ca.logic_or(moves > 0, ca.fabs(bias[row]) > _ROUNDING * settled(size))
+        bias[row] = ca.if_else(told, bias[row], 0)
     return bias
 
 
