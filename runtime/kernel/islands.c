@@ -79,9 +79,12 @@ static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, 
   scatter(r.qd, island->q, island->nq, w->core.qd);
   scatter(r.condition, island->conditions, island->n_located, w->core.condition);
   spread_results(m, w, island, &r);
-  if (!frot_all_finite(matrix, size->matrices) || !frot_all_finite(entries, size->all_entries))
+  if (!frot_all_finite(matrix, size->matrices) || !frot_all_finite(entries, size->all_entries) ||
+      !frot_all_finite(r.qd, (int)(r.h - r.qd)) || !frot_all_finite(r.c, (int)(r.condition - r.c)))
     return 0;
-  if (wanted != FROT_INERTIA && !frot_all_finite(r.qd, (int)(r.end - r.qd))) return 0;
+  if (wanted != FROT_INERTIA && (!frot_all_finite(r.h, (int)(r.c - r.h)) ||
+                                 !frot_all_finite(r.condition, (int)(r.end - r.condition))))
+    return 0;
   w->awake.power[i] = *r.power;
   w->core.power[0] += *r.power;
   if (!island->spread.call) return 1;
@@ -92,11 +95,9 @@ static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, 
 }
 
 static int loads_finite(const frot_model *m, const frot_work *w) {
-  return frot_all_finite(w->core.h, w->layout.nw) && frot_all_finite(w->core.c, m->n_rows) &&
-         frot_all_finite(w->core.qd, m->nq) &&
+  return frot_all_finite(w->core.h, w->layout.nw) &&
          frot_all_finite(w->core.coefficient, 2 * m->n_elements) &&
-         frot_all_finite(w->core.condition, m->n_located) &&
-         frot_all_finite(w->core.gap, m->n_contacts) && frot_all_finite(w->core.power, 1);
+         frot_all_finite(w->core.condition, m->n_located) && frot_all_finite(w->core.power, 1);
 }
 
 static int call_whole(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
@@ -107,7 +108,9 @@ static int call_whole(const frot_model *m, frot_state *s, frot_work *w, double t
                    w->core.coefficient, w->core.power};
   memcpy(w->call.res, res, sizeof res);
   frot_call(w, &m->dynamics);
-  if (!frot_all_finite(w->core.mass, m->n_matrix) || !frot_all_finite(w->core.rows, m->n_entries))
+  if (!frot_all_finite(w->core.mass, m->n_matrix) || !frot_all_finite(w->core.rows, m->n_entries) ||
+      !frot_all_finite(w->core.qd, m->nq) || !frot_all_finite(w->core.c, m->n_rows) ||
+      !frot_all_finite(w->core.gap, m->n_contacts))
     return 0;
   if (wanted != FROT_INERTIA && !loads_finite(m, w)) return 0;
   if (!m->general) return 1;
