@@ -166,8 +166,6 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     steps, potential = _masses(mechanism, variables, loads.pushes)
     motion = write_out(steps, symbols.v.numel(), speeds.numel(), large)
     settled = variables.settled
-    rows = _without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry)
-    bias = settled(kinematics.rate(settled(rates)))
     conditions.values = [settled(value) for value in conditions.values]
     equations.values[:] = [settled(value) for value in equations.values]
     return Reduced(
@@ -183,8 +181,8 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         force=settled(motion.force + loads.force),
         force_size=settled(motion.size + loads.size),
         load_sizes=settled(column(loads.sizes)),
-        rows=rows,
-        bias=_agreeing(bias, rows, mechanism, kinematics, geometry, settled),
+        rows=_without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry),
+        bias=settled(_agreeing(kinematics.rate(settled(rates)), mechanism, kinematics, geometry)),
         rate=settled(rates),
         gap=settled(column(g.gap for g in geometry)),
         witness=settled(column(g.witness for g in geometry)),
@@ -209,10 +207,9 @@ def _without_rounding(
     mechanism: Mechanism,
     geometry: list[Geometry | JointGeometry | RelationGeometry],
 ) -> ca.SX:
-    """The rows of liaisons that close loops, zero where all that is in them cancels out.
+    """The rows of liaisons that close loops, where what cancels out is zero.
 
-    A row that is rounding alone (two pins on one shaft, turned anyhow) would hold what is free. A
-    small entry beside larger ones stays: it may be on its way from zero, and must not jump.
+    A row that is rounding alone (two pins on one shaft, turned anyhow) would hold what is free.
     """
     rows = ca.sparsify(rows)
     first = [rows_of.reaction[0] for rows_of in link_rows(mechanism.contacts)]
@@ -222,27 +219,20 @@ def _without_rounding(
         if isinstance(link, Relation) and not isinstance(link.lock, Stated)
     }
     entries = list(ca.vertsplit(ca.vec(rows.nz[:]))) if rows.nnz() else []
-    of_row: dict[int, list[int]] = {}
     for k, row in enumerate(rows.sparsity().row()):
-        of_row.setdefault(row, []).append(k)
-    for row, places in of_row.items():
-        if row not in sizes or any(entries[k].is_constant() for k in places):
-            continue
-        whole = sum((ca.fabs(entries[k]) for k in places), ca.SX(0)) > _ROUNDING * sizes[row]
-        for k in places:
-            entries[k] = ca.if_else(whole, entries[k], 0)
+        if row in sizes and not entries[k].is_constant():
+            least = _ROUNDING * sizes[row]
+            entries[k] = ca.if_else(ca.fabs(entries[k]) > least, entries[k], 0)
     return ca.SX(rows.sparsity(), ca.vertcat(*entries)) if entries else rows
 
 
 def _agreeing(
     bias: ca.SX,
-    rows: ca.SX,
     mechanism: Mechanism,
     kinematics: Kinematics,
     geometry: list[Geometry | JointGeometry | RelationGeometry],
-    settled: Callable[[ca.SX], ca.SX],
 ) -> ca.SX:
-    """The rows' accelerations by time and speeds; zero where drives cancel out and nothing moves.
+    """The rows' accelerations by time and speeds, where what drives cancel out is zero.
 
     Two drives that say the same differ by rounding, which no speed tells the kernel the size of.
     """
@@ -255,15 +245,11 @@ def _agreeing(
         if not isinstance(link, Relation) or isinstance(link.lock, Stated):
             continue
         size, row = ca.SX(0), rows_of.reaction[0]
-        moves = ca.norm_1(rows[row, :]) if rows[row, :].nnz() else ca.SX(0)
-        if moves.is_constant() and not moves.is_zero():
-            continue
         for place in (link.joint.a, link.joint.b):
             there = kinematics.moving(place)
             turns = ca.norm_1(there.angular_bias) + ca.sumsqr(there.angular)
             size += ca.norm_1(there.linear_bias) + (1 + own.reach) * turns
-        told = ca.logic_or(moves > 0, ca.fabs(bias[row]) > _ROUNDING * settled(size))
-        bias[row] = ca.if_else(told, bias[row], 0)
+        bias[row] = ca.if_else(ca.fabs(bias[row]) > _ROUNDING * size, bias[row], 0)
     return bias
 
 
