@@ -44,13 +44,12 @@ from frot.compiler.mechanics.spatial import (
     Moving,
     Pose,
     Z,
-    beside,
     cross,
     nowhere,
     turn_about,
     whole,
 )
-from frot.compiler.mechanics.values import unit_vector
+from frot.compiler.mechanics.values import beside_given, unit_vector
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison
 from frot.dsl.data.classes import dataclass, replace
 
@@ -182,7 +181,7 @@ class Kinematics:
         assert hanging.base is not None  # without a guess a body is at the origin of the ground
         base = self.pose(hanging.base)
         along = unit_vector(motion.axis.given, self.fixed.lower)
-        for k, way in enumerate((*beside(along), along)):
+        for k, way in enumerate((*beside_given(motion.axis.given, self.fixed.lower), along)):
             self.starts[first + k] = -ca.dot(base.direction(way), base.origin)
         return moved
 

@@ -122,17 +122,11 @@ def counted(angle: ca.SX, about: ca.SX) -> ca.SX:
 
 def carried(local: ca.SX, base: Moving, lower: Lower) -> Moving:
     """The same axes at a place given in them, which time may move."""
-    there = base.shifted(base.pose.direction(local))
-    speed = rate_by_time(local, lower)
+    way, speed = base.pose.direction(local), rate_by_time(local, lower)
     if not speed.nnz():
-        return there
-    moves = base.pose.direction(speed)
+        return base.shifted(way)
     push = base.pose.direction(rate_by_time(speed, lower))
-    return replace(
-        there,
-        linear=there.linear + moves,
-        linear_bias=there.linear_bias + push + 2 * cross(base.angular, moves),
-    )
+    return _slid(base, way, base.pose.direction(speed), push)
 
 
 def turned_by_time(axis: Expression | str, angle: ca.SX, base: Moving, lower: Lower) -> Moving:
@@ -187,15 +181,17 @@ def _turned(base: Moving, local: ca.SX, angle: ca.SX, rate: ca.SX, along: ca.SX)
     )
 
 
-def _slid(base: Moving, along: ca.SX, length: ca.SX, rate: ca.SX) -> Moving:
-    """Coriolis' acceleration is 2 omega x (e q')."""
-    there = base.shifted(along * length)
-    return Moving(
-        there.pose,
-        there.angular,
-        there.linear + along * rate,
-        there.angular_bias,
-        there.linear_bias + 2 * cross(base.angular, along * rate),
+def _slid(base: Moving, way: ca.SX, moves: ca.SX, bends: ca.SX | None = None) -> Moving:
+    """The axes at the end of a way that changes in them at the rate `moves` (3).
+
+    `bends`: what accelerates it but for speeds; Coriolis' acceleration is 2 omega x moves.
+    """
+    there = base.shifted(way)
+    bias = there.linear_bias if bends is None else there.linear_bias + bends
+    return replace(
+        there,
+        linear=there.linear + moves,
+        linear_bias=bias + 2 * cross(base.angular, moves),
     )
 
 
@@ -215,16 +211,11 @@ def _move_slide(motion: Slide, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -
     """Time may turn the way e in the axes of the base: e' q is no speed, 2 e' q' + e'' q bias."""
     local = motion.sign * way_of(motion, lower)
     along, turns = base.pose.direction(local), rate_by_time(local, lower)
-    there = _slid(base, along, q, v)
+    way, moves, bends = along * q, along * v, None
     if turns.nnz():
-        moves = base.pose.direction(turns) * q
+        moves = moves + base.pose.direction(turns) * q
         bends = base.pose.direction(2 * turns * v + rate_by_time(turns, lower) * q)
-        there = replace(
-            there,
-            linear=there.linear + moves,
-            linear_bias=there.linear_bias + bends + 2 * cross(base.angular, moves),
-        )
-    return Moved(there, (Column(nowhere(), along),), along * q)
+    return Moved(_slid(base, way, moves, bends), (Column(nowhere(), along),), way)
 
 
 def _move_screw(motion: Screw, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
@@ -232,7 +223,7 @@ def _move_screw(motion: Screw, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -
     local = unit_vector(motion.axis.given, lower)
     advance = lower(motion.pitch) / (2 * ca.pi)
     along = motion.sign * base.pose.direction(local)
-    slid = _slid(base, along, advance * q, advance * v)
+    slid = _slid(base, along * (advance * q), along * (advance * v))
     turned = _turned(slid, local, motion.sign * q, v, along)
     return Moved(turned, (Column(along, advance * along),), along * (advance * q))
 
@@ -261,12 +252,7 @@ def _move_follow(motion: Follow, base: Moving, q: ca.SX, v: ca.SX, lower: Lower)
     bends += rate_by_time(drift, lower)
     local = [ca.SX(x) for x in ca.substitute([point, along, drift, bends], [u], [q])]
     way, along, drift, bends = (base.pose.direction(ca.sparsify(x)) for x in local)
-    there, moves = base.shifted(way), along * v + drift
-    moving = replace(
-        there,
-        linear=there.linear + moves,
-        linear_bias=there.linear_bias + bends + 2 * cross(base.angular, moves),
-    )
+    moving = _slid(base, way, along * v + drift, bends)
     return Moved(moving, (Column(nowhere(), along),), way, along)
 
 
