@@ -34,6 +34,8 @@ class Unit:
 class ParameterInfo:
     """A parameter or an input. `type` is `real`, `integer` or `boolean`; `default` is in SI.
 
+    So are `min` and `max`, at the default parameters.
+
     `dependent`: the value follows from other parameters unless it is set.
     """
 
@@ -43,6 +45,8 @@ class ParameterInfo:
     default: float
     doc: str
     dependent: bool = False
+    min: float | None = None
+    max: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +58,8 @@ class VariableInfo:
     unit: Unit
     causality: str
     doc: str
+    min: float | None = None
+    max: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

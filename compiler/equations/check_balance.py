@@ -13,7 +13,6 @@ from frot.compiler.equations.index import find_unbalanced
 from frot.compiler.equations.origins import Origin, Unknown
 from frot.compiler.lowering.walk import subexpressions
 from frot.compiler.mechanics.mechanism import Mechanism
-from frot.compiler.mechanics.names import component_names
 from frot.dsl import Log
 from frot.dsl.checked import (
     Element,
@@ -25,6 +24,7 @@ from frot.dsl.checked import (
     Reference,
     Variable,
 )
+from frot.dsl.checked.arrays import component_names
 
 
 class _Places:

@@ -9,7 +9,6 @@ from frot.compiler.equations.before import Before
 from frot.compiler.equations.text_symbols import TextSymbols, scalars
 from frot.compiler.lowering.expressions import NEVER, RISING, Conditions, Lowering, words
 from frot.compiler.lowering.symbols import column, shaped
-from frot.compiler.mechanics.names import component_names
 from frot.dsl import Log
 from frot.dsl.checked import (
     Assertion,
@@ -22,6 +21,7 @@ from frot.dsl.checked import (
     Variable,
     When,
 )
+from frot.dsl.checked.arrays import component_names
 from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import casadi as ca
 from frot.compiler.equations.chains import Chains
 from frot.compiler.lowering.symbols import shaped
-from frot.compiler.mechanics.names import component_names
 from frot.dsl.checked import Variable
+from frot.dsl.checked.arrays import component_names
 from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 

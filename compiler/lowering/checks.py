@@ -22,11 +22,14 @@ from frot.dsl.checked import (
     Reference,
     Vector,
 )
+from frot.dsl.checked.arrays import component_names, scalars
 from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import REAL, Type
 
-POSITIVE, NOT_NEGATIVE, FINITE, NOT_BELOW_PREVIOUS, NOT_ZERO = range(5)
+POSITIVE, NOT_NEGATIVE, FINITE, NOT_BELOW_PREVIOUS, NOT_ZERO, NOT_BELOW_MIN, NOT_ABOVE_MAX = range(
+    7
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,6 +70,8 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
     for parameter in parameters:
         value = Reference(parameter, parameter.type, parameter.span)
         yield Check(FINITE, f"parameter '{parameter.name}'", value, parameter.span)
+    for whole in model.parameters:
+        yield from _bounds(whole)
     for when in model.whens:
         for condition in (c for conditions, _ in when.branches for c in conditions):
             if isinstance(condition, Call) and condition.function == "sample":
@@ -108,7 +113,22 @@ _MUST: Mapping[int, str] = {
     POSITIVE: "must be positive",
     NOT_NEGATIVE: "must not be negative",
     NOT_BELOW_PREVIOUS: "must not be below the coefficient of motion",
+    NOT_BELOW_MIN: "must not be below that",
+    NOT_ABOVE_MAX: "must not be above that",
 }
+
+
+def _bounds(parameter: Parameter) -> Iterator[Check]:
+    """`min` and `max` of a parameter, item by item: each after the bound itself."""
+    for word, bound in parameter.bounds:
+        names = component_names(parameter.name, parameter.type.shape)
+        whole = Reference(parameter, parameter.type, parameter.span)
+        written = " ".join(bound.span.text.split())
+        for name, item, limit in zip(names, scalars(whole), scalars(bound), strict=True):
+            rule = NOT_BELOW_MIN if word == "min" else NOT_ABOVE_MAX
+            yield Check(FINITE, f"{word} of parameter '{name}'", limit, bound.span)
+            subject = f"parameter '{name}', whose {word} is {written},"
+            yield Check(rule, subject, item, parameter.span)
 
 
 class _Defaults(dict[Parameter, object]):
@@ -130,7 +150,13 @@ def refuse_values(mechanism: Mechanism, log: Log) -> None:
             x = as_number(evaluate(check.value, values))
         except ValueError:  # no number at all: told by the run
             continue
-        broken = {POSITIVE: x <= 0, NOT_NEGATIVE: x < 0, NOT_BELOW_PREVIOUS: x < before}
+        broken = {
+            POSITIVE: x <= 0,
+            NOT_NEGATIVE: x < 0,
+            NOT_BELOW_PREVIOUS: x < before,
+            NOT_BELOW_MIN: x < before,
+            NOT_ABOVE_MAX: x > before,
+        }
         if broken.get(check.rule):
             message = f"the {check.subject} is {x:.9g}: it {_MUST[check.rule]}"
             log.report("E0401", message, check.span, notes=check.notes)

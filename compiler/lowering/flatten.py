@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TypeVar
 
-from frot.compiler.mechanics.names import component_names
-from frot.dsl.checked import Input, Parameter
-from frot.dsl.checked.arrays import scalars
+from frot.dsl.checked import Expression, Input, Parameter
+from frot.dsl.checked.arrays import bounds_of, component_names, scalars
 from frot.dsl.data.classes import replace
 
 T = TypeVar("T", Parameter, Input)
@@ -20,8 +19,8 @@ def tunable(parameters: Sequence[Parameter]) -> dict[Parameter, tuple[Parameter,
     """
     return {
         p: tuple(
-            replace(p, name=name, type=p.type.of_shape(()), value=value)
-            for name, value in zip(_names(p), scalars(p.value), strict=True)
+            replace(p, name=name, type=p.type.of_shape(()), value=value, bounds=bounds)
+            for name, value, bounds in _parts(p, p.value)
         )
         if p.type.shape
         else (p,)
@@ -34,8 +33,8 @@ def by_input(inputs: Sequence[Input]) -> dict[Input, tuple[Input, ...]]:
     """The scalars of each input."""
     return {
         i: tuple(
-            replace(i, name=name, type=i.type.of_shape(()), start=value)
-            for name, value in zip(_names(i), scalars(i.start), strict=True)
+            replace(i, name=name, type=i.type.of_shape(()), start=value, bounds=bounds)
+            for name, value, bounds in _parts(i, i.start)
         )
         if i.type.shape
         else (i,)
@@ -43,5 +42,10 @@ def by_input(inputs: Sequence[Input]) -> dict[Input, tuple[Input, ...]]:
     }
 
 
-def _names(whole: Parameter | Input) -> list[str]:
-    return component_names(whole.name, whole.type.shape)
+def _parts(
+    whole: Parameter | Input, value: Expression
+) -> Iterator[tuple[str, Expression, tuple[tuple[str, Expression], ...]]]:
+    """Name, value and bounds of each scalar."""
+    values = scalars(value)
+    names = component_names(whole.name, whole.type.shape)
+    return zip(names, values, bounds_of(whole.bounds, len(values)), strict=True)

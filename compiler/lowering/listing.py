@@ -12,10 +12,17 @@ from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
 from frot.compiler.mechanics.mechanism import Relation
-from frot.compiler.mechanics.names import component_names
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl.catalogue import coordinates_of
-from frot.dsl.checked import Body, CurvePlace, Liaison, Variable
+from frot.dsl.checked import (
+    Body,
+    CurvePlace,
+    Expression,
+    Liaison,
+    Variable,
+    arrays,
+)
+from frot.dsl.checked.arrays import component_names
 from frot.dsl.data.classes import dataclass
 from frot.dsl.names.flanges import parameter_type
 from frot.dsl.quantities.dimensions import Dimension, dimension
@@ -39,6 +46,7 @@ class Listed:
     output: bool = False
     mode: bool = False
     unit: str = ""
+    bounds: tuple[tuple[str, Expression], ...] = ()
 
 
 LENGTH, VELOCITY, ACCELERATION = (dimension(m=1, s=-k) for k in range(3))
@@ -89,7 +97,8 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
         yield Listed(f"{element.name}.mode", ca.SX(0), NUMBER, "stick or slip", mode=True)
     for output in mechanism.model.outputs:
         value = looking.lower(output.value)
-        for suffix, part in _components(output.name, value):
+        limits = arrays.bounds_of(output.bounds, value.numel())
+        for k, (suffix, part) in enumerate(_components(output.name, value)):
             yield Listed(
                 suffix,
                 part,
@@ -98,6 +107,7 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
                 quantity=output.quantity,
                 output=True,
                 unit=output.unit,
+                bounds=limits[k],
             )
     for variable in mechanism.model.variables:
         yield from _of_text(reduced, variable)
@@ -136,7 +146,9 @@ def _components(name: str, value: ca.SX) -> Iterator[tuple[str, ca.SX]]:
 
 def _of_text(reduced: Reduced, variable: Variable) -> Iterator[Listed]:
     names = component_names(variable.name, variable.type.shape)
-    for name, value in zip(names, scalars(reduced.text.values[variable]), strict=True):
+    values = scalars(reduced.text.values[variable])
+    limits = arrays.bounds_of(variable.bounds, len(values))
+    for name, value, bounds in zip(names, values, limits, strict=True):
         yield Listed(
             name,
             value,
@@ -145,6 +157,7 @@ def _of_text(reduced: Reduced, variable: Variable) -> Iterator[Listed]:
             quantity=variable.quantity,
             output=variable.output,
             unit=variable.unit,
+            bounds=bounds,
         )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -35,6 +36,7 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
     """The program of these functions, compiled in `folder` from the text `file`."""
     reduced = lowered.reduced
     mechanism, model = reduced.mechanism, reduced.mechanism.model
+    values = default_values(model, {})
     return Program(
         name=model.name,
         doc=model.doc,
@@ -50,6 +52,7 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
                 unit_of(v.dimension, v.quantity, v.unit),
                 "output" if v.output else "local",
                 v.doc,
+                **_limits(v.bounds, values),
             )
             for v in lowered.variables
         ),
@@ -101,7 +104,13 @@ def parameters_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
     values = default_values(lowered.reduced.mechanism.model, {})
     return tuple(
         ParameterInfo(
-            p.name, p.type.base, _unit(p), as_number(evaluate(p.value, values)), p.doc, dependent
+            p.name,
+            p.type.base,
+            _unit(p),
+            as_number(evaluate(p.value, values)),
+            p.doc,
+            dependent,
+            **_limits(p.bounds, values),
         )
         for p, dependent in zip(lowered.reduced.symbols.parameters, lowered.dependent, strict=True)
     )
@@ -111,9 +120,24 @@ def inputs_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
     """The inputs with their start values in SI, in the order of u."""
     values = default_values(lowered.reduced.mechanism.model, {})
     return tuple(
-        ParameterInfo(i.name, i.type.base, _unit(i), as_number(evaluate(i.start, values)), i.doc)
+        ParameterInfo(
+            i.name,
+            i.type.base,
+            _unit(i),
+            as_number(evaluate(i.start, values)),
+            i.doc,
+            dependent=False,
+            **_limits(i.bounds, values),
+        )
         for i in lowered.reduced.symbols.inputs
     )
+
+
+def _limits(
+    bounds: tuple[tuple[str, Expression], ...], values: Mapping[Parameter, object]
+) -> dict[str, float]:
+    """`min` and `max`, as far as they are numbers at the default parameters."""
+    return {name: as_number(evaluate(bound, values)) for name, bound in bounds}
 
 
 def _unit(declared: Parameter | Input) -> Unit:

@@ -54,3 +54,19 @@ def zero(kind: Type, span: Span) -> checked.Expression:
         inner = found.type
         found = checked.Vector((found,) * size, inner.of_shape((size, *inner.shape)), span)
     return found
+
+
+def component_names(name: str, shape: tuple[int, ...]) -> list[str]:
+    """The names of all scalars: `x`, or `x[1]`, `x[2]`, or `x[1,1]`, `x[1,2]`: by rows."""
+    names = [""]
+    for size in shape:
+        names = [f"{n},{k + 1}" if n else f"{k + 1}" for n in names for k in range(size)]
+    return [f"{name}[{n}]" if n else name for n in names]
+
+
+def bounds_of(
+    bounds: tuple[tuple[str, checked.Expression], ...], count: int
+) -> list[tuple[tuple[str, checked.Expression], ...]]:
+    """`min` and `max` of each of `count` scalars."""
+    items = [(name, scalars(bound)) for name, bound in bounds]
+    return [tuple((name, limits[k]) for name, limits in items) for k in range(count)]

@@ -1,4 +1,7 @@
-"""What a model declares by name and type: parameters, inputs, outputs, variables."""
+"""What a model declares by name and type: parameters, inputs, outputs, variables.
+
+`bounds` are the attributes `min` and `max` with their values, as far as they are given.
+"""
 
 from __future__ import annotations
 
@@ -30,6 +33,7 @@ class Parameter:
     constant: bool = False
     quantity: str = ""
     structural: str = ""
+    bounds: tuple[tuple[str, Expression], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,6 +47,7 @@ class Input:
     doc: str = ""
     unit: str = ""
     quantity: str = ""
+    bounds: tuple[tuple[str, Expression], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,6 +61,7 @@ class Output:
     doc: str = ""
     unit: str = ""
     quantity: str = ""
+    bounds: tuple[tuple[str, Expression], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,3 +84,4 @@ class Variable:
     discrete: bool = False
     output: bool = False
     nominal: Expression | None = None
+    bounds: tuple[tuple[str, Expression], ...] = ()

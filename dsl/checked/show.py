@@ -166,12 +166,14 @@ def _declared(one: checked.Variable | checked.Input | checked.Parameter, value: 
 def _parameter(parameter: checked.Parameter) -> str:
     word = "constant " if parameter.constant and not parameter.structural else ""
     tail = f"  (fixed: {parameter.structural})" if parameter.structural else ""
-    return f"{word}{parameter.name} = {show(parameter.value)}{tail}"
+    within = ", ".join(f"{name} = {show(value)}" for name, value in parameter.bounds)
+    name = f"{parameter.name}({within})" if within else parameter.name
+    return f"{word}{name} = {show(parameter.value)}{tail}"
 
 
 def _variable(variable: checked.Variable) -> str:
     words = [w for w in ("discrete", "output") if getattr(variable, w)]
-    given = (("start", variable.start), ("nominal", variable.nominal))
+    given = (("start", variable.start), ("nominal", variable.nominal), *variable.bounds)
     attributes = ", ".join(f"{name} = {show(value)}" for name, value in given if value is not None)
     return " ".join([*words, _declared(variable, attributes)])
 

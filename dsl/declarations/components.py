@@ -7,6 +7,7 @@ from frot.dsl.checked.arrays import zero
 from frot.dsl.checked.describe import pair, written_unit
 from frot.dsl.checked.evaluation import constant
 from frot.dsl.data.classes import replace
+from frot.dsl.declarations.bounds import Bounds, hold
 from frot.dsl.declarations.given import (
     Declared,
     author_unit,
@@ -79,10 +80,20 @@ def _parameter(what: Declared, kind: Kind, scope: Scope) -> checked.Parameter | 
             caret="this varies",
         )
         return None
+    bounds = _bounds(kind, scope)
+    if bounds is None:
+        return None
     result = computed(value, scope)
-    name = scope.dotted(item.name.text)
     found = checked.Parameter(
-        name, kind.type, value, item.span, item.doc, unit or kind.unit, is_constant, kind.name
+        scope.dotted(item.name.text),
+        kind.type,
+        value,
+        item.span,
+        item.doc,
+        unit or kind.unit,
+        is_constant,
+        kind.name,
+        bounds=bounds,
     )
     if result is not None:
         scope.values[found] = result
@@ -112,6 +123,17 @@ def _attribute(
     return value, author_unit(node, value), True
 
 
+def _bounds(kind: Kind, scope: Scope) -> Bounds | None:
+    """`min` and `max`, as far as they are given; None after a message."""
+    found = []
+    for name, given in kind.bounds:
+        value, _, good = _attribute(given, f"a value of {name!r}", kind, scope)
+        if not good or value is None:
+            return None
+        found.append((name, value))
+    return tuple(found)
+
+
 def _spread(given: Modifier, kind: Kind) -> None:
     """One number may stand for all items of an array."""
     if given.value is None or not kind.type.shape or "spread" in given.memo:
@@ -136,9 +158,13 @@ def _input(what: Declared, kind: Kind, scope: Scope) -> checked.Input | None:
         return None
     if value is None:
         value = zero(kind.type, item.span)
-    return checked.Input(
-        item.name.text, kind.type, value, item.span, item.doc, unit or kind.unit, kind.name
-    )
+    bounds = _bounds(kind, scope)
+    if bounds is None:
+        return None
+    name, own_unit = item.name.text, unit or kind.unit
+    found = checked.Input(name, kind.type, value, item.span, item.doc, own_unit, kind.name, bounds)
+    hold(checked.Reference(found, found.type, item.name.span), name, bounds, kind, scope)
+    return found
 
 
 def _output(what: Declared, kind: Kind, scope: Scope) -> checked.Output | None:
@@ -163,9 +189,12 @@ def _output(what: Declared, kind: Kind, scope: Scope) -> checked.Output | None:
         return None
     unit = author_unit(item.value, value) or kind.unit
     of_rate = as_rate(value, kind.rate, scope)
-    if of_rate is None:
+    bounds = _bounds(replace(kind, type=whole), scope)
+    if of_rate is None or bounds is None:
         return None
-    return checked.Output(item.name.text, whole, of_rate, item.span, item.doc, unit, kind.name)
+    name = item.name.text
+    hold(of_rate, name, bounds, kind, scope)
+    return checked.Output(name, whole, of_rate, item.span, item.doc, unit, kind.name, bounds)
 
 
 def _variable(what: Declared, kind: Kind, is_output: bool, scope: Scope) -> checked.Variable | None:
@@ -180,7 +209,8 @@ def _variable(what: Declared, kind: Kind, is_output: bool, scope: Scope) -> chec
         return None
     start, start_unit, good = _start(kind, scope)
     nominal, _, right = _attribute(kind.nominal, "a nominal value", kind, scope)
-    if not good or not right:
+    bounds = _bounds(kind, scope)
+    if not good or not right or bounds is None:
         return None
     name = scope.dotted(item.name.text)
     found = checked.Variable(
@@ -193,7 +223,9 @@ def _variable(what: Declared, kind: Kind, is_output: bool, scope: Scope) -> chec
         start,
         output=is_output,
         nominal=nominal,
+        bounds=bounds,
     )
+    hold(checked.Reference(found, found.type, item.name.span), name, bounds, kind, scope)
     modifier = what.modifier
     node = item.value
     if modifier is not None and modifier.has_value:

@@ -17,13 +17,17 @@ from frot.dsl.quantities.units import Unit, UnknownUnit, parse_unit
 from frot.dsl.text import tree
 
 _LONGEST = 50
+_FIXED = "a start value is held by a statement of `initial`: 'x = 1;'"
 ROLES = ("parameter", "constant", "input", "output")
-ATTRIBUTES = ("nominal", "start", "unit")
+BOUNDS = ("min", "max")
+ATTRIBUTES = (*BOUNDS, "nominal", "start", "unit")
 
 
 @dataclass(frozen=True, slots=True)
 class Kind:
     """The type of a value: `name` as in `Angle`, a unit of its own, a first value, a usual size.
+
+    `bounds` are its `min` and `max`, as far as they are given.
 
     A bare number stands for a value in the unit, `factor` SI units.
     """
@@ -34,6 +38,7 @@ class Kind:
     factor: float | None = None
     start: Modifier | None = None
     nominal: Modifier | None = None
+    bounds: tuple[tuple[str, Modifier], ...] = ()
 
     @property
     def rate(self) -> str:
@@ -178,14 +183,15 @@ def enumeration_of(of: Class, scope: Scope) -> Type | None:
 
 def modified(kind: Kind, modifiers: dict[str, Modifier], scope: Scope) -> Kind | None:
     """The kind with the attributes given to it; None after a message."""
+    known = attributes_of(kind.type)
     for name, modifier in modifiers.items():
-        if name not in ATTRIBUTES:
+        if name not in known:
             modifier.scope.log.report(
                 "E0204",
                 f"a {kind.name} has no attribute {name!r}",
                 modifier.span,
-                notes=(f"its attributes are: {', '.join(ATTRIBUTES)}",),
-                help=did_you_mean(name, ATTRIBUTES),
+                notes=(f"its attributes are: {', '.join(known)}",),
+                help=did_you_mean(name, known) or (_FIXED if name == "fixed" else "leave it out"),
             )
             return None
     type_, unit, factor = kind.type, kind.unit, kind.factor
@@ -214,7 +220,16 @@ def modified(kind: Kind, modifiers: dict[str, Modifier], scope: Scope) -> Kind |
         unit, factor = given.value.value, found.factor * turn
     start = merge(modifiers.get("start"), kind.start, scope)
     nominal = merge(modifiers.get("nominal"), kind.nominal, scope)
-    return Kind(type_, kind.name, unit, factor, start, nominal)
+    before = dict(kind.bounds)
+    merged = ((name, merge(modifiers.get(name), before.get(name), scope)) for name in BOUNDS)
+    bounds = tuple((name, given) for name, given in merged if given is not None)
+    return Kind(type_, kind.name, unit, factor, start, nominal, bounds)
+
+
+def attributes_of(kind: Type) -> tuple[str, ...]:
+    """What may be said of a variable of a type: numbers have bounds."""
+    is_number = kind.base in ("real", "integer") and kind.enumeration is None
+    return ATTRIBUTES if is_number else tuple(x for x in ATTRIBUTES if x not in BOUNDS)
 
 
 def unit_of(text: str, span: Span, scope: Scope) -> Unit | None:

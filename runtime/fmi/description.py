@@ -50,6 +50,8 @@ class Scalar:
     start: float | None
     unit: Unit | None
     doc: str
+    min: float | None = None
+    max: float | None = None
 
 
 def text(value: str) -> str:
@@ -71,6 +73,8 @@ def _from_parameter(name: str, reference: int, info: ParameterInfo, causality: s
             start=info.default,
             unit=unit,
             doc=info.doc,
+            min=info.min,
+            max=info.max,
         )
     if info.dependent:
         causality = "calculatedParameter"
@@ -85,6 +89,8 @@ def _from_parameter(name: str, reference: int, info: ParameterInfo, causality: s
         start=start,
         unit=unit,
         doc=info.doc,
+        min=info.min,
+        max=info.max,
     )
 
 
@@ -100,6 +106,8 @@ def _from_variable(name: str, reference: int, info: VariableInfo) -> Scalar:
         start=None,
         unit=info.unit if real else None,
         doc=info.doc,
+        min=info.min,
+        max=info.max,
     )
 
 
@@ -197,7 +205,12 @@ def _common(variable: Scalar) -> dict[str, str]:
 def _type_attributes(variable: Scalar) -> dict[str, str]:
     if variable.type == "mode":
         return {"declaredType": MODE_TYPE}
-    return _real_attributes(variable) if variable.type == "real" else {}
+    bounds = {
+        name: repr(float(limit)) if variable.type == "real" else str(int(limit))
+        for name, limit in (("min", variable.min), ("max", variable.max))
+        if limit is not None
+    }
+    return bounds | (_real_attributes(variable) if variable.type == "real" else {})
 
 
 def _default_experiment(program: Program) -> ET.Element:

@@ -181,7 +181,9 @@ enum frot_rule {
   FROT_NOT_NEGATIVE = 1,
   FROT_FINITE = 2,
   FROT_NOT_BELOW_PREVIOUS = 3,
-  FROT_NOT_ZERO = 4 /* it is divided by */
+  FROT_NOT_ZERO = 4,      /* it is divided by */
+  FROT_NOT_BELOW_MIN = 5, /* the value before it */
+  FROT_NOT_ABOVE_MAX = 6
 };
 
 /* A value the model must have, with the sentence's subject: "mass of body 'hoop'". */

@@ -39,11 +39,12 @@ int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, dou
   for (int i = 0; i < m->n_checks; i++) {
     double x = checks[i];
     int rule = m->checks[i].rule;
-    int good = rule == FROT_POSITIVE       ? x > 0
-               : rule == FROT_NOT_NEGATIVE ? x >= 0
-               : rule == FROT_FINITE       ? isfinite(x)
-               : rule == FROT_NOT_ZERO     ? x != 0
-                                           : x >= checks[i - 1];
+    int good = rule == FROT_POSITIVE        ? x > 0
+               : rule == FROT_NOT_NEGATIVE  ? x >= 0
+               : rule == FROT_FINITE        ? isfinite(x)
+               : rule == FROT_NOT_ZERO      ? x != 0
+               : rule == FROT_NOT_ABOVE_MAX ? x <= checks[i - 1]
+                                            : x >= checks[i - 1];
     if (!good || !isfinite(x)) return frot_fail(s, FROT_CHECK, s->t, -1, i, -1, x);
   }
   if (experiment) memcpy(experiment, s->data + l.experiment, 4 * sizeof(double));

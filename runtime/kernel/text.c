@@ -158,7 +158,9 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                              ? "it must not be zero, for an equation is divided by it"
                          : check->rule == FROT_NOT_BELOW_PREVIOUS
                              ? "it must not be below the coefficient of motion"
-                             : "it must be a finite number";
+                         : check->rule == FROT_NOT_BELOW_MIN ? "it must not be below that"
+                         : check->rule == FROT_NOT_ABOVE_MAX ? "it must not be above that"
+                                                             : "it must be a finite number";
       snprintf(text, size, "the %s is %.17g: %s", check->subject, f->value, rule);
       return;
     }
