@@ -72,12 +72,13 @@ def follows_time(expression: Expression, but_for: str = "") -> bool:
             own = isinstance(node.target, Variable) and node.target.name in tuple(but_for)
             if not own:
                 return False
-        if _switches(node) and not is_fixed(node):
+        if switches(node) and not is_fixed(node):
             return False
     return True
 
 
-def _switches(node: Expression) -> bool:
+def switches(node: Expression) -> bool:
+    """Whether an expression itself may jump."""
     if isinstance(node, Call):
         return bool(FUNCTIONS[node.function].switch or FUNCTIONS[node.function].place)
     return isinstance(node, If) or (isinstance(node, Binary) and node.op in _ORDERS)

@@ -9,7 +9,7 @@ from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.dynamics import Push
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.efforts import Effort
+from frot.compiler.mechanics.liaisons.wrenches import Effort
 from frot.compiler.mechanics.mechanism import point_body
 from frot.compiler.mechanics.spatial import about_z, nowhere, whole
 from frot.dsl.catalogue import FUNCTIONS
@@ -24,12 +24,14 @@ class Action:
     """A force (3) and the velocity of its point, or a couple and the angular velocity it drives.
 
     `velocity` is linear in the speeds and `force` times it is the power. `push`: the same as it
-    acts on one body, where it does.
+    acts on one body, where it does. `along`: the slope of the velocity by the speeds, where it is
+    more than its factors are (a velocity that is linear with factors that hold speeds).
     """
 
     velocity: ca.SX
     force: ca.SX
     push: Push | None = None
+    along: ca.SX | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

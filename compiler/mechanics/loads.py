@@ -34,8 +34,9 @@ def applied_loads(mechanism: Mechanism, variables: Variables, moving: Lowering) 
     applied = [load(force, kinematics, moving, variables.effort) for force in mechanism.forces]
     for flange in mechanism.model.flanges:
         assert moving.variable is not None
-        rate = variables.effort(flange.liaison, flange.coordinate).rate
-        applied.append(Load((Action(rate, moving.variable(flange.effort)),), None))
+        unit, size = variables.effort(flange.liaison, flange.coordinate), flange.effort
+        action = Action(unit.rate, moving.variable(size), along=unit.along)
+        applied.append(Load((action,), None))
     for liaison in mechanism.model.liaisons:
         for law in liaison.laws:
             if "tangential" in law.arguments:
@@ -81,7 +82,9 @@ def sum_loads(
             if action.push is not None and action.push.body in held:
                 pushes.append(action.push)
             else:
-                along = ca.jacobian(action.velocity, speeds).T
+                along = action.along
+                if along is None:
+                    along = ca.jacobian(action.velocity, speeds).T
                 force += along @ action.force
                 size += ca.fabs(along) @ ca.fabs(action.force)
             if result.potential is None:

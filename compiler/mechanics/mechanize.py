@@ -7,6 +7,7 @@ from frot.compiler.mechanics.geometry.faces import part_faces
 from frot.compiler.mechanics.geometry.figures import Dot, Flat, Placed, can_touch, figure_of
 from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE, pair
 from frot.compiler.mechanics.liaisons.drives import free_drives, told_by_time
+from frot.compiler.mechanics.liaisons.freed import OF_PLACES, OF_SPEEDS, is_row
 from frot.compiler.mechanics.liaisons.halves import halve
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, drawn_out, make_joint
 from frot.compiler.mechanics.liaisons.locks import Lock, Stated
@@ -35,15 +36,12 @@ from frot.compiler.mechanics.spanning import span
 from frot.dsl import Log
 from frot.dsl.checked import (
     CurvePlace,
-    Derivative,
     Expression,
     Law,
     Liaison,
     Literal,
     Model,
-    Parameter,
     Quantity,
-    Reference,
 )
 from frot.dsl.data.classes import replace
 
@@ -162,29 +160,24 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     return replace(joint, mu=mu, mu_s=mu_s, radius=radius)
 
 
-_OF_PLACES = ("position", "angle", "orientation", "ex", "ey", "ez")
-_OF_SPEEDS = ("velocity", "angular_velocity")
-
-
 def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     """A liaison of the user."""
     locks: list[Lock] = []
     for relation in liaison.relations:
-        names = (*_OF_PLACES, *(_OF_SPEEDS if relation.kinematic else ()))
+        names = (*OF_PLACES, *(OF_SPEEDS if relation.kinematic else ()))
         for side in (relation.left, relation.right):
             for node in subexpressions(side):
-                known = not isinstance(node, Quantity) or (
-                    node.name in names and not isinstance(node.owner, Liaison)
-                )
-                if not known or isinstance(node, Derivative) or not _is_of_motion(node):
-                    refuse(
-                        log,
-                        f"'{' '.join(node.span.text.split())}' in a relation of a liaison",
+                if isinstance(node, Quantity) and not _may_relate(node, names, relation.kinematic):
+                    kind = "kinematic" if relation.kinematic else "geometric"
+                    log.report(
+                        "E0205",
+                        f"a {kind} relation does not hold '{' '.join(node.span.text.split())}'",
                         node.span,
-                        f"it may hold time, parameters and: {', '.join(names)}",
+                        help=f"it may hold time, values, coordinates and: {', '.join(names)}",
                     )
                     return None
-        locks.append(Stated(relation.left, relation.right, relation.kinematic))
+        if is_row(relation):
+            locks.append(Stated(relation.left, relation.right, relation.kinematic))
     a, b = figure_of(liaison.a, planar), figure_of(liaison.b, planar)
     if a is None or b is None:
         refuse(log, "a curve or surface as a place of a liaison of one's own", liaison.span)
@@ -192,9 +185,12 @@ def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     return make_joint(liaison, a.point, b.point, Pairing((), tuple(locks), carries=False), {})
 
 
-def _is_of_motion(node: Expression) -> bool:
-    """Whether an expression holds no variable, input or output of the text."""
-    return not isinstance(node, Reference) or isinstance(node.target, Parameter)
+def _may_relate(node: Quantity, names: tuple[str, ...], kinematic: bool) -> bool:
+    """Whether a relation may hold a variable: places and coordinates, or their rates too."""
+    if not isinstance(node.owner, Liaison):
+        return node.name in names
+    rate = node.name in ("speed", "speed_angle", "angular_velocity", "slip")
+    return node.name in node.owner.kind.coordinates and (kinematic or not rate)
 
 
 def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:

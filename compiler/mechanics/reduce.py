@@ -35,7 +35,6 @@ from frot.compiler.mechanics.geometry.contacts import Geometry, gravity, link_ge
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, RelationGeometry
 from frot.compiler.mechanics.liaisons.locks import Stated
-from frot.compiler.mechanics.liaisons.stated import refuse_bent
 from frot.compiler.mechanics.loads import applied_loads, sum_loads
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Mechanism, Relation
 from frot.compiler.mechanics.text_of_motion import (
@@ -117,7 +116,6 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     kinematics = Kinematics(mechanism, symbols, Constants(symbols))
     symbols = kinematics.symbols
     text = chains_of_motion(mechanism, symbols)
-    refuse_bent(mechanism, kinematics, log)
     geometry = _geometry(mechanism, kinematics)
     variables = _variables(mechanism, kinematics, text, geometry)
     give_rates_of_tracks(kinematics, text)
@@ -311,8 +309,17 @@ def _variables(
         if flange.drives:
             effort = text.values[flange.effort]
             drives.setdefault(flange.liaison, []).append((flange.coordinate, effort))
-    corners = mechanism.corners
-    return Variables(symbols, text.chains, kinematics, geometry, links, reactions, drives, corners)
+    return Variables(
+        symbols=symbols,
+        chains=text.chains,
+        kinematics=kinematics,
+        geometry=geometry,
+        links=links,
+        reactions=reactions,
+        drives=drives,
+        corners=mechanism.corners,
+        values=text.values,
+    )
 
 
 def _masses(

@@ -9,12 +9,15 @@ from frot.compiler.equations.chains import Chains
 from frot.compiler.lowering.symbols import Rows, Symbols
 from frot.compiler.mechanics.geometry.contacts import Geometry
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.efforts import Effort, effort_along
+from frot.compiler.mechanics.liaisons.efforts import effort_along
+from frot.compiler.mechanics.liaisons.freed import numbered
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, joint_variable
+from frot.compiler.mechanics.liaisons.stated import Reader, unit_of
+from frot.compiler.mechanics.liaisons.wrenches import Effort
 from frot.compiler.mechanics.mechanism import Contact, Joint, point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere
-from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity
+from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity, Variable
 from frot.dsl.data.classes import dataclass, field
 
 # Operations within which two moments of inertia are seen to be the same expression.
@@ -27,7 +30,8 @@ class Variables:
 
     `geometry` and `links` hold every liaison, `reactions` the rows of those whose reaction is
     computed, `drives` the efforts that keep prescribed coordinates, by their names; `corners` the
-    liaisons that one of faces stands for, `frictions` what laws of the user give on the body.
+    liaisons that one of faces stands for, `values` are those of the text, `frictions` is what
+    laws of the user give on the body.
     """
 
     symbols: Symbols
@@ -38,6 +42,7 @@ class Variables:
     reactions: dict[Liaison, Rows]
     drives: dict[Liaison, list[tuple[str, ca.SX]]]
     corners: Mapping[Liaison, tuple[Liaison, ...]]
+    values: Mapping[Variable, ca.SX]
     frictions: dict[Liaison, ca.SX] = field(default_factory=dict)
     _inertias: dict[Body, ca.SX] = field(default_factory=dict, repr=False)
 
@@ -117,8 +122,13 @@ class Variables:
         return self._inertias[body]
 
     def effort(self, liaison: Liaison, coordinate: str) -> Effort:
-        """One unit along a coordinate of a liaison."""
+        """One unit along a coordinate of a liaison, or of what keeps a relation of the user's."""
         link, geometry = self.links[liaison], self.geometry[liaison]
+        relation = numbered(liaison, coordinate)
+        if relation is not None:
+            assert isinstance(link, Joint)
+            reader = Reader(self.kinematics, self.values.__getitem__, self.of_liaison)
+            return unit_of(relation, link, reader)
         return effort_along(link, coordinate, geometry, self.kinematics)
 
     def coordinate(self, liaison: Liaison, index: int) -> tuple[ca.SX, ca.SX]:

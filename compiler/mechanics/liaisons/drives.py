@@ -1,4 +1,4 @@
-"""Drives that follow other than time alone, as equations of the text.
+"""Drives that follow other than time alone, and relations of one's own, as equations of the text.
 
 A coordinate that is a value of time is none (`motions.Driven`). One that follows an input, a
 variable, a motion or a switch, and a prescribed speed, stay free: an effort along them, an unknown,
@@ -9,6 +9,7 @@ a flange.
 from __future__ import annotations
 
 from frot.compiler.lowering.walk import follows_time
+from frot.compiler.mechanics.liaisons.freed import coordinate_of, is_row, reaction_of
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Equation, Expression, Flange, Liaison, Model, Quantity, Variable
 from frot.dsl.data.classes import replace
@@ -18,8 +19,9 @@ _ANGLES = ("angle", "angle_a", "angle_b")
 
 
 def free_drives(model: Model) -> Model:
-    """The model with every such drive as an effort and an equation; itself where it has none."""
-    if not any(_goes_free(x, name, model.planar) for x in model.liaisons for name in x.driven):
+    """The model with each of them as an effort and an equation; itself where it has none."""
+    drives = any(_goes_free(x, name, model.planar) for x in model.liaisons for name in x.driven)
+    if not drives and all(is_row(r) for x in model.liaisons for r in x.relations):
         return model
     efforts: list[Flange] = []
     equations: list[Equation] = []
@@ -28,6 +30,12 @@ def free_drives(model: Model) -> Model:
             if _goes_free(liaison, name, model.planar):
                 efforts.append(_effort(liaison, driven_coordinate(liaison, name)))
                 equations.append(_equation(liaison, name, value))
+        for k, relation in enumerate(liaison.relations, 1):
+            if not is_row(relation):
+                effort = reaction_of(liaison, k)
+                efforts.append(Flange(liaison, coordinate_of(k), effort, drives=True))
+                sides = relation.left, relation.right
+                equations.append(Equation(*sides, relation.left.span, drives=True))
     return replace(
         model,
         variables=(*model.variables, *(x.effort for x in efforts)),

@@ -9,22 +9,9 @@ from frot.compiler.mechanics.geometry.paths import point_of
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
 from frot.compiler.mechanics.liaisons.motions import bare, name_of
-from frot.compiler.mechanics.liaisons.wrenches import wrench_along
+from frot.compiler.mechanics.liaisons.wrenches import Effort, wrench_along
 from frot.compiler.mechanics.mechanism import Contact, Joint
 from frot.compiler.mechanics.spatial import nowhere
-from frot.dsl.data.classes import dataclass
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Effort:
-    """What one unit along a coordinate is: the rate it drives, its force and couple on b.
-
-    In a liaison of which a curve of the plane is one place, `force` is that on the point.
-    """
-
-    rate: ca.SX
-    force: ca.SX
-    couple: ca.SX
 
 
 def effort_along(

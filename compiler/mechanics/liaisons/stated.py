@@ -7,55 +7,66 @@ by the velocity of the place b and by the angular velocity of its body.
 from __future__ import annotations
 
 import copy
+from collections.abc import Callable
 
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.locks import Stated
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.liaisons.wrenches import Action
-from frot.compiler.mechanics.mechanism import Joint, Mechanism, point_body
+from frot.compiler.mechanics.liaisons.wrenches import Action, Effort
+from frot.compiler.mechanics.mechanism import Joint, point_body
 from frot.compiler.mechanics.spatial import Moving, Pose, cross, nowhere, product
 from frot.dsl import Log
-from frot.dsl.checked import Liaison, Quantity
-from frot.dsl.data.classes import replace
+from frot.dsl.checked import Liaison, Quantity, StatedRelation, Variable
+from frot.dsl.data.classes import dataclass, replace
+
+_SPACE = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """What the names in a relation stand for; without a text only places and their velocities."""
+
+    kinematics: Kinematics
+    variable: Callable[[Variable], ca.SX] | None = None
+    of_liaison: Callable[[Liaison, str], ca.SX] | None = None
+
+    def value(self, relation: Stated | StatedRelation) -> tuple[ca.SX, ca.SX]:
+        """Left side less right side of a relation, and the size of both."""
+        lowering = Lowering(
+            self.kinematics.symbols, self._quantity, _unrated, Log(), variable=self.variable
+        )
+        left, right = lowering.lower(relation.left), lowering.lower(relation.right)
+        return left - right, ca.fabs(left) + ca.fabs(right)
+
+    def _quantity(self, node: Quantity) -> ca.SX:
+        if isinstance(node.owner, Liaison):
+            assert self.of_liaison is not None
+            return self.of_liaison(node.owner, node.name)
+        value = _read(node, self.kinematics)
+        planar = self.kinematics.planar and value.numel() == _SPACE
+        return ca.densify(value[:2]) if planar else value
 
 
 def value_of(lock: Stated, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
-    """Left side less right side of a relation, and the size of both."""
+    """Left side less right side of a relation that is a row, and the size of both."""
+    return Reader(kinematics).value(lock)
 
-    def quantity(node: Quantity) -> ca.SX:
-        assert not isinstance(node.owner, Liaison)
-        value = _read(node, kinematics)
-        return ca.densify(value[:2]) if kinematics.planar and value.numel() == 3 else value
 
-    lowering = Lowering(kinematics.symbols, quantity, _unrated, Log())
-    left, right = lowering.lower(lock.left), lowering.lower(lock.right)
-    return left - right, ca.fabs(left) + ca.fabs(right)
+def unit_of(relation: StatedRelation, joint: Joint, reader: Reader) -> Effort:
+    """What one unit of what keeps a relation does."""
+    kinematics = reader.kinematics
+    speeds = ca.vertcat(kinematics.symbols.v, kinematics.symbols.sw)
+    value, _ = reader.value(relation)
+    rate = value if relation.kinematic else kinematics.rate(value)
+    along = ca.jacobian(rate, speeds).T
+    force, couple = _wrench(relation, joint, reader)
+    return Effort(ca.dot(along, speeds), force, couple, along)
 
 
 def _unrated(value: ca.SX) -> ca.SX:
     raise TypeError("a derivative in a relation")
-
-
-def refuse_bent(mechanism: Mechanism, kinematics: Kinematics, log: Log) -> None:
-    """Report relations between velocities that are not linear in them."""
-    for link in mechanism.contacts:
-        lock = getattr(link, "lock", None)
-        if not isinstance(lock, Stated) or not lock.kinematic:
-            continue
-        value, _ = value_of(lock, kinematics)
-        if _is_bent(value, kinematics.symbols.v):
-            log.report(
-                "E0701",
-                "a relation that is not linear in velocities is not supported yet",
-                lock.left.span,
-            )
-
-
-def _is_bent(value: ca.SX, speeds: ca.SX) -> bool:
-    slope = ca.jacobian(value, speeds)
-    return bool(slope.nnz() and speeds.numel() and ca.depends_on(slope, speeds))
 
 
 def _read(node: Quantity, kinematics: Kinematics) -> ca.SX:
@@ -77,19 +88,27 @@ def _read(node: Quantity, kinematics: Kinematics) -> ca.SX:
 
 def state(lock: Stated, joint: Joint, kinematics: Kinematics) -> Action:
     """The wrench and the gap of a relation; of one between velocities there is no gap."""
+    reader = Reader(kinematics)
+    gap = ca.SX(0) if lock.kinematic else reader.value(lock)[0]
+    force, couple = _wrench(lock, joint, reader)
+    return Action(force, couple, Column(nowhere(), nowhere()), gap)
+
+
+def _wrench(relation: Stated | StatedRelation, joint: Joint, reader: Reader) -> tuple[ca.SX, ca.SX]:
+    """Force and couple on b for one unit of what keeps a relation."""
+    kinematics = reader.kinematics
     body, there = point_body(joint.b), kinematics.position(joint.b)
     way, turn = ca.SX.sym("way", 3), ca.SX.sym("turn", 3)
     moved = copy.copy(kinematics)
     own = kinematics.bodies[body]
     linear = way + cross(turn, own.pose.origin - there)
-    other = _faster(own, linear, turn) if lock.kinematic else _displaced(own, linear, turn)
+    other = _faster(own, linear, turn) if relation.kinematic else _displaced(own, linear, turn)
     moved.bodies = {**kinematics.bodies, body: other}
-    value, _ = value_of(lock, moved)
+    value, _ = replace(reader, kinematics=moved).value(relation)
     slopes = [ca.jacobian(value, x).T for x in (way, turn)]
     zero = ca.SX.zeros(3)
     force, couple = ca.substitute(slopes, [way, turn], [zero, zero])
-    gap = ca.SX(0) if lock.kinematic else value_of(lock, kinematics)[0]
-    return Action(force, couple, Column(nowhere(), nowhere()), gap)
+    return force, couple
 
 
 def _faster(own: Moving, linear: ca.SX, turn: ca.SX) -> Moving:

@@ -41,6 +41,20 @@ from frot.dsl.data.classes import dataclass, field, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Effort:
+    """What one unit along a coordinate is: the rate it drives, its force and couple on b.
+
+    In a liaison of which a curve of the plane is one place, `force` is that on the point.
+    `along`: the part of each speed in the rate, where that is not linear in speeds.
+    """
+
+    rate: ca.SX
+    force: ca.SX
+    couple: ca.SX
+    along: ca.SX | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Action:
     """A lock between two poses: `force` and `couple` of its wrench, `column`, `gap`.
 
