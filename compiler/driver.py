@@ -17,6 +17,7 @@ from frot.compiler.mechanics.mechanize import mechanize
 from frot.dsl import Log, dump
 from frot.dsl.checked import Model
 from frot.dsl.data.classes import replace
+from frot.dsl.data.collection import without_collection
 from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, read_program
 
 # What reads a report must not wait for CasADi: it is loaded where equations are formed.
@@ -115,11 +116,12 @@ def build(
     from frot.compiler.toolchain.objects import kept_kernel, kernel_folder
     from frot.compiler.toolchain.storing import store, write_manifest
 
-    lowered = lowered_of(model, log, tell)
-    if lowered is None:
-        return None
-    tell("its C text")
-    text = text_of(lowered, key)
+    with without_collection():
+        lowered = lowered_of(model, log, tell)
+        if lowered is None:
+            return None
+        tell("its C text")
+        text = text_of(lowered, key)
     tell(f"the C compiler, {len(text) // 1000} kB")
     kernel = kept_kernel(toolchain)
 

@@ -6,6 +6,7 @@ import sys
 
 from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
+from frot.dsl.data.collection import without_collection
 from frot.dsl.declarations.instantiate import declare_values, instantiate
 from frot.dsl.declarations.mechanism import complete_liaison
 from frot.dsl.declarations.settle import entities, settle_all
@@ -32,7 +33,6 @@ from frot.dsl.statements.settings import (
 from frot.dsl.statements.unfold import Leaf, unfold
 from frot.dsl.statements.when import mark_discrete, when
 from frot.dsl.text import tree
-from frot.dsl.text.build import without_collection
 from frot.dsl.warn import warn, warn_angles
 
 # Frames of Python: nested expressions in declarations that wait for one another.

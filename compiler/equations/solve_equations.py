@@ -136,7 +136,7 @@ def _are_equations(left: Eliminated, chains: Chains, log: Log) -> bool:
             )
             good = False
     for value, origin in zip(left.residuals.values, left.residuals.origins, strict=True):
-        if not ca.symvar(value):
+        if value.is_constant():
             zero = value.is_zero()
             log.report(
                 "E0604",
@@ -182,26 +182,26 @@ def _solve(
 ) -> None:
     """Solve one component: by formulas as far as they go, the rest as a block."""
     unknowns = [found.unknown(j) for j in component.unknowns]
-    residual = [replace_known(found.values[i], solving.known) for i in component.equations]
+    residual = [found.values[i] for i in component.equations]
+    if component.needs:
+        residual = [replace_known(value, solving.known) for value in residual]
     torn = tear(residual, unknowns, given)
     for factor, unknown, number in torn.divisors:
-        inside = ca.symvar(factor)
-        if inside and all(x in given for x in inside):
+        if not factor.is_constant() and all(x in given for x in ca.symvar(factor)):
             origin = found.origins[component.equations[number]]
             solving.pivots.append(Pivot(factor, unknown.name(), origin))
     first = len(solving.y)
     for symbol in torn.iterated:
         solving.y.append(symbol)
     for symbol, value in torn.explicit:
-        solving.known[symbol.element_hash()] = replace_known(value, solving.known)
+        solving.known[symbol.element_hash()] = value
     if torn.iterated:
-        whole = replace_known(column(torn.residual), solving.known)
         names = ", ".join(symbol.name() for symbol in torn.iterated[:4])
         more = len(torn.iterated) - 4
         origin = found.origins[component.equations[0]]
         solving.blocks.append(
             Block(
-                whole,
+                column(torn.residual),
                 first,
                 torn.linear,
                 late,

@@ -25,12 +25,13 @@ def tear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> Torn:
     whole, z = column(residual), column(unknowns)
     jacobian = ca.jacobian(whole, z)
     alone = len(unknowns) == 1
-    if alone and not ca.depends_on(jacobian, z):
+    linear = jacobian.is_constant() or not ca.depends_on(jacobian, z)
+    if alone and linear:
         rest = ca.substitute(whole, z, ca.SX.zeros(1))
         factor = jacobian[0, 0]
         formula = (unknowns[0], -rest / factor)
         return Torn((formula,), ((factor, unknowns[0], 0),), (), (), True)
-    if not ca.depends_on(jacobian, z):
+    if linear:
         return tear_linear(residual, unknowns, given)
     divisors = _divisors(jacobian, given)
     steps, iterated, rest_equations = _order(jacobian, divisors)
@@ -42,9 +43,8 @@ def tear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> Torn:
     kept = column(unknowns[j] for j in iterated)
     put = _put_in(explicit, [residual[i] for i in rest_equations])
     slope = ca.jacobian(column(put), kept)
-    linear = not ca.depends_on(slope, kept)
-    iterated_symbols = tuple(unknowns[j] for j in iterated)
-    return Torn(tuple(explicit), divided, iterated_symbols, tuple(put), linear)
+    left = tuple(unknowns[j] for j in iterated)
+    return Torn(tuple(explicit), divided, left, tuple(put), not ca.depends_on(slope, kept))
 
 
 def _put_in(explicit: list[tuple[ca.SX, ca.SX]], residual: list[ca.SX]) -> list[ca.SX]:

@@ -82,6 +82,8 @@ class Rows:
 def column(values: Iterable[ca.SX]) -> ca.SX:
     """The values below one another; an empty column for none."""
     items = list(values)
+    if len(items) == 1:  # most columns of equations
+        return items[0]
     return ca.vertcat(*items) if items else ca.SX.zeros(0)
 
 

@@ -114,6 +114,16 @@ def read_expressions(model: Model) -> Iterator[Expression]:
             yield from law.arguments.values()
 
 
+def read_quantities(model: Model) -> Iterator[Quantity]:
+    """What the model reads of its bodies and liaisons, in the order of the text."""
+    if not (model.bodies or model.liaisons):
+        return
+    for expression in read_expressions(model):
+        for node in subexpressions(expression):
+            if isinstance(node, Quantity):
+                yield node
+
+
 def _of_equations(equations: Iterable[Equation | IfEquations]) -> Iterator[Expression]:
     for equation in equations:
         if isinstance(equation, Equation):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from frot.compiler.lowering.walk import is_fixed, read_expressions, subexpressions
+from frot.compiler.lowering.walk import is_fixed, read_quantities, subexpressions
 from frot.compiler.mechanics.geometry.faces import part_faces
 from frot.compiler.mechanics.geometry.figures import Dot, Flat, Placed, can_touch, figure_of
 from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE, pair
@@ -36,7 +36,6 @@ from frot.compiler.mechanics.spanning import span
 from frot.dsl import Log
 from frot.dsl.checked import (
     CurvePlace,
-    Expression,
     Law,
     Liaison,
     Literal,
@@ -269,14 +268,8 @@ def _is_contact(liaison: Liaison, track: Placed | None, rim: Placed | None) -> b
 
 def _read_liaisons(model: Model) -> set[Liaison]:
     """Liaisons whose reaction an expression reads."""
-
-    def reads(expression: Expression) -> set[Liaison]:
-        return {
-            node.owner
-            for node in subexpressions(expression)
-            if isinstance(node, Quantity)
-            and isinstance(node.owner, Liaison)
-            and node.name in REACTION
-        }
-
-    return set().union(*(reads(e) for e in read_expressions(model)))
+    return {
+        node.owner
+        for node in read_quantities(model)
+        if isinstance(node.owner, Liaison) and node.name in REACTION
+    }

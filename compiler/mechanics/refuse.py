@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from frot.compiler.lowering.walk import follows_time, is_fixed, read_expressions, subexpressions
+from frot.compiler.lowering.walk import follows_time, is_fixed, read_quantities, subexpressions
 from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE
 from frot.compiler.mechanics.liaisons.joints import JOINTS
 from frot.compiler.mechanics.liaisons.locks import Touching
@@ -94,15 +94,14 @@ def refuse_unknown(model: Model, log: Log) -> None:
             model.experiment.span,
             f"{', '.join(f'`{method}`' for method in allowed)} are",
         )
-    for expression in read_expressions(model):
-        for node in subexpressions(expression):
-            if isinstance(node, Quantity) and node.name == "mode":
-                refuse(
-                    log,
-                    "`mode` inside an expression",
-                    node.span,
-                    "every result holds the mode of each liaison by its name",
-                )
+    for node in read_quantities(model):
+        if node.name == "mode":
+            refuse(
+                log,
+                "`mode` inside an expression",
+                node.span,
+                "every result holds the mode of each liaison by its name",
+            )
 
 
 def _refuse_options(liaison: Liaison, log: Log) -> None:
@@ -232,19 +231,14 @@ def refuse_surface(model: Model, links: Iterable[Contact | Joint], log: Log) -> 
         and e.radius is None
         and not any(isinstance(lock, Touching) for lock in e.locks)
     }
-    for expression in read_expressions(model):
-        for node in subexpressions(expression):
-            if (
-                isinstance(node, Quantity)
-                and node.owner in plain
-                and node.name in ("slip", "tangential_force")
-            ):
-                log.report(
-                    "E0203",
-                    f"no '{node.name}' on '{node.owner.name}': its pin has no radius",
-                    node.span,
-                    help="read `speed` or `torque`, or give the law `coulomb(..., radius = ...)`",
-                )
+    for node in read_quantities(model):
+        if node.owner in plain and node.name in ("slip", "tangential_force"):
+            log.report(
+                "E0203",
+                f"no '{node.name}' on '{node.owner.name}': its pin has no radius",
+                node.span,
+                help="read `speed` or `torque`, or give the law `coulomb(..., radius = ...)`",
+            )
 
 
 _JOINED = {

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 from frot.dsl.quantities.dimensions import Dimension, dimension
 from frot.dsl.quantities.turns import factor_between, rate_of_kind, rate_of_unit
 from frot.dsl.quantities.units import parse_unit
@@ -22,6 +24,7 @@ _TURNING |= {"RotationalStiffness": -1, "RotationalDamping": -1}
 _ENERGY = dimension(m=2, kg=1, s=-2)
 
 
+@cache
 def unit_of(of: Dimension, quantity: str = "", written: str = "") -> Unit:
     """The SI unit of a dimension; `written`, the author's unit, is kept for display if it differs.
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import gc
 import re
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from frot.dsl.messages.diagnostics import Label, Log
@@ -295,15 +293,3 @@ _ELEMENTS: dict[str, Callable[[Any, Place, set[str]], tree.Element]] = {
     "if_equation": _if,
     "for_equation": _for,
 }
-
-
-@contextmanager
-def without_collection() -> Iterator[None]:
-    """Leave the collector of cycles out while all that is made is kept: a third of the time."""
-    collects = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if collects:
-            gc.enable()

@@ -11,6 +11,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from frot.dsl.data.classes import dataclass, field
+from frot.dsl.data.collection import without_collection
 from frot.dsl.messages.diagnostics import LIMIT, Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text import syntax_messages as messages
@@ -36,7 +37,7 @@ def parse(source: Source, log: Log, tokens: list[Lexeme] | None = None) -> Tree:
 
     `tokens`, if given, is filled with the tokens read: all of them if nothing was reported.
     """
-    from frot.dsl.text.build import build, without_collection
+    from frot.dsl.text.build import build
 
     reader = _Reader(source, log, tokens)
     with without_collection():
