@@ -23,13 +23,15 @@ _SLIGHT = 1e-12
 class Guess:
     """A scalar, the value it is guessed to have and the dimension of both.
 
-    `start`: it is no statement of `initial`, but the `start` of a variable.
+    `start`: it is no statement of `initial`, but the `start` of a variable. `whole` is the vector
+    of which the scalar is an item: an item that is a rounding beside the others guesses nothing.
     """
 
     left: ca.SX
     right: ca.SX
     dimension: Dimension
     start: bool
+    whole: ca.SX
 
 
 def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
@@ -45,14 +47,15 @@ def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
             right = scalars(looking.lower(variable.start))
             right = right * len(left) if len(right) == 1 else right
             of = variable.start.type.dimension
-            starts += [Guess(a, b, of, True) for a, b in zip(left, right, strict=True)]
+            starts += [Guess(a, b, of, True, a) for a, b in zip(left, right, strict=True)]
     guesses: list[Guess] = []
     for equation in model.initial:
         if equation.guess and is_fixed(equation.right):
             left = scalars(system.resolve(settled(looking.lower(equation.left))))
             right = scalars(looking.lower(equation.right))
             of = equation.left.type.dimension
-            guesses += [Guess(a, b, of, False) for a, b in zip(left, right, strict=True)]
+            whole = column(left)
+            guesses += [Guess(a, b, of, False, whole) for a, b in zip(left, right, strict=True)]
     ordered = [sorted(each, key=lambda g: g.left.is_symbolic()) for each in (starts, guesses)]
     return [*ordered[0], *ordered[1]][::-1]
 
@@ -122,6 +125,8 @@ def move_by(
             continue
         slope = replace_known(ca.jacobian(guess.left, column(free)).T, here)
         whole = ca.sumsqr(slope)
+        if guess.whole.numel() > 1:
+            whole = ca.sumsqr(replace_known(ca.jacobian(guess.whole, column(free)), here))
         for other in taken:
             slope -= ca.dot(slope, other) * other
         length = ca.sumsqr(slope)
