@@ -31,7 +31,7 @@ from frot.dsl.statements.settings import (
     world,
 )
 from frot.dsl.statements.unfold import Leaf, unfold
-from frot.dsl.statements.when import mark_discrete, when
+from frot.dsl.statements.when import Setters, mark_discrete, when
 from frot.dsl.text import tree
 from frot.dsl.warn import warn, warn_angles
 
@@ -177,7 +177,7 @@ def _equations(made: list[Instance], build: Build) -> list[checked.Equation | ch
     for bind in build.bindings:
         bind()
     sink = Sink(build.equations)
-    setters: dict[checked.Variable, Span] = {}
+    setters: Setters = {}
     for leaf in leaves:
         if isinstance(leaf[0], tree.When):
             when(leaf[0], leaf[1], setters)

@@ -16,6 +16,10 @@ from frot.dsl.checked import Call, Element, Expression, Reference, Variable
 from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 
+# Of a whole number, by how much a value is beyond it before it counts as back.
+_LATE = 2.0**-43
+Crosses = Callable[[ca.SX, bool], ca.SX]
+
 
 @dataclass(slots=True)
 class Before:
@@ -56,6 +60,27 @@ class Before:
         symbol = ca.SX.sym(f"pre({name})")
         self.text.held.append(Held(name, symbol, start, value, span))
         return symbol
+
+    def floor(self, value: ca.SX, crosses: Crosses, span: Span) -> ca.SX:
+        """The whole number below `value`, which events change where `value` crosses one.
+
+        Where it turns back at once it crosses a little late, for it may be a rounding short.
+        """
+        whole, way = (ca.SX.sym(f"{name} of a floor") for name in ("value", "way"))
+        late = _LATE * (1 + ca.fabs(whole))
+        risen = crosses(value - (whole + 1) - (way < 0) * late, False)
+        fallen = crosses(whole - value - (way > 0) * late, True)
+        below = ca.floor(value)
+        up, down = ca.fmax(below, whole + 1), ca.fmin(below, whole - 1)
+        new = ca.if_else(risen, up, ca.if_else(fallen, down, whole))
+        near = value - ca.if_else(risen, up, whole)  # at the start it may come from anywhere
+        turn = ca.if_else(ca.fabs(near) < 2 * late, risen - fallen, 0)
+        self._hold(whole, ca.SX(0), new, span)
+        self._hold(way, ca.SX(0), ca.if_else(risen + fallen, turn, way), span)
+        return new
+
+    def _hold(self, symbol: ca.SX, start: ca.SX, value: ca.SX, span: Span) -> None:
+        self.text.held.append(Held(symbol.name(), symbol, start, value, span))
 
     def look_at(self, expressions: Iterable[Expression]) -> None:
         """Find what the expressions, lowered next, read both now and before."""

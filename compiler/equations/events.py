@@ -157,7 +157,9 @@ class _Gatherer:
         match action:
             case Assign():
                 value = self.looking.lower(action.value)
-                targets = scalars(self.text.values[action.variable])
+                whole = self.text.values[action.variable]
+                rows = whole[action.item[0], :].T if action.item else whole
+                targets = scalars(rows[action.item[1]] if len(action.item) > 1 else rows)
                 values = scalars(value)
                 if len(values) == 1:
                     values = values * len(targets)

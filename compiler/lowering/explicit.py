@@ -51,4 +51,25 @@ def _solution(system: Assembled) -> ca.SX:
     rows = system.lam.numel()
     core, force = system.in_full()
     matrix = ca.blockcat([[core, -system.spread], [system.rows, ca.SX(rows, rows)]])
-    return ca.solve(matrix, ca.vertcat(force, -system.bias))
+    matrix, right = ca.sparsify(matrix), ca.vertcat(force, -system.bias)
+    solution = ca.SX.zeros(right.shape)
+    for part in _apart(matrix.sparsity()):
+        solution[part] = ca.solve(matrix[part, part], right[part])
+    return solution
+
+
+def _apart(pattern: ca.Sparsity) -> list[list[int]]:
+    """Unknowns in parts that do not act on each other: a formula of one reads no other."""
+    part = list(range(pattern.size1()))
+
+    def root(k: int) -> int:
+        while part[k] != k:
+            k = part[k]
+        return k
+
+    for i, j in zip(*pattern.get_triplet(), strict=True):
+        part[root(i)] = root(j)
+    found: dict[int, list[int]] = {}
+    for k in range(len(part)):
+        found.setdefault(root(k), []).append(k)
+    return list(found.values())

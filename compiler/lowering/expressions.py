@@ -29,7 +29,7 @@ from frot.dsl.checked import (
     Vector,
 )
 from frot.dsl.checked.walk import Rules, SharedWalk, parts
-from frot.dsl.data.classes import dataclass, field
+from frot.dsl.data.classes import dataclass, field, replace
 from frot.dsl.messages.source import Span
 
 NEVER, RISING, ALWAYS = range(3)
@@ -205,7 +205,12 @@ class Lowering(SharedWalk[ca.SX]):
         conditions = self._located(node)
         if node.op in ("==", "<>"):
             if conditions is not None and node.left.type.base == "real":
-                self._refuse(f"`{node.op}` between values that change", node)
+                self.log.report(
+                    "E0304",
+                    f"`{node.op}` between numbers that change: they are equal at instants at most",
+                    node.span,
+                    help="compare by `<` and `>`, or compare whole numbers",
+                )
             return left == right if node.op == "==" else left != right
         positive = left - right if node.op in (">", ">=") else right - left
         strict = node.op in ("<", ">")
@@ -217,10 +222,14 @@ class Lowering(SharedWalk[ca.SX]):
         return positive > 0 if strict else positive >= 0
 
     def _call(self, node: Call) -> ca.SX:
+        if node.function == "noEvent":
+            return replace(self, conditions=None, known=None, done={}).of(node.arguments[0])
         arguments = [self.of(argument) for argument in node.arguments]
         conditions = self._located(node)
         name = node.function
         function = FUNCTIONS[name]
+        if name == "smooth":
+            return arguments[1]
         if function.place == "event":
             return self._of_events(node, arguments)
         if function.switch == "order":
@@ -243,10 +252,28 @@ class Lowering(SharedWalk[ca.SX]):
             )
             return (2 * above - 1) * (arguments[0] if name == "abs" else 1)
         if conditions is not None and function.switch == "step":
-            self._refuse(f"`{name}` of a value that changes, in a force or coefficient", node)
+            return self._step(node, arguments, conditions)
         assert function.form is not None
         made: ca.SX = function.form(ca, *arguments)
         return made
+
+    def _step(self, node: Call, arguments: list[ca.SX], conditions: Conditions) -> ca.SX:
+        """`floor`, `ceil` and `mod` of what changes: the events are where they step."""
+        assert self.before is not None
+
+        def crosses(value: ca.SX, strict: bool) -> ca.SX:
+            return conditions.add(
+                value, strict, self._told(f"{words(node)} steps"), node.span, RISING
+            )
+
+        first = arguments[0]
+        match node.function:
+            case "floor":
+                return self.before.floor(first, crosses, node.span)
+            case "ceil":
+                return -self.before.floor(-first, crosses, node.span)
+        count = self.before.floor(first / arguments[1], crosses, node.span)
+        return first - arguments[1] * count
 
     def _told(self, text: str) -> str:
         """A condition's words, with the component it stands in."""
@@ -259,10 +286,11 @@ class Lowering(SharedWalk[ca.SX]):
             return self._of_jumps(node, arguments[0])
         if name == "friction" and self.friction is not None:
             return self.friction(node, arguments, self.owner)
+        where, remedy = "is the condition of a 'when'", "give a discrete variable its value there"
         if name == "friction":
-            self._refuse("`friction` outside of the equations", node)
-        else:
-            self._refuse(f"`{name}` other than as the condition of a 'when'", node)
+            where = "stands in an equation of the section `equation`"
+            remedy = "declare `Force f;`, write `f = friction(...);` there, and read f here"
+        self.log.report("E0304", f"`{name}` {where}, and nowhere else", node.span, help=remedy)
         return arguments[0] if arguments else ca.SX(0)
 
     def _of_jumps(self, node: Call, now: ca.SX) -> ca.SX:
@@ -292,9 +320,6 @@ class Lowering(SharedWalk[ca.SX]):
         below = x - y if name == "max" else y - x
         flag = conditions.add(below, False, text, span) if conditions is not None else below >= 0
         return ca.if_else(flag, x, y)
-
-    def _refuse(self, what: str, node: Expression) -> None:
-        self.log.report("E0701", f"{what} is not supported yet", node.span)
 
     rules: ClassVar[Rules] = {
         Literal: _literal,

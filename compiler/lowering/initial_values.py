@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 import casadi as ca
 from frot.compiler.equations.chains import replace_known
@@ -15,12 +15,13 @@ from frot.compiler.lowering.guesses import (
     move_by,
     values_of,
 )
+from frot.compiler.lowering.initial_rates import at_given_speeds, finds_places
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.mechanism import Link
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation, Reference, Variable
-from frot.dsl.data.classes import dataclass
+from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 
 
@@ -48,16 +49,25 @@ class Initial:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Residual:
-    """A statement that something is zero; `only`: the one unknown that is to make it so."""
+    """A statement that something is zero; `only`: the one unknown that is to make it so.
+
+    `solved`: it is on an acceleration or a reaction.
+    """
 
     value: ca.SX
     size: ca.SX
     statement: int
     only: ca.SX | None = None
+    solved: bool = False
 
 
-def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
-    """Lower the statements; one that cannot hold for positions and velocities is reported."""
+def lower_initial(
+    system: Assembled, looking: Lowering, explicit: Callable[[ca.SX], ca.SX], log: Log
+) -> Initial:
+    """Lower the statements; one that cannot hold for positions and velocities is reported.
+
+    `explicit` writes accelerations and reactions out where they are formulas.
+    """
     model = system.reduced.mechanism.model
     statements = [_statement(e) for e in model.initial]
     found: list[_Residual] = []
@@ -65,8 +75,9 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
     later = {x.element_hash() for part in solved for x in scalars_of(part)}
     for index, equation in enumerate(model.initial):
         if not equation.guess and not _sets_memory(equation, system):
-            found += _residuals(index, equation, system, looking, later, log)
+            found += _residuals(index, equation, system, looking, explicit, later, log)
     direct, complete = _direct(found, system)
+    found = _placed(found, direct, system, statements, log)
     guesses = list_guesses(system, looking)
     # values that are stated one by one are where the search begins, or all there is to find
     natural = _with(system.q, _natural(system), direct)
@@ -115,6 +126,37 @@ def lower_initial(system: Assembled, looking: Lowering, log: Log) -> Initial:
         tuple(r.statement for r in velocity),
         guessed,
     )
+
+
+def _placed(
+    found: list[_Residual],
+    direct: Mapping[int, ca.SX],
+    system: Assembled,
+    statements: list[Statement],
+    log: Log,
+) -> list[_Residual]:
+    """The statements, where those on accelerations that find places hold at given speeds."""
+    of_places = [r.value for r in found if not r.solved and not _depends(r.value, system, system.v)]
+    of_speeds = [r.value for r in found if not r.solved and _depends(r.value, system, system.v)]
+    placed: list[_Residual] = []
+    for residual in found:
+        moves = residual.solved and _depends(residual.value, system, system.v)
+        if moves and finds_places(residual.value, of_places, system):
+            value = at_given_speeds(residual.value, of_speeds, direct, system)
+            if value is None:
+                log.report(
+                    "E0602",
+                    "this initial statement is to find places, at speeds that follow from other "
+                    "statements or from liaisons",
+                    statements[residual.statement].span,
+                    help="state these speeds one by one, or the places",
+                )
+                continue
+            residual = replace(residual, value=value)
+        if residual.solved and not _depends(residual.value, system, system.v):
+            of_places.append(residual.value)
+        placed.append(residual)
+    return placed
 
 
 def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Link]]:
@@ -169,6 +211,7 @@ def _residuals(
     equation: InitialEquation,
     system: Assembled,
     looking: Lowering,
+    explicit: Callable[[ca.SX], ca.SX],
     later: set[int],
     log: Log,
 ) -> list[_Residual]:
@@ -187,18 +230,21 @@ def _residuals(
     settled = system.reduced.variables.settled
     left = system.resolve(settled(looking.lower(equation.left)))
     right = system.resolve(settled(looking.lower(equation.right)))
+    solved = ca.depends_on(left - right, ca.vertcat(system.z, system.lam))
+    left, right = explicit(left), explicit(right)
     difference = left - right
     if any(x.element_hash() in later for x in ca.symvar(difference)):
         log.report(
-            "E0701",
-            "an initial statement on an acceleration or a reaction is not supported yet",
+            "E0602",
+            "this initial statement is on an acceleration, a reaction or what follows from them, "
+            "which friction, a contact that parts or the equations decide when the state is known",
             equation.span,
             help="state positions and velocities",
         )
         return []
     sizes = ca.fabs(left) + ca.fabs(right)
     return [
-        _Residual(value, size, index)
+        _Residual(value, size, index, solved=solved)
         for value, size in zip(
             scalars(difference), scalars(ca.SX.zeros(difference.shape) + sizes), strict=True
         )

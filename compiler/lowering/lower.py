@@ -92,7 +92,7 @@ def lower(
     reduced = system.reduced
     s, resolve, settled = reduced.symbols, system.resolve, reduced.variables.settled
     looking, explicit = looking_at(system, log)
-    initial = lower_initial(system, looking, log)
+    initial = lower_initial(system, looking, explicit, log)
     variables = list_variables(system, looking, integrals)
     conditions, timers = sort_conditions(system, _conditions(system, explicit, log))
     watched, watched_origins = watch_numbers(system)

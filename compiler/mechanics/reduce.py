@@ -132,7 +132,6 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         )
         for located in (conditions, None)
     )
-    moving.friction = friction_maker(text)
     first = first_values(mechanism.model, text, symbols, looking, log)
     moving.before = Before(text, text.values.__getitem__, first)
     for variable in mechanism.model.variables:
@@ -148,7 +147,9 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     speeds = ca.vertcat(symbols.v, symbols.sw)
     applied = applied_loads(mechanism, variables, moving)
     coefficients = _coefficients(mechanism.contacts, moving, symbols, log)
+    moving.friction = friction_maker(text)
     equations = gather(mechanism.model.equations, moving, log)
+    moving.friction = None
     add_slip_accelerations(equations, text)
     events = gather_events(mechanism.model, text, conditions, moving, looking, log)
     if log.failed:

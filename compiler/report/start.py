@@ -54,7 +54,7 @@ def find_start(system: Assembled) -> Start | None:
     reduced, symbols = system.reduced, system.reduced.symbols
     log = Log()
     looking, explicit = looking_at(system, log)
-    initial = lower_initial(system, looking, log)
+    initial = lower_initial(system, looking, explicit, log)
     if log.failed:
         return None
     state = state_arguments(system)

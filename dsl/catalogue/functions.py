@@ -174,6 +174,8 @@ _OF_EVENTS = {
     "sample": (2, 2),
     "initial": (0, 0),
     "friction": (2, 3),
+    "noEvent": (1, 1),
+    "smooth": (2, 2),
 }
 _TWO: dict[str, Any] = {"least": 2, "most": 2}
 _STEP: dict[str, Any] = {**_TWO, "whole": "kept", "switch": "step"}
@@ -202,4 +204,4 @@ _ROWS = (
 FUNCTIONS: Mapping[str, Function] = {row.name: row for row in _ROWS}
 
 # Functions of the language that have no meaning in `checked.Model` yet.
-LATER = frozenset(("smooth", "noEvent", "delay"))
+LATER = frozenset(("delay",))

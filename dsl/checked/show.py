@@ -228,7 +228,8 @@ def _when(made: checked.When) -> Iterator[str]:
         for action in actions:
             match action:
                 case checked.Assign():
-                    yield f"  {action.variable.name} = {show(action.value)}"
+                    item = f"[{','.join(str(k + 1) for k in action.item)}]" if action.item else ""
+                    yield f"  {action.variable.name}{item} = {show(action.value)}"
                 case checked.Reinit():
                     yield f"  reinit({show(action.target)}, {show(action.value)})"
                 case checked.Terminate():

@@ -45,11 +45,15 @@ class IfEquations:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Assign:
-    """`variable = value;` inside `when`: the discrete variable's new value."""
+    """`variable = value;` inside `when`: the discrete variable's new value.
+
+    `item` are the indices, from 0, of the one item that is set, none where all are.
+    """
 
     variable: Variable
     value: Expression
     span: Span
+    item: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

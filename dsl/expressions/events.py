@@ -29,10 +29,28 @@ def event_call(node: tree.Call, scope: Scope) -> checked.Expression | None:
             return _sample(node, scope)
         case "friction":
             return _friction(node, scope)
+        case "noEvent":
+            inner = expression(node.arguments[0].value, scope)
+            return None if inner is None else checked.Call(name, (inner,), inner.type, node.span)
+        case "smooth":
+            return _smooth(node, scope)
         case "edge":
             found = expect(node.arguments[0].value, BOOLEAN, scope)
             return None if found is None else checked.Call(name, (found,), BOOLEAN, node.span)
     return _before(name, node, scope)
+
+
+def _smooth(node: tree.Call, scope: Scope) -> checked.Expression | None:
+    """`smooth(n, x)`: x, of which the author says that it and n derivatives do not jump."""
+    order = expect(node.arguments[0].value, Type("integer"), scope)
+    value = expression(node.arguments[1].value, scope)
+    if order is None or value is None:
+        return None
+    if constant(order) is not None or value.type.base != "real":
+        what = "a number" if value.type.base != "real" else "a fixed number of derivatives, first"
+        scope.log.report("E0304", f"'smooth' takes {what}", node.span, help="write 'smooth(1, x)'")
+        return None
+    return checked.Call("smooth", (order, value), value.type, node.span)
 
 
 def _before(name: str, node: tree.Call, scope: Scope) -> checked.Expression | None:

@@ -11,12 +11,15 @@ from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.sections import called_name
-from frot.dsl.quantities.dimensions import BOOLEAN
+from frot.dsl.quantities.dimensions import BOOLEAN, Type
 from frot.dsl.quantities.turns import rate_of_kind
 from frot.dsl.statements.equations import assertion
 from frot.dsl.statements.unfold import unfold
 from frot.dsl.text import tree
 
+# A variable with the indices of the item that is set, none where all of it is.
+Target = tuple[checked.Variable, tuple[int, ...]]
+Setters = dict[Target, Span]
 Action = checked.Assign | checked.Reinit | checked.Terminate | checked.Assertion
 
 
@@ -26,24 +29,27 @@ def mark_discrete(element: tree.When, scope: Scope) -> None:
         for part in branch.elements:
             for leaf, inner in unfold(part, scope):
                 if isinstance(leaf, tree.Equation) and leaf.right is not None:
-                    variable = _assigned(leaf.left, inner)
-                    if variable is not None:
-                        object.__setattr__(variable, "discrete", True)
+                    found = _assigned(leaf.left, inner)
+                    if found is not None:
+                        object.__setattr__(found[0], "discrete", True)
 
 
-def _assigned(node: tree.Expression, scope: Scope) -> checked.Variable | None:
-    """The variable on the left of an assignment; None after a message."""
+def _assigned(
+    node: tree.Expression, scope: Scope
+) -> tuple[checked.Variable, tuple[int, ...], Type] | None:
+    """The variable on the left of an assignment, with the indices of its item; None is told."""
     if isinstance(node, tree.Name | tree.Member | tree.Index):
         found = resolve(node, scope, "value")
         if found is None:
             return None
-        if isinstance(found, checked.Reference) and isinstance(found.target, checked.Variable):
-            return found.target
-        if isinstance(found, checked.Element):
-            message = "an item of an array cannot be set alone in 'when'"
-            help_text = "give the whole array its value, or take an array of components"
-            scope.log.report("E0518", message, node.span, help=help_text)
-            return None
+        indices: list[int] = []
+        inner = found
+        while isinstance(inner, checked.Element):
+            indices.insert(0, inner.index)
+            inner = inner.operand
+        if isinstance(inner, checked.Reference) and isinstance(inner.target, checked.Variable):
+            assert isinstance(found, checked.Reference | checked.Element)
+            return inner.target, tuple(indices), found.type
     scope.log.report(
         "E0518",
         "in 'when' a variable is set: 'name = value;'",
@@ -53,14 +59,14 @@ def _assigned(node: tree.Expression, scope: Scope) -> checked.Variable | None:
     return None
 
 
-def when(element: tree.When, scope: Scope, setters: dict[checked.Variable, Span]) -> None:
+def when(element: tree.When, scope: Scope, setters: Setters) -> None:
     """Check a `when`; `setters` tells where each discrete variable is set already."""
     inner = Scope(scope.build, scope.instance, scope.space, scope.local, None, True)
     branches = []
-    mine: dict[checked.Variable, Span] = {}
+    mine: Setters = {}
     for branch in element.branches:
         conditions = _conditions(branch.condition, inner)
-        here: dict[checked.Variable, Span] = {}
+        here: Setters = {}
         actions: list[Action] = []
         for part in branch.elements:
             for leaf, at in unfold(part, inner):
@@ -68,17 +74,28 @@ def when(element: tree.When, scope: Scope, setters: dict[checked.Variable, Span]
                 if action is None:
                     continue
                 if isinstance(action, checked.Assign):
-                    other = here.get(action.variable) or setters.get(action.variable)
+                    key = action.variable, action.item
+                    other = _set_before(key, here) or _set_before(key, setters)
                     if other is not None:
                         _tell_twice(action, other, scope)
                         continue
-                    here[action.variable] = action.span
+                    here[key] = action.span
                 actions.append(action)
         mine.update(here)
         branches.append((conditions, tuple(actions)))
     setters.update(mine)
     scope.build.grow(1, element.span)
     scope.build.whens.append(checked.When(tuple(branches), element.span, scope.instance.name))
+
+
+def _set_before(key: Target, setters: Setters) -> Span | None:
+    """Where a variable, or what overlaps with its item, is set already."""
+    variable, item = key
+    for (other, part), span in setters.items():
+        depth = min(len(part), len(item))
+        if other is variable and part[:depth] == item[:depth]:
+            return span
+    return None
 
 
 def _tell_twice(action: checked.Assign, other: Span, scope: Scope) -> None:
@@ -133,13 +150,14 @@ def _action(leaf: tree.Equation | tree.When | tree.IfEquation, scope: Scope) -> 
 
 def _assign(leaf: tree.Equation, scope: Scope) -> checked.Assign | None:
     assert leaf.right is not None
-    variable = _assigned(leaf.left, scope)
+    found = _assigned(leaf.left, scope)
     value = expression(leaf.right, scope)
-    if variable is None or value is None:
+    if found is None or value is None:
         return None
+    variable, item, kind = found
     rate = rate_of_kind(variable.quantity, variable.unit, variable.type.dimension)
-    fitted = fitting(value, leaf.right, variable.type, scope, unit=variable.unit, rate=rate)
-    return None if fitted is None else checked.Assign(variable, fitted, leaf.span)
+    fitted = fitting(value, leaf.right, kind, scope, unit=variable.unit, rate=rate)
+    return None if fitted is None else checked.Assign(variable, fitted, leaf.span, item)
 
 
 def _reinit(call: tree.Call, scope: Scope) -> checked.Reinit | None:

@@ -165,8 +165,12 @@ def _truth(node: Any, at: Place, depth: int) -> tree.Expression:
 
 
 def _conditional(node: Any, at: Place, depth: int) -> tree.Expression:
-    condition, yes, no = (_expression(c, at, depth) for c in node.children)
-    return tree.Conditional(condition, yes, no, at.span(node))
+    *pairs, found = (_expression(c, at, depth) for c in node.children)
+    whole = at.span(node)
+    for k in range(len(pairs) - 2, -1, -2):
+        span = whole if k == 0 else Span(whole.source, pairs[k].span.start, whole.end)
+        found = tree.Conditional(pairs[k], pairs[k + 1], found, span)
+    return found
 
 
 def _range(node: Any, at: Place, depth: int) -> tree.Expression:

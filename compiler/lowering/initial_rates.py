@@ -1,0 +1,39 @@
+"""Initial statements on accelerations and reactions, as statements on places or on speeds.
+
+Accelerations and reactions are formulas of the state (`explicit.py`). A statement on them finds
+places where other statements leave places open (an equilibrium: the speeds are then those stated,
+or zero), else speeds (the pace at which a wire carries a given force).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import casadi as ca
+from frot.compiler.equations.chains import replace_known
+from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.lowering.symbols import column, scalars_of
+
+
+def finds_places(value: ca.SX, places: Sequence[ca.SX], system: Assembled) -> bool:
+    """Whether a statement on accelerations tells of places more than `places` and gaps do."""
+    if not system.q.numel():
+        return False
+    known = ca.jacobian(ca.vertcat(column(places), system.gap), system.q)
+    own = ca.jacobian(value, system.q)
+    before = int(ca.sprank(ca.DM(known.sparsity(), 1)))
+    return int(ca.sprank(ca.DM(ca.vertcat(known, own).sparsity(), 1))) > before
+
+
+def at_given_speeds(
+    value: ca.SX, speeds: Sequence[ca.SX], given: Mapping[int, ca.SX], system: Assembled
+) -> ca.SX | None:
+    """The statement at the speeds that are stated, or at rest; None where others tell speeds.
+
+    `speeds` are the statements on speeds, `given` the values that are stated one by one.
+    """
+    at = {v.element_hash(): given.get(v.element_hash(), ca.SX(0)) for v in scalars_of(system.v)}
+    told = [ca.simplify(replace_known(x, at)) for x in (*speeds, *scalars_of(system.rate))]
+    if not all(x.is_zero() for x in told):
+        return None
+    return replace_known(value, at)
