@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from graphlib import CycleError, TopologicalSorter
 
 import casadi as ca
@@ -195,12 +196,17 @@ class _Gatherer:
 def gather_events(
     model: Model,
     text: TextSymbols,
+    modes: Iterable[ca.SX],
     conditions: Conditions,
+    *,
     moving: Lowering,
     looking: Lowering,
     log: Log,
 ) -> Events:
-    """Lower every `when` and `assert`. `looking` is given the discrete values after the event."""
+    """Lower every `when` and `assert`. `looking` is given the discrete values after the event.
+
+    `modes` are discrete values that no `when` sets.
+    """
     gatherer = _Gatherer(text, conditions, moving, looking)
     after: dict[Variable, ca.SX] = {}
     before: dict[Variable, ca.SX] = {}
@@ -218,6 +224,8 @@ def gather_events(
     assert moving.before is not None
     looking.before = Before(text, before.__getitem__, moving.before.first)
     looking.known = conditions
+    for mode in modes:
+        gatherer.before[mode.element_hash()] = ca.SX.sym(f"{mode.name()} before")
     for when in model.whens:
         gatherer.when(when)
     for assertion in model.assertions:

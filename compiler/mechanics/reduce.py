@@ -22,6 +22,7 @@ from frot.compiler.equations.text_symbols import (
 )
 from frot.compiler.lowering.expressions import Conditions, Lowering
 from frot.compiler.lowering.symbols import Rows, Symbols, column, link_rows, make_symbols
+from frot.compiler.lowering.walk import read_quantities
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.dynamics import (
     Push,
@@ -134,6 +135,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     )
     first = first_values(mechanism.model, text, symbols, looking, log)
     moving.before = Before(text, text.values.__getitem__, first)
+    _give_modes(mechanism, variables, text)
     for variable in mechanism.model.variables:
         if variable.discrete:
             symbols_of = scalars(text.values[variable])
@@ -151,7 +153,15 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     equations = gather(mechanism.model.equations, moving, log)
     moving.friction = None
     add_slip_accelerations(equations, text)
-    events = gather_events(mechanism.model, text, conditions, moving, looking, log)
+    events = gather_events(
+        mechanism.model,
+        text,
+        [symbol for _, symbol in variables.modes.values()],
+        conditions,
+        moving=moving,
+        looking=looking,
+        log=log,
+    )
     if log.failed:
         return None
     has_text = bool(mechanism.model.variables or mechanism.model.equations or text.memory)
@@ -321,6 +331,20 @@ def _variables(
         corners=mechanism.corners,
         values=text.values,
     )
+
+
+def _give_modes(mechanism: Mechanism, variables: Variables, text: TextSymbols) -> None:
+    """The modes that the text reads are its first discrete values: the kernel writes them."""
+    numbers: dict[Liaison, int] = {}
+    for k, link in enumerate(mechanism.contacts):
+        numbers.setdefault(link.liaison, k)
+    named = (x.owner for x in read_quantities(mechanism.model) if x.name == "mode")
+    read = (x for x in named if isinstance(x, Liaison))
+    for one in dict.fromkeys(c for x in read for c in mechanism.corners.get(x, (x,))):
+        if one in numbers:  # what keeps nothing has no mode: it is open
+            symbol = ca.SX.sym(f"{one.name}.mode")
+            variables.modes[one] = numbers[one], symbol
+            text.add_discrete(symbol.name(), symbol, ca.SX(0))
 
 
 def _masses(

@@ -94,14 +94,6 @@ def refuse_unknown(model: Model, log: Log) -> None:
             model.experiment.span,
             f"{', '.join(f'`{method}`' for method in allowed)} are",
         )
-    for node in read_quantities(model):
-        if node.name == "mode":
-            refuse(
-                log,
-                "`mode` inside an expression",
-                node.span,
-                "every result holds the mode of each liaison by its name",
-            )
 
 
 def _refuse_options(liaison: Liaison, log: Log) -> None:

@@ -31,7 +31,7 @@ class Variables:
     `geometry` and `links` hold every liaison, `reactions` the rows of those whose reaction is
     computed, `drives` the efforts that keep prescribed coordinates, by their names; `corners` the
     liaisons that one of faces stands for, `values` are those of the text, `frictions` is what
-    laws of the user give on the body.
+    laws of the user give on the body, `modes` those that are read: numbers of contacts, symbols.
     """
 
     symbols: Symbols
@@ -44,6 +44,7 @@ class Variables:
     corners: Mapping[Liaison, tuple[Liaison, ...]]
     values: Mapping[Variable, ca.SX]
     frictions: dict[Liaison, ca.SX] = field(default_factory=dict)
+    modes: dict[Liaison, tuple[int, ca.SX]] = field(default_factory=dict)
     _inertias: dict[Body, ca.SX] = field(default_factory=dict, repr=False)
 
     def quantity(self, node: Quantity) -> ca.SX:
@@ -153,7 +154,11 @@ class Variables:
             parts = [self.of_liaison(corner, name) for corner in self.corners[liaison]]
             if name == "gap":
                 return ca.mmin(ca.vertcat(*parts))
+            if name == "mode":  # a face slides where a corner does, and rests where one stays
+                return ca.mmax(ca.vertcat(*parts))
             return parts[0] if name == "slip" else sum(parts[1:], parts[0])
+        if name == "mode":
+            return self.modes.get(liaison, (-1, ca.SX(0)))[1] + 1  # literals count from 1
         geometry = self.geometry[liaison]
         if isinstance(geometry, JointGeometry):
             rows, planar = self.reactions.get(liaison), self.kinematics.planar

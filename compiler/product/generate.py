@@ -132,6 +132,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             ],
         ),
         _array("int", "when_condition", [str(k) for k in reduced.events.conditions]),
+        _array("int", "mode_contact", [str(k) for k, _ in reduced.variables.modes.values()]),
         _array("unsigned char", "when_at_start", [str(int(x)) for x in reduced.events.at_start]),
         _array(
             "frot_outcome",
@@ -162,6 +163,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_watched": len(lowered.watched),
         "n_vanishing": len(lowered.vanishing),
         "n_held": len(reduced.text.held),
+        "n_modes": len(reduced.variables.modes),
         "n_located": reduced.conditions.located,
         "n_timed": reduced.conditions.timed,
         "n_blocks": len(system.blocks),
@@ -213,6 +215,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             "q_alike",
             "blocks",
             "when_condition",
+            "mode_contact",
             "when_at_start",
             "outcomes",
         ]

@@ -26,7 +26,7 @@ from frot.dsl.catalogue.members import (
     vector,
 )
 from frot.dsl.catalogue.shapes import SHAPES
-from frot.dsl.catalogue.types import TYPES, WORDS
+from frot.dsl.catalogue.types import MODE, MODES, TYPES, WORDS
 
 __all__ = [
     "FORCES",
@@ -34,6 +34,8 @@ __all__ = [
     "LATER",
     "LAWS",
     "LIAISONS",
+    "MODE",
+    "MODES",
     "SHAPES",
     "TYPES",
     "WORDS",

@@ -13,12 +13,13 @@ from frot.dsl.catalogue.types import (
     ENERGY,
     FORCE,
     LENGTH,
+    MODE,
     MOMENTUM,
     POWER,
     TORQUE,
     VELOCITY,
 )
-from frot.dsl.quantities.dimensions import INTEGER, REAL, Type
+from frot.dsl.quantities.dimensions import REAL, Type
 
 
 def vector(of: Type, planar: bool) -> Type:
@@ -74,7 +75,7 @@ def liaison_members(kind: LiaisonKind, planar: bool) -> Mapping[str, Type]:
         "tangential_force": _turning(FORCE, planar),
         "slip": _turning(VELOCITY, planar),
         "gap": LENGTH,
-        "mode": INTEGER,
+        "mode": MODE,
         "power": POWER,
         **coordinates_of(kind, planar),
     }

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from frot.dsl.quantities.dimensions import BOOLEAN, INTEGER, REAL, STRING, Type, dimension
+from frot.dsl.quantities.dimensions import (
+    BOOLEAN,
+    INTEGER,
+    REAL,
+    STRING,
+    Enumeration,
+    Type,
+    dimension,
+)
 
 
 def _type(m: int = 0, kg: int = 0, s: int = 0, A: int = 0, K: int = 0) -> Type:
@@ -69,6 +77,9 @@ TYPES: Mapping[str, Type] = {
 }
 
 # One word for a dimension in messages, where a name exists.
+MODES = ("open", "stick", "slip")
+MODE = Type("integer", enumeration=Enumeration("Mode", MODES))
+
 WORDS: Mapping[Type, str] = {
     REAL: "number",
     LENGTH: "length",

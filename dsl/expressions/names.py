@@ -6,7 +6,7 @@ import math
 import re
 
 from frot.dsl import checked
-from frot.dsl.catalogue import TYPES
+from frot.dsl.catalogue import MODE, MODES, TYPES
 from frot.dsl.checked.arrays import element
 from frot.dsl.checked.describe import describe
 from frot.dsl.expressions.expression import value_of
@@ -21,6 +21,8 @@ from frot.dsl.quantities.dimensions import REAL
 from frot.dsl.quantities.units import is_unit
 from frot.dsl.text import tree
 
+_MODES = tuple(f"Mode.{name}" for name in MODES)
+
 
 def resolve(node: tree.Expression, scope: Scope, want: str) -> Thing | None:
     """What a name, a member or an item stands for; None after a message, or where silence is due.
@@ -32,10 +34,16 @@ def resolve(node: tree.Expression, scope: Scope, want: str) -> Thing | None:
     if isinstance(node, tree.Index):
         return index(node, scope)
     assert isinstance(node, tree.Member)
+    if node.span.text in _MODES and scope.find("Mode") is None and not scope.space.find("Mode"):
+        return _mode(node.name.text, node)
     owner = _owner(node.operand, scope)
     if owner is None:
         return None
     return member(owner, node, scope, want)
+
+
+def _mode(name: str, node: tree.Expression) -> checked.Literal:
+    return checked.Literal(float(MODES.index(name) + 1), MODE, node.span)
 
 
 def _owner(node: tree.Expression, scope: Scope) -> Thing | None:
@@ -63,6 +71,8 @@ def _built_in(node: tree.Name, scope: Scope) -> Thing | None:
     defined = scope.space.find(node.text)
     if defined is not None:
         return defined
+    if node.text in MODES:
+        return _mode(node.text, node)
     constant = constant_around(node, scope)
     if constant is not None:
         return constant

@@ -305,6 +305,7 @@ typedef struct {
   int n_watched; /* equations of `watched` */
   int n_vanishing;
   int n_held;  /* the last n_held discrete values are what others were before: see `update` */
+  int n_modes; /* the first n_modes discrete values are modes of contacts, which the text reads */
   int n_turns; /* orientations among the coordinates */
   int n_groups;
   int n_islands; /* 0: all is one, and the functions of the whole model are called */
@@ -437,6 +438,7 @@ typedef struct {
   const int *q_alike;
   const frot_block *blocks;  /* n_blocks */
   const int *when_condition; /* n_whens: it fires when this condition comes to hold */
+  const int *mode_contact;   /* n_modes: the contact whose mode it is */
   const unsigned char
       *when_at_start;           /* n_whens: 1 where it also fires if that holds at the start */
   const frot_outcome *outcomes; /* n_outcomes */

@@ -253,17 +253,51 @@ static int change_conditions(const instant *in, int first) {
   return status;
 }
 
+/* Put the modes that the text reads among the discrete values; whether one has changed. */
+static int read_modes(const instant *in) {
+  const frot_model *m = in->m;
+  double *read = in->s->data + in->l.d + m->n_conditions + m->n_contacts;
+  int changed = 0;
+  for (int k = 0; k < m->n_modes; k++) {
+    double mode = frot_mode_value(m, modes_of(in), m->mode_contact[k]);
+    if (mode != read[k]) read[k] = mode, changed = 1;
+  }
+  return changed;
+}
+
+/* Let the text see the modes found: conditions that read them, what these fire, and the modes that
+ * hold then, until none changes. At the start nothing fires by it. */
+static int follow_modes(const instant *in, int first) {
+  const frot_model *m = in->m;
+  for (int round = 0; read_modes(in); round++) {
+    int happened = 0;
+    if (round == CROWD) return frot_fail(in->s, FROT_CHATTER, in->t, -1, 0, -1, round);
+    memcpy(in->w->events.before, in->s->data + in->l.d, sizeof(double) * (size_t)m->n_conditions);
+    int status = frot_settle_conditions(m, in->s, in->w, in->t, in->q, in->v);
+    if (status != FROT_OK) return status;
+    if (!first) tell_conditions(in);
+    if (!first && (m->n_whens > 0 || m->n_held > 0)) status = fire_whens(in, 0, &happened);
+    if (status != FROT_OK) return status;
+    status = frot_resolve(m, in->s, in->w, in->t, in->q, in->v, first, in->recorder);
+    if (status != FROT_OK) return status;
+  }
+  return FROT_OK;
+}
+
 int frot_happen(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                 int first, frot_recorder *recorder) {
   instant in = {m, s, w, w->layout, t, q, v, recorder};
   int happened = 0, status = FROT_OK;
   if (first) status = frot_resolve(m, s, w, t, q, v, 1, recorder);
+  if (first && status == FROT_OK) status = follow_modes(&in, 1);
   if (status == FROT_OK) status = change_conditions(&in, first);
   if (status != FROT_OK) return status;
   if (m->n_whens > 0 || m->n_held > 0) status = fire_whens(&in, first, &happened);
   if (status == FROT_TERMINATED) return end_run(&in);
   if (status == FROT_OK && (!first || happened))
     status = frot_resolve(m, s, w, t, q, v, first, recorder);
+  if (status == FROT_OK) status = follow_modes(&in, 0);
+  if (status == FROT_TERMINATED) return end_run(&in);
   if (status == FROT_OK) frot_find_due(m, s, w);
   return status;
 }
