@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 import casadi as ca
 from frot.compiler.equations.chains import replace_known
+from frot.compiler.equations.initial_rates import at_given_speeds, finds_places
 from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
@@ -15,7 +16,6 @@ from frot.compiler.lowering.guesses import (
     move_by,
     values_of,
 )
-from frot.compiler.lowering.initial_rates import at_given_speeds, finds_places
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.mechanism import Link
