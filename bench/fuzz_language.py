@@ -28,6 +28,7 @@ repère curve surface force with driven when then elsewhen if else elseif for in
 true false as on at rotated Real Integer Boolean Length Voltage Torque Pin r c p v i x y z n M
 TwoPin Resistor time
 der connect reinit pre edge sample assert terminate friction sum size zeros transpose enumeration
+min max floor mod noEvent smooth mode stick kinematic geometric
 guess world experiment ground line G rod ring rotoide coulomb mu 0 1 2.5 1e400 99999999 kg m/s deg
 degC °C N.m ; ; ; ( ) ( ) , , = = . . [ ] : + - * / ^ < <= == <> "text" // /* */ { } % ∞ é \\ \0"""
 

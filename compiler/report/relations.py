@@ -82,8 +82,10 @@ class Relations:
     def measured(self, posture: Posture) -> Relations:
         """With the length that couples have beside forces at this posture."""
         rows = self.at(posture).rows
-        turning = np.sqrt(np.mean(rows[:, self.turning] ** 2)) if self.turning.any() else 0.0
-        sliding = np.sqrt(np.mean(rows[:, ~self.turning] ** 2)) if (~self.turning).any() else 0.0
+        turning, sliding = (
+            np.sqrt(np.mean(part**2)) if part.size else 0.0
+            for part in (rows[:, self.turning], rows[:, ~self.turning])
+        )
         size = turning / sliding if turning > 0 and sliding > 0 else 1.0
         return replace(self, size=float(np.clip(size, 1e-6, 1e6)))
 

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from frot.compiler.lowering.walk import has_time, subexpressions
+from frot.compiler.mechanics.liaisons.freed import is_row
 from frot.compiler.mechanics.mechanism import (
     Joint,
     Mechanism,
@@ -272,16 +273,20 @@ def _line(
     ideal = any(c.liaison is liaison for c in mechanism.ideal)
     reduced = ideal or any(c.liaison is liaison and c.reduced for c in mechanism.contacts)
     rows = [x for x in mechanism.contacts if isinstance(x, Relation) and x.liaison is liaison]
-    ways = ["built into the coordinates"] * reduced
+    freed = [x for x in liaison.relations if not is_row(x)]
+    built_in = reduced and (not freed or len(freed) < relations)
+    ways = ["built into the coordinates"] * built_in
     if rows or not reduced:
         ways.append("kept by its reaction and projection")
+    if freed:
+        ways.append("kept by an equation of the text each")
     kept = ", the rest ".join(ways)
     if is_unilateral(liaison):
         kept = "opens and closes by events"
     joints = [x for x in (*mechanism.contacts, *mechanism.ideal) if x.liaison is liaison]
     locks = [x.lock for x in rows]
     locks += [lock for x in joints if isinstance(x, Joint) for lock in x.held]
-    kinematic = sum(bool(lock.kinematic) for lock in locks)
+    kinematic = sum(bool(x.kinematic) for x in (*locks, *freed))
     known = dict(analysis.holonomic) if analysis is not None else {}
     return LiaisonLine(
         liaison.name,

@@ -92,14 +92,14 @@ _NAMES = {
     "E0202": (
         "unknown kind",
         "There is no such function, shape, curve, liaison, law or force.",
-        "See 'frot doc' for the kinds; both the French and the English names are known.",
+        "Write one of the kinds of docs/language.md; French and English names are known.",
         snippet("body ball: boule(mass = 1 kg);"),
     ),
     "E0203": (
         "no such member",
         "After the dot stands a frame, a geometry or a variable of the thing before it; "
         "this one has none of that name.",
-        "Write one of the names listed in the note.",
+        "Write a name that it has; docs/language.md lists them.",
         snippet(f"{_BALL}\noutput Length x = ball.postion.x;"),
     ),
     "E0204": (

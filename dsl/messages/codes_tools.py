@@ -21,10 +21,11 @@ TOOLS: Mapping[str, Row] = {
         snippet(_BALL, "ball.position = (0, 0) m;\nball.position.x = 1 m;"),
     ),
     "E0602": (
-        "initial statement that depends on nothing that can change",
+        "initial statement that finds nothing",
         "The liaisons already fix every quantity in this statement, so that it can be neither "
-        "imposed nor chosen.",
-        "Take it away, or correct the liaison.",
+        "imposed nor chosen; or it is on an acceleration or a reaction that is known only when "
+        "the state is, because friction or a contact that parts decides it.",
+        "Take it away, or state positions and velocities.",
         snippet(_BALL, "ground.position = (1, 0) m;"),
     ),
     "E0801": (
@@ -55,8 +56,8 @@ TOOLS: Mapping[str, Row] = {
     ),
     "E0805": (
         "unknown parameter",
-        "A value was given to a parameter that the model does not have.",
-        "Write the name of a parameter of the model.",
+        "A value was given to a parameter or an input that the model does not have.",
+        "Write one of the names that the note lists.",
         "",
     ),
     "E0806": (

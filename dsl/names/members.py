@@ -54,7 +54,13 @@ def member(owner: Thing, node: tree.Member, scope: Scope, want: str) -> Thing | 
             | checked.BodyGeometry()
             | checked.Force()
         ):
-            scope.log.report("E0203", f"{kind_of(owner)} has no variables", node.name.span)
+            help_text = "its value is that of its arguments: write them as an output"
+            scope.log.report(
+                "E0203",
+                f"{kind_of(owner)} has no variables",
+                node.name.span,
+                help=help_text if isinstance(owner, checked.Force) else "",
+            )
             return None
     return _component(owner, node, scope)
 

@@ -106,6 +106,14 @@ def test_the_energy_balance_counts_what_keeps_them(run):
     assert gained == pytest.approx(gained[0], abs=1e-8)
 
 
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_the_report_says_how_they_are_kept():
+    told = {x.name: x for x in frot.compile(TEXT).report().liaisons}
+    assert told["pace"].kept == told["at"].kept == "kept by an equation of the text each"
+    assert (told["pace"].kinematic, told["at"].kinematic) == (1, 0)
+    assert (told["pace"].relations, told["axle"].kept) == (1, "built into the coordinates")
+
+
 def test_relations_without_a_meaning_are_told():
     liaison = "liaison L(a: frame, b: frame, Real x = 0) {} end L;"
     model = "planar model M body b: particle(mass = 1 kg); liaison l: L(ground, b); end M;"
