@@ -45,7 +45,7 @@ void frot_read_bounds(const frot_problem *p);
 void frot_follow_readings(frot_problem *p);
 
 /* Turn the directions of the pins whose friction follows to their reactions. Into `rest` what is
- * missing in each equation; returns the largest part of a friction that is. */
+ * missing in each equation; returns the largest part of a friction that is, beyond rounding. */
 double frot_turn_pins(const frot_problem *p, double *rest);
 
 /* Least reactions, in units w->reactions.unit_of, of the system that w->linear.matrix holds
