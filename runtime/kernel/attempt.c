@@ -31,7 +31,10 @@
  * its error is this part of the bound: errors of order eight would have vanished. */
 #define UNHEARD 8
 #define AUDIBLE 0.01
-#define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
+/* Power of the step's length that an error of order eight shrinks with at least. */
+#define SHRINKS 4
+#define LOUDEST 16 /* times that rounding may be larger than measured */
+#define LOOKS 7    /* at a guard that seems to dip, in ever shorter steps */
 
 frot_attempt frot_attempt_from(double t) {
   return (frot_attempt){.t = t, .passed = -1, .guard = -1, .best_ratio = INFINITY};
@@ -87,6 +90,18 @@ static int look_closer(const frot_model *m, frot_state *s, frot_work *w, frot_at
   return FROT_DIVERGE;
 }
 
+/* An error that hardly shrinks with the step is rounding, and more of it than was measured: samples
+ * near each other may all be rounded alike. What is no number, and passes that are laid, say
+ * nothing. */
+static void see_noise(frot_state *s, frot_attempt *a) {
+  double part = a->tried_h > 0 ? a->h / a->tried_h : 1;
+  if (!s->implicit && !s->weak && part < 1 && a->ratio > pow(part, SHRINKS) * a->tried_ratio) {
+    s->noise_level = fmin(2 * s->noise_level, LOUDEST);
+    s->noise_shown = 1;
+  }
+  a->tried_h = a->ratio > 0 && a->ratio < 1e300 ? a->h : 0, a->tried_ratio = a->ratio;
+}
+
 /* Try the step once: FROT_OK if it is good, with its dense output; then s->h is the next one's
  * length. */
 static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
@@ -98,6 +113,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   }
   a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &a->part) : -1;
   a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
+  see_noise(s, a);
   if (a->ratio <= 1 && shrinks_unheard(s, w, a)) {
     measure_noise(m, s, w, t + h);
     return FROT_DIVERGE; /* its stages made way */

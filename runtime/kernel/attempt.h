@@ -6,14 +6,15 @@
 
 typedef struct {
   double t, h, longest;
-  double beyond; /* how far after that of its stages its end is */
-  double first;  /* its length at first */
-  double stable; /* most that the next one may be */
-  double ratio;  /* of its error to the bound */
-  double loose;  /* the same before its stages were put onto the relations of loops, or 0 */
-  int to_due;    /* it ends where time changes a condition */
-  int passed;    /* condition beyond which the last try had no value, or -1, at this */
-  double part;   /* part of the step */
+  double beyond;               /* how far after that of its stages its end is */
+  double first;                /* its length at first */
+  double stable;               /* most that the next one may be */
+  double tried_h, tried_ratio; /* the length before, and its error over the bound; 0: none */
+  double ratio;                /* of its error to the bound */
+  double loose; /* the same before its stages were put onto the relations of loops, or 0 */
+  int to_due;   /* it ends where time changes a condition */
+  int passed;   /* condition beyond which the last try had no value, or -1, at this */
+  double part;  /* part of the step */
   int rejections, changed, stiff;
   int blurred, forced; /* its best length is tried again, and was, though that error is too large */
   double best, best_ratio;

@@ -26,7 +26,11 @@
 #define CUT 0.25
 #define HALF 0.5 /* of the implicit method, whose stages were not found */
 #define SAFETY 0.9
-#define ALL_NOISE 1.5 /* where the error is below what rounding does */
+/* The same where the error is below what rounding does: by this where it is well below, unless a
+ * step so long has failed lately, which counts less from step to step. */
+#define ALL_NOISE 1.5
+#define NOISE_ALONE 2
+#define LATELY 1.05
 #define SAFETY_OF_MOTION 0.7
 
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
@@ -66,7 +70,8 @@ static double change_of_length(const frot_model *m, const frot_state *s, const f
   return (moves ? SAFETY_OF_MOTION : SAFETY) * pow(ratio, -1.0 / 8);
 }
 
-void frot_shorten(const frot_model *m, const frot_state *s, const frot_work *w, frot_attempt *a) {
+void frot_shorten(const frot_model *m, frot_state *s, const frot_work *w, frot_attempt *a) {
+  s->failed_h = a->h;
   if (a->ratio > 1 && a->ratio < 1e300)
     a->h *= fmax(change_of_length(m, s, w, a->ratio), LEAST_PART);
   else
@@ -93,7 +98,10 @@ void frot_plan_next(const frot_model *m, frot_state *s, const frot_work *w, cons
   if (factor < 1 && !a->to_due && frot_foresees_posture(m, s, w, a->t, a->h))
     factor = 1; /* a tied step need not be shorter */
   /* noise grows with the step as its bound does: an error that is all noise says no more */
-  if (w->step.noisy >= 1) factor = fmax(factor, w->step.noisy > FROT_NOISE_MARGIN ? ALL_NOISE : 1);
+  int may_grow = !(s->failed_h > 0) || ALL_NOISE * a->h < s->failed_h;
+  if (w->step.noisy >= 1)
+    factor = fmax(factor, w->step.noisy > NOISE_ALONE && may_grow ? ALL_NOISE : 1);
+  s->failed_h *= LATELY;
   s->h = fmin(a->h * factor, fmin(a->longest, a->stable));
   if (s->weak) s->h = fmax(a->h, a->want); /* noise does not show how long it may be */
   if (a->to_due) s->h = fmax(s->h, planned);

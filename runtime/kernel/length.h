@@ -21,7 +21,7 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w);
 int frot_is_too_short(const frot_state *s, const frot_attempt *a);
 
 /* Shorten the step that was tried: by its error, or to before where it has no value. */
-void frot_shorten(const frot_model *m, const frot_state *s, const frot_work *w, frot_attempt *a);
+void frot_shorten(const frot_model *m, frot_state *s, const frot_work *w, frot_attempt *a);
 
 /* s->h <- the next step's length, after one that was good; `planned`: what this one was to have. */
 void frot_plan_next(const frot_model *m, frot_state *s, const frot_work *w, const frot_attempt *a,

@@ -12,6 +12,14 @@
 
 /* Part of what rounding may make of terms at most that it usually makes. */
 #define USUAL 0.25
+/* What is left of an older measure by a new one: a few samples of rounding may all be small. */
+#define BEFORE 0.5
+/* What noise of slopes makes of speeds in the stages, and these of the error of a coordinate, over
+ * what it makes of that of a speed: |e' A| / |e| of the method of order eight. */
+#define BY_STAGES 4
+
+/* How much larger noise has shown itself than it was measured. */
+static double level(const frot_state *s) { return s->noise_level > 1 ? s->noise_level : 1; }
 
 /* What rounding of their terms brings to accelerations at the place z, however small they are:
  * where terms cancel, it is not seen by moving the values. Those with a `largest` above it are
@@ -26,7 +34,7 @@ static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, doubl
     if (state < m->nq) continue;
     double rounding = FROT_ROUNDING * size[state - m->nq];
     if (largest && largest[j] > FROT_NOISE_MARGIN * rounding) continue;
-    noise[state] = fmax(noise[state], largest ? rounding : USUAL * rounding);
+    noise[state] = fmax(noise[state], fmax(largest ? 1 : 0, USUAL * level(s)) * rounding);
   }
 }
 
@@ -124,7 +132,7 @@ double frot_noise_of_rate(const frot_model *m, const frot_state *s, const frot_w
                           double h) {
   const double *noise = s->data + w->layout.noise;
   if (state >= m->nq || m->q_speed[state] < 0) return noise[state];
-  return noise[state] + fabs(h) * noise[m->nq + m->q_speed[state]];
+  return noise[state] + BY_STAGES * fabs(h) * noise[m->nq + m->q_speed[state]];
 }
 
 void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
@@ -139,9 +147,10 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
     for (int i = 0; i <= DP_STAGES; i += s->implicit ? DP_STAGES : 1)
       largest[j] = fmax(largest[j], fabs(frot_stage(w, i)[j]));
   }
+  s->noise_shown = 0;
   if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return;
   note_neighbours(m, w, size);
-  memset(noise, 0, sizeof(double) * (size_t)(n + w->layout.ng));
+  for (int j = 0; j < n + w->layout.ng; j++) noise[j] *= BEFORE;
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {
       double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
@@ -155,7 +164,7 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
       double *own = j < packed ? noise + states[j] : guards + w->guards.list[j - packed];
       double sensitivity = 0.5 * fabs(forth[j] - back[j]) * (FROT_NUDGE / FROT_APART);
       double rounding = 0.5 * fabs(forth[j] - 2 * base[j] + back[j]);
-      *own = fmax(*own, sensitivity + rounding);
+      *own = fmax(*own, level(s) * (sensitivity + rounding));
     }
   }
   add_rounding(m, s, w, t, w->step.z0, NULL);

@@ -35,7 +35,7 @@ void frot_make_instant(const frot_model *m, frot_state *s, frot_work *w, double 
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   frot_wake_state(m, s, w);
-  s->last_ratio = 0;
+  s->last_ratio = s->failed_h = 0, s->noise_shown = 0, s->noise_level = 1;
   *g.t0 = *g.t1 = t;
   *g.h = 0;
   copy_modes(m, s, &l, &g);

@@ -71,8 +71,11 @@ struct frot_state {
   double t;                  /* time reached */
   double h;                  /* next step */
   double last_h, last_ratio; /* the last step and its error over the bound; 0: none */
-  double heard;              /* the longest step planned since rounding was measured last */
-  double due;                /* when time next changes a condition, INFINITY if never */
+  double failed_h;           /* the last step whose error was too large, and longer since */
+  int noise_shown;    /* an error was seen that rounding made, and rounding not measured since */
+  double noise_level; /* how much larger it was than measured */
+  double heard;       /* the longest step planned since rounding was measured last */
+  double due;         /* when time next changes a condition, INFINITY if never */
   double h_max;
   double began; /* time of the start */
   double tolerance;

@@ -157,7 +157,7 @@ static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
  * without one that fails. */
 static void look_at_noise(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a) {
   if (s->implicit || !(a->ratio > FROT_LIMITING)) return;
-  if (++s->unmeasured < MEASURED) return;
+  if (++s->unmeasured < MEASURED && !s->noise_shown) return;
   s->unmeasured = 0;
   frot_measure_noise(m, s, w, a->t + a->h);
 }
