@@ -7,21 +7,23 @@
 #include "core.h"
 #include "linear.h"
 #include "guards.h"
+#include "options.h"
 #include "reactions.h"
 #include "search.h"
 #include "terms.h"
 #include "tolerances.h"
 
-/* Acceleration of a row and the size of its terms, for the comparison with zero. */
-static double acceleration(const frot_instant *in, int row, double *size) {
-  double value = frot_acceleration(in->m, in->w, row, size);
-  *size += in->w->core.row_load[row] + frot_row_rounding(in->m, in->w, row) / FROT_DEPARTURE_SLACK;
+/* Acceleration of a row and how much of it is zero. */
+static double acceleration(const frot_instant *in, int row, double *zero) {
+  double size, value = frot_acceleration(in->m, in->w, row, &size);
+  *zero = FROT_DEPARTURE_SLACK * (size + in->w->core.row_load[row]) +
+          frot_row_rounding(in->m, in->w, row);
   return value;
 }
 
 static int is_still(const frot_instant *in, int row) {
-  double size, value = acceleration(in, row, &size);
-  return fabs(value) <= FROT_DEPARTURE_SLACK * size;
+  double zero, value = acceleration(in, row, &zero);
+  return fabs(value) <= zero;
 }
 
 /* By how much the reaction of a row may be off by rounding: its terms cancel. */
@@ -32,16 +34,23 @@ static double reaction_rounding(const frot_instant *in, int row) {
   return FROT_ZERO_OF_MOTION * (frot_reaction_size(in->m, in->w, row) + (own > 0 ? size / own : 0));
 }
 
+/* The same of what is left of the bound of an element that holds. */
+static double rounding_of_reserve(const frot_instant *in, int e) {
+  const frot_element *element = &in->m->elements[e];
+  double rounding = reaction_rounding(in, element->row);
+  for (int k = 0; k < 2; k++)
+    if (element->bounded_by[k] >= 0)
+      rounding +=
+          in->w->core.coefficient[2 * e + 1] * reaction_rounding(in, element->bounded_by[k]);
+  return rounding;
+}
+
 double frot_reserve(const frot_instant *in, int e) {
   const frot_element *element = &in->m->elements[e];
   frot_work *w = in->w;
   double bound = fabs(frot_bound_of_rest(in->m, w, e, w->search.trial)),
          lam = fabs(w->core.lam[element->row]);
-  double rounding = reaction_rounding(in, element->row);
-  for (int k = 0; k < 2; k++)
-    if (element->bounded_by[k] >= 0)
-      rounding += w->core.coefficient[2 * e + 1] * reaction_rounding(in, element->bounded_by[k]);
-  double size = bound + lam + rounding / FROT_BOUND_SLACK;
+  double size = bound + lam + rounding_of_reserve(in, e) / FROT_BOUND_SLACK;
   return size > 0 ? (bound - lam) / size : 0;
 }
 
@@ -104,9 +113,9 @@ static int element_is_admissible(const frot_instant *in, int e) {
     return frot_reserve(in, e) >= -FROT_BOUND_SLACK;
   }
   if (mode->friction == FROT_NONE || !in->zero[e]) return 1;
-  double size, a = acceleration(in, element->row, &size);
+  double zero, a = acceleration(in, element->row, &zero);
   if (mode->friction == FROT_SLIP_BACKWARD) a = -a;
-  return a >= -FROT_DEPARTURE_SLACK * size;
+  return a >= -zero;
 }
 
 /* Whether an element is about to slip by no acceleration of its own: it is held by others, or no
@@ -115,8 +124,7 @@ static int is_in_doubt(const frot_instant *in, int e) {
   const frot_element *element = &in->m->elements[e];
   const frot_contact_mode *mode = frot_element_mode(in->m, in->w->search.trial, e);
   if (mode->friction <= FROT_STICK || !in->zero[e] || element->prescribed) return 0;
-  double size, a = acceleration(in, element->row, &size);
-  return fabs(a) <= FROT_DEPARTURE_SLACK * size && is_carried(in, element->row);
+  return is_still(in, element->row) && is_carried(in, element->row);
 }
 
 /* Whether what the accelerations leave in doubt goes on as the modes say: what is held in this
@@ -174,7 +182,7 @@ static int contact_is_admissible(const frot_instant *in, int i) {
   frot_contact_mode *mode = &in->w->search.trial[i];
   if (!frot_has_normal(&in->m->contacts[i])) return 1;
   if (!mode->closed) {
-    double size, a = acceleration(in, row, &size), below = FROT_DEPARTURE_SLACK * size;
+    double below, a = acceleration(in, row, &below);
     if (a > below) return 1;
     /* what pressed until its reaction came to zero, and would part no faster than that is zero */
     if (in->fired[i] != 0 && in->w->search.before[i].closed)
@@ -199,6 +207,35 @@ int frot_reactions_hold(const frot_instant *in, const int *chosen, int count) {
     int e = g->elements[i];
     if (in->w->search.trial[m->elements[e].contact].closed && !element_is_admissible(in, e))
       return 0;
+  }
+  return 1;
+}
+
+/* Whether an inequality of an element that slack admits holds but for rounding. What a guard has
+ * brought to its bound is there as the instant was located. */
+static int element_is_exact(const frot_instant *in, int e) {
+  const frot_element *element = &in->m->elements[e];
+  const frot_contact_mode *mode = frot_element_mode(in->m, in->w->search.trial, e);
+  int stuck = frot_element_mode(in->m, in->w->search.before, e)->friction == FROT_STICK;
+  int guard = frot_element_guard(in->m, e);
+  if (!in->zero[e] || element->prescribed || mode->friction == FROT_NONE) return 1;
+  if (stuck && (in->fired[guard] != 0 || in->fired[guard + 1] != 0)) return 1;
+  if (mode->friction == FROT_STICK) {
+    if (!frot_is_held(in->m, in->w->search.trial, e)) return 1;
+    double bound = fabs(frot_bound_of_rest(in->m, in->w, e, in->w->search.trial));
+    return bound - fabs(in->w->core.lam[element->row]) >= -rounding_of_reserve(in, e);
+  }
+  double size, a = frot_acceleration(in->m, in->w, element->row, &size);
+  if (mode->friction == FROT_SLIP_BACKWARD) a = -a;
+  return a >= -frot_row_rounding(in->m, in->w, element->row);
+}
+
+int frot_is_exact(const frot_instant *in, const int *chosen, int count) {
+  int own[FROT_LAWS_OF_CONTACT];
+  for (int c = 0; c < count; c++) {
+    int laws = in->w->search.trial[chosen[c]].closed ? frot_laws_of(in->m, chosen[c], own) : 0;
+    for (int k = 0; k < laws; k++)
+      if (!element_is_exact(in, own[k])) return 0;
   }
   return 1;
 }

@@ -187,8 +187,21 @@ static int hold(const frot_instant *in, const int *chosen, int count, int *unsea
   while (motions > 0 && note_departures(in, chosen, count))
     motions = frot_search_corners(in, chosen, count, unsearched);
   take_back(in, chosen, count);
-  if (motions == 0) motions = search(&moving, chosen, count, unsearched);
+  if (motions == 0 || !in->w->search.exact) motions = search(&moving, chosen, count, unsearched);
   return motions > 0 ? motions : search(in, chosen, count, unsearched);
+}
+
+/* As `hold` where what departs with the friction of motion goes on by slack alone; that stays where
+ * it finds no motion that needs none. */
+static int hold_exactly(const frot_instant *in, const int *chosen, int count, int *unsearched,
+                        int motions) {
+  frot_work *w = in->w;
+  size_t modes = sizeof *w->search.best * (size_t)(in->m->n_contacts + in->m->n_elements);
+  memcpy(w->search.found, w->search.best, modes);
+  int others = hold(in, chosen, count, unsearched);
+  if (others > 0 && w->search.exact) return others;
+  memcpy(w->search.best, w->search.found, modes);
+  return motions;
 }
 
 /* Motions of a component, the one preferred into w->best. What departs has the friction of motion
@@ -196,12 +209,14 @@ static int hold(const frot_instant *in, const int *chosen, int count, int *unsea
  */
 static int look_for_motions(const frot_instant *in, const int *chosen, int count, int *unsearched) {
   if (frot_rest_goes_on(in, chosen, count)) return 1;
-  int motions = search(in, chosen, count, unsearched);
+  int motions = search(in, chosen, count, unsearched), departed = 0;
   while (motions > 0 && note_departures(in, chosen, count)) {
     int again = search(in, chosen, count, unsearched);
     if (again == 0) return hold(in, chosen, count, unsearched);
-    motions = again;
+    motions = again, departed = 1;
   }
+  if (departed && motions > 0 && !in->w->search.exact)
+    return hold_exactly(in, chosen, count, unsearched, motions);
   return motions;
 }
 

@@ -13,10 +13,12 @@ static int same(const frot_contact_mode *a, const frot_contact_mode *b) {
   return a->closed == b->closed && a->friction == b->friction && (!a->closed || a->side == b->side);
 }
 
-/* How much a combination is preferred: rest first, then continuity, or the other way round. */
-static int preference(const frot_instant *in, const int *chosen, int count) {
+/* How much a combination is preferred: what needs no slack first; then rest, then continuity, or
+ * the other way round. */
+static long long preference(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
-  int rest = 0, kept = 0, own[FROT_LAWS_OF_CONTACT];
+  long long rest = 0, kept = 0;
+  int own[FROT_LAWS_OF_CONTACT];
   for (int c = 0; c < count; c++) {
     int laws = frot_laws_of(m, chosen[c], own);
     kept += same(&in->w->search.trial[chosen[c]], &in->w->search.before[chosen[c]]);
@@ -26,8 +28,10 @@ static int preference(const frot_instant *in, const int *chosen, int count) {
       kept += same(mode, frot_element_mode(m, in->w->search.before, own[k]));
     }
   }
-  int big = (1 + FROT_LAWS_OF_CONTACT) * m->n_contacts + 1;
-  return in->s->options.on_indeterminate == FROT_CONTINUE ? kept * big + rest : rest * big + kept;
+  long long big = (1 + FROT_LAWS_OF_CONTACT) * m->n_contacts + 1;
+  long long exact = frot_is_exact(in, chosen, count) ? big * big : 0;
+  int continues = in->s->options.on_indeterminate == FROT_CONTINUE;
+  return exact + (continues ? kept * big + rest : rest * big + kept);
 }
 
 /* The motion of w->search.trial as the accelerations of its rows, into place `at` of
@@ -60,6 +64,7 @@ static int count_motion(const frot_instant *in, const int *chosen, int motions) 
 
 static void remember(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
+  in->w->search.exact = frot_is_exact(in, chosen, count);
   int own[FROT_LAWS_OF_CONTACT];
   for (int c = 0; c < count; c++) {
     int laws = frot_laws_of(m, chosen[c], own);
@@ -75,8 +80,8 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
                      const unsigned char *certain) {
   frot_work *w = in->w;
   frot_option lists[FROT_OPTIONS];
-  int *options = w->search.choice, *digit = w->search.choice + count, motions = 0, best = 0,
-      any = 0;
+  int *options = w->search.choice, *digit = w->search.choice + count, motions = 0, any = 0;
+  long long best = 0;
   for (int c = 0; c < count; c++) {
     int fixed = certain && certain[chosen[c]];
     options[c] = fixed ? 1 : frot_contact_options(in, chosen[c], forced, lists);
@@ -87,7 +92,7 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
   memcpy(w->search.guess, w->search.trial, sizeof *w->search.trial * modes);
   for (;;) {
     if (frot_is_admissible(in, chosen, count) && (!lasting || frot_lasts(in, chosen, count))) {
-      int rank = preference(in, chosen, count);
+      long long rank = preference(in, chosen, count);
       motions = count_motion(in, chosen, motions);
       if (!any || rank > best) best = rank, remember(in, chosen, count);
       any = 1;

@@ -174,11 +174,12 @@ typedef struct {
  * it would go, and which slips no acceleration starts; of both: what is left of their inequalities
  * where that is little (lasting.c). */
 typedef struct {
-  frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner;
+  frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner, *found;
   unsigned char *certain, *zero, *at_rest, *departs;
   signed char *ahead;
   double *motions, *pivot_bound, *nothing_frozen, *margin;
   int *choice, *component, *chosen;
+  int exact;   /* whether `best` needs no slack: frot_is_exact */
   int corners; /* that may still be looked at in this search: others.c */
 } frot_search_work;
 
