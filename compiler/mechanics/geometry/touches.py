@@ -131,8 +131,16 @@ def _flat_egg(
 def _ball_ball(
     a: Ball | Dot, b: Ball | Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
 ) -> Touch:
+    """Outside of each other, or the smaller inside of the larger one, whichever is the first."""
     first, second = (length(x.radius, lower) if isinstance(x, Ball) else ca.SX(0) for x in (a, b))
-    return _round(pb.origin - pa.origin, pb, first, second, side)
+    apart = pb.origin - pa.origin
+    if second.is_zero():
+        return _round(apart, pb, first, second, side)
+    far, wide = ca.sqrt(ca.sumsqr(apart)), ca.fmax(first, second)
+    normal, beyond = side * apart / far, far - wide
+    inside = ca.if_else(ca.logic_and(side < 0, first < second), 1, -1)
+    gap = side * beyond - (first + second - wide)
+    return Touch(gap, normal, pb.origin + inside * second * normal, beyond, first + second)
 
 
 def _round(apart: ca.SX, pb: Pose, first: ca.SX, second: ca.SX, side: ca.SX) -> Touch:
@@ -171,14 +179,20 @@ def _straight_straight(
 
 
 def _ring_ball(a: Ring, b: Ball, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) -> Touch:
-    """The nearest point of the circle lies in the plane of its axis and the centre."""
-    axis = pa.direction(unit_vector(a.axis.given, lower))
+    """The nearest point of the circle lies in the plane of its axis and the centre.
+
+    So does the one farthest off, with which it touches the sphere from inside.
+    """
+    axis, radius = pa.direction(unit_vector(a.axis.given, lower)), lower(b.radius)
     apart = pb.origin - pa.origin
     across = apart - ca.dot(axis, apart) * axis
     wide = ca.sqrt(ca.sumsqr(across))
-    touching = apart - lower(a.radius) * across / wide
-    found = _round(touching, pb, ca.SX(0), lower(b.radius), ca.SX(1))
-    return Touch(found.gap, found.normal, found.place, ca.SX(1), found.size + lower(a.radius))
+    touching = apart - side * lower(a.radius) * across / wide
+    far = ca.sqrt(ca.sumsqr(touching))
+    normal = side * touching / far
+    beyond = ca.sqrt(ca.sumsqr(apart) + lower(a.radius) ** 2) - radius
+    place, size = pb.origin - side * radius * normal, radius + lower(a.radius)
+    return Touch(side * (far - radius), normal, place, beyond, size)
 
 
 def _implicit_dot(a: Implicit, b: Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) -> Touch:
