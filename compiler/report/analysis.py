@@ -104,19 +104,14 @@ def analyse(system: Assembled) -> Analysis:
     reduced = system.reduced
     mechanism = reduced.mechanism
     whole = _count(mechanism)
-    tracks = reduced.variables.kinematics.tracks
-    if tracks:
-        names = ", ".join(liaison.name for liaison in tracks)
-        return Analysis(
-            f"where these touch has no closed form: {names}", whole, whole, 0, 0, (), ()
-        )
     start = find_start(system)
     if start is None or not start.found:
         return Analysis("the start was not found", whole, whole, 0, 0, (), ())
     found = _Found()
     for part in _parts(mechanism):
         _look(part, system, start, found)
-    integrals = find_first_integrals(reduced, start.posture)
+    followed = bool(reduced.variables.kinematics.tracks)
+    integrals = find_first_integrals(reduced, None if followed else start.posture)
     speeds = int(reduced.symbols.v.numel())
     return Analysis(
         missing="",
@@ -127,9 +122,9 @@ def analyse(system: Assembled) -> Analysis:
         loops=tuple(found.loops),
         holonomic=tuple(found.holonomic),
         integrals=tuple(IntegralLine(x.text, x.always) for x in integrals),
-        paradoxes=tuple(_paradoxes(reduced, start)),
+        paradoxes=() if followed else tuple(_paradoxes(reduced, start)),
         uncounted=tuple(found.uncounted),
-        energy_alone=speeds if speeds > MOST_SPEEDS else 0,
+        energy_alone=speeds if speeds > MOST_SPEEDS or followed else 0,
     )
 
 
@@ -206,8 +201,6 @@ def _look(part: list[Liaison], system: Assembled, start: Start, found: _Found) -
         return
     freed = free(mechanism, part)
     relations = make_relations(freed, _parting(freed))
-    if relations is None:
-        return
     here = posture_of(relations, system, start)
     relations = relations.measured(here)
     closed = {

@@ -78,7 +78,6 @@ def find_cure(relations: Relations, posture: Posture, loop: Loop) -> Cure:
     extra = tuple(lock for _, _, locks in offered for lock in locks)
     more = replace(relations.mechanism, contacts=(*relations.links, *extra))
     whole = make_relations(more, dict.fromkeys(more.contacts, False))
-    assert whole is not None
     whole = replace(whole, size=relations.size)
     sides = np.concatenate([posture.sides, np.ones(len(extra))])
     values = whole.scaled(whole.at(replace(posture, sides=sides)).rows)

@@ -121,15 +121,17 @@ def _pivots(rows: Floats) -> tuple[list[int], list[int]]:
 def _fields(
     relations: Relations, posture: Posture, rows: Places, dependent: list[int], others: list[int]
 ) -> tuple[ca.MX, ca.MX]:
-    """Fields (coordinates, then time) that span D near a posture, and the state they hang on.
+    """Fields that span D near a posture, and the state they hang on: q, time, followed places.
 
     One of the `others` of the speeds is one, the rest of them zero; the `dependent` follow.
     """
     symbols = relations.symbols
     nq, nv = symbols.q.numel(), symbols.v.numel()
-    state = ca.MX.sym("state", nq + 1)
-    q, t = state[:nq], state[nq]
-    _, jacobian, own, moves = relations.function(t, q, posture.u, posture.p, posture.sides)
+    state = ca.MX.sym("state", nq + 1 + relations.followed.unknowns.numel())
+    q, t, places = state[:nq], state[nq], state[nq + 1 :]
+    _, jacobian, own, moves, follow, drift = relations.function(
+        t, q, posture.u, posture.p, posture.sides, places
+    )
     pick = [int(k) for k in rows]
     whole = ca.horzcat(jacobian, own)[pick, :]
     solved = -ca.solve(whole[:, dependent], whole[:, others], "symbolicqr")
@@ -138,7 +140,8 @@ def _fields(
         speeds[place, :] = solved[k, :]
     for k, place in enumerate(others):
         speeds[place, k] = 1
-    return ca.vertcat(moves @ speeds[:nv, :], speeds[nv, :]), state
+    goes = follow @ speeds[:nv, :] + drift @ speeds[nv, :]
+    return ca.vertcat(moves @ speeds[:nv, :], speeds[nv, :], goes), state
 
 
 def _bracket(a: ca.MX, b: ca.MX, state: ca.MX) -> ca.MX:
@@ -151,12 +154,11 @@ def _directions(
     """Fields in scaled speeds (columns), of size one."""
     if not fields:
         return np.zeros((relations.turning.size + 1, 0))
-    values = np.array(
-        ca.Function("fields", [state], [ca.horzcat(*fields)])(np.append(posture.q, posture.t))
-    )
-    moves = relations.at(posture).moves
-    speeds = np.linalg.lstsq(moves, values[:-1], rcond=None)[0]
+    here = np.concatenate([posture.q, [posture.t], relations.places(posture)])
+    values = np.array(ca.Function("fields", [state], [ca.horzcat(*fields)])(here))
+    moves, count = relations.at(posture).moves, posture.q.size
+    speeds = np.linalg.lstsq(moves, values[:count], rcond=None)[0]
     even = speeds * np.where(relations.turning, relations.size, 1.0)[:, None]
-    whole = np.vstack([even, values[-1:]])
+    whole = np.vstack([even, values[count : count + 1]])
     sizes = np.linalg.norm(whole, axis=0)
     return np.asarray(whole / np.where(sizes > 1e-9, sizes, 1.0))

@@ -12,6 +12,7 @@ from frot.compiler.mechanics.geometry.contacts import link_geometry, row_rates
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.motions import Follow, Motion, Slide, count_speeds
 from frot.compiler.mechanics.mechanism import Contact, Link, Mechanism
+from frot.compiler.report.followed import Followed
 from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 
@@ -53,7 +54,9 @@ class Relations:
     """The relations of a mechanism that has a row for each of its links.
 
     `holds`: the relations that always hold; `geometric`: those that keep a gap at zero. `turning`
-    tells the speeds that are angular. `size` is a length of the mechanism (m).
+    tells the speeds that are angular. `size` is a length of the mechanism (m). `function`
+    gives gaps, rows, rates at rest, N(q), and the rates by speeds and at rest of the places that
+    are `followed`.
     """
 
     mechanism: Mechanism
@@ -66,11 +69,17 @@ class Relations:
     row: ca.SX
     function: ca.Function
     witness: ca.Function
+    followed: Followed
     size: float = 1.0
+
+    def places(self, posture: Posture) -> Floats:
+        """Where figures touch that no formula tells."""
+        return self.followed.at(posture.t, posture.q, posture.u, posture.p)
 
     def at(self, posture: Posture) -> Rows:
         """Evaluate them."""
-        gap, rows, own, moves = (np.array(x) for x in self.function(*posture.arguments))
+        found = self.function(*posture.arguments, self.places(posture))
+        gap, rows, own, moves, *_ = (np.array(x) for x in found)
         return Rows(gap.ravel(), rows, own.ravel(), moves)
 
     def scaled(self, rows: Floats) -> Floats:
@@ -91,7 +100,8 @@ class Relations:
 
     def sided(self, posture: Posture) -> Posture:
         """With the sides on which the places are."""
-        witness = np.array(self.witness(*posture.arguments)).reshape(-1, 3)
+        found = self.witness(*posture.arguments, self.places(posture))
+        witness = np.array(found).reshape(-1, 3)
         sides = np.ones(len(self.links))
         for k, three in enumerate(witness):
             known = three[np.abs(three) > 1e-9 * max(self.size, 1e-3)]
@@ -184,11 +194,8 @@ def null_space(rows: Floats) -> Floats:
     return np.asarray(right[kept:].T)
 
 
-def make_relations(mechanism: Mechanism, unilateral: Mapping[Link, bool]) -> Relations | None:
-    """The relations of a mechanism without laws; `unilateral` tells which links may part.
-
-    None where a place has to be solved for where figures touch.
-    """
+def make_relations(mechanism: Mechanism, unilateral: Mapping[Link, bool]) -> Relations:
+    """The relations of a mechanism without laws; `unilateral` tells which links may part."""
     symbols = make_symbols(mechanism)
     kinematics = Kinematics(mechanism, symbols, Constants(symbols))
     world = mechanism.model.world
@@ -197,17 +204,20 @@ def make_relations(mechanism: Mechanism, unilateral: Mapping[Link, bool]) -> Rel
     rates = column(
         rate for x, g in zip(links, found, strict=True) for rate in row_rates(x, g, kinematics)
     )
-    if kinematics.tracks:
-        return None
     gaps = column(g.gap for g in found)
     still = ca.SX.zeros(symbols.v.shape)
-    arguments = [symbols.t, symbols.q, symbols.u, symbols.p, symbols.sides]
+    state = [symbols.t, symbols.q, symbols.u, symbols.p]
+    followed = Followed(kinematics.tracks.values(), state)
+    goes = column(kinematics.track_rates.values())
+    arguments = [*state, symbols.sides, followed.unknowns]
     rows = ca.jacobian(rates, symbols.v)
     own = ca.substitute(rates, symbols.v, still) if symbols.v.numel() else rates
     # a counter of turns stays: no small motion is half a turn
     counters = ca.SX(len(mechanism.counters), symbols.v.numel())
     moves = ca.vertcat(ca.jacobian(symbols.rates, symbols.v), counters)
-    outputs = [ca.densify(x) for x in ca.cse([gaps, rows, own, moves])]
+    drift = ca.substitute(goes, symbols.v, still) if symbols.v.numel() else goes
+    parts = [gaps, rows, own, moves, ca.jacobian(goes, symbols.v), drift]
+    outputs = [ca.densify(x) for x in ca.cse(parts)]
     witness = ca.densify(column(g.witness for g in found))
     return Relations(
         mechanism=mechanism,
@@ -220,6 +230,7 @@ def make_relations(mechanism: Mechanism, unilateral: Mapping[Link, bool]) -> Rel
         row=rows,
         function=ca.Function("relations", arguments, outputs),
         witness=ca.Function("witness", arguments, [witness]),
+        followed=followed,
     )
 
 

@@ -11,7 +11,7 @@ from frot.compiler.report.dynamics import Dynamics, State, closes
 from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.report.relations import Posture, turning_speeds
 from frot.dsl import default_values, evaluate
-from frot.dsl.data.classes import dataclass
+from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 
 # Rates and values that are zero beside the sizes of their terms.
@@ -19,6 +19,8 @@ ZERO = 1e-9
 # How far from the start states are drawn, the next where the relations do not close.
 _FAR = (0.4, 0.1, 0.02)
 _TRIES = 3
+# Parts of the way to a drawn state, after each of which the relations are made to hold.
+_PARTS = 4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,7 +86,7 @@ class Search:
         """Values, rates and sizes at one state."""
         open_ = self._parts & (random.random(self._parts.size) < 0.5)
         used = self._closing & ~open_
-        state = self.dynamics.allowed(self._draw(p, far, random), used)
+        state = self._reached(self._draw(p, far, random), used)
         if state is None:
             return None
         pushes = random.standard_normal(len(self.dynamics.friction))
@@ -101,6 +103,29 @@ class Search:
             return None
         return values.ravel(), slope @ rate, np.abs(slope) @ size
 
+    def _reached(self, drawn: State, used: NDArray[np.bool_]) -> State | None:
+        """The state near the drawn one that the relations allow, on a way along them.
+
+        At once they would often close in another assembly, mirrored, where the motion never goes.
+        """
+        start, reached = self.start, replace(drawn, q=self.start.q)
+        for k in range(1, _PARTS + 1):
+            t = start.t + (drawn.t - start.t) * k / _PARTS
+            q = self._even(reached.q + (drawn.q - start.q) / _PARTS)
+            found = self.dynamics.allowed(replace(drawn, t=t, q=q), used)
+            if found is None:
+                return None
+            reached = found
+        return reached
+
+    def _even(self, q: Floats) -> Floats:
+        """The coordinates with quaternions of size one."""
+        q = q.copy()
+        for turn in self.dynamics.reduced.symbols.turns:
+            part = slice(turn.coordinate, turn.coordinate + 4)
+            q[part] /= np.linalg.norm(q[part])
+        return q
+
     def _sizes(self, state: State, terms: Floats) -> Floats:
         """Of accelerations: what others of their kind have, for some are zero but for rounding."""
         turning = self._turning
@@ -112,10 +137,7 @@ class Search:
 
     def _draw(self, p: Floats, far: float, random: np.random.Generator) -> State:
         start, symbols = self.start, self.dynamics.reduced.symbols
-        q = start.q + far * random.standard_normal(start.q.size)
-        for turn in symbols.turns:
-            part = slice(turn.coordinate, turn.coordinate + 4)
-            q[part] /= np.linalg.norm(q[part])
+        q = self._even(start.q + far * random.standard_normal(start.q.size))
         others = random.standard_normal(self.dynamics.others.numel())
         for k, symbol in enumerate(scalars_of(self.dynamics.others)):
             if symbol.name().startswith("condition_"):

@@ -12,6 +12,7 @@ from frot.compiler.lowering.lower import looking_at, state_arguments
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.mechanism import Contact, Link, Relation
+from frot.compiler.report.followed import Followed
 from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.report.relations import Posture, Relations, is_kinematic
 from frot.dsl import Log, default_values, evaluate
@@ -84,7 +85,12 @@ def find_start(system: Assembled) -> Start | None:
     sides = np.ones(len(links))
     none = np.ones(len(system.elements))
 
+    tracks = reduced.variables.kinematics.tracks.values()
+    known = [system.reduced.symbols.t, system.q, system.reduced.symbols.u, symbols.p]
+    followed = Followed(tracks, known, system.resolve)
+
     def arguments() -> list[float | Floats]:
+        y[: followed.unknowns.numel()] = followed.at(t, q, u, p)
         return [t, q, v, u, p, np.concatenate([flags, sides, none, discrete]), y]
 
     def settle(used: NDArray[np.bool_]) -> bool:
@@ -159,9 +165,12 @@ def posture_of(relations: Relations, system: Assembled, start: Start) -> Posture
     for link, k in relations.mechanism.counters:
         values.append(variables.coordinate(link.liaison, k)[0])
     there = start.posture
-    now = [own.t, own.q, own.u, own.p, own.sides]
+    tracks = variables.kinematics.tracks.values()
+    followed = Followed(tracks, [own.t, own.q, own.u, own.p])
+    now = [own.t, own.q, own.u, own.p, own.sides, followed.unknowns]
     function = Numbers("free", now, [column(values)])
-    q = function(*there.arguments)[0].ravel()
+    places = followed.at(there.t, there.q, there.u, there.p)
+    q = function(*there.arguments, places)[0].ravel()
     sides = np.ones(len(relations.links))
     return relations.sided(Posture(there.t, q, there.u, there.p, sides))
 

@@ -272,3 +272,31 @@ def test_what_rolls_is_told_the_same_where_coordinates_keep_it() -> None:
     assert report.mobility.degrees_of_freedom == 3
     ways = "built into the coordinates, the rest kept by its reaction and projection"
     assert f"3 relations, bilateral, 2 kinematic, not holonomic; {ways}" in str(report)
+
+
+def test_ranks_where_the_places_of_touch_are_solved_for() -> None:
+    """A ball between two ellipsoids on a dome, told twice to touch one; another rolls by itself."""
+    text = """
+model Followed "Figures that touch where no formula says"
+  body e: ellipsoid(mass = 1 kg, semi_axes = (0.3, 0.2, 0.15) m);
+  body f: ellipsoid(mass = 1 kg, semi_axes = (0.3, 0.2, 0.15) m);
+  body s: sphere(mass = 1 kg, radius = 0.1 m);
+  body g: ellipsoid(mass = 1 kg, semi_axes = (0.3, 0.2, 0.15) m);
+  surface dome on ground: implicit(z/(1 m) + 0.2*(x^2 + y^2)/(1 m^2));
+  liaison A: contact_ponctuel(dome, e.surface, unilateral = false);
+  liaison B: contact_ponctuel(dome, f.surface, unilateral = false);
+  liaison C: contact_ponctuel(e.surface, s.surface, unilateral = false);
+  liaison D: contact_ponctuel(f.surface, s.surface, unilateral = false);
+  liaison E: contact_ponctuel(s.surface, f.surface, unilateral = false);
+  liaison R: roulement(dome, g.surface);
+initial
+  guess(e.position = (0, 0, 0.15) m, f.position = (1, 0, 0) m, s.position = (0.5, 0, 0.2) m);
+  guess(g.position = (-1, 0.2, 0) m);
+end Followed;
+"""
+    report = frot.compile(text).report()
+    assert (report.mobility.hyperstatic, report.mobility.degrees_of_freedom) == (1, 24 - 7)
+    (loop,) = report.analysis.loops
+    assert dict(loop.undetermined) == {"D": 1, "E": 1}
+    assert {x.name: x.holonomic for x in report.liaisons}["R"] is False
+    assert "energy\n" in str(report)
