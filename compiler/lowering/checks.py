@@ -87,16 +87,16 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
     for surface in model.surfaces:
         yield from _sizes(f"surface '{surface.name}'", surface.arguments)
     for frame in model.frames:
-        if not isinstance(frame.axis, str) and frame.axis.type.shape:
+        if not isinstance(frame.axis, str) and frame.axis.type.shape and is_fixed(frame.axis):
             yield _length(f"the axis of frame '{frame.name}'", frame.axis)
     for force in model.forces:
         yield from _arguments(f"force '{force.name}'", force.kind.arguments, force.arguments)
     for liaison in model.liaisons:
         for argument in liaison.kind.arguments:
             axis = liaison.options.get(argument.name) if argument.kind == "axis" else None
-            if axis is not None and axis.type.shape:
+            if axis is not None and axis.type.shape and is_fixed(axis):
                 yield _length(f"the {argument.name} of liaison '{liaison.name}'", axis)
-        if liaison.kind.name == "cardan":
+        if liaison.kind.name == "cardan" and _axes_stay(liaison):
             yield _crossing(liaison)
         for law in liaison.laws:
             owner = f"liaison '{liaison.name}'"
@@ -211,6 +211,10 @@ def _principal_moments(owner: str, inertia: Expression) -> Iterator[Check]:
     ):
         value = of("+", determinant(matrix), cube)
         yield Check(NOT_NEGATIVE, f"{subject} of the inertia of {owner}", value, span, (_TRIANGLE,))
+
+
+def _axes_stay(liaison: Liaison) -> bool:
+    return is_fixed(liaison.options["axis_a"]) and is_fixed(liaison.options["axis_b"])
 
 
 def _direction(axis: Expression) -> Expression:

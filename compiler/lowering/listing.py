@@ -264,16 +264,16 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
                 yield from one(name, RATE, "angular velocity of b from a", "AngularVelocity")
         yield from _of_curve(reduced, liaison)
         yield from one("gap", LENGTH, "distance of the places")
-        if geometry.touch is not None:
-            yield from one("slip", VELOCITY, "relative velocity where they touch")
         if geometry.radius is not None:
             yield from one("slip", VELOCITY, "relative velocity at the surface of the pin")
+        elif geometry.touch is not None:
+            yield from one("slip", VELOCITY, "relative velocity where they touch")
         if reacts:
             yield from one("normal_force", FORCE, "size of the reaction")
-            if geometry.touch is not None:
-                yield from one("tangential_force", FORCE, "reaction along the contact")
             if geometry.radius is not None:
                 yield from one("tangential_force", FORCE, "friction at the surface of the pin")
+            elif geometry.touch is not None:
+                yield from one("tangential_force", FORCE, "reaction along the contact")
             yield from one("force", FORCE, "reaction of the first place on the second")
             yield from one("torque", ENERGY, "couple of the first place on the second", "Torque")
             yield from one("power", POWER, "power of the reaction")

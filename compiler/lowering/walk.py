@@ -55,15 +55,24 @@ def is_fixed(expression: Expression) -> bool:
     )
 
 
+def is_given(expression: Expression) -> bool:
+    """Whether no time and no motion changes the value: parameters and inputs give it."""
+    return not any(
+        isinstance(node, Time | Quantity | Derivative)
+        or (isinstance(node, Reference) and isinstance(node.target, Variable))
+        for node in subexpressions(expression)
+    )
+
+
 def has_time(expression: Expression) -> bool:
     """Whether the value changes with time."""
     return any(isinstance(node, Time) for node in subexpressions(expression))
 
 
-def follows_time(expression: Expression, but_for: str = "") -> bool:
+def follows_time(expression: Expression, but_for: str = "", switching: bool = False) -> bool:
     """Whether the value depends on time and parameters alone, and nothing switches in it.
 
-    `but_for` are the letters of variables that a curve or surface is given by.
+    `but_for` are the letters of variables that a curve or surface is given by; `switching`: it may.
     """
     for node in subexpressions(expression):
         if isinstance(node, (Quantity, Derivative)):
@@ -72,7 +81,7 @@ def follows_time(expression: Expression, but_for: str = "") -> bool:
             own = isinstance(node.target, Variable) and node.target.name in tuple(but_for)
             if not own:
                 return False
-        if switches(node) and not is_fixed(node):
+        if not switching and switches(node) and not is_fixed(node):
             return False
     return True
 

@@ -19,6 +19,7 @@ from frot.dsl.checked import (
     Force,
     Frame,
     Liaison,
+    Literal,
     Model,
     Surface,
 )
@@ -204,14 +205,15 @@ class Mechanism:
 def is_driven(model: Model) -> bool:
     """Whether time moves a place, a figure or a liaison."""
     moved = any(
-        value is not None and not is_fixed(value)
+        isinstance(value, Expression) and not is_fixed(value)
         for frame in model.frames
-        for value in (frame.origin, frame.angle)
+        for value in (frame.origin, frame.angle, frame.axis)
     )
+    moved |= model.world.gravity is not None and has_time(model.world.gravity)
     shapes: tuple[Curve | Surface, ...] = (*model.curves, *model.surfaces)
     moved |= any(has_time(value) for x in shapes for value in x.arguments.values())
     for liaison in model.liaisons:
-        moved |= bool(liaison.driven)
+        moved |= bool(liaison.driven) or any(has_time(x) for x in liaison.options.values())
         moved |= any(has_time(x) for r in liaison.relations for x in (r.left, r.right))
     return moved
 
@@ -222,9 +224,9 @@ def rolls(joint: Joint) -> bool:
 
 
 def is_unilateral(liaison: Liaison) -> bool:
-    """Whether the liaison may part at all (its option is not the word `false`)."""
-    from frot.dsl.checked import Literal
-
+    """Whether the liaison may part: its option is not `false`, and no drive keeps its gap."""
+    if "gap" in liaison.driven:
+        return False
     option = liaison.options["unilateral"]
     return not (isinstance(option, Literal) and option.value is False)
 

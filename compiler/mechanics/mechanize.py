@@ -6,10 +6,10 @@ from frot.compiler.lowering.walk import is_fixed, read_quantities, subexpression
 from frot.compiler.mechanics.geometry.faces import part_faces
 from frot.compiler.mechanics.geometry.figures import Dot, Flat, Placed, can_touch, figure_of
 from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE, pair
-from frot.compiler.mechanics.liaisons.drives import free_drives, told_by_time
+from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
 from frot.compiler.mechanics.liaisons.freed import OF_PLACES, OF_SPEEDS, is_row
 from frot.compiler.mechanics.liaisons.halves import halve
-from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, drawn_out, make_joint
+from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, make_joint
 from frot.compiler.mechanics.liaisons.locks import Lock, Stated
 from frot.compiler.mechanics.mechanism import (
     Contact,
@@ -116,7 +116,7 @@ def link_of(liaison: Liaison, planar: bool, log: Log) -> Contact | Joint | None:
         return _stated(liaison, planar, log)
     if liaison.kind.name in JOINTS:
         return _joint(liaison, planar, log)
-    if liaison.kind.name in (IN_PLANE if planar else IN_SPACE):
+    if liaison.kind.name in (IN_PLANE if planar else IN_SPACE) or "gap" in liaison.driven:
         return _placed(liaison, planar, log)
     return _contact(liaison, log)
 
@@ -132,20 +132,20 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     if is_unilateral(liaison):
         refuse(log, f"a {told} that can part", unilateral.span)
         return None
-    if not (turns(point_body(a)) or turns(point_body(b))) and name == "rotoide":
-        refuse(
-            log,
-            "a rotoïde of two bodies that do not turn",
-            liaison.span,
-            "a particle has no angle: use a rod, a disc or a ring",
-        )
-        return None
     joint = make_joint(
         liaison, a, b, JOINTS[name](liaison.options, planar), told_by_time(liaison, planar)
     )
     law = _law(liaison, "coulomb")
     if law is None:
         return joint
+    if not (turns(point_body(a)) or turns(point_body(b))):
+        log.report(
+            "E0511",
+            f"'coulomb' of '{liaison.name}', a pin of two bodies that do not turn",
+            law.span,
+            help="a particle has no angle: use a rod, a disc or a ring",
+        )
+        return None
     if "radius" not in law.arguments:
         log.report(
             "E0204",
@@ -213,8 +213,7 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     pairing, swapped = found
     first, second = (b.point, a.point) if swapped else (a.point, b.point)
     told = told_by_time(liaison, planar)
-    if "length" in liaison.driven and "length" not in told:
-        pairing = drawn_out(pairing)
+    pairing = let_go(pairing, drives_of(liaison).keys() - told.keys())
     return make_joint(liaison, first, second, pairing, told, swapped=swapped)
 
 

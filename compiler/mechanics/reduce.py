@@ -45,9 +45,10 @@ from frot.compiler.mechanics.text_of_motion import (
     friction_maker,
     give_rates_of_tracks,
 )
+from frot.compiler.mechanics.values import pace_of
 from frot.compiler.mechanics.variables import Variables
 from frot.dsl import Log
-from frot.dsl.checked import Liaison
+from frot.dsl.checked import CurvePlace, Liaison, SurfacePlace
 from frot.dsl.data.classes import dataclass, replace
 
 
@@ -253,13 +254,25 @@ def _agreeing(
     ):
         if not isinstance(link, Relation) or isinstance(link.lock, Stated):
             continue
-        size, row = ca.SX(0), rows_of.reaction[0]
+        row = rows_of.reaction[0]
+        size = (1 + own.reach) * _told_by_time(link.liaison, kinematics)
         for place in (link.joint.a, link.joint.b):
             there = kinematics.moving(place)
             turns = ca.norm_1(there.angular_bias) + ca.sumsqr(there.angular)
             size += ca.norm_1(there.linear_bias) + (1 + own.reach) * turns
         bias[row] = ca.if_else(ca.fabs(bias[row]) > _ROUNDING * size, bias[row], 0)
     return bias
+
+
+def _told_by_time(liaison: Liaison, kinematics: Kinematics) -> ca.SX:
+    """The size of the accelerations that what a liaison is given by has of itself."""
+    given = [liaison.options]
+    for place in (liaison.a, liaison.b):
+        if isinstance(place, CurvePlace):
+            given.append(place.curve.arguments)
+        elif isinstance(place, SurfacePlace):
+            given.append(place.surface.arguments)
+    return sum((pace_of(values, kinematics.fixed.lower) for values in given), ca.SX(0))
 
 
 def _with_counters(symbols: Symbols, mechanism: Mechanism, variables: Variables) -> Symbols:

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from frot.compiler.lowering.walk import follows_time, is_fixed, read_quantities, subexpressions
+from frot.compiler.lowering.walk import (
+    follows_time,
+    is_fixed,
+    is_given,
+    read_quantities,
+    subexpressions,
+)
 from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE
 from frot.compiler.mechanics.liaisons.joints import JOINTS
 from frot.compiler.mechanics.liaisons.locks import Touching
+from frot.compiler.mechanics.liaisons.motions import Nearing
 from frot.compiler.mechanics.mechanism import Contact, Joint, turns
 from frot.dsl import Log
 from frot.dsl.checked import (
     BodyPoint,
     Curve,
-    Derivative,
     Expression,
     Force,
     Law,
@@ -24,8 +30,6 @@ from frot.dsl.checked import (
     Quantity,
     Reference,
     Surface,
-    Time,
-    Variable,
 )
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import dimension
@@ -39,30 +43,7 @@ REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mod
 
 def refuse_unknown(model: Model, log: Log) -> None:
     """Tell every kind, law, force and option of the model that has no mechanics yet."""
-    shapes: tuple[Curve | Surface, ...] = (*model.curves, *model.surfaces)
-    own = set(model.variables)
-    for shaped in shapes:
-        for name, argument in shaped.arguments.items():
-            of_text = any(
-                isinstance(node, Reference) and node.target in own
-                for node in subexpressions(argument)
-            )
-            if of_text or not (is_fixed(argument) or follows_time(argument, "uvxyz")):
-                what = f"'{name}' of a curve or surface that depends on other than time and place"
-                refuse(log, what, argument.span)
-    for frame in model.frames:
-        for value in (frame.origin, frame.angle):
-            if value is None or is_fixed(value):
-                continue
-            if not follows_time(value):
-                refuse(log, "a frame that depends on other than time", value.span)
-        if not isinstance(frame.axis, str) and not _is_given(frame.axis):
-            what = f"an axis of frame '{frame.name}' that changes"
-            refuse(log, what, frame.axis.span, "let its angle change, or that of a frame it is on")
-    for body in model.bodies:
-        for argument in body.arguments.values():
-            if not is_fixed(argument):
-                refuse(log, "a body that depends on time or motion", argument.span)
+    _refuse_geometry(model, log)
     known = (*JOINTS, *((*PLANE_LIAISONS, *IN_PLANE) if model.planar else IN_SPACE))
     for liaison in model.liaisons:
         if liaison.kind.name not in known and not liaison.relations:
@@ -74,7 +55,6 @@ def refuse_unknown(model: Model, log: Log) -> None:
                 _one_of("liaisons", known),
             )
         _refuse_options(liaison, log)
-        _refuse_drive(liaison, model.planar, log)
         for law in liaison.laws:
             _refuse_law(liaison, law, model.planar, log)
     for force in model.forces:
@@ -84,8 +64,6 @@ def refuse_unknown(model: Model, log: Log) -> None:
             _refuse_couple(force, log)
         if force.kind.name == "drag":
             _refuse_drag(force, log)
-    if model.world.gravity is not None and not is_fixed(model.world.gravity):
-        refuse(log, "gravity that depends on time or motion", model.world.span)
     allowed = ("auto", "explicit", "implicit")
     if model.experiment.method not in allowed:
         refuse(
@@ -96,47 +74,84 @@ def refuse_unknown(model: Model, log: Log) -> None:
         )
 
 
-def _refuse_options(liaison: Liaison, log: Log) -> None:
-    """Directions belong to the places; lengths may change as time tells."""
-    for argument in liaison.kind.arguments:
-        value = liaison.options.get(argument.name)
-        if value is None or argument.name == "unilateral":
-            continue
-        if argument.kind == "axis" and not _is_given(value):
-            what = f"'{argument.name}' of a {spelled(liaison)} that changes"
-            refuse(log, what, value.span, "let a frame turn with time and join that")
-        elif not (_is_given(value) or follows_time(value)):
-            driven = argument.name in liaison.kind.coordinates
-            refuse(
-                log,
-                f"'{argument.name}' of a {spelled(liaison)} that depends on other than time",
-                value.span,
-                f"write `driven({argument.name} = ...)`" if driven else "let it depend on time",
-            )
+def _refuse_geometry(model: Model, log: Log) -> None:
+    """Shapes, frames, directions and gravity follow time and parameters, and time smoothly.
+
+    What else moves is a body, and carries what is fixed to it.
+    """
+    gravity = model.world.gravity
+    if gravity is not None:
+        assert model.world.span is not None
+        _follow_time("gravity", gravity, log, span=model.world.span)
+    for body in model.bodies:
+        for name, argument in body.arguments.items():
+            if not is_fixed(argument):
+                log.report(
+                    "E0522",
+                    f"'{name}' of body '{body.name}' changes, but a body keeps its mass and form",
+                    argument.span,
+                    help="let it follow parameters alone, and write forces for what mass that "
+                    "comes or goes does",
+                )
+    shapes: tuple[Curve | Surface, ...] = (*model.curves, *model.surfaces)
+    own = set(model.variables)
+    for shaped in shapes:
+        kind = "curve" if isinstance(shaped, Curve) else "surface"
+        for name, argument in shaped.arguments.items():
+            of_text = {
+                node.target
+                for node in subexpressions(argument)
+                if isinstance(node, Reference) and node.target in own
+            }
+            what = f"'{name}' of {kind} '{shaped.name}'"
+            _follow_time(what, argument, log, "" if of_text else "uvxyz")
+    for frame in model.frames:
+        for what, value in (("place", frame.origin), ("angle", frame.angle), ("axis", frame.axis)):
+            if isinstance(value, Expression):
+                _follow_time(f"the {what} of frame '{frame.name}'", value, log)
 
 
-def _is_given(value: Expression) -> bool:
-    """Whether no time and no motion changes a value: parameters and inputs give it."""
-    return not any(
-        isinstance(node, Time | Quantity | Derivative)
-        or (isinstance(node, Reference) and isinstance(node.target, Variable))
-        for node in subexpressions(value)
+def _follow_time(
+    what: str, value: Expression, log: Log, places: str = "", span: Span | None = None
+) -> None:
+    """Report a value of anything but time, and one that switches; `places` as `follows_time`."""
+    if is_fixed(value) or follows_time(value, places):
+        return
+    if follows_time(value, places, switching=True):
+        log.report(
+            "E0522",
+            f"{what} switches: what follows it would jump, or be hit where its slope jumps",
+            span or value.span,
+            help="write a form without switches, or one curve or surface for each part",
+        )
+        return
+    log.report(
+        "E0522",
+        f"{what} follows other than time and parameters",
+        span or value.span,
+        help="put it on a body that moves so: a liaison can drive that by any value",
     )
 
 
-def _refuse_drive(liaison: Liaison, planar: bool, log: Log) -> None:
-    value = liaison.driven.get("gap")
-    if value is None:
-        return
-    if planar or liaison.kind.name != "contact_ponctuel":
-        what = f"a driven 'gap' of a {spelled(liaison)}" + (" in the plane" if planar else "")
-        refuse(log, what, value.span, "drive the body, or let the surface move with time")
-    elif not follows_time(value):
-        what = "a driven 'gap' that follows other than time"
-        refuse(log, what, value.span, "write a value of time and parameters without switches")
+def _refuse_options(liaison: Liaison, log: Log) -> None:
+    """Directions and pitches may change as time tells; a length that moves otherwise is driven."""
+    for argument in liaison.kind.arguments:
+        value = liaison.options.get(argument.name)
+        if value is None or is_given(value) or argument.name in liaison.kind.coordinates:
+            continue
+        _follow_time(f"'{argument.name}' of {spelled(liaison)} '{liaison.name}'", value, log)
 
 
 def _refuse_law(liaison: Liaison, law: Law, planar: bool, log: Log) -> None:
+    if "gap" in liaison.driven:
+        log.report(
+            "E0511",
+            f"the law '{law.kind.name}' of '{liaison.name}', whose gap is driven: what is apart "
+            "has no friction",
+            law.span,
+            help="leave out the law, or the drive",
+        )
+        return
     if "tangential" in law.arguments:
         if not planar or liaison.kind.name not in PLANE_LIAISONS:
             where = f"of a {spelled(liaison)}" + ("" if planar else " in space")
@@ -215,21 +230,27 @@ def _refuse_drag(force: Force, log: Log) -> None:
 
 
 def refuse_surface(model: Model, links: Iterable[Contact | Joint], log: Log) -> None:
-    """What happens at the surface of a pin is known with its radius only."""
+    """In the plane slip has a sign where there is one way to slip: at the surface of a pin, ..."""
     plain = {
         e.liaison
         for e in links
-        if isinstance(e, Joint)
+        if model.planar
+        and isinstance(e, Joint)
         and e.radius is None
-        and not any(isinstance(lock, Touching) for lock in e.locks)
+        and not any(isinstance(x, Touching | Nearing) for x in (*e.locks, *e.motions))
+        and e.liaison.kind.name != "prismatique"
     }
     for node in read_quantities(model):
         if node.owner in plain and node.name in ("slip", "tangential_force"):
+            pin = node.owner.kind.name == "rotoide"
+            why = "its pin has no radius" if pin else "it leaves no one way along which to slip"
             log.report(
                 "E0203",
-                f"no '{node.name}' on '{node.owner.name}': its pin has no radius",
+                f"no '{node.name}' on '{node.owner.name}': {why}",
                 node.span,
-                help="read `speed` or `torque`, or give the law `coulomb(..., radius = ...)`",
+                help="read `speed` or `torque`, or give the law `coulomb(..., radius = ...)`"
+                if pin
+                else "read `force`, or the velocities of the two places",
             )
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import casadi as ca
+from frot.compiler.lowering.walk import follows_time, has_time
 from frot.compiler.mechanics.spatial import X, Y, Z, beside, cross, whole
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Expression, Literal, Time
@@ -67,3 +68,20 @@ def _at_zero(value: ca.SX, now: ca.SX) -> ca.SX:
 def rate_by_time(value: ca.SX, lower: Lower) -> ca.SX:
     """The rate of what time alone changes."""
     return ca.sparsify(ca.jacobian(value, lower(NOW)).reshape(value.shape))
+
+
+_DIRECTIONS = ("axis", "axis_a", "axis_b", "direction", "normal")
+
+
+def pace_of(given: Mapping[str, Expression], lower: Lower) -> ca.SX:
+    """The size |x''| + x'^2 of the values that time changes, directions being of length 1.
+
+    What is given by the points of a curve or surface (`u`, `x`, ...) is left out.
+    """
+    size = ca.SX(0)
+    for name, value in given.items():
+        if has_time(value) and follows_time(value):
+            told = unit_vector(value, lower) if name in _DIRECTIONS else whole(lower(value))
+            rate = rate_by_time(told, lower)
+            size += ca.norm_1(rate_by_time(rate, lower)) + ca.sumsqr(rate)
+    return size

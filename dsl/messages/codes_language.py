@@ -376,9 +376,21 @@ _STRUCTURE = {
         "planar model Part\n  world(gravity = 0 m/s^2);\nend Part;\nplanar model Example\n"
         "  Part part;\nend Example;\n",
     ),
+    "E0522": (
+        "geometry that cannot change so",
+        "Curves, surfaces, frames, directions of liaisons and gravity are given by parameters and "
+        "time, without switches; a body by parameters alone. What is to move otherwise is a body, "
+        "and what is fixed to it goes with it.",
+        "Put it on a body, and let a liaison drive that; write a smooth function of time.",
+        snippet(
+            f"{_BALL}\nframe place on ground at (0 m, 2*ball.position.x);\n"
+            "liaison pin: encastrement(place, ball);"
+        ),
+    ),
     "E0511": (
         "law on a body that cannot obey it",
-        "The law bounds a couple, but the body of this liaison does not turn.",
+        "The law bounds a couple, but the body of this liaison does not turn; or a friction, but "
+        "the liaison keeps its places apart by a drive.",
         "Use a shape that turns, such as a disc or a ring, or leave the law out.",
         snippet(
             "body ball: particle(mass = 1 kg);\n"

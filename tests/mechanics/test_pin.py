@@ -407,9 +407,10 @@ REFUSED = {
         "the law 'rolling_resistance' of a rotoïde",
     ),
     "a particle on the ground": (
-        "body p: particle(mass = 1 kg); liaison hinge: rotoide(ground, p);",
-        "E0701",
-        "a rotoïde of two bodies that do not turn",
+        "body p: particle(mass = 1 kg); liaison hinge: rotoide(ground, p) with "
+        "coulomb(0.1, radius = 1 mm);",
+        "E0511",
+        "a pin of two bodies that do not turn",
     ),
     "slip without a radius": (
         f"{HINGE}; output Velocity v = hinge.slip;",

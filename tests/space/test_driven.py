@@ -156,3 +156,60 @@ def test_what_closes_a_loop_counts_its_turns_and_holds_nothing_that_is_free() ->
     assert np.abs(result["A.angle"] - result["B.angle"]).max() < 1e-10
     assert np.abs(result["D.angle"] - 7 * result.time).max() < 1e-10
     assert np.abs(result["C.displacement"] - 0.3 * 7 * result.time / (2 * np.pi)).max() < 1e-10
+
+
+KEPT_APART = """
+planar model Apart "Gaps and lengths by time, by the text and by other motions, in the plane"
+  body a: disc(mass = 1 kg, radius = 0.2 m);
+  body b: disc(mass = 1 kg, radius = 0.2 m);
+  body c: disc(mass = 1 kg, radius = 0.2 m);
+  body p: particle(mass = 1 kg);
+  body q: particle(mass = 1 kg);
+  body s: particle(mass = 1 kg);
+  body s2: particle(mass = 2 kg);
+  curve bowl on ground: circle(radius = 2 m, centre = (0, 2) m);
+  Real x;
+  liaison A: contact_ponctuel(a.rim, ground.line) driven(gap = 0.1 m*(2 + sin(3*time/(1 s))));
+  liaison B: contact_ponctuel(ground.line, b.rim) driven(gap = 0.1 m*x);
+  liaison C: contact_ponctuel(c.rim, bowl) driven(gap = 0.5*A.gap);
+  liaison P: tige(ground, p, length = 1 m + 0.1 m*x);
+  liaison Q: fil(p, q, length = 1 m + 0.5*p.position.x, unilateral = false);
+  liaison S: rotoide(ground, s);
+  liaison S2: rotoide(s, s2);
+  output Force push_a = A.normal_force;
+  output Force push_b = B.normal_force;
+  output Velocity slides = B.slip;
+  output Force pin = S.force;
+initial
+  x = 0.5;
+  guess(a.position.y = 0.5 m, c.position = (0.3, 0.5) m);
+  guess(p.position = (1, 0) m, q.position = (2, 0) m);
+  b.velocity.x = 1 m/s;
+equation
+  der(der(x)) = -4*x*(1 1/s^2);
+  experiment(stop = 1 s, tolerance = 1e-10);
+end Apart;
+"""
+
+
+def test_gaps_and_lengths_of_the_plane_follow_time_the_text_and_motions() -> None:
+    """What keeps apart pushes with m (g + y''); two particles in a pin stay together."""
+    run = frot.compile(KEPT_APART).simulate()
+    t, x = run.time, run["x"]
+    assert np.abs(run["a.position.y"] - 0.4 - 0.1 * np.sin(3 * t)).max() < 1e-12
+    assert np.abs(run["push_a"] - 9.81 + 0.9 * np.sin(3 * t)).max() < 1e-11
+    assert np.abs(run["b.position.y"] - 0.2 - 0.1 * x).max() < 1e-11
+    assert np.abs(run["push_b"] - 9.81 + 0.4 * x).max() < 1e-9
+    assert np.abs(np.abs(run["slides"]) - 1).max() < 1e-12
+    far = np.hypot(run["c.position.x"], run["c.position.y"] - 2)
+    assert np.abs(2 - far - 0.2 - 0.05 * (2 + np.sin(3 * t))).max() < 1e-11
+    px, py, qx, qy = (run[f"{b}.position.{k}"] for b in "pq" for k in "xy")
+    assert np.abs(np.hypot(px, py) - 1 - 0.1 * x).max() < 1e-11
+    assert np.abs(np.hypot(qx - px, qy - py) - 1 - 0.5 * px).max() < 1e-11
+    assert np.abs(run["pin.y"] - 3 * 9.81).max() < 1e-12
+
+
+def test_a_law_of_what_is_kept_apart_is_named() -> None:
+    text = KEPT_APART.replace("(2 + sin(3*time/(1 s))));", "2) with coulomb(0.1);")
+    with pytest.raises(frot.FrotError, match=r"law 'coulomb' of 'A', whose gap is driven"):
+        frot.compile(text).report()

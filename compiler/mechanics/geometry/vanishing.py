@@ -32,8 +32,8 @@ from frot.compiler.mechanics.geometry.paths import point_of
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
 from frot.compiler.mechanics.liaisons.locks import Across, Tangent, Touching
-from frot.compiler.mechanics.liaisons.motions import Axis, Follow
-from frot.compiler.mechanics.mechanism import Contact, Joint
+from frot.compiler.mechanics.liaisons.motions import Axis, Follow, Nearing
+from frot.compiler.mechanics.mechanism import Contact, Joint, frames_of
 from frot.compiler.mechanics.spatial import Pose, cross, whole
 from frot.compiler.mechanics.values import Lower, unit_vector
 from frot.dsl.checked import Expression, Liaison
@@ -73,13 +73,29 @@ def find_vanishing(
     geometry: Mapping[Liaison, Geometry | JointGeometry],
     kinematics: Kinematics,
 ) -> Iterator[Vanishing]:
-    """What the figures of the liaisons may lose."""
+    """What the figures of the liaisons may lose, and the directions that change."""
+    lower = kinematics.fixed.lower
     for liaison, link in links.items():
+        for what, axis in _changing(liaison, link):
+            text = f"liaison '{liaison.name}': {what} has no direction"
+            yield Vanishing(liaison, text, (), ca.norm_2(whole(lower(axis))), ca.SX.zeros(COUNT))
         for one in _figures(link, geometry[liaison], kinematics):
-            for what, names, distance, where in _losses(one, kinematics.fixed.lower):
+            for what, names, distance, where in _losses(one, lower):
                 text = f"liaison '{liaison.name}': {what.format(one.name)}"
                 padded = ca.vertcat(where, ca.SX.zeros(COUNT - where.numel()))
                 yield Vanishing(liaison, text, names, distance, padded)
+
+
+def _changing(liaison: Liaison, link: Contact | Joint) -> Iterator[tuple[str, Expression]]:
+    """The axes of a liaison, and of the frames that it joins, which are not given by parameters."""
+    for argument in liaison.kind.arguments:
+        axis = liaison.options.get(argument.name)
+        if argument.kind == "axis" and axis is not None and not is_fixed(axis):
+            yield f"its {argument.name}", axis
+    ends = (link.a, link.b) if isinstance(link, Joint) else (link.point, link.track.point)
+    for frame in (frame for end in ends for frame in frames_of(end)):
+        if isinstance(frame.axis, Expression) and not is_fixed(frame.axis):
+            yield f"the axis of frame '{frame.name}'", frame.axis
 
 
 def _figures(
@@ -115,6 +131,9 @@ def _figures(
 
 
 def _pairs(joint: Joint) -> Iterator[tuple[Figure, Figure]]:
+    for motion in joint.motions:
+        if isinstance(motion, Nearing):
+            yield motion.a, motion.b
     for lock in joint.locks:
         match lock:
             case Across(curve=curve, side=0):

@@ -8,7 +8,7 @@ a flange.
 
 from __future__ import annotations
 
-from frot.compiler.lowering.walk import follows_time
+from frot.compiler.lowering.walk import follows_time, is_given
 from frot.compiler.mechanics.liaisons.freed import coordinate_of, is_row, reaction_of
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Equation, Expression, Flange, Liaison, Model, Quantity, Variable
@@ -20,13 +20,13 @@ _ANGLES = ("angle", "angle_a", "angle_b")
 
 def free_drives(model: Model) -> Model:
     """The model with each of them as an effort and an equation; itself where it has none."""
-    drives = any(_goes_free(x, name, model.planar) for x in model.liaisons for name in x.driven)
+    drives = any(_goes_free(x, name, model.planar) for x in model.liaisons for name in drives_of(x))
     if not drives and all(is_row(r) for x in model.liaisons for r in x.relations):
         return model
     efforts: list[Flange] = []
     equations: list[Equation] = []
     for liaison in model.liaisons:
-        for name, value in liaison.driven.items():
+        for name, value in drives_of(liaison).items():
             if _goes_free(liaison, name, model.planar):
                 efforts.append(_effort(liaison, driven_coordinate(liaison, name)))
                 equations.append(_equation(liaison, name, value))
@@ -44,6 +44,17 @@ def free_drives(model: Model) -> Model:
     )
 
 
+def drives_of(liaison: Liaison) -> dict[str, Expression]:
+    """The coordinates that are prescribed: by `driven`, or a length by what it is said to be."""
+    lengths = {
+        name: value
+        for name in liaison.kind.coordinates
+        if (value := liaison.options.get(name)) is not None
+        and not (is_given(value) or follows_time(value))
+    }
+    return {**lengths, **liaison.driven}
+
+
 def driven_coordinate(liaison: Liaison, name: str) -> str:
     """The coordinate that a drive moves: of a speed, that whose rate it is."""
     if not name.startswith("speed"):
@@ -54,13 +65,13 @@ def driven_coordinate(liaison: Liaison, name: str) -> str:
 
 def told_by_time(liaison: Liaison, planar: bool) -> dict[str, Expression]:
     """The drives of a liaison that are values of time: their coordinates are none."""
-    return {k: x for k, x in liaison.driven.items() if not _goes_free(liaison, k, planar)}
+    return {k: x for k, x in drives_of(liaison).items() if not _goes_free(liaison, k, planar)}
 
 
 def _goes_free(liaison: Liaison, name: str, planar: bool) -> bool:
     along_a_line = planar and liaison.kind.name == "point_courbe"
     speed = name.startswith("speed")
-    return speed or along_a_line or not follows_time(liaison.driven[name])
+    return speed or along_a_line or not follows_time(drives_of(liaison)[name])
 
 
 def _effort(liaison: Liaison, coordinate: str) -> Flange:

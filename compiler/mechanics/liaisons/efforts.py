@@ -11,7 +11,7 @@ from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
 from frot.compiler.mechanics.liaisons.motions import bare, name_of
 from frot.compiler.mechanics.liaisons.wrenches import Effort, wrench_along
 from frot.compiler.mechanics.mechanism import Contact, Joint
-from frot.compiler.mechanics.spatial import nowhere
+from frot.compiler.mechanics.spatial import cross, nowhere
 
 
 def effort_along(
@@ -26,6 +26,11 @@ def effort_along(
         assert isinstance(geometry, Geometry)
         pace = _pace(link, geometry, kinematics)
         return Effort(geometry.slip / pace, geometry.line.direction / pace, nowhere())
+    if coordinate == "gap":
+        assert isinstance(geometry, JointGeometry) and geometry.touch is not None
+        normal, place = geometry.touch.normal, geometry.touch.place
+        couple = cross(place - kinematics.position(link.b), normal)
+        return Effort(geometry.rates["gap"], normal, couple)
     index = [name_of(m) for m in link.motions].index(coordinate)
     rate = kinematics.coordinate(link, index)[1]
     a, b = kinematics.pose(link.a), kinematics.pose(link.b)

@@ -7,7 +7,7 @@ to those of b; all coordinates are zero where both coincide. What a motion leave
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 from frot.compiler.mechanics.liaisons.locks import (
     LEFT,
@@ -29,6 +29,7 @@ from frot.compiler.mechanics.liaisons.motions import (
     Driven,
     Follow,
     Motion,
+    Nearing,
     Reach,
     Screw,
     Slide,
@@ -36,8 +37,9 @@ from frot.compiler.mechanics.liaisons.motions import (
     name_of,
 )
 from frot.compiler.mechanics.mechanism import Joint, Point, is_particle, point_body
-from frot.dsl.checked import Expression, Liaison
+from frot.dsl.checked import Expression, Liaison, Literal
 from frot.dsl.data.classes import dataclass, replace
+from frot.dsl.quantities.dimensions import BOOLEAN
 
 Options = Mapping[str, Expression]
 
@@ -146,10 +148,20 @@ def drive(pairing: Pairing, values: Mapping[str, Expression]) -> Pairing:
     return Pairing(tuple(motions), tuple(locks), pairing.carries)
 
 
-def drawn_out(pairing: Pairing) -> Pairing:
-    """A rod whose length an equation of the text prescribes: it keeps nothing by itself."""
-    locks = tuple(x for x in pairing.locks if not isinstance(x, Apart))
-    return Pairing((*pairing.motions, Reach()), locks, carries=False)
+def let_go(pairing: Pairing, prescribed: Collection[str]) -> Pairing:
+    """A liaison whose length or gap an equation of the text prescribes: it keeps none by itself."""
+    locks: list[Lock] = []
+    motions = list(pairing.motions)
+    for lock in pairing.locks:
+        if isinstance(lock, Apart) and "length" in prescribed:
+            motions.append(Reach())
+        elif isinstance(lock, Touching) and "gap" in prescribed:
+            motions.append(Nearing(lock.a, lock.b, lock.followed))
+        else:
+            locks.append(lock)
+    if len(motions) == len(pairing.motions):
+        return pairing
+    return Pairing(tuple(motions), tuple(locks), carries=False)
 
 
 def make_joint(
@@ -178,7 +190,7 @@ def make_joint(
         carries=pairing.carries,
         swapped=swapped,
         reduced=False,
-        unilateral=liaison.options["unilateral"],
+        unilateral=Literal(False, BOOLEAN, liaison.span),
         mu=None,
         mu_s=None,
         radius=None,

@@ -156,6 +156,23 @@ class Reach:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Nearing:
+    """The gap of two figures that an equation of the text keeps: it is seen, and carries nothing.
+
+    `followed`: where they are nearest is solved for.
+    """
+
+    a: Figure
+    b: Figure
+    followed: bool
+    coordinates: tuple[str, ...] = ("gap",)
+    speeds: tuple[str, ...] = ()
+    quaternion: Quaternion | None = None
+    faces_ground: bool = False
+    turns: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Spot:
     """The place of what rolls along a plane of the base: it has no speeds of its own (`Roll`)."""
 
@@ -204,6 +221,7 @@ Motion = (
     | Slide
     | Screw
     | Heading
+    | Nearing
     | Attitude
     | Pointing
     | Reach

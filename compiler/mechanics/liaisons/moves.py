@@ -111,7 +111,22 @@ def seen(motion: Motion, a: Moving, b: Moving, lower: Lower) -> Seen:
 
     Angles count the turns in the plane; in space they are within half a revolution (`counted`).
     """
-    return _SEEN[type(motion)](motion, a, b, lower)
+    moments = Moments(lower)
+    value, rate = _SEEN[type(motion)](motion, a, b, moments)
+    if not moments.met:
+        return value, rate
+    if not _keeps_axis(motion):
+        rate = rate + ca.jacobian(value, moments.symbol)
+    value, rate = moments.back(value, rate)
+    return value, rate
+
+
+def _keeps_axis(motion: Motion) -> bool:
+    """Whether the rate by the velocities is the whole one, though time may change the motion.
+
+    Of a turn about an axis n(time) of both bodies it is: what n' adds to omega is across n.
+    """
+    return isinstance(motion, Driven | Screw) or (isinstance(motion, Turn) and motion.mark is None)
 
 
 def counted(angle: ca.SX, about: ca.SX) -> ca.SX:
@@ -130,13 +145,12 @@ def carried(local: ca.SX, base: Moving, lower: Lower) -> Moving:
 
 
 def turned_by_time(axis: Expression | str, angle: ca.SX, base: Moving, lower: Lower) -> Moving:
-    """Axes turned about one of their own by an angle that time may change."""
+    """Axes turned about one of their own by an angle; time may change both."""
     local, rate = unit_vector(axis, lower), rate_by_time(angle, lower)
-    if not rate.nnz():
+    if not (rate.nnz() or rate_by_time(local, lower).nnz()):
         return replace(base, pose=turned_pose(base.pose, local, angle))
-    along = base.pose.direction(local)
-    turned = _turned(base, local, angle, rate, along)
-    push = along * rate_by_time(rate, lower)
+    turned = _turned(base, local, angle, rate, base.pose.direction(local), lower)
+    push = base.pose.direction(local * rate_by_time(rate, lower))
     return replace(turned, angular_bias=turned.angular_bias + push)
 
 
@@ -170,14 +184,39 @@ def angle_about(axis: Axis, a: Pose, b: Pose, lower: Lower) -> ca.SX:
     return ca.atan2(found.sine, found.cosine)
 
 
-def _turned(base: Moving, local: ca.SX, angle: ca.SX, rate: ca.SX, along: ca.SX) -> Moving:
-    """The angular velocity along the axis turns with the base: bias omega x (e q')."""
+def _turned(
+    base: Moving, local: ca.SX, angle: ca.SX, rate: ca.SX, along: ca.SX, lower: Lower
+) -> Moving:
+    """The angular velocity along the axis turns with the base: bias omega x (e q').
+
+    Where time turns the axis e in the base too, that adds sin q e' + (1 - cos q) e x e'
+    (by the formula of O. Rodrigues).
+    """
+    turns, pushes = along * rate, nowhere()
+    swept, pushed = _swept(local, angle, rate, lower)
+    if swept.nnz():
+        turns = turns + base.pose.direction(swept)
+        pushes = base.pose.direction(pushed)
     return Moving(
         turned_pose(base.pose, local, angle),
-        base.angular + along * rate,
+        base.angular + turns,
         base.linear,
-        base.angular_bias + cross(base.angular, along * rate),
+        base.angular_bias + cross(base.angular, turns) + pushes,
         base.linear_bias,
+    )
+
+
+def _swept(local: ca.SX, angle: ca.SX, rate: ca.SX, lower: Lower) -> tuple[ca.SX, ca.SX]:
+    """What an axis that time turns adds to the angular velocity, and to its rate in the base."""
+    moves = rate_by_time(local, lower)
+    if not moves.nnz():
+        return nowhere(), nowhere()
+    sine, versine = ca.sin(angle), 1 - ca.cos(angle)
+    beside, bends = cross(local, moves), rate_by_time(moves, lower)
+    pushed = rate * ((2 - versine) * moves + sine * beside)
+    return (
+        ca.sparsify(sine * moves + versine * beside),
+        ca.sparsify(pushed + sine * bends + versine * cross(local, bends)),
     )
 
 
@@ -203,29 +242,39 @@ def _placed(base: Moving, pose: Pose, angular: ca.SX) -> Moving:
 def _move_turn(motion: Turn, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     local = unit_vector(motion.axis.given, lower)
     along = motion.sign * base.pose.direction(local)
-    turned = _turned(base, local, motion.sign * q, v, along)
+    angle, rate = motion.sign * q, motion.sign * v
+    turned = _turned(base, local, angle, rate, base.pose.direction(local), lower)
     return Moved(turned, (Column(along, nowhere()),), nowhere())
 
 
 def _move_slide(motion: Slide, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
-    """Time may turn the way e in the axes of the base: e' q is no speed, 2 e' q' + e'' q bias."""
-    local = motion.sign * way_of(motion, lower)
+    along, slid, way = _along_way(motion.sign * way_of(motion, lower), base, q, v, lower)
+    return Moved(slid, (Column(nowhere(), along),), way)
+
+
+def _along_way(
+    local: ca.SX, base: Moving, q: ca.SX, v: ca.SX, lower: Lower
+) -> tuple[ca.SX, Moving, ca.SX]:
+    """Axes at the end of the way e q, with e given in those of the base, and e and the way there.
+
+    Time may change e: e' q is no speed, 2 e' q' + e'' q bias.
+    """
     along, turns = base.pose.direction(local), rate_by_time(local, lower)
     way, moves, bends = along * q, along * v, None
     if turns.nnz():
         moves = moves + base.pose.direction(turns) * q
         bends = base.pose.direction(2 * turns * v + rate_by_time(turns, lower) * q)
-    return Moved(_slid(base, way, moves, bends), (Column(nowhere(), along),), way)
+    return along, _slid(base, way, moves, bends), way
 
 
 def _move_screw(motion: Screw, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     """First along, then about the axis: they commute."""
     local = unit_vector(motion.axis.given, lower)
-    advance = lower(motion.pitch) / (2 * ca.pi)
-    along = motion.sign * base.pose.direction(local)
-    slid = _slid(base, along * (advance * q), along * (advance * v))
-    turned = _turned(slid, local, motion.sign * q, v, along)
-    return Moved(turned, (Column(along, advance * along),), along * (advance * q))
+    advance = lower(motion.pitch) / (2 * ca.pi) * motion.sign * local
+    way, slid, far = _along_way(advance, base, q, v, lower)
+    angle, rate = motion.sign * q, motion.sign * v
+    turned = _turned(slid, local, angle, rate, base.pose.direction(local), lower)
+    return Moved(turned, (Column(motion.sign * base.pose.direction(local), way),), far)
 
 
 def _move_driven(motion: Driven, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:

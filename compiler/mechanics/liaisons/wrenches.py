@@ -95,9 +95,6 @@ def act(
     `turn` the angle of a screw with its whole turns, else it is within half a turn;
     `track` what is followed where they touch, or where b is on a curve.
     """
-    if isinstance(lock, Thread):
-        seen = angle_about(lock.axis, a, b, lower) if turn is None else turn
-        return _thread(lock, seen, a, b, lower)
     if isinstance(lock, Across):
         return _across(lock, tangent, track)
     if isinstance(lock, Tangent):
@@ -114,7 +111,11 @@ def act(
             return _no_slip(lock, found, a, lower)
         return _touching(found, ca.SX(0) if lock.apart is None else lower(lock.apart), lower)
     moments = Moments(lower)
-    action = _ACTS[type(lock)](lock, a, b, moments)
+    if isinstance(lock, Thread):
+        seen = angle_about(lock.axis, a, b, moments) if turn is None else turn
+        action = _thread(lock, seen, a, b, moments)
+    else:
+        action = _ACTS[type(lock)](lock, a, b, moments)
     if not moments.met:
         return action
     own = ca.jacobian(action.gap, moments.symbol)
