@@ -299,7 +299,8 @@ class Lowering(SharedWalk[ca.SX]):
             return now if node.function == "pre" else ca.SX(0)
         named = whole(node.arguments[0])
         if named is None:
-            if node.function == "pre":
+            mode = isinstance(node.arguments[0], Quantity) and node.arguments[0].name == "mode"
+            if node.function == "pre" and not mode:
                 return now
             was = self.before.hold(now, words(node.arguments[0]), ca.SX(0), node.span)
         else:

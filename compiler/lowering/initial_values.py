@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 import casadi as ca
+from frot.compiler.equations.before import whole
 from frot.compiler.equations.chains import replace_known
 from frot.compiler.equations.initial_rates import at_given_speeds, finds_places
 from frot.compiler.equations.text_symbols import scalars
@@ -20,7 +21,7 @@ from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.mechanism import Link
 from frot.dsl import Log
-from frot.dsl.checked import InitialEquation, Reference, Variable
+from frot.dsl.checked import InitialEquation
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 
@@ -198,12 +199,13 @@ def _statement(equation: InitialEquation) -> Statement:
 
 def _sets_memory(equation: InitialEquation, system: Assembled) -> bool:
     """Whether a statement gives what changes at events only its first value."""
-    left = equation.left
-    if not (isinstance(left, Reference) and isinstance(left.target, Variable)):
+    named = whole(equation.left)
+    if named is None:
         return False
-    own = scalars(system.reduced.text.values[left.target])
+    variable, _ = named
+    own = scalars(system.reduced.text.values[variable])
     held = system.reduced.text.held
-    return left.target.discrete or any(ca.is_equal(h.value, x) for h in held for x in own)
+    return variable.discrete or any(ca.is_equal(h.value, x) for h in held for x in own)
 
 
 def _residuals(

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import prod
 
 import casadi as ca
+from frot.compiler.equations.before import whole
 from frot.compiler.equations.chains import Chains
 from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.origins import Origin
@@ -19,7 +21,7 @@ from frot.compiler.lowering.symbols import Symbols
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.dsl import Log
-from frot.dsl.checked import Call, Model, Reference, Variable
+from frot.dsl.checked import Call, Expression, Model, Variable
 
 
 def chains_of_motion(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
@@ -62,16 +64,26 @@ def first_values(
     model: Model, text: TextSymbols, given: Symbols, looking: Lowering, log: Log
 ) -> Callable[[Variable], list[ca.SX]]:
     """Gives the first values of what jumps: those of `initial`, of `start`, or zero."""
-    stated = {
-        e.left.target: e.right
-        for e in model.initial
-        if isinstance(e.left, Reference) and isinstance(e.left.target, Variable)
-    }
+    stated: dict[Variable, Expression] = {}
+    items: dict[Variable, dict[tuple[int, ...], Expression]] = {}
+    for equation in model.initial:
+        named = whole(equation.left)
+        if named is not None and named[1]:
+            items.setdefault(named[0], {})[tuple(named[1])] = equation.right
+        elif named is not None:
+            stated[named[0]] = equation.right
 
     def first(variable: Variable) -> list[ca.SX]:
         count = text.values[variable].numel()
         value = stated.get(variable, variable.start)
         starts = [ca.SX(0)] if value is None else scalars(looking.lower(value))
+        starts = starts * count if len(starts) == 1 else starts
+        shape = variable.type.shape
+        for item, own in items.get(variable, {}).items():
+            width = count // prod(shape[: len(item)])
+            first = sum(k * prod(shape[d + 1 :]) for d, k in enumerate(item))
+            starts[first : first + width] = scalars(looking.lower(own))
+            value = own
         if value is not None and not all(_is_given(start, given) for start in starts):
             log.report(
                 "E0602",
@@ -79,7 +91,7 @@ def first_values(
                 value.span,
                 help=f"set it in `when initial() then {variable.name} = ...; end when;`",
             )
-        return starts * count if len(starts) == 1 else starts
+        return starts
 
     return first
 

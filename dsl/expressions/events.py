@@ -62,6 +62,8 @@ def _before(name: str, node: tree.Call, scope: Scope) -> checked.Expression | No
     while isinstance(inner, checked.Element):
         inner = inner.operand
     if not isinstance(inner, checked.Reference) or not isinstance(inner.target, checked.Variable):
+        if isinstance(inner, checked.Quantity) and inner.name == "mode":
+            return checked.Call(name, (found,), found.type if name == "pre" else BOOLEAN, node.span)
         # What moves by itself does not jump where an event is told: it is its own value before.
         moving = isinstance(inner, checked.Quantity | checked.Time)
         if name == "pre" and scope.in_when and moving:

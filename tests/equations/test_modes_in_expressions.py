@@ -19,7 +19,8 @@ planar model Modes
   liaison rail: contact_ponctuel(ground.line, after);
   force thrust: on(after, value = (if floor.mode == stick then 3 N else 0 N, 0 N));
   liaison loose: libre(ground, bar);
-  Integer slides(start = 0), rests(start = 0), flights(start = 0);
+  Integer turns(start = 0), stops(start = 0), slides(start = 0);
+  Integer rests(start = 0), flights(start = 0);
   Time stopped(start = 0 s);
   Boolean on_feet = feet.mode == stick;
   Real seen = if floor.mode == Mode.slip then 3 elseif floor.mode == stick then 2 else 1;
@@ -38,6 +39,12 @@ equation
   when floor.mode == open then
     flights = pre(flights) + 1;
   end when;
+  when change(floor.mode) then
+    turns = pre(turns) + 1;
+  end when;
+  when floor.mode == stick and pre(floor.mode) == slip then
+    stops = pre(stops) + 1;
+  end when;
   when on_feet then
     slides = pre(slides) + 1;
   end when;
@@ -55,6 +62,7 @@ def test_a_text_sees_the_modes(model):
     run = model.simulate()
     rest = 0.2 / (0.2 * G)
     assert [run[x][-1] for x in ("rests", "flights", "slides")] == [1, 1, 1]
+    assert (run["turns"][-1], run["stops"][-1]) == (2, 1)
     assert run["stopped"][-1] == pytest.approx(rest, rel=1e-11)
     assert [float(run.at(t)["seen"]) for t in (0.05, 0.3, 0.55)] == [3, 2, 1]
     assert [float(run.at(t)["on_feet"]) for t in (0.05, 0.3)] == [0, 1]
@@ -69,7 +77,7 @@ def test_a_mode_at_the_start_is_seen_at_the_start(model):
     assert run.at(0.0)["seen"] == 3
     still = frot.compile(TEXT.replace("b.velocity = (0.2, 0)", "b.velocity = (0, 0)")).simulate()
     assert still.at(0.0)["seen"] == 2
-    assert still["rests"][-1] == 0
+    assert (still["rests"][-1], still["turns"][-1], still["stops"][-1]) == (0, 1, 0)
     assert still["after.velocity.x"][-1] == pytest.approx(1.5, rel=1e-10)
 
 

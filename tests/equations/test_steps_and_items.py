@@ -10,12 +10,15 @@ TEXT = """
 planar model Steps
   Real x, y, z, w, u, c, s;
   Integer k;
-  Real a[3](start = (1, 2, 3));
+  Real a[3];
   Real b[2, 2](start = ((1, 2), (3, 4)));
   body ball: particle(mass = 1 kg);
   force push: on(ball, value = (floor(time/(0.25 s))*1 N, 9.81 N));
 initial
   x = 0; y = 0; z = 0; w = 0; s = 2.5;
+  for i in 1:3 loop
+    a[i] = i;
+  end for;
 equation
   der(x) = floor(time/(0.1 s))/(1 s);
   der(y) = ceil(3*cos(7*time/(1 s)))/(1 s);
