@@ -10,9 +10,11 @@ order, so that not a bit of the results changes.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
+from frot.compiler.product.pieces import write_pieces
 from frot.compiler.product.roll import roll
+from frot.dsl.data.classes import dataclass
 
 # Statements of a piece. GCC takes least for some hundreds; a call costs nothing beside them.
 LONGEST = 500
@@ -32,44 +34,56 @@ _RESULT = re.compile(r"^  res\[(\d+)\]\[(\d+)\]=(a\d+);$")
 def split_functions(text: str) -> str:
     """The same C with every long function of straight code in pieces."""
     lines = text.split("\n")
+    found = list(_functions(lines))
+    rolled = roll(((one.name, one.statements) for one in found), LONGEST)
+    pieces = write_pieces(rolled.values(), _PASSED)
     made: list[str] = []
+    at = 0
+    for one in found:
+        made += lines[at : one.places.start]
+        if one.name in pieces:
+            before, calls = pieces[one.name]
+            made += [*before, lines[one.places.start], *calls, "  return 0;", "}"]
+        else:
+            made += _in_pieces(one.name, lines[one.places.start], one.statements)
+        at = one.places.stop
+    return "\n".join([*made, *lines[at:]])
+
+
+@dataclass(frozen=True, slots=True)
+class _Function:
+    """A function of straight code: its lines, from its head to its closing brace."""
+
+    name: str
+    places: range
+    statements: list[str]
+
+
+def _functions(lines: Sequence[str]) -> Iterator[_Function]:
     at = 0
     while at < len(lines):
         head = _HEAD.match(lines[at])
-        if head is None:
-            made.append(lines[at])
-            at += 1
-            continue
-        end = lines.index("}", at)
-        made += _rewritten(head.group(1), lines[at : end + 1])
-        at = end + 1
-    return "\n".join(made)
+        if head is not None:
+            end = lines.index("}", at)
+            statements = [x for x in lines[at + 1 : end - 1] if not _DECLARED.match(x)]
+            if lines[end - 1] == "  return 0;" and all(map(_is_plain, statements)):
+                yield _Function(head.group(1), range(at, end + 1), statements)
+            at = end
+        at += 1
 
 
-def _rewritten(name: str, lines: list[str]) -> list[str]:
-    """One function, from its head to its closing brace."""
-    head, *body, end, brace = lines
-    statements = [line for line in body if not _DECLARED.match(line)]
-    if end != "  return 0;" or not all(map(_is_plain, statements)):
-        return lines
-    roller = roll(name, statements, _PASSED)
-    if roller is not None:
-        made, names = roller.write(LONGEST)
-        return [*made, head, *(f"  {piece}(arg, res, w);" for piece in names), end, brace]
+def _in_pieces(name: str, head: str, statements: list[str]) -> list[str]:
+    """A function that does not repeat itself."""
     short = list(_with_loops(statements))
+    end = ["  return 0;", "}"]
     if len(short) <= LONGEST:
-        return [head, *_declared(_names(short)), *short, end, brace]
+        return [head, *_declared(_names(short)), *short, *end]
     pieces = [short[k : k + LONGEST] for k in range(0, len(short), LONGEST)]
     made = []
     for k, piece in enumerate(_with_passed(pieces)):
-        made += [
-            f"static void {name}_{k}({_PASSED}) {{",
-            *piece,
-            "}",
-            "",
-        ]
+        made += [f"static void {name}_{k}({_PASSED}) {{", *piece, "}", ""]
     calls = [f"  {name}_{k}(arg, res, w);" for k in range(len(pieces))]
-    return [*made, head, *calls, end, brace]
+    return [*made, head, *calls, *end]
 
 
 def _is_plain(line: str) -> bool:

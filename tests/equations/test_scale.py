@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from frot.compiler.driver import lowered_of
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.product import split
+from frot.compiler.product import roll, split
 from frot.compiler.product.generate import generate
 from frot.compiler.product.split import LONGEST
 from frot.dsl import Log, compile_text
@@ -117,9 +117,15 @@ def test_no_function_of_c_is_long() -> None:
 
 
 def test_a_function_in_pieces_gives_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whole, cut, and with one function for what stands at several places of several functions."""
     found = []
-    for longest in (10**9, 40):
+    for longest, many in ((10**9, 10**9), (40, 10**9), (40, 0)):
         monkeypatch.setattr(split, "LONGEST", longest)
-        result = frot.compile(f"// {longest}\n{SPHERE.format(n=3)}").simulate(interval=0.01)
+        monkeypatch.setattr(roll, "MANY", many)
+        program = frot.compile(f"// {longest} {many}\n{SPHERE.format(n=4)}")
+        result = program.simulate(interval=0.01)
         found.append(np.array([result[name] for name in result]))
-    assert np.array_equal(*found, equal_nan=True)
+        text = program.program().source.read_text(encoding="utf-8")
+        calls = set(re.findall(r"^  (casadi_f\d+_\d+)\(arg, res, w, (casadi_f\d+)_t", text, re.M))
+        assert (len(calls) > len({piece for piece, _ in calls})) == (many == 0)
+    assert all(np.array_equal(found[0], other, equal_nan=True) for other in found[1:])
