@@ -1,4 +1,4 @@
-/* Islands (frot.h) that are awake: those that evaluations and steps look at.
+/* Islands (records.h) that are awake: those that evaluations and steps look at.
  *
  * Outside frot_step all are. In a step those sleep whose states have stood still through a whole
  * step before, at every instant of it: they depend on nothing that moves, so that they stand still

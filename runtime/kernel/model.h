@@ -1,0 +1,180 @@
+/* A model: the constant table that the compiler writes, with its generated functions, their
+ * arguments and results.
+ */
+#ifndef FROT_MODEL_H
+#define FROT_MODEL_H
+
+#include "records.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One scalar variable. */
+enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 3 };
+
+/* Inputs of the generated functions, in this order:
+ *   t, q (nq), v (nv), u (nu), p (np), d (nd: conditions 0/1, then the sides +1/-1 of the contacts,
+ *   then the discrete variables), y (ny: unknowns of the blocks)
+ *
+ * The states are q and v. The speeds v are those whose rates are unknowns of the core system
+ *   A z = h + E lam,   z (nw) = v' (nv), auxiliary accelerations (na, zero in the motion: in their
+ * place stand the reactions of the liaisons that coordinates keep), algebraic unknowns of the core
+ * (nc), where the rows accelerate by J z + c. The rates q' are explicit; q_speed[k] is the speed
+ * that is the rate of q[k], or -1 where q[k] is another state. Matrices are dense within their
+ * groups, packed one group after the other, by columns; every row of J and every column of E has
+ * one entry for each unknown of its group. Every argument is given and every result taken. */
+typedef struct {
+  const char *name;
+  const char *key; /* identity of the compiled model; kept in saved states */
+  int nq, nv, na, nc, nu, np, ny, n_rows, n_contacts, n_elements, n_conditions, n_discrete;
+  int n_blocks, n_invariants, n_whens, n_outcomes, n_carried, n_paced;
+  /* the first n_located conditions change by the motion; the n_timed after them are linear in time
+   * and depend on nothing else that moves; the rest change at events only */
+  int n_located, n_timed;
+  int n_watched; /* equations of `watched` */
+  int n_vanishing;
+  int n_held;  /* the last n_held discrete values are what others were before: see `update` */
+  int n_modes; /* the first n_modes discrete values are modes of contacts, which the text reads */
+  int n_turns; /* orientations among the coordinates */
+  int n_groups;
+  int n_islands; /* 0: all is one, and the functions of the whole model are called */
+  int n_matrix, n_metric, n_entries, n_square; /* items of the packed arrays of all groups */
+  int general;                                 /* a group is general */
+  int late_rates;     /* q' or the power depend on y of late blocks, z or lam: `rates` gives them */
+  int time_dependent; /* forces, coefficients or located conditions depend on time */
+  int method;         /* frot_method of the text */
+  int has_jacobian;   /* 1: the implicit method can run: q' not late */
+  double implicit_price; /* explicit steps that cost what an implicit one does */
+  int n_guessed;         /* guesses of places */
+  int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
+  /* the first variables are the modes of the contacts that have one, the others are real */
+
+  /* parameters(p, set, u) -> p complete (np), checks (n_checks), unilateral (n_contacts),
+   *   experiment (start stop tolerance interval max_step; NaN where the text is silent), nominal
+   *   sizes of the states (nq, 0: not given) */
+  frot_callable parameters;
+  /* start(t, u, p) -> q guess, v guess, y guess, discrete variables at the start */
+  frot_callable start;
+  /* The functions of the state take (t, q, v, u, p, d, y).
+   * initial_position -> residual (n_position), its transposed Jacobian in q (nq x n_position), size
+   *   of its terms (n_position), its transposed Jacobian in y (ny x n_position) */
+  frot_callable initial_position;
+  /* guessed -> by how much each guess of a place is missed (n_guessed), its transposed Jacobian in
+   * q (nq x n_guessed), the size that it is measured by; q where the search begins but for the
+   * guesses that are no linear functions of q */
+  frot_callable guessed;
+  /* initial_velocity -> the same in v: (nv x n_velocity), (ny x n_velocity) */
+  frot_callable initial_velocity;
+  /* kinematics, dynamics, spread and sizes: islands have their own, and then only `sizes` is called
+   * for the whole, for the second of its results.
+   * kinematics -> gap (n_contacts), rows J (n_entries), rate (n_rows), conditions
+   * (n_conditions) */
+  frot_callable kinematics;
+  /* sides -> what chooses the side of each contact at the start (3 x n_contacts): height of its
+   * point or rim's centre over the line, then what tells where that is zero: the part of the normal
+   * that is against gravity, and the height of the body's G. A side chosen once is kept.
+   * -> sizes of the lengths that each gap is made of beside the coordinates (n_contacts) */
+  frot_callable sides;
+  /* places -> FROT_PLACE values of each carried body. Called where n_carried > 0. */
+  frot_callable places;
+  /* vanishing -> distance from where each has no tangent or normal (n_vanishing), no number where
+   * it has none; numbers that tell where (FROT_WHERE x n_vanishing). Called after a failure, where
+   * n_vanishing > 0. */
+  frot_callable vanishing;
+  /* pace -> what depends on time at given states (n_paced), and its rates by time alone (n_paced).
+   * Called where n_paced > 0. */
+  frot_callable pace;
+  /* dynamics -> q' (nq), A (n_matrix), h (nw), J (n_entries), c (n_rows), rate (n_rows), gap
+   *   (n_contacts), conditions (n_located), coefficients of motion and of rest (2 x n_elements),
+   *   power of the forces that have no potential (1) */
+  frot_callable dynamics;
+  /* spread -> E (n_entries), metric (n_metric: symmetric positive definite, what `least change` of
+   *   speeds means). Called where `general`. */
+  frot_callable spread;
+  /* rates(..., y, z (nw), lam (n_rows)) -> q' (nq), power (1). Called where `late_rates`. */
+  frot_callable rates;
+  /* jacobian -> where there are no speeds and no rows dq'/dq, dq'/dt (nq), at fixed y. The first
+   *   holds the entries of `pattern`, or is dense (nq x nq). With early blocks r = 0 of the
+   * unknowns y (ny), which take a dense one, also dq'/dy (nq x ny), dr/dq (ny x nq), dr/dt (ny),
+   * dr/dy (ny x ny). jacobian(..., y, z (nw), lam (n_rows)) -> else the entries of `lines`, at
+   *   fixed y, z and lam, or jacobian(..., lam, direction) -> their values in a direction.
+   * Where `has_jacobian`. */
+  frot_callable jacobian;
+  frot_pattern pattern;
+  frot_lines lines;
+  /* invariants -> residual (n_invariants), its transposed Jacobian in (q, v) ((nq + nv) x
+   *   n_invariants), size of its terms (n_invariants): relations between states that index
+   *   reduction brought to light and that every accepted step is projected onto */
+  frot_callable invariants;
+  /* block_slopes -> residual of the blocks that are not late (ny_early), its transposed Jacobians
+   * in q (nq x ny_early), in v (nv x ny_early), in y (ny_early x ny_early): for initial values */
+  frot_callable block_slopes;
+  /* update(..., y, z (nw), lam (n_rows), fired (n_whens: 1 for each `when` that fires), before
+   *   (n_discrete)) -> q (nq) and v (nv) after reinit, discrete values (n_discrete), outcomes
+   *   (n_outcomes: 1 where asked). In d stand the discrete values after the event as far as they
+   * are known, in `before` those before. The last n_held values follow another value: they are what
+   *   it was before. */
+  frot_callable update;
+  /* timers(u, p, d) -> slopes of the timed conditions in time, their values at time zero (n_timed).
+   *   Called where n_timed > 0. */
+  frot_callable timers;
+  /* sizes -> sum of the sizes of the terms of h (nw), which may cancel in h; size of each applied
+   *   force (n_loads) */
+  frot_callable sizes;
+  /* variables(..., y, z (nw), lam (n_rows), energy (dissipated, work)) -> values (n_variables)
+   *   without the modes, which the kernel fills */
+  frot_callable variables;
+  /* watched(..., y, z (nw), lam (n_rows)) -> a number for each of the equations that may give none,
+   *   not finite where that equation by itself gives none (n_watched). Called after a failure,
+   * where n_watched > 0. */
+  frot_callable watched;
+  /* energy -> kinetic, potential */
+  frot_callable energy;
+
+  const double *p_default; /* np */
+  const double *u_default; /* nu */
+  const frot_contact *contacts;
+  const frot_turn *turns; /* n_turns */
+  const frot_element *elements;
+  const frot_group *groups;
+  const frot_island *islands; /* n_islands */
+  const int *row_reads;  /* n_rows: the auxiliary unknown whose place a reading takes, else -1 */
+  const int *row_beside; /* n_rows: the row of the normal where this is the slip on it, else -1 */
+  /* n_rows, nv: the group of a row, of a speed, and its number among the rows, the unknowns there
+   */
+  const int *row_group, *row_local, *contact_group, *speed_group, *speed_local;
+  const int *speed_coordinate; /* nv: the coordinate whose rate is this speed, or -1 */
+  const int *speed_turns;      /* nv: 1 where it is an angular velocity */
+  const frot_check *checks;
+  const frot_carried *carried;
+  const frot_statement *statements; /* those of the invariants are the last */
+  const frot_load *loads;
+  const frot_load *states;          /* nq + nv: names and places of q and v; may be NULL */
+  const frot_held *held;            /* n_held */
+  const frot_vanishing *vanishings; /* n_vanishing */
+  const frot_load *equations;       /* n_watched: their words and places */
+  const int *position_statement;    /* n_position: statement of each scalar equation */
+  const int *velocity_statement;    /* n_velocity */
+  const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
+  const int *p_type;      /* np: frot_type */
+  /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t,
+   * an input, a discrete variable or y */
+  const unsigned char *row_depends;
+  const frot_condition *conditions;      /* n_conditions */
+  const unsigned char *condition_strict; /* n_conditions: 1 for < and >, 0 for <= and >= */
+  const int *q_speed;                    /* nq: the speed that is the rate of q[k], or -1 */
+  /* nq: the first state that is no coordinate and has the dimension of q[k]; k for coordinates */
+  const int *q_alike;
+  const frot_block *blocks;  /* n_blocks */
+  const int *when_condition; /* n_whens: it fires when this condition comes to hold */
+  const int *mode_contact;   /* n_modes: the contact whose mode it is */
+  const unsigned char
+      *when_at_start;           /* n_whens: 1 where it also fires if that holds at the start */
+  const frot_outcome *outcomes; /* n_outcomes */
+} frot_model;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,212 @@
+/* The records that the tables of a model are made of (model.h): what a liaison, a law of friction,
+ * a group of unknowns, a block of equations or a condition of the text is to the kernel.
+ */
+#ifndef FROT_RECORDS_H
+#define FROT_RECORDS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef int (*frot_function)(const double **arg, double **res, long long *iw, double *w, int mem);
+
+/* A generated function and the scratch it needs, in items of its arrays. */
+typedef struct {
+  frot_function call;
+  int n_arg, n_res, n_iw, n_w;
+} frot_callable;
+
+/* What bounds the friction of an element: the size of one normal reaction, that of a reaction of
+ * two components (a pin), or a value of the text (a brake, a clutch). */
+enum frot_bound { FROT_BY_NORMAL = 0, FROT_BY_PIN = 1, FROT_BY_VALUE = 2 };
+
+/* Rows are scalar relations between the unknowns z of the core. A row of a relation, or of the
+ * motion that an element bounds, has the acceleration J z + c and a reaction lam that acts along
+ * its column of E. A reading is a row without a motion: its lam is the reaction of a liaison that
+ * coordinates keep (row_reads). */
+
+/* Of a liaison that rolls, whatever acts on it: it has no law, and its mode is stick. */
+enum { FROT_NEVER_SLIPS = -2 };
+
+/* A liaison or an element of the text, as the user names it. */
+typedef struct {
+  const char *name;  /* the liaison, or the element */
+  const char *place; /* file:line:column */
+  int row_n;         /* row of the normal, -1 where it has none: it is never open */
+  int reduced;       /* 1: the relation is built into the coordinates: row_n is a reading */
+  int sliding;       /* the element that its variable `mode` tells of, FROT_NEVER_SLIPS, or -1 */
+  int power;         /* its variable `power`, zero where all its elements hold, or -1 */
+  int mode;          /* its variable `mode`, or -1: one relation of many of a liaison */
+  int kinematic;     /* 1: a relation between velocities alone, which has no gap */
+} frot_contact;
+
+/* A unit quaternion r among the coordinates, q[at .. at + 4): 2 r' = (0, w) r, or r (0, w) with
+ * `own_axes`, where w are the speeds v[speed[k]], zero where that is -1 (the first alone may be).
+ */
+typedef struct {
+  int at, speed[3], own_axes;
+} frot_turn;
+
+/* A law of friction on one relative motion: sliding, rolling, turning in a pin, slip of a clutch.
+ * FROT_BY_NORMAL: the coefficients times |lam[bounded_by[0]]| bound lam[row]. FROT_BY_PIN: times
+ * sqrt(lam[bounded_by[0]]^2 + lam[bounded_by[1]]^2), both readings. FROT_BY_VALUE: the coefficients
+ * are the bounds themselves. */
+typedef struct {
+  int contact;       /* the liaison or item of the text it belongs to */
+  int bound;         /* frot_bound */
+  int row;           /* row of the relative motion */
+  int bounded_by[2]; /* rows of the reaction that bounds, else -1 */
+  int rolling;       /* 1: told as rolling, not as slip */
+  int fixed;         /* 1: its coefficients depend on parameters only */
+  int prescribed;    /* 1: its motion depends on no speed: both sides are prescribed */
+  int shown[2];      /* variables that are its motion: zero while it holds; else -1 */
+} frot_element;
+
+/* A step of a large tree of bodies: the step before it or -1, its speeds among the unknowns of its
+ * group. `auxiliary`: they are zero in the motion. `faces_ground`: what is beyond keeps its
+ * orientation whatever carries it. Its parts of the group's matrix, which are what tree.h says, and
+ * of its factor begin at `data` and `factor`. Steps stand after those before them. */
+typedef struct {
+  int above, first, count, auxiliary, faces_ground, data, factor;
+} frot_link;
+
+/* Unknowns of the core and rows that act on each other, in no posture on others: they share no
+ * matrix. The unknowns are places in z: speeds first, then auxiliary ones, then algebraic ones.
+ * `general`: the matrix is any matrix and `spread` gives E; else it is a mass matrix and E = J'.
+ * Its parts of packed arrays begin at: vector (n items), matrix (n x n, by columns), metric
+ * (n_speeds x n_speeds), entries (n_rows x n), square (n_rows x n_rows). Of a mass matrix given by
+ * `links`, those of `width` components, the matrix and the metric are as long as these need. */
+typedef struct {
+  int general;
+  int n, n_speeds, n_auxiliary;
+  int n_rows, n_contacts, n_elements;
+  const int *unknowns, *rows, *contacts, *elements;
+  int vector, matrix, metric, entries, square;
+  int width, n_links;
+  const frot_link *links;
+} frot_group;
+
+/* Groups and states that depend on each other: their functions read no state of others. They take
+ * (t, q, v, u, p, d, y, numbers), of q, v, u, p and d the places given here, y whole; their results
+ * are those of the whole model's functions of these names over what is the island's: coordinates
+ * and conditions in the order given, what belongs to groups one group after the other. `numbers`
+ * are those by which it differs from others with the same functions. What has no group (states,
+ * conditions, power) is one more island. Groups of an island follow each other.
+ * `sleeps`: it depends neither on time nor on blocks. The first n_located conditions are located.
+ */
+typedef struct {
+  int sleeps, first_group, n_groups;
+  int nq, nv, nu, np, nd, n_conditions, n_located;
+  const int *q, *v, *u, *p, *d, *conditions;
+  const double *numbers;
+  frot_callable kinematics, dynamics, spread, sizes;
+} frot_island;
+
+enum frot_rule {
+  FROT_POSITIVE = 0,
+  FROT_NOT_NEGATIVE = 1,
+  FROT_FINITE = 2,
+  FROT_NOT_BELOW_PREVIOUS = 3,
+  FROT_NOT_ZERO = 4,      /* it is divided by */
+  FROT_NOT_BELOW_MIN = 5, /* the value before it */
+  FROT_NOT_ABOVE_MAX = 6
+};
+
+/* A value the model must have, with the sentence's subject: "mass of body 'hoop'". */
+typedef struct {
+  int rule;
+  const char *subject, *place;
+} frot_check;
+
+/* A body whose place depends on parameters, inputs or unknowns of blocks at given states. `by`: the
+ * liaison that carries it, or "" where the equations of the text prescribe its motion. */
+#define FROT_WHERE 3 /* numbers that tell a place of a figure */
+#define FROT_PLACE 9 /* place and turn of the body, velocity of what carries it: 3 each */
+typedef struct {
+  const char *body, *by, *place;
+} frot_carried;
+
+/* A statement of the section `initial`. */
+typedef struct {
+  const char *text, *place, *unit; /* unit of its two sides */
+} frot_statement;
+
+/* What the figures of a liaison may lose: words with the liaison, and those of the numbers that
+ * tell where, " at u = %.6g"; place of the liaison. */
+typedef struct {
+  const char *text, *where, *place;
+} frot_vanishing;
+
+/* An applied force, or a state. */
+typedef struct {
+  const char *name, *place;
+} frot_load;
+
+/* A discrete value that is what another one was before. */
+typedef struct {
+  const char *of, *place;
+} frot_held;
+
+/* A strong component of the text's equations that no explicit formula solves. Its unknowns are
+ * y[first .. first + count). residual(t, q, v, u, p, d, y [, z, lam]) -> r (count), dr/dy by
+ * columns (count x count), size of the terms of r (count). `linear`: r is linear in its own
+ * unknowns. `late`: it reads z, the accelerations, or the reactions, and is solved after them; it
+ * then takes the two arguments more. Blocks are solved in order, the late ones last in the list;
+ * their unknowns lie in y in the same order. */
+typedef struct {
+  frot_callable residual;
+  int first, count, linear, late;
+  const char *name, *place; /* the unknowns, and the place of its first equation */
+} frot_block;
+
+/* A condition of the text: its words and place, and whether a change of it is told as an event. */
+enum frot_told { FROT_TOLD_NEVER = 0, FROT_TOLD_RISING = 1, FROT_TOLD_ALWAYS = 2 };
+typedef struct {
+  const char *text;
+  int told; /* frot_told */
+  const char *place;
+} frot_condition;
+
+/* What `update` may ask for beside new values. */
+enum frot_outcome_kind {
+  FROT_OUTCOME_TERMINATE = 0,
+  FROT_OUTCOME_FAIL = 1,
+  FROT_OUTCOME_WARN = 2,
+  FROT_OUTCOME_FAULT = 3 /* the event cannot do what it says */
+};
+typedef struct {
+  int kind;
+  const char *text, *place;
+} frot_outcome;
+
+/* Which integrator a run takes; FROT_AUTO changes between the two. */
+enum frot_method { FROT_AUTO = 0, FROT_EXPLICIT = 1, FROT_IMPLICIT = 2 };
+
+/* Pattern of a Jacobian J (n x n) and of the factors L + U of shift I - J, whose row and column k
+ * are those of state order[k]. Row k of the factors has the columns column[start[k]] .. up to
+ * start[k + 1], ascending; its diagonal stands at diagonal[k]. Entry e of J is in row entry_row[e]
+ * and column entry_column[e], and goes to place[e] of the factors. n = 0: the matrix is dense. */
+typedef struct {
+  int n, entries;
+  const int *order, *start, *column, *diagonal;
+  const int *entry_row, *entry_column, *place;
+} frot_pattern;
+
+/* What the function `jacobian` of a motion gives: derivatives of lines, in q, v and the unknowns y
+ * of the early blocks. The lines are those of owners in order: q' (nq), then of each group A z - E
+ * lam - h (n), J z + c (n_rows) and the coefficients of its elements (2 each), last the residuals
+ * of the early blocks. Entry e is in line[e] and column[e]; those of owner k begin at first[k]
+ * (n_groups + 3 items). Group k depends on the columns group_column[group_start[k]] .. up to
+ * group_start[k + 1]. directions: 0, or the function gives all lines' derivatives in the direction
+ * that is its last argument: it is called for each, with one in the columns of that direction, no
+ * two of which meet in a line. With a `pattern` the Jacobian's entries are those of q', then group
+ * after group, by the columns of the group, those of its speeds. */
+typedef struct {
+  int directions;
+  const int *line, *column, *first, *direction, *group_start, *group_column;
+} frot_lines;
+
+#ifdef __cplusplus
+}
+#endif
+#endif
