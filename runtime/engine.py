@@ -1,20 +1,19 @@
-"""The C kernel and a compiled model, bound with ctypes."""
+"""An instance of a compiled model in the C kernel: its state, its runs, its values."""
 
 from __future__ import annotations
 
 import contextlib
 import ctypes as ct
-import functools
 import math
 import signal
 import threading
 from array import array
 from collections.abc import Callable, Iterable, Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.errors import fail
+from frot.runtime.library import Fault, Monitor, Options, RawEvent, Recorder, Statistics, load
 from frot.runtime.program import Program
 
 # What gives numbers to the kernel and takes them back must not wait for numpy: a run that prints
@@ -37,121 +36,6 @@ _CHUNK, _LARGEST_CHUNK = 2**16, 2**24
 _BEGIN = 2
 # Bytes of recorded steps after which a run is told to be too long.
 MOST_MEMORY = 2**30
-
-
-class Options(ct.Structure):
-    """frot_options."""
-
-    _fields_ = (("tolerance", ct.c_double), ("on_indeterminate", ct.c_int), ("reserved", ct.c_int))
-
-
-class RawEvent(ct.Structure):
-    """frot_event."""
-
-    _fields_ = (
-        ("t", ct.c_double),
-        ("kind", ct.c_int),
-        ("contact", ct.c_int),
-        ("before", ct.c_int),
-        ("after", ct.c_int),
-        ("solutions", ct.c_int),
-        ("reserved", ct.c_int),
-    )
-
-
-class Recorder(ct.Structure):
-    """frot_recorder."""
-
-    _fields_ = (
-        ("segments", ct.c_void_p),
-        ("segment_capacity", ct.c_longlong),
-        ("segment_used", ct.c_longlong),
-        ("events", ct.POINTER(RawEvent)),
-        ("event_capacity", ct.c_longlong),
-        ("event_count", ct.c_longlong),
-        ("last", ct.c_longlong),
-        ("whole", ct.c_longlong),
-        ("naps", ct.c_longlong),
-    )
-
-
-class Fault(ct.Structure):
-    """frot_fault."""
-
-    _fields_ = (
-        ("status", ct.c_int),
-        ("contact", ct.c_int),
-        ("item", ct.c_int),
-        ("other", ct.c_int),
-        ("t", ct.c_double),
-        ("value", ct.c_double),
-        ("where", ct.c_double * 3),
-    )
-
-
-class Statistics(ct.Structure):
-    """frot_statistics: counts of a run."""
-
-    _fields_ = (
-        ("steps", ct.c_longlong),
-        ("rejected", ct.c_longlong),
-        ("evaluations", ct.c_longlong),
-        ("events", ct.c_longlong),
-        ("implicit_steps", ct.c_longlong),
-        ("jacobians", ct.c_longlong),
-        ("unsearched", ct.c_longlong),
-        ("blurred", ct.c_double),
-        ("crossings", ct.c_longlong),
-        ("free", ct.c_longlong),
-    )
-
-
-_Monitor = ct.CFUNCTYPE(ct.c_int, ct.c_void_p, ct.c_double)
-_POINTER, _DOUBLE, _INT, _LONG = ct.c_void_p, ct.c_double, ct.c_int, ct.c_longlong
-_SIGNATURES: dict[str, tuple[object, tuple[object, ...]]] = {
-    "frot_state_size": (ct.c_size_t, (_POINTER,)),
-    "frot_work_size": (ct.c_size_t, (_POINTER,)),
-    "frot_segment_size": (_LONG, (_POINTER,)),
-    "frot_events_at_once": (_LONG, (_POINTER,)),
-    "frot_state_clear": (None, (_POINTER, _POINTER)),
-    "frot_set_parameter": (None, (_POINTER, _POINTER, _INT, _DOUBLE)),
-    "frot_set_input": (None, (_POINTER, _POINTER, _INT, _DOUBLE)),
-    "frot_get_parameter": (_DOUBLE, (_POINTER, _POINTER, _INT)),
-    "frot_settle_parameters": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER)),
-    "frot_start": (_INT, (_POINTER, _POINTER, _POINTER, _DOUBLE, ct.POINTER(Options))),
-    "frot_settle": (_INT, (_POINTER, _POINTER, _POINTER)),
-    "frot_advance": (
-        _INT,
-        (_POINTER, _POINTER, _POINTER, _DOUBLE, ct.POINTER(Recorder), _POINTER, _POINTER),
-    ),
-    "frot_sample": (
-        _INT,
-        (_POINTER, _POINTER, _POINTER, _POINTER, _LONG, _POINTER, _LONG, _POINTER),
-    ),
-    "frot_energy": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER)),
-    "frot_time": (_DOUBLE, (_POINTER,)),
-    "frot_last_fault": (ct.POINTER(Fault), (_POINTER,)),
-    "frot_run_statistics": (ct.POINTER(Statistics), (_POINTER,)),
-    "frot_fault_text": (None, (_POINTER, _POINTER, ct.c_char_p, ct.c_size_t)),
-    "frot_event_text": (None, (_POINTER, ct.POINTER(RawEvent), ct.c_char_p, ct.c_size_t)),
-    "frot_fault_places": (None, (_POINTER, _POINTER, ct.c_char_p, ct.c_size_t)),
-}
-
-
-@functools.lru_cache(maxsize=64)
-def _load(path: str) -> ct.CDLL:
-    try:
-        library = ct.CDLL(path)
-    except OSError as error:
-        raise fail(
-            "E0804",
-            f"the compiled model cannot be loaded: {error}",
-            help=f"remove the folder '{Path(path).parent}' and run again",
-        ) from None
-    for name, (result, arguments) in _SIGNATURES.items():
-        function = getattr(library, name)
-        function.restype, function.argtypes = result, arguments
-    return library
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -219,7 +103,7 @@ class Engine:
     def __init__(self, program: Program) -> None:
         """Load the library and clear a new state."""
         self.program = program
-        self._library = _load(str(program.library))
+        self._library = load(str(program.library))
         self._model = ct.addressof(ct.c_char.in_dll(self._library, "frot_the_model"))
         self._state = zeros(-(-self._library.frot_state_size(self._model) // 8))
         self._work = zeros(-(-self._library.frot_work_size(self._model) // 8) + 1)
@@ -302,7 +186,7 @@ class Engine:
                 interrupted.append(error)
                 return 1
 
-        callback = _Monitor(monitor)
+        callback = Monitor(monitor)
         with _interrupts_noted(interrupted):
             return self._advance(t, callback, chunks, events, interrupted)
 

@@ -18,9 +18,8 @@ from frot.runtime.engine import (
     TERMINATED,
     VANISHED,
     Engine,
-    Fault,
-    RawEvent,
 )
+from frot.runtime.library import Fault, RawEvent
 from frot.runtime.program import (
     DEFAULT_POINTS,
     DEFAULT_SPAN,

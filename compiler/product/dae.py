@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.lowering.symbols import Rows, column, scalars_of
+from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.liaisons.locks import Way
-from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Relation, rolls
+from frot.compiler.mechanics.mechanism import Contact
+from frot.compiler.product.dae_switching import (
+    GUARDS,
+    PARTS,
+    Switch,
+    guards_of,
+    laws_of,
+    reset_of,
+    switches_of,
+)
 from frot.dsl import default_values, evaluate
 from frot.dsl.data.classes import dataclass
 
-CLOSED, SIDE, FRICTION, ROLLING = range(4)
-STICK, FORWARD, BACKWARD = range(1, 4)
-PARTS = ("closed", "reaction_sign", "friction", "rolling")
-GUARDS = ("normal", "friction_1", "friction_2", "rolling_1", "rolling_2")
 NEWTON_STEPS = 10
 
 
@@ -99,36 +103,11 @@ class Dae:
         }
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Switch:
-    """What four numbers of the mode rule: a contact, a pin, a relation, a `friction` of the text.
-
-    A relation of a loop always holds: it is not `ruled`, and its mode a constant. A reaction
-    follows from the mode where it is `free`; else coordinates keep the liaison, and it is read.
-    `normal` is what bounds friction, `gap` is None for what cannot open; `labels` name the rows.
-    """
-
-    name: str
-    mode: ca.SX
-    ruled: bool
-    rows: Rows
-    free: bool
-    normal: ca.SX
-    gap: ca.SX | None
-    labels: tuple[str, ...]
-
-    def laws(self) -> Iterator[tuple[int, ca.SX]]:
-        """Each row of friction with the number that says how it moves."""
-        for row, kind in ((self.rows.tangent, FRICTION), (self.rows.rolling, ROLLING)):
-            if row >= 0:
-                yield row, self.mode[kind]
-
-
 def dae_of(lowered: Lowered) -> Dae:
     """The DAE of a model's functions."""
     system = lowered.system
     reduced, s = system.reduced, system.reduced.symbols
-    switches = _switches(system)
+    switches = switches_of(system)
     flags = column(reduced.conditions.flags)
     contacts = [isinstance(link, Contact) for link in reduced.mechanism.contacts]
     sides = [x for x, one in zip(scalars_of(s.sides), contacts, strict=True) if one]
@@ -169,7 +148,7 @@ def dae_of(lowered: Lowered) -> Dae:
     matrix, force = system.in_full()
     balance = matrix @ system.z - force - system.spread @ system.lam
     blocks = (block.residual for block in system.blocks)
-    alg = function("alg", ("alg", ca.vertcat(balance, *_laws(system, switches), *blocks)))
+    alg = function("alg", ("alg", ca.vertcat(balance, *laws_of(system, switches), *blocks)))
     update = None
     if "update" in lowered.functions:
         fired = ca.SX.sym("fired", len(reduced.events.fired))
@@ -189,11 +168,11 @@ def dae_of(lowered: Lowered) -> Dae:
         names=_names(system, switches),
         ode=function("ode", ("ode", ca.vertcat(system.rates, *solved[:nv]))),
         alg=alg,
-        guards=function("guards", ("guards", column(_guards(system, switches, conditions)))),
+        guards=function("guards", ("guards", column(guards_of(system, switches, conditions)))),
         solve=_solve(alg, places, first),
         invariants=function("invariants", ("values", system.invariants.values), without="z"),
         start=ca.Function("start", [s.t, s.u, s.p], [ca.vertcat(q, v)], ["t", "u", "p"], ["x"]),
-        reset=function("reset", ("x_after", _reset(system, switches))),
+        reset=function("reset", ("x_after", reset_of(system, switches))),
         update=update,
         u0=_column(as_number(evaluate(i.start, values)) for i in s.inputs),
         p0=_column(as_number(evaluate(k.value, values)) for k in s.parameters),
@@ -208,7 +187,7 @@ def _column(numbers: Iterable[float]) -> ca.DM:
     return ca.DM(np.array(list(numbers)))
 
 
-def _names(system: Assembled, switches: list[_Switch]) -> Names:
+def _names(system: Assembled, switches: list[Switch]) -> Names:
     reduced = system.reduced
     conditions = tuple(f"condition_{k + 1}" for k in range(len(reduced.conditions.flags)))
     speeds = [x.name() for x in scalars_of(system.v)]
@@ -243,76 +222,6 @@ def _names(system: Assembled, switches: list[_Switch]) -> Names:
     )
 
 
-def _switches(system: Assembled) -> list[_Switch]:
-    reduced, lam = system.reduced, system.lam
-    found: list[_Switch] = []
-    for i, (link, rows) in enumerate(
-        zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
-    ):
-        contact = isinstance(link, Contact)
-        ruled = not isinstance(link, Relation) and not (isinstance(link, Joint) and rolls(link))
-        mode = ca.SX.sym("m", len(PARTS)) if ruled else ca.SX([1.0, 0.0, 0.0, 0.0])
-        found.append(
-            _Switch(
-                name=link.liaison.name,
-                mode=mode,
-                ruled=ruled,
-                rows=rows,
-                free=not link.reduced,
-                normal=mode[SIDE] * lam[rows.reaction[0]] if contact else _size(lam, rows),
-                gap=None if link.reduced or not contact else system.gap[i],
-                labels=_row_names(link, rows),
-            )
-        )
-    row = reduced.rows.size1()
-    for k, element in enumerate(system.elements):
-        found.append(
-            _Switch(
-                name=element.name,
-                mode=ca.SX.sym("m", len(PARTS)),
-                ruled=True,
-                rows=Rows((), row + k, -1),
-                free=False,
-                normal=ca.SX(1),
-                gap=None,
-                labels=(element.force.name(),),
-            )
-        )
-    return found
-
-
-def _size(lam: ca.SX, rows: Rows) -> ca.SX:
-    """The size of a pin's reaction; its slope is zero where it carries nothing.
-
-    So Newton's method can start there.
-    """
-    square = sum((lam[r] ** 2 for r in rows.reaction), ca.SX(0))
-    return ca.if_else(square > 0, ca.sqrt(ca.if_else(square > 0, square, 1)), 0)
-
-
-def _row_names(link: Link, rows: Rows) -> tuple[str, ...]:
-    name = link.liaison.name
-    if isinstance(link, Relation):
-        return (f"{name}.reaction[{link.joint.locks.index(link.lock) + 1}]",)
-    if not isinstance(link, Contact):
-        couple = (f"{name}.torque",) if rows.tangent >= 0 else ()
-        ways = [
-            lock.axis
-            for lock in (link.locks if isinstance(link, Joint) else ())
-            if isinstance(lock, Way)
-        ]
-        if len(ways) == len(rows.reaction):
-            return (*(f"{name}.force.{'xyz'[k]}" for k in ways), *couple)
-        locks = link.locks if isinstance(link, Joint) else ()
-        first = len(locks) - len(rows.reaction) + 1
-        return (*(f"{name}.reaction[{first + k}]" for k in range(len(rows.reaction))), *couple)
-    return (
-        f"{name}.normal_force",
-        *([f"{name}.tangential_force"] if rows.tangent >= 0 else []),
-        *([f"{name}.rolling_couple"] if rows.rolling >= 0 else []),
-    )
-
-
 def _solve(alg: ca.Function, places: dict[str, ca.SX], first: ca.SX) -> ca.Function:
     """Gives z: one linear solve, or Newton's method from `first` where `alg` is not linear in z."""
     z = places["z"]
@@ -331,69 +240,3 @@ def _solve(alg: ca.Function, places: dict[str, ca.SX], first: ca.SX) -> ca.Funct
     for _ in range(NEWTON_STEPS):
         reached = step(reached, *arguments)
     return ca.Function("solve", arguments, [reached], names, ["z"])
-
-
-def _coefficient(system: Assembled, row: int, *, at_rest: bool) -> ca.SX:
-    """The coefficient of the law whose motion is this row; of a `friction`, its bound."""
-    rows = [r for x in system.reduced.contact_rows for r in (x.tangent, x.rolling) if r >= 0]
-    rows += range(system.reduced.rows.size1(), system.rows.size1())
-    return system.coefficients[2 * rows.index(row) + at_rest]
-
-
-def _laws(system: Assembled, switches: list[_Switch]) -> Iterator[ca.SX]:
-    """One equation a row that no auxiliary acceleration balances."""
-    acceleration = system.rows @ system.z + system.bias if system.lam.numel() else ca.SX.zeros(0)
-    for w in switches:
-        closed = w.mode[CLOSED]
-        for row in w.rows.reaction if w.free else ():
-            yield ca.if_else(closed, acceleration[row], system.lam[row])
-        for row, kind in w.laws():
-            sign = ca.if_else(kind == FORWARD, 1, 0) - ca.if_else(kind == BACKWARD, 1, 0)
-            bound = _coefficient(system, row, at_rest=False) * w.normal
-            follows = system.lam[row] + sign * bound
-            held = ca.if_else(kind == STICK, acceleration[row], follows)
-            yield ca.if_else(closed, held, system.lam[row])
-
-
-def _guards(system: Assembled, switches: list[_Switch], conditions: ca.SX) -> Iterator[ca.SX]:
-    for w in switches:
-        if not w.ruled:
-            continue
-        closed, guards = w.mode[CLOSED], dict.fromkeys(GUARDS, ca.SX(1))
-        if w.gap is not None:
-            guards["normal"] = ca.if_else(closed, w.normal, w.gap)
-        for row, kind in w.laws():
-            name = "friction" if row == w.rows.tangent else "rolling"
-            bound = _coefficient(system, row, at_rest=True) * w.normal
-            lam, rate = system.lam[row], system.rate[row]
-            slips = closed * ((kind == FORWARD) + (kind == BACKWARD))
-            stuck = closed * (kind == STICK)
-            along = ca.if_else(kind == FORWARD, rate, -rate)
-            guards[f"{name}_1"] = ca.if_else(stuck, bound - lam, ca.if_else(slips, along, 1))
-            guards[f"{name}_2"] = ca.if_else(stuck, bound + lam, 1)
-        yield from guards.values()
-    flags = system.reduced.conditions.flags
-    for flag, value in zip(flags, scalars_of(conditions), strict=True):
-        yield ca.if_else(flag, value, -value)
-
-
-def _reset(system: Assembled, switches: list[_Switch]) -> ca.SX:
-    """Speeds whose rows that hold have the rate zero: v - M^-1 J' (J M^-1 J' + I - D)^-1 D r.
-
-    r are the rates, J = dr/dv; D has a one for each row that holds, other rows of J become zero.
-    """
-    nv, nr = system.nv, system.lam.numel()
-    if nr == 0:
-        return ca.vertcat(system.q, system.v)
-    holds = ca.SX.zeros(nr)
-    for w in switches:
-        for row in w.rows.reaction if w.free else ():
-            holds[row] = w.mode[CLOSED]
-        for row, kind in w.laws():
-            holds[row] = w.mode[CLOSED] * (kind == STICK)
-    active = ca.diag(holds) @ system.rows[:, :nv]
-    metric = system.tree.in_full(system.metric, system.v, nv)[0]
-    spread = ca.solve(metric[:nv, :nv], active.T)
-    matrix = active @ spread + ca.diag(1 - holds)
-    moved = system.v - spread @ ca.solve(matrix, holds * system.rate)
-    return ca.vertcat(system.q, moved)

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from frot.dsl.messages.codes_equations import EQUATIONS
 from frot.dsl.messages.codes_language import LANGUAGE
 from frot.dsl.messages.codes_tools import TOOLS
+from frot.dsl.messages.codes_writing import WRITING
 
 __all__ = ["CODES", "Code"]
 
@@ -25,6 +26,5 @@ class Code(NamedTuple):
     example: str
 
 
-CODES: Mapping[str, Code] = {
-    code: Code(*row) for table in (LANGUAGE, EQUATIONS, TOOLS) for code, row in table.items()
-}
+_TABLES = (WRITING, LANGUAGE, EQUATIONS, TOOLS)
+CODES: Mapping[str, Code] = {code: Code(*row) for table in _TABLES for code, row in table.items()}

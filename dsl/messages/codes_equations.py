@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from frot.dsl.messages.codes_language import Row
+from frot.dsl.messages.codes_writing import Row
 
 
 def _equations(declarations: str, equations: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from frot.dsl.messages.codes_language import Row, snippet
+from frot.dsl.messages.codes_writing import Row, snippet
 
 _BALL = "body ball: particle(mass = 1 kg);"
 _ROD = (

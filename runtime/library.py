@@ -1,0 +1,125 @@
+"""The calls and structures of the C kernel (kernel/frot.h) for ctypes."""
+
+from __future__ import annotations
+
+import ctypes as ct
+import functools
+from pathlib import Path
+
+from frot.dsl.messages.errors import fail
+
+
+class Options(ct.Structure):
+    """frot_options."""
+
+    _fields_ = (("tolerance", ct.c_double), ("on_indeterminate", ct.c_int), ("reserved", ct.c_int))
+
+
+class RawEvent(ct.Structure):
+    """frot_event."""
+
+    _fields_ = (
+        ("t", ct.c_double),
+        ("kind", ct.c_int),
+        ("contact", ct.c_int),
+        ("before", ct.c_int),
+        ("after", ct.c_int),
+        ("solutions", ct.c_int),
+        ("reserved", ct.c_int),
+    )
+
+
+class Recorder(ct.Structure):
+    """frot_recorder."""
+
+    _fields_ = (
+        ("segments", ct.c_void_p),
+        ("segment_capacity", ct.c_longlong),
+        ("segment_used", ct.c_longlong),
+        ("events", ct.POINTER(RawEvent)),
+        ("event_capacity", ct.c_longlong),
+        ("event_count", ct.c_longlong),
+        ("last", ct.c_longlong),
+        ("whole", ct.c_longlong),
+        ("naps", ct.c_longlong),
+    )
+
+
+class Fault(ct.Structure):
+    """frot_fault."""
+
+    _fields_ = (
+        ("status", ct.c_int),
+        ("contact", ct.c_int),
+        ("item", ct.c_int),
+        ("other", ct.c_int),
+        ("t", ct.c_double),
+        ("value", ct.c_double),
+        ("where", ct.c_double * 3),
+    )
+
+
+class Statistics(ct.Structure):
+    """frot_statistics: counts of a run."""
+
+    _fields_ = (
+        ("steps", ct.c_longlong),
+        ("rejected", ct.c_longlong),
+        ("evaluations", ct.c_longlong),
+        ("events", ct.c_longlong),
+        ("implicit_steps", ct.c_longlong),
+        ("jacobians", ct.c_longlong),
+        ("unsearched", ct.c_longlong),
+        ("blurred", ct.c_double),
+        ("crossings", ct.c_longlong),
+        ("free", ct.c_longlong),
+    )
+
+
+Monitor = ct.CFUNCTYPE(ct.c_int, ct.c_void_p, ct.c_double)
+_POINTER, _DOUBLE, _INT, _LONG = ct.c_void_p, ct.c_double, ct.c_int, ct.c_longlong
+_SIGNATURES: dict[str, tuple[object, tuple[object, ...]]] = {
+    "frot_state_size": (ct.c_size_t, (_POINTER,)),
+    "frot_work_size": (ct.c_size_t, (_POINTER,)),
+    "frot_segment_size": (_LONG, (_POINTER,)),
+    "frot_events_at_once": (_LONG, (_POINTER,)),
+    "frot_state_clear": (None, (_POINTER, _POINTER)),
+    "frot_set_parameter": (None, (_POINTER, _POINTER, _INT, _DOUBLE)),
+    "frot_set_input": (None, (_POINTER, _POINTER, _INT, _DOUBLE)),
+    "frot_get_parameter": (_DOUBLE, (_POINTER, _POINTER, _INT)),
+    "frot_settle_parameters": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER)),
+    "frot_start": (_INT, (_POINTER, _POINTER, _POINTER, _DOUBLE, ct.POINTER(Options))),
+    "frot_settle": (_INT, (_POINTER, _POINTER, _POINTER)),
+    "frot_advance": (
+        _INT,
+        (_POINTER, _POINTER, _POINTER, _DOUBLE, ct.POINTER(Recorder), _POINTER, _POINTER),
+    ),
+    "frot_sample": (
+        _INT,
+        (_POINTER, _POINTER, _POINTER, _POINTER, _LONG, _POINTER, _LONG, _POINTER),
+    ),
+    "frot_energy": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER)),
+    "frot_time": (_DOUBLE, (_POINTER,)),
+    "frot_last_fault": (ct.POINTER(Fault), (_POINTER,)),
+    "frot_run_statistics": (ct.POINTER(Statistics), (_POINTER,)),
+    "frot_fault_text": (None, (_POINTER, _POINTER, ct.c_char_p, ct.c_size_t)),
+    "frot_event_text": (None, (_POINTER, ct.POINTER(RawEvent), ct.c_char_p, ct.c_size_t)),
+    "frot_fault_places": (None, (_POINTER, _POINTER, ct.c_char_p, ct.c_size_t)),
+}
+
+
+@functools.lru_cache(maxsize=64)
+def load(path: str) -> ct.CDLL:
+    """A compiled model with the kernel; FrotError (E0804) if it cannot be loaded."""
+    try:
+        library = ct.CDLL(path)
+    except OSError as error:
+        raise fail(
+            "E0804",
+            f"the compiled model cannot be loaded: {error}",
+            help=f"remove the folder '{Path(path).parent}' and run again",
+        ) from None
+    for name, (result, arguments) in _SIGNATURES.items():
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments
+    return library
