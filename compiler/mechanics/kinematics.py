@@ -13,20 +13,15 @@ import casadi as ca
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.geometry.figures import Flat, Placed
-from frot.compiler.mechanics.geometry.touches import reach_of
 from frot.compiler.mechanics.geometry.tracking import Track
-from frot.compiler.mechanics.liaisons.motions import Follow, Roll, count_speeds
+from frot.compiler.mechanics.hang import Node, Spotted, hang
+from frot.compiler.mechanics.liaisons.motions import Follow, count_speeds
 from frot.compiler.mechanics.liaisons.moves import (
-    Column,
-    Moved,
     carried,
     counted,
-    move,
     seen,
     turned_by_time,
 )
-from frot.compiler.mechanics.liaisons.roll import roll
-from frot.compiler.mechanics.liaisons.wrenches import act
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Hanging,
@@ -34,7 +29,6 @@ from frot.compiler.mechanics.mechanism import (
     Mechanism,
     Point,
     Relation,
-    frames_of,
     point_body,
     turns,
 )
@@ -49,26 +43,9 @@ from frot.compiler.mechanics.spatial import (
     turn_about,
     whole,
 )
-from frot.compiler.mechanics.values import beside_given, unit_vector
+from frot.compiler.mechanics.values import unit_vector
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison
 from frot.dsl.data.classes import dataclass, replace
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Node:
-    """A step of the tree: what the speeds `places` (of v, then auxiliary) move beyond it.
-
-    `arm` (3) goes from the origin of the node before to its own. `columns` are velocities of the
-    axes and of their origin there. `faces_ground`: what is
-    beyond keeps its orientation whatever carries it, and only its places follow. `above`: the node
-    before, -1 for the ground.
-    """
-
-    above: int
-    arm: ca.SX
-    faces_ground: bool
-    places: tuple[int, ...]
-    columns: tuple[Column, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,14 +55,6 @@ class Line:
     through: ca.SX
     direction: ca.SX
     normal: ca.SX
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Spotted:
-    """The rate of a coordinate that what rolls takes along, and the size of that."""
-
-    rate: ca.SX
-    size: ca.SX
 
 
 class Kinematics:
@@ -131,136 +100,13 @@ class Kinematics:
         for hanging in mechanism.coordinates:
             self.hangs[hanging.body] = hanging
             self.places[hanging.body] = (nq, nv)
-            self._hang(hanging, nq, nv, mechanism.model.ground)
+            hang(self, hanging, nq, nv, mechanism.model.ground)
             nq, nv = nq + len(hanging.names), nv + len(hanging.speeds)
         if self.spots:
             own = ca.SX(symbols.rates)
             for place, spot in self.spots.items():
                 own[place] = spot.rate
             self.symbols = replace(symbols, rates=own)
-
-    def _hang(self, hanging: Hanging, nq: int, nv: int, ground: Body) -> None:
-        """Go from the place that carries a body to its G."""
-        symbols, body = self.symbols, hanging.body
-        base, at, out = self._base(hanging, ground)
-        node = self.node_of[base]
-        moving, arm = at, self.beyond[base] + out
-        for motion in hanging.motions:
-            m, n = len(motion.coordinates), count_speeds(motion)
-            q = symbols.q[nq : nq + m]
-            v, lower = symbols.v[nv : nv + n], self.fixed.lower
-            if isinstance(motion, Roll):
-                moved = self._roll(motion, hanging, moving, q, v)
-            else:
-                moved = move(motion, moving, q, v, lower)
-            moving = moved.moving
-            if moved.tangent is not None and hanging.link is not None:
-                self.tangents[hanging.link.liaison] = moved.tangent
-            if moved.columns or motion.faces_ground:
-                places = tuple(range(nv, nv + n))
-                arm = arm + moved.back
-                self.nodes.append(Node(node, arm, motion.faces_ground, places, moved.columns))
-                node, arm = len(self.nodes) - 1, nowhere()
-            arm = arm + moved.way
-            if motion.faces_ground and motion is not hanging.motions[-1] and hanging.own:
-                moving = self._to_axes_of_place(hanging.own, moving)
-            nq, nv = nq + m, nv + n
-        moving, node, arm = self._read(hanging, at, moving, node, arm)
-        self.bodies[body], back = self._to_centre(hanging, moving)
-        self.node_of[body], self.beyond[body] = node, arm + back
-        self._measure(hanging, base)
-
-    def _roll(self, motion: Roll, hanging: Hanging, plane: Moving, q: ca.SX, v: ca.SX) -> Moved:
-        """What rolls takes the first of its coordinates along."""
-        assert hanging.link is not None
-        side = self.sides[hanging.link.liaison]
-        moved, rates = roll(motion, plane, q, v, self.fixed.lower, side)
-        first, _ = self.places[hanging.body]
-        for k, rate in enumerate(ca.vertsplit(rates)):
-            self.spots[first + k] = Spotted(rate, reach_of(motion.figure, self.fixed.lower))
-        assert hanging.base is not None  # without a guess a body is at the origin of the ground
-        base = self.pose(hanging.base)
-        along = unit_vector(motion.axis.given, self.fixed.lower)
-        for k, way in enumerate((*beside_given(motion.axis.given, self.fixed.lower), along)):
-            self.starts[first + k] = -ca.dot(base.direction(way), base.origin)
-        return moved
-
-    def _base(self, hanging: Hanging, ground: Body) -> tuple[Body, Moving, ca.SX]:
-        """The body that carries, the axes at its place, and the vector there from its G."""
-        if hanging.base is None:
-            return ground, AT_REST, nowhere()
-        body = point_body(hanging.base)
-        out = self.bodies[body].pose.direction(self.local_point(hanging.base))
-        return body, self.moving(hanging.base), out
-
-    def _read(
-        self, hanging: Hanging, at: Moving, moving: Moving, node: int, arm: ca.SX
-    ) -> tuple[Moving, int, ca.SX]:
-        """Auxiliary speeds along what the liaison locks, where its reaction is read."""
-        link = hanging.link
-        first = None if link is None else self.readings.get(link.liaison)
-        if first is None or link is None:
-            return moving, node, arm
-        sign = 1
-        if isinstance(link, Joint):
-            sign = 1 if hanging.carries_b else -1
-            a, b = (at.pose, moving.pose) if hanging.carries_b else (moving.pose, at.pose)
-            tangent, lower = self.tangents.get(link.liaison), self.fixed.lower
-            columns = [act(x, a, b, lower, tangent=tangent).column for x in link.held]
-        else:
-            columns = [Column(nowhere(), self._normal(link))]
-        nv, back = self.symbols.v.numel(), nowhere()
-        if sign < 0:  # a reaction acts at the place b
-            back = ca.sparsify(moving.pose.origin - at.pose.origin)
-        moving = moving.shifted(-back)
-        for k, column in enumerate(columns):
-            speed = sign * self.symbols.sw[first + k]
-            moving = replace(
-                moving,
-                angular=moving.angular + column.angular * speed,
-                linear=moving.linear + column.linear * speed,
-            )
-        places = tuple(range(nv + first, nv + first + len(columns)))
-        signed = tuple(Column(sign * c.angular, sign * c.linear) for c in columns)
-        self.nodes.append(Node(node, arm - back, False, places, signed))
-        return moving.shifted(back), len(self.nodes) - 1, back
-
-    def _to_centre(self, hanging: Hanging, moving: Moving) -> tuple[Moving, ca.SX]:
-        """From the place of the body that is carried to the axes at its G, and the way there.
-
-        What faces the ground places the body's own axes.
-        """
-        if hanging.own is None:
-            return moving, nowhere()
-        if not hanging.motions or not hanging.motions[-1].faces_ground:
-            moving = self._to_axes_of_body(hanging.own, moving)
-        back = -self.local_point(hanging.own)
-        return carried(back, moving, self.fixed.lower), moving.pose.direction(back)
-
-    def _to_axes_of_body(self, own: Point, moving: Moving) -> Moving:
-        """The axes of a body whose axes at a point are known; time may turn the frames between."""
-        for frame in frames_of(own):
-            if frame.angle is not None:
-                back = -self.fixed.lower(frame.angle)
-                moving = turned_by_time(frame.axis, back, moving, self.fixed.lower)
-        return moving
-
-    def _to_axes_of_place(self, own: Point, moving: Moving) -> Moving:
-        """The axes at a point of a body whose own axes are known."""
-        for frame in reversed(list(frames_of(own))):
-            if frame.angle is not None:
-                angle = self.fixed.lower(frame.angle)
-                moving = turned_by_time(frame.axis, angle, moving, self.fixed.lower)
-        return moving
-
-    def _measure(self, hanging: Hanging, base: Body) -> None:
-        body = hanging.body
-        if hanging.base is None or hanging.own is None:
-            self.arms[body] = ((body, ca.SX.zeros(3)),)
-            return
-        there = self.local_point(hanging.base)
-        arm = self.arm(base, there) + self.arm(body, self.local_point(hanging.own))
-        self.arms[body] = (*self.arms[base], (body, arm))
 
     # ------------------------------------------------------------------ axes and points
 
@@ -364,7 +210,8 @@ class Kinematics:
         direction = tangent / ca.norm_2(tangent)
         return Line(self.position(contact.point), direction, cross(Z, direction))
 
-    def _normal(self, contact: Contact) -> ca.SX:
+    def normal(self, contact: Contact) -> ca.SX:
+        """The left normal of the curve or line that carries a point, there."""
         if isinstance(contact.track.figure, Flat):
             return self.line(contact.track).normal
         tangent = self.tangents[contact.liaison]

@@ -131,7 +131,9 @@ def test_archive_is_plain(archives: dict[str, Path], version: str) -> None:
             assert "\\" not in info.filename
     assert names[0] == "modelDescription.xml"
     assert "documentation/index.html" in names
-    assert {"sources/model.c", "sources/frot.h", "sources/model.h", "sources/fmu_table.c"} <= set(names)
+    assert {"sources/model.c", "sources/frot.h", "sources/model.h", "sources/fmu_table.c"} <= set(
+        names
+    )
     assert f"sources/fmi{version[0]}Functions.h" in names
 
 
