@@ -1,8 +1,9 @@
 """Data classes made in microseconds, where `dataclasses` takes a millisecond for each.
 
 The standard library writes and compiles six functions for each class when its module is loaded. For
-the three hundred of Frot that is half of what a first run loads. Here what compares, prints, copies
-and refuses to be changed is shared by all of them, and `__init__` is written at the first object.
+the three hundred of Frot that is 0.15 s of the 1.25 in which a first run loads its modules. Here
+what compares, prints, copies and refuses to be changed is shared by all of them, and `__init__` is
+written at the first object.
 
 The rules are those of `dataclasses` for the options that there are. Annotations must be texts, as
 `from __future__ import annotations` makes them. `fields`, `asdict`, `replace` and `is_dataclass` of
