@@ -1,4 +1,5 @@
-/* Evaluation of the generated functions that islands have of their own (records.h), of those awake. */
+/* Evaluation of the generated functions that islands have of their own (records.h), of those awake.
+ */
 #ifndef FROT_ISLANDS_H
 #define FROT_ISLANDS_H
 
