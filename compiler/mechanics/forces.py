@@ -129,14 +129,19 @@ def _couple(
 
 
 def _drag(arguments: Mapping[str, Argument], kinematics: Kinematics, lowering: Lowering) -> Load:
-    """A force c |v|^exponent against v; the exponent is 1 or 2."""
+    """A force c |v|^exponent against v; the exponent is a number from 1 on."""
     end = _point(arguments["body"], kinematics, lowering)
     velocity = end.velocity
     factor = lowering.lower(_value(arguments["c"]))
-    if _literal(arguments["exponent"]) == 2:
-        size = FUNCTIONS["norm"].form
-        assert size is not None
+    exponent = _literal(arguments["exponent"])
+    size = FUNCTIONS["norm"].form
+    assert size is not None
+    if exponent == 2:
         factor *= size(ca, velocity)
+    elif exponent != 1:
+        speed = size(ca, velocity)  # at rest a root has no slope
+        moving = speed > 0
+        factor *= ca.if_else(moving, ca.if_else(moving, speed, 1) ** (exponent - 1), 0)
     return Load((end.under(-factor * velocity),), None)
 
 

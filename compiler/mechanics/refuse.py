@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from fractions import Fraction
 
 from frot.compiler.lowering.walk import (
     follows_time,
@@ -213,17 +214,23 @@ def _refuse_couple(force: Force, log: Log) -> None:
 
 
 def _refuse_drag(force: Force, log: Log) -> None:
-    """Only the exponents 1 and 2 have coefficients that can be written, each with its unit."""
+    """The exponent is a number, for the unit of the coefficient follows from it."""
     exponent, c = force.arguments["exponent"], force.arguments["c"]
     assert not isinstance(exponent, Place | Liaison) and not isinstance(c, Place | Liaison)
-    if not (isinstance(exponent, Literal) and exponent.value in (1, 2)):
-        refuse(log, "an exponent of drag other than 1 and 2", exponent.span)
+    if not (isinstance(exponent, Literal) and float(exponent.value) >= 1):
+        log.report(
+            "E0305",
+            "the exponent of a drag is a number, 1 or more: the unit of c follows from it",
+            exponent.span,
+            help="write `exponent = 2`; for another law write a force `on` the body",
+        )
         return
-    linear = exponent.value == 1
-    if c.type.dimension != (dimension(kg=1, s=-1) if linear else dimension(m=-1, kg=1)):
+    power = Fraction(float(exponent.value)).limit_denominator(1000)
+    unit = dimension(m=1, kg=1, s=-2) / dimension(m=1, s=-1) ** power
+    if c.type.dimension != unit:
         log.report(
             "E0301",
-            f"c of a drag with exponent {exponent.value:g} is in {'N.s/m' if linear else 'kg/m'}",
+            f"c of a drag with exponent {exponent.value:g} is in {unit.unit}",
             c.span,
             help="give the other exponent, or c in that unit",
         )

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from frot.dsl.catalogue.kinds import Argument, ForceKind, table
 from frot.dsl.catalogue.types import DAMPING, FORCE, LENGTH, STIFFNESS, TORQUE
-from frot.dsl.quantities.dimensions import REAL, Type, dimension
-
-_QUADRATIC_DRAG = Type(dimension=dimension(m=-1, kg=1))
+from frot.dsl.quantities.dimensions import REAL
 
 
 def _place(name: str, doc: str) -> Argument:
@@ -70,9 +68,7 @@ _ROWS = (
         "drag",
         (
             _place("body", "the body that is slowed"),
-            Argument(
-                "c", DAMPING, sign="nonnegative", others=(_QUADRATIC_DRAG,), doc="coefficient"
-            ),
+            Argument("c", DAMPING, kind="number", sign="nonnegative", doc="coefficient"),
             Argument(
                 "exponent", REAL, required=False, default=1.0, sign="positive", doc="of the speed"
             ),

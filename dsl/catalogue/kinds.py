@@ -17,6 +17,7 @@ class Argument:
     `kind` says what may be written:
 
     * `expression`: a scalar of `type` (or of one of `others`, where a liaison decides);
+    * `number`: a scalar whose dimension another argument decides;
     * `vector`: a vector of `type`, two components in planar models and three in space;
     * `inertia`: a scalar in planar models; in space three principal moments, or a 3 x 3 array;
     * `boolean`: a condition on parameters;

@@ -8,7 +8,7 @@ from frot.dsl import checked
 from frot.dsl.catalogue import Argument, vector
 from frot.dsl.checked.describe import describe, listed
 from frot.dsl.checked.evaluation import constant
-from frot.dsl.expressions.expression import agrees, expect, expression
+from frot.dsl.expressions.expression import NUMERIC, agrees, expect, expression
 from frot.dsl.expressions.known import check_bounds
 from frot.dsl.expressions.names import place, resolve
 from frot.dsl.names.entities import Array
@@ -47,6 +47,10 @@ def argument_value(
             found = expect(node, three, scope, others=(matrix,))
         case "vector":
             found = expect(node, vector(argument.type, scope.planar), scope)
+        case "number":
+            found = expression(node, scope)
+            if found is not None and not (found.type.is_scalar and found.type.base in NUMERIC):
+                found = expect(node, argument.type, scope)
         case _:
             kind = BOOLEAN if argument.kind == "boolean" else argument.type
             found = expect(node, kind, scope, others=argument.others)
