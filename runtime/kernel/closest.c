@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "changes.h"
+#include "damped.h"
 #include "nearest.h"
 
 #define PULLS 40
@@ -15,6 +16,9 @@
 #define NO_FARTHER (1 + 1e-13) /* rounding of a size: near the least one, ways say more */
 #define LEAST_PART 1e-4
 #define MOST_PART 8.0
+
+#define WHOLE_TURN 6.283185307179586
+#define UNNOTICED (1 + 1e-9)
 
 /* The values nearest to the beginning are those from which no way along the relations leads back
  * towards it. Such a way is d = x* - x, where x* is the least change from the beginning that the
@@ -63,6 +67,19 @@ double frot_change_size(frot_opening *p) {
   return sqrt(fmax(product(p, apart, apart), 0));
 }
 
+void frot_unwind(frot_opening *p) {
+  if (frot_evaluate_statements(p) != FROT_OK) return;
+  frot_weigh_equations(p);
+  double missed = frot_missed_square(p) * UNNOTICED + FROT_NOTHING_MISSED;
+  for (int k = 0; k < p->m->nq; k++) {
+    double here = p->q[k], turns = round((p->w->opening.begin[k] - here) / WHOLE_TURN);
+    if (turns == 0) continue;
+    p->q[k] = here + turns * WHOLE_TURN;
+    if (frot_evaluate_statements(p) != FROT_OK || !(frot_missed_square(p) <= missed))
+      p->q[k] = here;
+  }
+}
+
 /* d <- the way from p->q to the least change from the beginning. */
 static int way_back(frot_opening *p, double *d) {
   double size;
@@ -79,6 +96,7 @@ int frot_come_closest(frot_opening *p) {
   frot_opening_work *w = &p->w->opening;
   double *x = w->found, *d = w->way, *next = w->next_way, *s = w->apart;
   size_t bytes = sizeof(double) * (size_t)p->m->nq;
+  if (p->n > 0 && !p->velocity) frot_unwind(p);
   double far = frot_change_size(p), part = 1, before = INFINITY;
   int moved = 0, status = p->n > 0 && far > 0 ? way_back(p, d) : FROT_OK;
   for (int k = 0; k < PULLS && status == FROT_OK && p->n > 0 && far > 0; k++) {

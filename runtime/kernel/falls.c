@@ -65,9 +65,10 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
     for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
     size = fmax(size, inside);
     double slope = 6 * fabs(g[1] - g[0]) / h, first = g[0];
-    /* what is zero at the start but for rounding, and rises, has not fallen */
+    /* what is as near to zero at the start as events are located, and rises, has not fallen */
     for (int i = 0;
-         j < conditions && i < 6 && g[i] < 0 && g[i] >= -FROT_ZERO * size && g[i + 1] > g[i]; i++)
+         j < conditions && i < 6 && g[i] < 0 && g[i] >= -FROT_LOCATED * size && g[i + 1] > g[i];
+         i++)
       g[i] = 0;
     double floor = FROT_GUARD_FLOOR * size + FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
     double at = frot_first_fall(g, floor + 8 * DBL_EPSILON * fabs(t) * slope);

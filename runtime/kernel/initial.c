@@ -208,8 +208,8 @@ static int solve_once(frot_opening *p, double *q, double *v) {
 int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v) {
   frot_layout l = frot_layout_of(m);
-  frot_opening p = {m,    s, w, t, q, v, s->data + l.d, w->opening.use, 0, 0, NULL,
-                    NULL, 0, 0, 0, 0, 0};
+  frot_opening p = {m, s, w, t, q, v, s->data + l.d, w->opening.use, 0, 0, NULL, NULL,
+                    0, 0, 0, 0, 0, 0};
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
   size_t size = sizeof(double) * (size_t)m->n_conditions;
   frot_name_changes(&p);

@@ -9,7 +9,10 @@
 #include "linear.h"
 #include "tolerances.h"
 
-#define PASSES 60
+#define PASSES 100
+/* By how much a pass may change an angle: what it is taken for straight bends in such an arc. */
+#define MOST_TURN 0.5
+#define HALF_TURN 3.141592653589793
 
 /* The inertia of the groups at the values as they are. */
 static int find_inertia(const frot_opening *p) {
@@ -142,6 +145,24 @@ void frot_least_change(const frot_opening *p, const double *from) {
   frot_backward(p->factor, p->order, p->attached, y);
 }
 
+/* Limit a change of places from x0 to x, for no angle may change by more than MOST_TURN. It is
+ * taken in part, such that all equations are followed alike; angles
+ * that would change by more than half a turn, of which a linear equation knows nothing, are
+ * limited alone. */
+static void limit_turns(const frot_opening *p, const double *x0, double *x) {
+  double largest = 0;
+  for (int j = 0; j < p->m->nv && !p->velocity; j++) {
+    int k = p->m->speed_coordinate[j];
+    if (k < 0 || !p->m->speed_turns[j]) continue;
+    double turned = x[k] - x0[k];
+    if (fabs(turned) > HALF_TURN) turned = copysign(MOST_TURN, turned);
+    x[k] = x0[k] + turned, largest = fmax(largest, fabs(turned));
+  }
+  if (largest <= MOST_TURN) return;
+  for (int k = 0; k < frot_opening_count(p); k++)
+    x[k] = x0[k] + MOST_TURN / largest * (x[k] - x0[k]);
+}
+
 /* Take the change of w->relations.step, or the part of it that improves the residuals. Returns
  * whether the values have come to rest: nothing improves, or nothing moves any more. */
 static int take(frot_opening *p) {
@@ -149,16 +170,19 @@ static int take(frot_opening *p) {
   double *x = frot_opening_unknown(p), *x0 = w->step.z, size, moved;
   int close;
   double before = square(p, &close);
-  memcpy(x0, x, sizeof(double) * (size_t)frot_opening_count(p));
+  size_t bytes = sizeof(double) * (size_t)frot_opening_count(p);
+  memcpy(x0, x, bytes);
   memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)p->m->ny);
+  moved = frot_move_opening(p, w->relations.step, x0, 1, x, &size);
+  if (moved > FROT_FAR * p->scene) return memcpy(x, x0, bytes), 1;
   for (double part = 1; part > FROT_LEAST_DAMPING_AT_START; part *= 0.5) {
     moved = frot_move_opening(p, w->relations.step, x0, part, x, &size);
-    if (part == 1 && moved > FROT_FAR * p->scene) break;
+    limit_turns(p, x0, x);
     if (moved <= 4 * DBL_EPSILON * size) return 1;
     if (frot_evaluate_statements(p) == FROT_OK && (square(p, &close) <= before || close)) return 0;
     memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)p->m->ny);
   }
-  memcpy(x, x0, sizeof(double) * (size_t)frot_opening_count(p));
+  memcpy(x, x0, bytes);
   return 1;
 }
 

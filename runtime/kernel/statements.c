@@ -140,6 +140,8 @@ int frot_evaluate_statements(frot_opening *p) {
     frot_call(w, &m->guessed);
     n += m->n_guessed;
   }
+  for (int i = 0; i < n && p->left > 0; i++)
+    w->relations.residual[i] -= p->left * w->opening.left[i];
   p->n = n;
   int finite =
       frot_all_finite(w->relations.residual, n) && frot_all_finite(w->relations.jacobian, n * nx);

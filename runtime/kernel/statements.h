@@ -20,6 +20,7 @@ typedef struct {
   double scene; /* largest value, term and residual where the search begins */
   int wide;     /* the search may begin elsewhere too */
   int guessed;  /* the guesses of places are equations too, after the others */
+  double left;  /* the part of w->opening.left that may still be missed (gradual.h) */
 } frot_opening;
 
 static inline double *frot_opening_unknown(const frot_opening *p) {

@@ -189,8 +189,8 @@ static void bind_opening(const frot_model *m, const frot_layout *l, const extent
       TAKE(w->first_unit, m->nq);
   TAKE(w->found, m->nq), TAKE(w->way, m->nq), TAKE(w->next_way, m->nq), TAKE(w->apart, m->nq);
   TAKE(w->scratch, 3 * larger(m->nq, m->nv));
-  TAKE(w->natural, m->nq), TAKE(w->first, m->nq + m->ny + m->n_contacts),
-      TAKE(w->near, m->nq + m->ny);
+  TAKE(w->left, e->equations), TAKE(w->natural, m->nq),
+      TAKE(w->first, m->nq + m->ny + m->n_contacts), TAKE(w->near, m->nq + m->ny);
   TAKE(w->first_use, m->n_contacts);
 }
 

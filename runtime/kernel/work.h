@@ -124,6 +124,7 @@ typedef struct {
   int *behind;                              /* of each change its speed (changes.h) */
   double *here, *first_factor, *first_unit; /* where changes are counted from; metric at `begin` */
   double *found, *way, *next_way, *apart, *scratch; /* closest.c; scratch: 3 nq */
+  double *left;                                     /* gradual.h */
   double *natural, *near;                           /* guesses.h; near: q, y */
   double *first; /* initial.c: q, y and the sides of the place found first, its `use` */
   unsigned char *first_use;

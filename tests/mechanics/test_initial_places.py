@@ -316,3 +316,28 @@ def test_a_loop_in_space_is_put_together_as_it_is_guessed() -> None:
         start = model.simulate(stop=1e-9, parameters=given).at(0)
         found = [start[f"{b}.position.{i}"] for b in ("coupler", "follower") for i in "xyz"]
         assert found == pytest.approx([*c, *f], abs=1e-11)
+
+
+def row_of_parallelograms(count: int) -> str:
+    """Rods of 1 m that stand 1 m apart, each tip joined to the next one by a rod."""
+    lines = [f"  body s{k}: rod(mass = 1 kg, length = 1 m);" for k in range(count + 1)]
+    lines += [f"  body t{k}: rod(mass = 1 kg, length = 1 m);" for k in range(count)]
+    lines += [f"  frame f{k} on ground at ({k} m, 0 m);" for k in range(count + 1)]
+    lines += [f"  liaison A{k}: rotoide(f{k}, s{k}.start);" for k in range(count + 1)]
+    for k in range(count):
+        lines.append(f"  liaison B{k}: rotoide(s{k}.tip, t{k}.start);")
+        lines.append(f"  liaison C{k}: rotoide(t{k}.tip, s{k + 1}.tip);")
+    text = "\n".join(lines)
+    head = "planar model Row\n  parameter Angle a = 1 rad;"
+    return f"{head}\n{text}\ninitial\n  s0.angle = a;\nend Row;"
+
+
+@pytest.mark.parametrize("count", [1, 2, 8, 20])
+def test_flat_loops_are_put_together_without_hints_and_without_whole_turns(count: int) -> None:
+    """From where all rods lie along one line: upright rods, and level ones between them."""
+    model = frot.compile(row_of_parallelograms(count))
+    for turn in np.radians([5, 45, 90, 135, 175, -60, -90, -150]):
+        start = model.simulate(stop=1e-6, parameters={"a": turn}).at(0)
+        for k in range(count):
+            assert start[f"s{k + 1}.angle"] == pytest.approx(turn, abs=1e-11)
+            assert start[f"t{k}.angle"] == pytest.approx(0, abs=1e-11)
