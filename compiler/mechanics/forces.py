@@ -134,6 +134,7 @@ def _drag(arguments: Mapping[str, Argument], kinematics: Kinematics, lowering: L
     velocity = end.velocity
     factor = lowering.lower(_value(arguments["c"]))
     exponent = _literal(arguments["exponent"])
+    assert isinstance(exponent, int | float)
     size = FUNCTIONS["norm"].form
     assert size is not None
     if exponent == 2:
