@@ -82,8 +82,11 @@ def _function(
         if piece.rows is None:
             calls.append(f"  {piece.name}(arg, res, w);")
         else:
-            calls.append(f"  {piece.name}(arg, res, w, {name}_t+{len(table)}, {turns});")
-            table += itertools.chain.from_iterable(itertools.islice(piece.rows, turns))
+            own = list(itertools.chain.from_iterable(itertools.islice(piece.rows, turns)))
+            # stretches that lie at the same places wherever they stand need no table
+            where = f"{name}_t+{len(table)}" if own else "0"
+            calls.append(f"  {piece.name}(arg, res, w, {where}, {turns});")
+            table += own
     if table:
         rows = [table[k : k + _ROW] for k in range(0, len(table), _ROW)]
         text = ",\n".join(",".join(map(str, row)) for row in rows)
@@ -139,7 +142,7 @@ class _Writer:
         inside = [*(f"    casadi_real {', '.join(row)};" for row in rows), *self._lines]
         width = len(self._columns)
         if self._shared:
-            head = f"  for (int r=0; r<n; r++, t+={width}) {{"
+            head = f"  for (int r=0; r<n; r++{f', t+={width}' if width else ''}) {{"
             return [
                 f"static void {name}({passed}, const int* t, int n) {{",
                 *(head, *inside, "  }", "}", ""),
