@@ -134,6 +134,9 @@ def lower(
     if lost:
         told = column(x.distance for x in lost), ca.horzcat(*(x.where for x in lost))
         outputs["vanishing"] = (state, [resolve(settled(x)) for x in told])
+    if reduced.drives.nnz():
+        none = ca.SX.zeros(len(system.elements))
+        outputs["drives"] = (state, [ca.vertcat(resolve(reduced.drives), none)])
     pace = make_pace(system, conditions[: reduced.conditions.located])
     if pace is not None:
         outputs["pace"] = (state, list(pace))

@@ -79,10 +79,11 @@ class Reduced:
     `text`, `equations` and `events` are what the text adds with its variables, which `force` and
     the others may hold too. `mass` (nw x nw), `force` (nw) and `force_size`, the sum of the sizes
     of its terms, `load_sizes` of the applied forces, `rows` (n_rows x nw), `bias` (n_rows: J a +
-    bias is the rows' acceleration), `rate` (n_rows), `gap` (n_contacts), `witness` (3
-    each) and `reach` (see contacts.py), `tree`: the speeds of large trees have no
-    entries in `mass`, nor what their bodies weigh in `force`; `plain`: the text adds nothing to the
-    equations of motion, `coefficients` (of motion and of rest, of each element),
+    bias is the rows' acceleration), `drives` (n_rows: sizes of what drives bring to it), `rate`
+    (n_rows), `gap` (n_contacts), `witness` (3 each) and `reach` (see contacts.py), `tree`: the
+    speeds of large trees have no entries in `mass`, nor what their bodies weigh in `force`;
+    `plain`: the text adds nothing to the equations of motion, `coefficients` (of motion and of
+    rest, of each element),
     `power` of the loads without potential, `kinetic`, `potential`.
     """
 
@@ -100,6 +101,7 @@ class Reduced:
     load_sizes: ca.SX
     rows: ca.SX
     bias: ca.SX
+    drives: ca.SX
     rate: ca.SX
     gap: ca.SX
     witness: ca.SX
@@ -192,7 +194,8 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         force_size=settled(motion.size + loads.size),
         load_sizes=settled(column(loads.sizes)),
         rows=_without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry),
-        bias=settled(_agreeing(kinematics.rate(settled(rates)), mechanism, kinematics, geometry)),
+        bias=settled(kinematics.rate(settled(rates))),
+        drives=settled(_drives(mechanism, kinematics, geometry)),
         rate=settled(rates),
         gap=settled(column(g.gap for g in geometry)),
         witness=settled(column(g.witness for g in geometry)),
@@ -217,9 +220,10 @@ def _without_rounding(
     mechanism: Mechanism,
     geometry: list[Geometry | JointGeometry | RelationGeometry],
 ) -> ca.SX:
-    """The rows of liaisons that close loops, where what cancels out is zero.
+    """The rows of liaisons that close loops, zero where all that is in them cancels out.
 
-    A row that is rounding alone (two pins on one shaft, turned anyhow) would hold what is free.
+    A row that is rounding alone (two pins on one shaft, turned anyhow) would hold what is free. A
+    small entry beside larger ones stays: it may be on its way from zero, and must not jump.
     """
     rows = ca.sparsify(rows)
     first = [rows_of.reaction[0] for rows_of in link_rows(mechanism.contacts)]
@@ -229,39 +233,40 @@ def _without_rounding(
         if isinstance(link, Relation) and not isinstance(link.lock, Stated)
     }
     entries = list(ca.vertsplit(ca.vec(rows.nz[:]))) if rows.nnz() else []
+    of_row: dict[int, list[int]] = {}
     for k, row in enumerate(rows.sparsity().row()):
-        if row in sizes and not entries[k].is_constant():
-            least = _ROUNDING * sizes[row]
-            entries[k] = ca.if_else(ca.fabs(entries[k]) > least, entries[k], 0)
+        of_row.setdefault(row, []).append(k)
+    for row, places in of_row.items():
+        if row not in sizes or any(entries[k].is_constant() for k in places):
+            continue
+        whole = sum((ca.fabs(entries[k]) for k in places), ca.SX(0)) > _ROUNDING * sizes[row]
+        for k in places:
+            entries[k] = ca.if_else(whole, entries[k], 0)
     return ca.SX(rows.sparsity(), ca.vertcat(*entries)) if entries else rows
 
 
-def _agreeing(
-    bias: ca.SX,
+def _drives(
     mechanism: Mechanism,
     kinematics: Kinematics,
     geometry: list[Geometry | JointGeometry | RelationGeometry],
 ) -> ca.SX:
-    """The rows' accelerations by time and speeds, where what drives cancel out is zero.
+    """Sizes of what time and speeds bring to the accelerations of rows that close loops.
 
-    Two drives that say the same differ by rounding, which no speed tells the kernel the size of.
+    Drives that say the same cancel out there, and no speed tells the kernel what is rounding.
     """
+    rows = link_rows(mechanism.contacts)
+    sizes = ca.SX(sum(len(x.all) for x in rows), 1)
     if not mechanism.is_driven:
-        return bias
-    bias = ca.SX(bias)
-    for rows_of, link, own in zip(
-        link_rows(mechanism.contacts), mechanism.contacts, geometry, strict=True
-    ):
+        return sizes
+    for x, link, own in zip(rows, mechanism.contacts, geometry, strict=True):
         if not isinstance(link, Relation) or isinstance(link.lock, Stated):
             continue
-        row = rows_of.reaction[0]
-        size = (1 + own.reach) * _told_by_time(link.liaison, kinematics)
+        sizes[x.reaction[0]] += (1 + own.reach) * _told_by_time(link.liaison, kinematics)
         for place in (link.joint.a, link.joint.b):
             there = kinematics.moving(place)
             turns = ca.norm_1(there.angular_bias) + ca.sumsqr(there.angular)
-            size += ca.norm_1(there.linear_bias) + (1 + own.reach) * turns
-        bias[row] = ca.if_else(ca.fabs(bias[row]) > _ROUNDING * size, bias[row], 0)
-    return bias
+            sizes[x.reaction[0]] += ca.norm_1(there.linear_bias) + (1 + own.reach) * turns
+    return sizes
 
 
 def _told_by_time(liaison: Liaison, kinematics: Kinematics) -> ca.SX:

@@ -46,8 +46,18 @@ static void want_rows(const frot_model *m, frot_work *w, const frot_group *g,
   }
 }
 
-/* Sizes of the terms of c, of which those of the lengths of a contact may cancel: with the sum W of
- * the group's angular velocities and V of its other speeds, reach W^2 + V W. */
+/* Sizes of what drives bring to c, where they may cancel in it. */
+static void size_drives(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                        const double *v, const double *d) {
+  if (!m->drives.call) return;
+  frot_inputs(m, s, w, &t, q, v, d);
+  w->call.res[0] = w->core.bias_size;
+  frot_call(w, &m->drives);
+}
+
+/* Sizes of the terms of c, of which those of drives may cancel, and those of the lengths of a
+ * contact: with the sum W of the group's angular velocities and V of its other speeds, reach W^2 +
+ * V W. */
 static void size_biases(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
                         const double *v) {
   if (g->n_rows == 0) return;
@@ -56,7 +66,11 @@ static void size_biases(const frot_model *m, const frot_state *s, frot_work *w, 
     int speed = g->unknowns[i];
     *(m->speed_turns[speed] ? &turning : &moving) += fabs(v[speed]);
   }
-  for (int i = 0; i < g->n_rows; i++) w->core.bias_size[g->rows[i]] = fabs(w->core.c[g->rows[i]]);
+  for (int i = 0; i < g->n_rows; i++) {
+    int row = g->rows[i];
+    double driven = m->drives.call ? w->core.bias_size[row] : 0;
+    w->core.bias_size[row] = driven + fabs(w->core.c[row]);
+  }
   for (int i = 0; i < g->n_elements; i++) {
     const frot_element *e = &m->elements[g->elements[i]];
     double reach = s->data[w->layout.reach + e->contact];
@@ -161,8 +175,19 @@ static void effects_of_four(const frot_model *m, frot_work *w, const frot_group 
   }
 }
 
+/* Whether nothing of a group can part or slip: its rows hold by themselves (held.c), and what they
+ * do to each other is asked for where they depend on each other alone. */
+static int holds_for_good(const frot_state *s, const frot_work *w, const frot_group *g) {
+  const double *unilateral = s->data + w->layout.unilateral;
+  if (g->n_elements > 0) return 0;
+  for (int i = 0; i < g->n_contacts; i++)
+    if (unilateral[g->contacts[i]] != 0) return 0;
+  return 1;
+}
+
 /* A is a mass matrix. */
-static int symmetric_group(const frot_model *m, frot_work *w, const frot_group *g) {
+static int symmetric_group(const frot_model *m, const frot_state *s, frot_work *w,
+                           const frot_group *g, int wanted) {
   int ns = g->n_speeds, count, acting = list_wanted(m, w, g, &count);
   int status = frot_factor(w, g);
   if (status != FROT_OK) return status;
@@ -178,10 +203,27 @@ static int symmetric_group(const frot_model *m, frot_work *w, const frot_group *
       w->core.free[r] = free[c] + (reads >= 0 ? -w->core.h[g->unknowns[reads]] : w->core.c[r]);
     }
   }
+  unsigned char *formed = &w->core.formed[g - m->groups];
+  *formed = wanted == FROT_LAWS || acting < count || !holds_for_good(s, w, g);
+  if (!*formed) return FROT_OK;
   for (int first = 0; first < count; first += FROT_ABREAST)
     for (int other = 0; other < acting; other += FROT_ABREAST)
       effects_of_four(m, w, g, first, count, other, acting);
   return FROT_OK;
+}
+
+void frot_effects(const frot_model *m, frot_work *w, const frot_group *g) {
+  unsigned char *formed = &w->core.formed[g - m->groups];
+  if (g->general || *formed) return;
+  *formed = 1;
+  int count, acting = list_wanted(m, w, g, &count);
+  for (int a = 0; a < acting; a++)
+    for (int b = 0; b < acting; b++) {
+      int i = w->core.listed[a], j = w->core.listed[b];
+      const double *half = w->core.half + g->entries;
+      w->core.delassus[g->square + i * g->n_rows + j] =
+          frot_dot(half + i * g->n, half + j * g->n, g->n_speeds);
+    }
 }
 
 /* Part of a row (n entries) in the motion z: the auxiliary unknowns, in whose places reactions
@@ -243,13 +285,14 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
   if (!frot_call_dynamics(m, s, w, t, q, v, d, wanted)) return FROT_NAN;
+  size_drives(m, s, w, t, q, v, d);
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_groups && status == FROT_OK; k++) {
     const frot_group *g = &m->groups[now->groups[k]];
     want_rows(m, w, g, modes, wanted);
     clean_rows(m, s, w, g, v);
     size_biases(m, s, w, g, v);
-    status = g->general ? general_group(m, w, g) : symmetric_group(m, w, g);
+    status = g->general ? general_group(m, w, g) : symmetric_group(m, s, w, g, wanted);
   }
   return status;
 }

@@ -82,13 +82,16 @@ typedef struct {
    * it has none; numbers that tell where (FROT_WHERE x n_vanishing). Called after a failure, where
    * n_vanishing > 0. */
   frot_callable vanishing;
-  /* pace -> what depends on time at given states (n_paced), and its rates by time alone (n_paced).
-   * Called where n_paced > 0. */
+  /* pace -> sizes of what depends on time at given states (n_paced), and its rates by time alone
+   * (n_paced). Called where n_paced > 0. */
   frot_callable pace;
   /* dynamics -> q' (nq), A (n_matrix), h (nw), J (n_entries), c (n_rows), rate (n_rows), gap
    *   (n_contacts), conditions (n_located), coefficients of motion and of rest (2 x n_elements),
    *   power of the forces that have no potential (1) */
   frot_callable dynamics;
+  /* drives -> sizes of the terms of c (n_rows) by which time alone moves what loops hold together.
+   * Called where time moves a place, a figure or a liaison. */
+  frot_callable drives;
   /* spread -> E (n_entries), metric (n_metric: symmetric positive definite, what `least change` of
    *   speeds means). Called where `general`. */
   frot_callable spread;

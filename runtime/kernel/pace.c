@@ -44,7 +44,7 @@ double frot_finest_step(const frot_model *m, const frot_state *s, const frot_wor
   return fmin(h, fmax(FINEST, 1e3 * DBL_EPSILON * fabs(s->began)));
 }
 
-/* Values into w->pace and rates behind them. */
+/* Sizes into w->pace and rates behind them. */
 static double *rates_at(const frot_model *m, frot_state *s, frot_work *w, double t) {
   const double *d = s->data + w->layout.d;
   frot_inputs(m, s, w, &t, w->step.z0, w->step.z0 + m->nq, d);
@@ -73,7 +73,7 @@ double frot_pace_step(const frot_model *m, frot_state *s, frot_work *w, double t
   for (int k = 1; k < count; k++) note_rates(m, s, w, t + k * spacing, most);
   int passed = 0;
   for (int i = 0; i < m->n_paced; i++) {
-    int matters = most[i] * h > FROT_STEADY * fabs(w->pace[i]) && most[i] > BEYOND * seen[i];
+    int matters = most[i] * h > FROT_STEADY * w->pace[i] && most[i] > BEYOND * seen[i];
     most[i] = matters ? fmax(BEYOND * seen[i], FAINT * most[i]) : INFINITY;
     passed |= matters;
   }

@@ -195,6 +195,7 @@ static int solve(frot_problem *p, int *regular) {
                               &w->reactions.sign[p->g - p->m->groups]);
   }
   if (*regular) return 0;
+  frot_effects(p->m, w, p->g);
   w->reactions.dependent = 1, w->reactions.sign[p->g - p->m->groups] = 0;
   frot_solve_least(p, x);
   spread_reactions(p, x);

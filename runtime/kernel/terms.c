@@ -123,6 +123,38 @@ static void spread_in_inverse(frot_work *w, const frot_group *g, const double *l
   }
 }
 
+/* Add to the loads of a group what the reaction in a row makes of them. An entry is a sum of
+ * products that may cancel: what is left may be rounding of the largest of its kind in the row, or
+ * of the lengths and places that it is made of. One that is zero to the last digit is zero by
+ * structure. */
+static void load_row(const frot_model *m, const frot_work *w, const frot_group *g, int row,
+                     double reach, const double *q, double *load) {
+  double lam = fabs(w->core.lam[row]), size[2] = {0, 0};
+  if (lam == 0 || frot_is_reading(m, row)) return;
+  if (reach > 0) size[1] = reach + frot_gap_size(m, w, row, q);
+  const double *entries = frot_entries(m, w->core.rows, row);
+  for (int k = 0; k < g->n_speeds; k++) {
+    int turns = m->speed_turns[g->unknowns[k]] != 0;
+    size[turns] = fmax(size[turns], fabs(entries[k]));
+  }
+  if (reach > 0 && size[0] <= FROT_CANCELS) size[0] = 1;
+  for (int k = 0; k < g->n_speeds; k++)
+    if (entries[k] != 0) load[g->unknowns[k]] += lam * size[m->speed_turns[g->unknowns[k]] != 0];
+}
+
+static void load_reactions(const frot_model *m, const frot_state *s, const frot_work *w,
+                           const frot_group *g, const double *q, double *load) {
+  const double *reach = s->data + w->layout.reach;
+  for (int i = 0; i < g->n_contacts; i++) {
+    int row = m->contacts[g->contacts[i]].row_n;
+    if (row >= 0) load_row(m, w, g, row, reach[g->contacts[i]], q, load);
+  }
+  for (int i = 0; i < g->n_elements; i++) {
+    const frot_element *e = &m->elements[g->elements[i]];
+    load_row(m, w, g, e->row, e->rolling ? 0 : reach[e->contact], q, load);
+  }
+}
+
 void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
                              const double *q, const double *v, const double *d, double *size) {
   memset(size, 0, sizeof(double) * (size_t)m->nv);
@@ -130,17 +162,10 @@ void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, d
   frot_call_sizes(m, s, w, t, q, v, d);
   for (int k = 0; k < w->awake.now->n_groups; k++) {
     const frot_group *g = &m->groups[w->awake.now->groups[k]];
-    int ns = g->n_speeds, n = g->general ? g->n : ns;
-    double *sum = w->core.load_size, *response = w->core.rest;
+    double *sum = w->core.load_size;
+    load_reactions(m, s, w, g, q, w->core.load);
     spread_in_inverse(w, g, w->core.load, sum);
-    for (int i = 0; i < g->n_rows; i++) {
-      double lam = w->core.lam[g->rows[i]];
-      if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
-      memcpy(response, w->core.half + g->entries + i * g->n, sizeof(double) * (size_t)n);
-      if (!g->general) frot_outwards(w, g, response);
-      for (int j = 0; j < ns; j++) sum[j] += fabs(lam * response[j]);
-    }
-    for (int j = 0; j < ns; j++) size[g->unknowns[j]] = sum[j];
+    for (int j = 0; j < g->n_speeds; j++) size[g->unknowns[j]] = sum[j];
   }
 }
 

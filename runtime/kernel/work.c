@@ -56,6 +56,7 @@ static frot_callable scratch_of_all(const frot_model *m) {
                                   &m->places,
                                   &m->pace,
                                   &m->dynamics,
+                                  &m->drives,
                                   &m->spread,
                                   &m->rates,
                                   &m->jacobian,
@@ -128,8 +129,8 @@ static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work 
   TAKE(w->factor, m->n_metric), TAKE(w->force, l->nw), TAKE(w->half, m->n_entries);
   TAKE(w->lu, general * m->n_matrix), TAKE(w->lu_scale, general * 2 * l->nw);
   TAKE(w->lu_pivot, general * l->nw);
-  TAKE(w->wanted, nr), TAKE(w->listed, nr), TAKE(w->support, 2 * nr + 2), TAKE(w->free, nr),
-      TAKE(w->delassus, m->n_square);
+  TAKE(w->wanted, nr), TAKE(w->formed, m->n_groups), TAKE(w->listed, nr),
+      TAKE(w->support, 2 * nr + 2), TAKE(w->free, nr), TAKE(w->delassus, m->n_square);
   TAKE(w->load, l->nw), TAKE(w->load_size, l->nw), TAKE(w->row_load, nr);
   TAKE(w->bias_size, nr);
   TAKE(w->lam, nr), TAKE(w->a, l->nw), TAKE(w->rest, l->nw), TAKE(w->column, l->nw);

@@ -55,7 +55,8 @@ typedef struct {
 
 /* core.h: results of `dynamics`, `kinematics` and `spread` at t; the inertia, packed by groups (of
  * a mass matrix the Cholesky factor L of the metric, L^-1 h, L^-1 J'; of a general core LU of A,
- * A^-1 h, A^-1 E); what it does to the rows wanted; sizes of all loads and of what they do, and
+ * A^-1 h, A^-1 E); what it does to the rows wanted, and of which groups what these do to each other
+ * is there (formed, n_groups); sizes of all loads and of what they do, and
  * of the terms of c (bias_size, n_rows);
  * reactions lam (n_rows) and the solution a (nw). Scratch: rest and column (nw), the rows of a
  * group that are looked at (listed), four of them abreast and where these are not zero; of large
@@ -66,7 +67,7 @@ typedef struct {
   double *effect, *metric;
   double *factor, *force, *half, *lu, *lu_scale;
   int *lu_pivot;
-  unsigned char *wanted;
+  unsigned char *wanted, *formed;
   int *listed, *support;
   double *free, *delassus;
   double *load, *load_size, *row_load, *bias_size;

@@ -175,6 +175,11 @@ end Driven;
     ).simulate()
 
 
+def test_what_is_told_twice_keeps_no_step_short(told: frot.Result) -> None:
+    """Rows and gaps that cancel out are rounding, and so are their rates by time."""
+    assert told.figures.steps < 400
+
+
 @pytest.mark.parametrize("kind", [k for k, row in JOINTS.items() if row.driven])
 def test_driven_it_moves_as_told_with_the_reaction_of_its_drive(
     told: frot.Result, kind: str
