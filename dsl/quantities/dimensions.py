@@ -45,7 +45,9 @@ class Dimension:
 
 
 def _power(name: str, exponent: Fraction | int) -> str:
-    return name if exponent == 1 else f"{name}^{exponent}"
+    if exponent == 1:
+        return name
+    return f"{name}^{exponent}" if exponent == int(exponent) else f"{name}^({exponent})"
 
 
 def dimension(m: int = 0, kg: int = 0, s: int = 0, A: int = 0, K: int = 0) -> Dimension:

@@ -235,5 +235,5 @@ def test_what_no_nominal_size_can_be() -> None:
         frot.compile(
             NOMINAL.replace("nominal = size);\ninitial", "nominal = time/(1 s));\ninitial")
         )
-    with pytest.raises(frot.FrotError, match="its attributes are: nominal, start, unit"):
+    with pytest.raises(frot.FrotError, match="its attributes are: min, max, nominal, start, unit"):
         frot.compile(NOMINAL.replace("nominal = size);\ninitial", "nomnal = size);\ninitial"))

@@ -83,7 +83,7 @@ REFUSED = {
     "couple(g, value = 1 N.m)": ("E0205", "liaison 'g' has no angle that a couple could drive"),
     "drag(p, c = 1 N.s/m, exponent = 2)": ("E0301", "exponent 2 is in kg/m"),
     "drag(p, c = 1 kg/m)": ("E0301", "exponent 1 is in N.s/m"),
-    "drag(p, c = 1 kg/m, exponent = 1.5)": ("E0701", "an exponent of drag other than 1 and 2"),
+    "drag(p, c = 1 kg/m, exponent = 1.5)": ("E0301", "exponent 1.5 is in kg/m^(1/2)/s^(1/2)"),
 }
 
 
