@@ -16,12 +16,8 @@ from frot.compiler.mechanics.geometry.figures import Flat, Placed
 from frot.compiler.mechanics.geometry.tracking import Track
 from frot.compiler.mechanics.hang import Node, Spotted, hang
 from frot.compiler.mechanics.liaisons.motions import Follow, count_speeds
-from frot.compiler.mechanics.liaisons.moves import (
-    carried,
-    counted,
-    seen,
-    turned_by_time,
-)
+from frot.compiler.mechanics.liaisons.moves import carried, turned_by_time
+from frot.compiler.mechanics.liaisons.seen import counted, seen
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Hanging,

@@ -23,6 +23,7 @@ from frot.compiler.equations.text_symbols import (
 from frot.compiler.lowering.expressions import Conditions, Lowering
 from frot.compiler.lowering.symbols import Rows, Symbols, column, link_rows, make_symbols
 from frot.compiler.lowering.walk import read_quantities
+from frot.compiler.mechanics.cancelling import rows_without_rounding, sizes_of_drives
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.dynamics import (
     Push,
@@ -35,7 +36,6 @@ from frot.compiler.mechanics.dynamics import (
 from frot.compiler.mechanics.geometry.contacts import Geometry, gravity, link_geometry, row_rates
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, RelationGeometry
-from frot.compiler.mechanics.liaisons.locks import Stated
 from frot.compiler.mechanics.loads import applied_loads, sum_loads
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Mechanism, Relation
 from frot.compiler.mechanics.text_of_motion import (
@@ -45,10 +45,9 @@ from frot.compiler.mechanics.text_of_motion import (
     friction_maker,
     give_rates_of_tracks,
 )
-from frot.compiler.mechanics.values import pace_of
 from frot.compiler.mechanics.variables import Variables
 from frot.dsl import Log
-from frot.dsl.checked import CurvePlace, Liaison, SurfacePlace
+from frot.dsl.checked import Liaison
 from frot.dsl.data.classes import dataclass, replace
 
 
@@ -193,9 +192,9 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         force=settled(motion.force + loads.force),
         force_size=settled(motion.size + loads.size),
         load_sizes=settled(column(loads.sizes)),
-        rows=_without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry),
+        rows=rows_without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry),
         bias=settled(kinematics.rate(settled(rates))),
-        drives=settled(_drives(mechanism, kinematics, geometry)),
+        drives=settled(sizes_of_drives(mechanism, kinematics, geometry)),
         rate=settled(rates),
         gap=settled(column(g.gap for g in geometry)),
         witness=settled(column(g.witness for g in geometry)),
@@ -209,75 +208,6 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         ),
         potential=settled(potential + loads.potential),
     )
-
-
-# Of the size of its terms, what sums of products along a chain leave where they cancel out.
-_ROUNDING = 64 * 2.0**-52
-
-
-def _without_rounding(
-    rows: ca.SX,
-    mechanism: Mechanism,
-    geometry: list[Geometry | JointGeometry | RelationGeometry],
-) -> ca.SX:
-    """The rows of liaisons that close loops, zero where all that is in them cancels out.
-
-    A row that is rounding alone (two pins on one shaft, turned anyhow) would hold what is free. A
-    small entry beside larger ones stays: it may be on its way from zero, and must not jump.
-    """
-    rows = ca.sparsify(rows)
-    first = [rows_of.reaction[0] for rows_of in link_rows(mechanism.contacts)]
-    sizes = {
-        row: 1 + own.reach
-        for row, link, own in zip(first, mechanism.contacts, geometry, strict=True)
-        if isinstance(link, Relation) and not isinstance(link.lock, Stated)
-    }
-    entries = list(ca.vertsplit(ca.vec(rows.nz[:]))) if rows.nnz() else []
-    of_row: dict[int, list[int]] = {}
-    for k, row in enumerate(rows.sparsity().row()):
-        of_row.setdefault(row, []).append(k)
-    for row, places in of_row.items():
-        if row not in sizes or any(entries[k].is_constant() for k in places):
-            continue
-        whole = sum((ca.fabs(entries[k]) for k in places), ca.SX(0)) > _ROUNDING * sizes[row]
-        for k in places:
-            entries[k] = ca.if_else(whole, entries[k], 0)
-    return ca.SX(rows.sparsity(), ca.vertcat(*entries)) if entries else rows
-
-
-def _drives(
-    mechanism: Mechanism,
-    kinematics: Kinematics,
-    geometry: list[Geometry | JointGeometry | RelationGeometry],
-) -> ca.SX:
-    """Sizes of what time and speeds bring to the accelerations of rows that close loops.
-
-    Drives that say the same cancel out there, and no speed tells the kernel what is rounding.
-    """
-    rows = link_rows(mechanism.contacts)
-    sizes = ca.SX(sum(len(x.all) for x in rows), 1)
-    if not mechanism.is_driven:
-        return sizes
-    for x, link, own in zip(rows, mechanism.contacts, geometry, strict=True):
-        if not isinstance(link, Relation) or isinstance(link.lock, Stated):
-            continue
-        sizes[x.reaction[0]] += (1 + own.reach) * _told_by_time(link.liaison, kinematics)
-        for place in (link.joint.a, link.joint.b):
-            there = kinematics.moving(place)
-            turns = ca.norm_1(there.angular_bias) + ca.sumsqr(there.angular)
-            sizes[x.reaction[0]] += ca.norm_1(there.linear_bias) + (1 + own.reach) * turns
-    return sizes
-
-
-def _told_by_time(liaison: Liaison, kinematics: Kinematics) -> ca.SX:
-    """The size of the accelerations that what a liaison is given by has of itself."""
-    given = [liaison.options]
-    for place in (liaison.a, liaison.b):
-        if isinstance(place, CurvePlace):
-            given.append(place.curve.arguments)
-        elif isinstance(place, SurfacePlace):
-            given.append(place.surface.arguments)
-    return sum((pace_of(values, kinematics.fixed.lower) for values in given), ca.SX(0))
 
 
 def _with_counters(symbols: Symbols, mechanism: Mechanism, variables: Variables) -> Symbols:

@@ -43,8 +43,8 @@ void frot_begin_elsewhere(frot_opening *p, int k, int alike) {
 static double most_turned(const frot_opening *p) {
   double most = 0;
   for (int j = 0; j < p->m->nv; j++) {
-    int k = p->m->speed_coordinate[j];
-    if (k >= 0 && p->m->speed_turns[j]) most = fmax(most, fabs(p->q[k] - p->w->opening.begin[k]));
+    int k = frot_angle_of(p->m, j);
+    if (k >= 0) most = fmax(most, fabs(p->q[k] - p->w->opening.begin[k]));
   }
   return most;
 }
@@ -61,6 +61,11 @@ static void keep_nearer(frot_opening *p, nearest_found *best) {
   memcpy(p->w->opening.nearest, p->q, sizeof(double) * (size_t)p->m->nq);
 }
 
+static void begin_again(const frot_opening *p) {
+  frot_clear_opening(p);
+  memcpy(p->q, p->w->opening.begin, sizeof(double) * (size_t)p->m->nq);
+}
+
 int frot_solve_widely(frot_opening *p) {
   frot_work *w = p->w;
   size_t bytes = sizeof(double) * (size_t)p->m->nq;
@@ -74,11 +79,9 @@ int frot_solve_widely(frot_opening *p) {
   if (found == FROT_OK) found = frot_come_closest(p);
   if (found == FROT_OK && most_turned(p) < BEND) return found;
   if (found == FROT_OK) keep_nearer(p, &best);
-  frot_clear_opening(p);
-  memcpy(p->q, w->opening.begin, bytes);
+  begin_again(p);
   if (frot_solve_gradually(p) == FROT_OK && frot_come_closest(p) == FROT_OK) keep_nearer(p, &best);
-  frot_clear_opening(p);
-  memcpy(p->q, w->opening.begin, bytes);
+  begin_again(p);
   if (frot_follow_damped(p) && frot_solve_nearest(p) == FROT_OK && frot_come_closest(p) == FROT_OK)
     keep_nearer(p, &best);
   for (int k = 0; k < 4 * TRIES && best.turned > WHOLE_TURN; k++) {

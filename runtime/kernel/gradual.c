@@ -10,15 +10,9 @@
 
 /* The angle that equation i alone speaks of, -1 if none. */
 static int only_angle(const frot_opening *p, int i) {
-  int nx = frot_opening_count(p), only = -1;
-  for (int k = 0; k < nx; k++) {
-    if (p->w->relations.jacobian[nx * i + k] == 0) continue;
-    if (only >= 0) return -1;
-    only = k;
-  }
+  int only = frot_only_unknown(p, i);
   int speed = only < 0 ? -1 : frot_speed_behind(p, only);
-  return speed >= 0 && p->m->speed_turns[speed] && p->m->speed_coordinate[speed] == only ? only
-                                                                                         : -1;
+  return speed >= 0 && frot_angle_of(p->m, speed) == only ? only : -1;
 }
 
 int frot_solve_gradually(frot_opening *p) {

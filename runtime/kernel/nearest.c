@@ -146,14 +146,13 @@ void frot_least_change(const frot_opening *p, const double *from) {
 }
 
 /* Limit a change of places from x0 to x, for no angle may change by more than MOST_TURN. It is
- * taken in part, such that all equations are followed alike; angles
- * that would change by more than half a turn, of which a linear equation knows nothing, are
- * limited alone. */
+ * taken in part, such that all equations are followed alike; angles that would change by more than
+ * half a turn, of which a linear equation knows nothing, are limited alone. */
 static void limit_turns(const frot_opening *p, const double *x0, double *x) {
   double largest = 0;
   for (int j = 0; j < p->m->nv && !p->velocity; j++) {
-    int k = p->m->speed_coordinate[j];
-    if (k < 0 || !p->m->speed_turns[j]) continue;
+    int k = frot_angle_of(p->m, j);
+    if (k < 0) continue;
     double turned = x[k] - x0[k];
     if (fabs(turned) > HALF_TURN) turned = copysign(MOST_TURN, turned);
     x[k] = x0[k] + turned, largest = fmax(largest, fabs(turned));
@@ -173,10 +172,9 @@ static int take(frot_opening *p) {
   size_t bytes = sizeof(double) * (size_t)frot_opening_count(p);
   memcpy(x0, x, bytes);
   memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)p->m->ny);
-  moved = frot_move_opening(p, w->relations.step, x0, 1, x, &size);
-  if (moved > FROT_FAR * p->scene) return memcpy(x, x0, bytes), 1;
   for (double part = 1; part > FROT_LEAST_DAMPING_AT_START; part *= 0.5) {
     moved = frot_move_opening(p, w->relations.step, x0, part, x, &size);
+    if (part == 1 && moved > FROT_FAR * p->scene) break;
     limit_turns(p, x0, x);
     if (moved <= 4 * DBL_EPSILON * size) return 1;
     if (frot_evaluate_statements(p) == FROT_OK && (square(p, &close) <= before || close)) return 0;
@@ -246,12 +244,9 @@ static int keep_stated(frot_opening *p) {
   double *x = frot_opening_unknown(p);
   int nx = frot_opening_count(p), moved = 0;
   for (int i = 0; i < p->n; i++) {
-    const double *row = p->w->relations.jacobian + nx * i;
-    int only = -1, count = 0;
-    for (int k = 0; k < nx; k++)
-      if (row[k] != 0) only = k, count++;
-    if (count != 1 || p->w->relations.residual[i] == 0) continue;
-    x[only] -= p->w->relations.residual[i] / row[only], moved = 1;
+    int only = frot_only_unknown(p, i);
+    if (only < 0 || p->w->relations.residual[i] == 0) continue;
+    x[only] -= p->w->relations.residual[i] / p->w->relations.jacobian[nx * i + only], moved = 1;
   }
   if (!moved) return FROT_OK;
   int status = frot_evaluate_statements(p);

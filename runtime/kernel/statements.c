@@ -156,6 +156,16 @@ double frot_statement_size(const frot_opening *p, int i) {
   return sum;
 }
 
+int frot_only_unknown(const frot_opening *p, int i) {
+  int nx = frot_opening_count(p), only = -1;
+  for (int k = 0; k < nx; k++) {
+    if (p->w->relations.jacobian[nx * i + k] == 0) continue;
+    if (only >= 0) return -1;
+    only = k;
+  }
+  return only;
+}
+
 int frot_statement_agrees(const frot_opening *p, int i, double before) {
   double off = fabs(p->w->relations.residual[i]);
   return off <= FROT_AGREES * fmax(frot_statement_size(p, i), before) ||

@@ -33,6 +33,10 @@ static inline int frot_opening_count(const frot_opening *p) {
 static inline int frot_speed_behind(const frot_opening *p, int k) {
   return p->velocity ? k : p->w->opening.behind[k];
 }
+/* The coordinate that is the angle which speed j turns, -1 where it turns none. */
+static inline int frot_angle_of(const frot_model *m, int j) {
+  return m->speed_turns[j] ? m->speed_coordinate[j] : -1;
+}
 static inline int frot_is_attached(const frot_opening *p, int k) {
   return frot_speed_behind(p, k) >= 0;
 }
@@ -46,6 +50,9 @@ int frot_is_still(const frot_opening *p, int i, double reach);
 
 /* Size of the terms of equation i at the present values. */
 double frot_statement_size(const frot_opening *p, int i);
+/* The unknown that equation i alone speaks of, -1 if it speaks of several or none. */
+int frot_only_unknown(const frot_opening *p, int i);
+
 /* Whether equation i holds, against the sizes of its terms and its residual before. */
 int frot_statement_agrees(const frot_opening *p, int i, double before);
 

@@ -7,19 +7,16 @@ to their origin before the motion. What does not move has no entry.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import casadi as ca
-from frot.compiler.mechanics.geometry.paths import parameter_of, point_of
+from frot.compiler.mechanics.geometry.paths import point_of
 from frot.compiler.mechanics.liaisons.motions import (
     Attitude,
-    Axis,
     Driven,
     Follow,
     Heading,
     Motion,
     Pointing,
-    Reach,
     Screw,
     Slide,
     Spot,
@@ -35,7 +32,6 @@ from frot.compiler.mechanics.spatial import (
     Z,
     about_z,
     axes_of,
-    beside,
     cross,
     nowhere,
     product,
@@ -72,9 +68,6 @@ class Moved:
     back: ca.SX = field(default_factory=nowhere)
 
 
-Seen = tuple[ca.SX, ca.SX]
-
-
 class Moments:
     """Lowers with time as a symbol of its own, to tell what time changes by itself.
 
@@ -104,35 +97,6 @@ class Moments:
 def move(motion: Motion, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     """The axes after the motion, the columns of its speeds, the way of their origin."""
     return _MOVES[type(motion)](motion, base, q, v, lower)
-
-
-def seen(motion: Motion, a: Moving, b: Moving, lower: Lower) -> Seen:
-    """The coordinate of a motion and its rate from the postures of a and b alone.
-
-    Angles count the turns in the plane; in space they are within half a revolution (`counted`).
-    """
-    moments = Moments(lower)
-    value, rate = _SEEN[type(motion)](motion, a, b, moments)
-    if not moments.met:
-        return value, rate
-    if not _keeps_axis(motion):
-        rate = rate + ca.jacobian(value, moments.symbol)
-    value, rate = moments.back(value, rate)
-    return value, rate
-
-
-def _keeps_axis(motion: Motion) -> bool:
-    """Whether the rate by the velocities is the whole one, though time may change the motion.
-
-    Of a turn about an axis n(time) of both bodies it is: what n' adds to omega is across n.
-    """
-    return isinstance(motion, Driven | Screw) or (isinstance(motion, Turn) and motion.mark is None)
-
-
-def counted(angle: ca.SX, about: ca.SX) -> ca.SX:
-    """An angle known but for whole turns: the one that is less than half a turn from `about`."""
-    apart = angle - about
-    return about + ca.atan2(ca.sin(apart), ca.cos(apart))
 
 
 def carried(local: ca.SX, base: Moving, lower: Lower) -> Moving:
@@ -173,15 +137,6 @@ def turned_pose(pose: Pose, local: ca.SX, angle: ca.SX) -> Pose:
         return Pose(pose.origin, turn_in_plane(total), turning(Z, total), total)
     axes = ca.sparsify(pose.axes @ turn_about(local, angle))
     return Pose(pose.origin, axes, product(pose.quaternion, turning(local, angle)), ca.SX(0))
-
-
-def angle_about(axis: Axis, a: Pose, b: Pose, lower: Lower) -> ca.SX:
-    """The angle by which b is turned from a about an axis of both."""
-    local = unit_vector(axis.given, lower)
-    if local is Z and a.axes[2, 2].is_one() and b.axes[2, 2].is_one():
-        return b.angle - a.angle
-    found = arc(Turn(axis), a, b, lower)
-    return ca.atan2(found.sine, found.cosine)
 
 
 def _turned(
@@ -342,74 +297,6 @@ def way_of(motion: Slide, lower: Lower) -> ca.SX:
     return beside_given(motion.axis.given, lower)[motion.side]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Arc:
-    """The angle of a turn: its sine and cosine, and the vector whose part of omega is its rate."""
-
-    about: ca.SX
-    sine: ca.SX
-    cosine: ca.SX
-
-
-def arc(motion: Turn | Screw, a: Pose, b: Pose, lower: Lower) -> Arc:
-    """The angle by which b is turned from a.
-
-    Of a universal joint with the axes e and f, the part of omega along e beside f is wanted: it is
-    omega . (x x f)/|x|^2 with x = f x e.
-    """
-    local = unit_vector(motion.axis.given, lower)
-    if isinstance(motion, Screw) or motion.mark is None:
-        first, second = (a.direction(e) for e in beside(local))
-        turned = b.direction(beside(local)[0])
-        return Arc(a.direction(local), ca.dot(turned, second), ca.dot(turned, first))
-    mark = unit_vector(motion.mark.given, lower)
-    own = (b if motion.on_b else a).direction(local)
-    other = (a if motion.on_b else b).direction(mark)
-    start, end, normal = a.direction(mark), b.direction(mark), cross(other, own)
-    return Arc(
-        cross(normal, other) / ca.sumsqr(normal),
-        ca.dot(own, cross(start, end)),
-        ca.dot(start, end) - ca.dot(own, start) * ca.dot(own, end),
-    )
-
-
-def _see_turn(motion: Turn | Screw, a: Moving, b: Moving, lower: Lower) -> Seen:
-    if isinstance(motion, Turn) and motion.mark is not None:
-        found = arc(motion, a.pose, b.pose, lower)
-        rate = ca.dot(found.about, b.angular - a.angular)
-        return ca.atan2(found.sine, found.cosine), rate
-    along = a.pose.direction(unit_vector(motion.axis.given, lower))
-    return angle_about(motion.axis, a.pose, b.pose, lower), ca.dot(along, b.angular - a.angular)
-
-
-def _see_follow(motion: Follow, a: Moving, b: Moving, lower: Lower) -> Seen:
-    """By the place of b, whose way along the curve has the rate v . c_u/|c_u|^2."""
-    there = b.pose.origin
-    at = parameter_of(motion.curve, there - a.pose.origin, a.pose, lower)
-    u = ca.SX.sym("u")
-    slope = ca.substitute(ca.jacobian(point_of(motion.curve, u, lower), u), u, at)
-    along = a.pose.direction(slope)
-    moves = b.linear - a.velocity_of(there)
-    return at, ca.dot(moves, along) / ca.sumsqr(along)
-
-
-def _see_driven(motion: Driven, a: Moving, b: Moving, lower: Lower) -> Seen:
-    value = lower(motion.value)
-    return value, rate_by_time(value, lower)
-
-
-def _see_slide(motion: Slide, a: Moving, b: Moving, lower: Lower) -> Seen:
-    along, there = a.pose.direction(way_of(motion, lower)), b.pose.origin
-    rate = ca.dot(along, b.linear - a.velocity_of(there))
-    return ca.dot(along, there - a.pose.origin), rate
-
-
-def _see_reach(motion: Reach, a: Moving, b: Moving, lower: Lower) -> Seen:
-    way = b.pose.origin - a.pose.origin
-    long = ca.sqrt(ca.sumsqr(way))
-    return long, ca.dot(way / long, b.linear - a.linear)
-
-
 _MOVES: dict[type, Callable[..., Moved]] = {
     Turn: _move_turn,
     Slide: _move_slide,
@@ -421,12 +308,4 @@ _MOVES: dict[type, Callable[..., Moved]] = {
     Attitude: _move_attitude,
     Pointing: _move_pointing,
     Steady: _move_steady,
-}
-_SEEN: dict[type, Callable[..., tuple[Any, Any]]] = {
-    Turn: _see_turn,
-    Slide: _see_slide,
-    Screw: _see_turn,
-    Driven: _see_driven,
-    Follow: _see_follow,
-    Reach: _see_reach,
 }

@@ -34,7 +34,8 @@ from frot.compiler.mechanics.liaisons.locks import (
     WayAlong,
 )
 from frot.compiler.mechanics.liaisons.motions import Axis, Follow, Motion, Reach, Screw, Slide, Turn
-from frot.compiler.mechanics.liaisons.moves import Column, Moments, angle_about, arc, way_of
+from frot.compiler.mechanics.liaisons.moves import Column, Moments, way_of
+from frot.compiler.mechanics.liaisons.seen import angle_about, arc
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, beside, cross, nowhere
 from frot.compiler.mechanics.values import Lower, beside_given, rate_by_time, unit_vector
 from frot.dsl.data.classes import dataclass, field, replace
