@@ -10,6 +10,7 @@ from judge.mechanics import Floats, Joint, Mechanics, left
 from judge.scene import Contact, Pin, Scene
 
 FORMED = 1e-4
+PLACED = 1e-6  # an arm is the difference of places, and known to 1e-14 of them: see `check.EXACT`
 NOTHING = 1e-30  # part of the largest force of a scene below which one is none
 
 
@@ -46,7 +47,9 @@ class Loads:
         for joint in now.joints.values():
             for r in joint.rows.values():
                 arms[2::3] = np.maximum(arms[2::3], r.reach[2::3] * (r.reach[::3] > 0))
-        for k in range(0, now.n, 3):
+        for b in now.scene.bodies:
+            k = now.at[b.name]
+            arms[k + 2] = max(arms[k + 2], PLACED * float(np.linalg.norm(now.origin(b))))
             size[k : k + 2] = np.max(size[k : k + 2])
             size[k + 2] = max(size[k + 2], size[k] * arms[k + 2])
         size = np.maximum(size, NOTHING * np.max(size, initial=0.0))
