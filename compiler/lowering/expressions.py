@@ -48,7 +48,8 @@ class Conditions:
 
     `strict`: whether the condition is false where its value is zero. `texts` are as the author
     wrote them, at `spans`; `told` says when a change is an event to him (frot_told). In their last
-    order the first `located` change by the motion, the `timed` after them by time alone.
+    order the first `located` change by the motion, the last `sensed` of these by what it is solved
+    for, the `timed` after them by time alone.
     """
 
     flags: list[ca.SX] = field(default_factory=list)
@@ -58,6 +59,7 @@ class Conditions:
     spans: list[Span | None] = field(default_factory=list)
     told: list[int] = field(default_factory=list)
     located: int = 0
+    sensed: int = 0
     timed: int = 0
 
     def add(

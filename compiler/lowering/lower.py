@@ -14,7 +14,7 @@ from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.finite import watch_numbers
 from frot.compiler.lowering.groups import Grouping
 from frot.compiler.lowering.initial_values import Statement, lower_initial
-from frot.compiler.lowering.islands import divide
+from frot.compiler.lowering.islands import Island, divide
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, too_full, why_explicit
 from frot.compiler.lowering.listing import Listed, list_variables
 from frot.compiler.lowering.lower_events import lower_update
@@ -94,7 +94,8 @@ def lower(
     looking, explicit = looking_at(system, log)
     initial = lower_initial(system, looking, explicit, log)
     variables = list_variables(system, looking, integrals)
-    conditions, timers = sort_conditions(system, _conditions(system, explicit, log))
+    located = explicit(system.resolve(column(reduced.conditions.values)))
+    conditions, timers = sort_conditions(system, located)
     watched, watched_origins = watch_numbers(system)
     checks = parameter_checks(reduced.mechanism, s.parameters, system.pivots)
     update = lower_update(system, log)
@@ -104,7 +105,9 @@ def lower(
     given, is_set = ca.SX.sym("given", s.p.numel()), ca.SX.sym("set", s.p.numel())
     state = state_arguments(system)
     solution = [*state, system.z, system.lam]
-    grouping, islands = divide(system, grouping, conditions, state)
+    islands: tuple[Island, ...] = ()
+    if reduced.conditions.sensed == 0:
+        grouping, islands = divide(system, grouping, conditions, state)
     outputs: dict[str, tuple[list[ca.SX], list[ca.SX]]] = {
         "parameters": (
             [given, is_set, s.u],
@@ -126,7 +129,10 @@ def lower(
     if initial.guessed:
         outputs["guessed"] = (state, initial.guessed)
     if not islands:
-        outputs |= _whole(system, grouping, conditions, state)
+        outputs |= _whole(system, grouping, unsolved(conditions, system), state)
+    if reduced.conditions.sensed:
+        first = reduced.conditions.located - reduced.conditions.sensed
+        outputs["sensed"] = (solution, [conditions[first : reduced.conditions.located]])
     carried = carried_bodies(system)
     if carried:
         outputs["places"] = (state, [column(body.value for body in carried)])
@@ -260,23 +266,14 @@ def _clean(outputs: list[ca.SX]) -> list[ca.SX]:
     return [ca.densify(x) for x in ca.cse([ca.SX(x) for x in outputs])]
 
 
-def _conditions(system: Assembled, explicit: Callable[[ca.SX], ca.SX], log: Log) -> ca.SX:
-    """The located conditions; one that reads what is solved with or after the core is refused."""
-    values = explicit(system.resolve(column(system.reduced.conditions.values)))
+def unsolved(conditions: ca.SX, system: Assembled) -> ca.SX:
+    """The values of conditions; -1 for those that follow from accelerations or reactions."""
     later = ca.vertcat(system.z, system.lam, system.y[system.early :])
-    located = system.reduced.conditions
-    for value, text, span in zip(
-        ca.vertsplit(values) if values.numel() else (), located.texts, located.spans, strict=True
-    ):
-        if later.numel() and ca.depends_on(value, later):
-            log.report(
-                "E0701",
-                f"the condition `{text}` reads an acceleration, a reaction or a friction force "
-                "that dry friction or a contact changes: it is not supported yet",
-                span or system.reduced.mechanism.model.span,
-                help="write it in terms of time, positions and velocities",
-            )
-    return values
+    if not (conditions.numel() and later.numel()):
+        return conditions
+    return column(
+        ca.SX(-1) if ca.depends_on(value, later) else value for value in ca.vertsplit(conditions)
+    )
 
 
 def _is_known(values: ca.SX, system: Assembled, variables: tuple[Listed, ...], log: Log) -> bool:

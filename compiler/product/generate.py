@@ -165,6 +165,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_held": len(reduced.text.held),
         "n_modes": len(reduced.variables.modes),
         "n_located": reduced.conditions.located,
+        "n_sensed": reduced.conditions.sensed,
         "n_timed": reduced.conditions.timed,
         "n_blocks": len(system.blocks),
         "n_invariants": len(system.invariants.origins),

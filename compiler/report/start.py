@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.initial_values import lower_initial
-from frot.compiler.lowering.lower import looking_at, state_arguments
+from frot.compiler.lowering.lower import looking_at, state_arguments, unsolved
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.mechanism import Contact, Link, Relation
@@ -74,10 +74,7 @@ def find_start(system: Assembled) -> Start | None:
     gap = system.resolve(reduced.gap)
     stated, slope, size, _ = initial.position
     outputs = [stated, slope.T, size, gap, ca.jacobian(gap, system.q)]
-    located = explicit(system.resolve(column(reduced.conditions.values)))
-    later = ca.vertcat(system.z, system.lam, system.y[system.early :])
-    if later.numel() and located.numel() and ca.depends_on(located, later):
-        return None
+    located = unsolved(explicit(system.resolve(column(reduced.conditions.values))), system)
     witness = system.resolve(reduced.witness)
     look = Numbers("look", state, (witness, located))
     function = Numbers("position", state, outputs)

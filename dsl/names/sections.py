@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from frot.dsl.catalogue import TYPES
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class
 from frot.dsl.names.entities import Statements
+from frot.dsl.names.near import did_you_mean, near
 from frot.dsl.names.scope import Scope
 from frot.dsl.text import tree
 
 # Calls that are statements of the section `equation`.
 CALLS = ("connect", "assert")
 _IN_WHEN = ("reinit", "terminate")
+_SECTIONS = ("initial", "equation")
 _VALUES_ONLY = ("connector", "record")
 _DEFINED_APART = tree.Import | tree.Alias | tree.Definition
 _IN_VALUES = tree.Component | tree.Extends | tree.Import | tree.Alias | tree.Definition
@@ -33,13 +36,7 @@ def sort(
         if of.kind in _VALUES_ONLY and not isinstance(element, _IN_VALUES):
             scope.log.report("E0501", f"a {of.kind} holds only variables", element.span)
         elif isinstance(element, tree.Section):
-            section = element.name
-            if section in seen:
-                first = Label(seen[section], "first here")
-                scope.log.report(
-                    "E0503", f"a second section {section!r}", element.span, labels=(first,)
-                )
-            seen.setdefault(section, element.span)
+            section = _begin_section(element, section, seen, scope)
         elif isinstance(element, tree.Extends):
             _outside_of_sections(element, section, scope)
             extends(element)
@@ -52,9 +49,48 @@ def sort(
         elif isinstance(element, tree.Relation):
             message = f"'{element.kind}' stands in liaisons only"
             scope.log.report("E0501", message, element.span)
+        elif meant := _section_meant(element, scope):
+            section = meant
         else:
             _outside_of_sections(element, section, scope)
             declaration(element)
+
+
+def _begin_section(element: tree.Section, section: str, seen: dict[str, Span], scope: Scope) -> str:
+    """The section that begins; Modelica's `initial equation` is one section."""
+    own, before = element.span, seen.get("initial") if section == "initial" else None
+    between = own.source.text[before.end : own.start] if before is not None else "\n"
+    if between.isspace() and "\n" not in between:
+        message = "'initial equation' is written 'initial' here"
+        scope.log.report("E0501", message, own, help="leave out the word 'equation'")
+        return section
+    if element.name in seen:
+        labels = (Label(seen[element.name], "first here"),)
+        message = f"a second section {element.name!r}"
+        scope.log.report("E0503", message, element.span, labels=labels)
+    seen.setdefault(element.name, element.span)
+    return element.name
+
+
+def _section_meant(element: tree.Element, scope: Scope) -> str:
+    """The section that a misspelt word begins, as in `equations x = 1;`; empty where it is none.
+
+    The word reads as the type of a variable. What follows stands in the section that is meant.
+    """
+    if not (isinstance(element, tree.Component) and isinstance(element.type, tree.Name)):
+        return ""
+    word = element.type.text
+    if element.prefixes or word in TYPES or not scope.knows(word):
+        return ""
+    meant = near(word, _SECTIONS)
+    if not meant or near(word, (*TYPES, *_SECTIONS, *scope.space.visible())) != meant:
+        return ""
+    if scope.space.find(word) is not None:
+        return ""
+    scope.log.report(
+        "E0206", f"unknown type {word!r}", element.type.span, help=f"did you mean {meant!r}?"
+    )
+    return meant
 
 
 def _outside_of_sections(element: tree.Element, section: str, scope: Scope) -> None:
@@ -89,7 +125,9 @@ def _equation(element: tree.Equation, section: str, result: Statements, scope: S
         _in_equations(element, f"{name!r}", section, result, scope)
     elif element.right is None and name != "guess":
         what = f"{name!r} is not a statement" if name else "this is not a statement"
-        scope.log.report("E0501", what, element.span, help="an equation is written 'left = right;'")
+        known = ("world", "experiment", *CALLS, *_IN_WHEN, "guess")
+        help_text = did_you_mean(name, known) or "an equation is written 'left = right;'"
+        scope.log.report("E0501", what, element.span, help=help_text)
     elif section == "initial":
         result.initial.append((element, scope))
     elif section == "equation" and name != "guess":

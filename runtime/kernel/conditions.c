@@ -6,6 +6,7 @@
 
 #include "blocks.h"
 #include "core.h"
+#include "mechanics.h"
 #include "tolerances.h"
 
 /* Conditions that depend on each other are changed all at once as many times as their chain can be
@@ -19,10 +20,20 @@ static int holds(const frot_model *m, const frot_work *w, int j) {
   return m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;
 }
 
+int frot_look(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+              const double *v) {
+  const frot_layout *l = &w->layout;
+  const double *d = s->data + l->d;
+  int status = frot_kinematics(m, s, w, t, q, v, d);
+  if (status != FROT_OK || m->n_sensed == 0) return status;
+  const frot_contact_mode *modes = (const void *)(s->data + l->modes);
+  return frot_solution(m, s, w, t, q, v, d, modes, s->data + l->frozen, s->data + l->along, 1);
+}
+
 int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
                          const double *q, const double *v) {
   if (m->n_conditions == 0) return FROT_OK;
-  int status = frot_kinematics(m, s, w, t, q, v, s->data + w->layout.d);
+  int status = frot_look(m, s, w, t, q, v);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   memcpy(w->events.known, w->core.condition, sizeof(double) * (size_t)m->n_conditions);
   return FROT_OK;
@@ -39,7 +50,7 @@ static int is_short(const frot_model *m, const frot_state *s, const frot_work *w
 
 int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q, double *v) {
   const frot_layout *l = &w->layout;
-  const double *slope = s->data + l->slope, *d = s->data + l->d;
+  const double *slope = s->data + l->slope;
   const double *fired = s->data + l->fired + frot_condition_guard(m);
   int located = 0, timed = 0;
   for (int j = 0; j < m->n_located + m->n_timed; j++) {
@@ -47,7 +58,7 @@ int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, doub
     timed |= j >= m->n_located && fired[j] != 0;
   }
   if (!located) return FROT_OK;
-  int status = frot_kinematics(m, s, w, *t, q, v, d);
+  int status = frot_look(m, s, w, *t, q, v);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, *t);
   double moved = 0, step = DBL_EPSILON * fmax(fabs(*t), 1e-3 * s->h_max);
   double *there = w->step.z;
@@ -58,7 +69,7 @@ int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, doub
     for (int j = 0; j < m->nv; j++) there[m->nq + j] = v[j] + moved * slope[m->nq + j];
     /* an instant known before stays what it is */
     double then = timed ? *t : *t + moved;
-    if (frot_kinematics(m, s, w, then, there, there + m->nq, d) != FROT_OK) return FROT_OK;
+    if (frot_look(m, s, w, then, there, there + m->nq) != FROT_OK) return FROT_OK;
   }
   if (moved == 0) return FROT_OK;
   memcpy(q, there, sizeof(double) * (size_t)m->nq);
@@ -99,7 +110,7 @@ int frot_settle_conditions(const frot_model *m, frot_state *s, frot_work *w, dou
   int together = m->n_conditions + ALL_AT_ONCE, most = together + ONE_BY_ONE * (together + 1);
   int changed = -1, other = -1;
   for (int pass = 0; pass < most; pass++) {
-    int status = frot_kinematics(m, s, w, t, q, v, d);
+    int status = frot_look(m, s, w, t, q, v);
     if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
     int last = decide(m, s, w, d, pass >= together);
     if (last < 0) return FROT_OK;

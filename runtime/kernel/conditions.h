@@ -13,6 +13,11 @@
 #define FROT_NO_TRUTH (-1)
 #define FROT_EVER_SOONER 0
 
+/* The values of all conditions at (t, q, v), into w->core.condition; those that read the solution
+ * in the present modes. FROT_OK or a status that is not recorded as a fault. */
+int frot_look(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+              const double *v);
+
 /* Note the values of the conditions at (t, q, v), before anything happens at this instant: as long
  * as a value stays, so does what is known of its condition. */
 int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
@@ -24,7 +29,7 @@ int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, doubl
 int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q, double *v);
 
 /* Look at every condition anew with the values at (t, q, v), until none changes. Leaves what
- * `kinematics` gives there in w. FROT_OK or the status of the fault recorded: conditions that
+ * `frot_look` gives there in w. FROT_OK or the status of the fault recorded: conditions that
  * change each other without end are FROT_CHATTER. */
 int frot_settle_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
                            const double *q, const double *v);

@@ -127,6 +127,7 @@ int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, doub
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_located; k++) {
     int j = now->located[k];
+    if (j >= m->n_located - m->n_sensed) continue; /* nothing is solved there */
     double value = d[j] != 0 ? w->core.condition[j] : -w->core.condition[j];
     if (!(value < 0 && start[k] >= 0)) continue;
     double at = (w->core.t - t) / h * start[k] / (start[k] - value);

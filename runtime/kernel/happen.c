@@ -265,23 +265,37 @@ static int read_modes(const instant *in) {
   return changed;
 }
 
-/* Let the text see the modes found: conditions that read them, what these fire, and the modes that
- * hold then, until none changes. At the start nothing fires by it. */
+/* Whether the modes found have changed what the text reads of them, or conditions that follow from
+ * accelerations and reactions. */
+static int look_again(const instant *in, int *changed) {
+  const frot_model *m = in->m;
+  const double *d = in->s->data + in->l.d;
+  size_t size = sizeof(double) * (size_t)m->n_conditions;
+  memcpy(in->w->events.before, d, size);
+  *changed = read_modes(in);
+  if (!*changed && m->n_sensed == 0) return FROT_OK;
+  int status = frot_settle_conditions(m, in->s, in->w, in->t, in->q, in->v);
+  *changed |= memcmp(in->w->events.before, d, size) != 0;
+  return status;
+}
+
+/* Let the text see the modes found: conditions that follow from them, what these fire, and the
+ * modes that hold then, until none changes. At the start nothing fires by it. */
 static int follow_modes(const instant *in, int first) {
   const frot_model *m = in->m;
-  for (int round = 0; read_modes(in); round++) {
-    int happened = 0;
+  /* at the start of the run nothing is known of what nothing was solved for */
+  for (int j = m->n_located - m->n_sensed; first && j < m->n_located; j++)
+    in->w->events.known[j] = NAN;
+  for (int round = 0;; round++) {
+    int happened = 0, changed = 0, status = look_again(in, &changed);
+    if (status != FROT_OK || !changed) return status;
     if (round == CROWD) return frot_fail(in->s, FROT_CHATTER, in->t, -1, 0, -1, round);
-    memcpy(in->w->events.before, in->s->data + in->l.d, sizeof(double) * (size_t)m->n_conditions);
-    int status = frot_settle_conditions(m, in->s, in->w, in->t, in->q, in->v);
-    if (status != FROT_OK) return status;
     if (!first) tell_conditions(in);
     if (!first && (m->n_whens > 0 || m->n_held > 0)) status = fire_whens(in, 0, &happened);
     if (status != FROT_OK) return status;
     status = frot_resolve(m, in->s, in->w, in->t, in->q, in->v, first, in->recorder);
     if (status != FROT_OK) return status;
   }
-  return FROT_OK;
 }
 
 int frot_happen(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,

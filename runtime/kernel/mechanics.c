@@ -19,11 +19,22 @@ static int groups_finite(const frot_model *m, const frot_work *w) {
   return 1;
 }
 
+/* Values of the conditions that follow from the solution; whether all are numbers. */
+static int sense(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                 const double *v, const double *d) {
+  frot_inputs(m, s, w, &t, q, v, d);
+  w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
+  double *values = w->core.condition + m->n_located - m->n_sensed;
+  w->call.res[0] = values;
+  frot_call(w, &m->sensed);
+  return frot_all_finite(values, m->n_sensed);
+}
+
 int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes,
                   const double *frozen, const double *along, int late) {
-  int status =
-      frot_dynamics(m, s, w, t, q, v, d, modes, late || m->late_rates ? FROT_READING : FROT_MOTION);
+  late |= m->late_rates || m->n_sensed > 0;
+  int status = frot_dynamics(m, s, w, t, q, v, d, modes, late ? FROT_READING : FROT_MOTION);
   if (status != FROT_OK) return status;
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_elements && along; k++) {
@@ -33,10 +44,11 @@ int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, co
   if (frot_reactions(m, w, modes, NULL)) return FROT_DIVERGE;
   frot_accelerations(m, w, frozen);
   if (!groups_finite(m, w)) return FROT_NAN;
-  if (late || m->late_rates) {
+  if (late) {
     status = frot_solve_late(m, s, w, t, q, v, d);
     if (status != FROT_OK) return status;
   }
+  if (m->n_sensed > 0 && !sense(m, s, w, t, q, v, d)) return FROT_NAN;
   if (!m->late_rates) return FROT_OK;
   frot_inputs(m, s, w, &t, q, v, d);
   w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;

@@ -6,9 +6,9 @@
 #include "work.h"
 
 /* Solve everything at (t, q, v, d) in the given mode: w->core.a, w->core.lam, w->core.qd and
- * w->core.power, and with `late` all the unknowns w->blocks.y and all reactions. `along` (2
- * n_elements): where to begin to look for the directions of pins' reactions. FROT_OK or a status
- * that is not recorded as a fault. */
+ * w->core.power, and with `late`, or where a condition reads them, all the unknowns w->blocks.y,
+ * all reactions and those conditions. `along` (2 n_elements): where to begin to look for the
+ * directions of pins' reactions. FROT_OK or a status that is not recorded as a fault. */
 int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes,
                   const double *frozen, const double *along, int late);

@@ -32,6 +32,7 @@ typedef struct {
   /* the first n_located conditions change by the motion; the n_timed after them are linear in time
    * and depend on nothing else that moves; the rest change at events only */
   int n_located, n_timed;
+  int n_sensed; /* the last n_sensed of the located ones read z, lam or late blocks: see `sensed` */
   int n_watched; /* equations of `watched` */
   int n_vanishing;
   int n_held;  /* the last n_held discrete values are what others were before: see `update` */
@@ -69,7 +70,7 @@ typedef struct {
   /* kinematics, dynamics, spread and sizes: islands have their own, and then only `sizes` is called
    * for the whole, for the second of its results.
    * kinematics -> gap (n_contacts), rows J (n_entries), rate (n_rows), conditions
-   * (n_conditions) */
+   * (n_conditions; -1 for those that `sensed` gives) */
   frot_callable kinematics;
   /* sides -> what chooses the side of each contact at the start (3 x n_contacts): height of its
    * point or rim's centre over the line, then what tells where that is zero: the part of the normal
@@ -122,6 +123,9 @@ typedef struct {
   /* timers(u, p, d) -> slopes of the timed conditions in time, their values at time zero (n_timed).
    *   Called where n_timed > 0. */
   frot_callable timers;
+  /* sensed(..., y, z (nw), lam (n_rows)) -> values of the located conditions that follow from the
+   *   solution (n_sensed). Called where n_sensed > 0. */
+  frot_callable sensed;
   /* sizes -> sum of the sizes of the terms of h (nw), which may cancel in h; size of each applied
    *   force (n_loads) */
   frot_callable sizes;

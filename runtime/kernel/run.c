@@ -127,7 +127,7 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
 static int fire_changed_conditions(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   const double *x = s->data + l.x, *d = s->data + l.d;
-  int status = frot_kinematics(m, s, w, s->t, x, x + m->nq, d);
+  int status = frot_look(m, s, w, s->t, x, x + m->nq);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, s->t);
   for (int j = 0; j < m->n_conditions; j++) {
     int holds = m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;

@@ -67,6 +67,7 @@ static frot_callable scratch_of_all(const frot_model *m) {
                                   &m->variables,
                                   &m->energy,
                                   &m->timers,
+                                  &m->sensed,
                                   &m->watched,
                                   &m->vanishing};
   int count = (int)(sizeof calls / sizeof *calls);

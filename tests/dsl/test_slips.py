@@ -141,3 +141,22 @@ def test_a_slip_of_a_new_user_is_told(slip: str, words: str, remedy: str) -> Non
     found = told(PLANE.format(slip))
     assert words in found[0][1]
     assert remedy in found[0][2]
+
+
+@pytest.mark.parametrize(
+    ("section", "remedy"),
+    [
+        ("equations\n x = 1;", "'equation'"),
+        ("eqution\n der(x) = 2 1/s;", "'equation'"),
+        ("Equation\n x = 1;", "'equation'"),
+        ("equation\n x = 1;\ninitially\n x = 1;", "'initial'"),
+        ("initial equation\n x = 1;\nequation\n der(x) = 2 1/s;", "leave out"),
+        ("equation\n x = 1;\nexperiments(stop = 1 s);", "'experiment'"),
+    ],
+)
+def test_a_misspelt_section_is_told_once(section: str, remedy: str) -> None:
+    assert remedy in only(f"model M\n Real x;\n{section}\nend M;\n")[2]
+
+
+def test_a_type_of_ones_own_is_no_section() -> None:
+    assert told("type Equation = Real;\nmodel M\n Equation x = 1;\nend M;\n") == []
