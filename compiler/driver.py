@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from frot.compiler.mechanics.mechanism import Mechanism
-from frot.compiler.mechanics.mechanize import mechanize
+from frot.compiler.mechanics.refuse import refuse_unknown
 from frot.dsl import Log, dump
 from frot.dsl.checked import Model
 from frot.dsl.data.classes import replace
@@ -36,13 +36,23 @@ def _silent(_: str) -> None:
     """Nobody waits to be told what is being done."""
 
 
+def mechanism_of(model: Model, log: Log) -> Mechanism | None:
+    """Bodies, coordinates, contacts; what has neither bodies nor liaisons needs no CasADi."""
+    if model.bodies or model.liaisons:
+        from frot.compiler.mechanics.mechanize import mechanize
+
+        return mechanize(model, log)
+    refuse_unknown(model, (), log)
+    return None if log.failed else Mechanism(model, (), (), (), model.forces, {}, {})
+
+
 def reduced_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) -> Reduced | None:
     """Mechanics and residuals of the text, in CasADi expressions.
 
     `tell` takes what is being done, in words, here and below.
     """
     tell("the mechanism")
-    mechanism = mechanize(model, log)
+    mechanism = mechanism_of(model, log)
     if mechanism is None:
         return None
     from frot.compiler.lowering.checks import refuse_values
@@ -162,7 +172,7 @@ def make_report(model: Model, log: Log) -> Report | None:
 
 def _balanced(model: Model, log: Log) -> Mechanism | None:
     """The mechanism, if the text has as many equations as unknowns."""
-    mechanism = mechanize(model, log)
+    mechanism = mechanism_of(model, log)
     if mechanism is None or not (mechanism.model.variables or mechanism.model.equations):
         return mechanism
     from frot.compiler.equations.check_balance import check_balance
@@ -173,7 +183,7 @@ def _balanced(model: Model, log: Log) -> Mechanism | None:
 def print_stage(model: Model, stage: str, log: Log) -> str | None:
     """The text of `mechanism`, `reduced`, `equations`, `cost` or `c`."""
     if stage == "mechanism":
-        mechanism = mechanize(model, log)
+        mechanism = mechanism_of(model, log)
         return None if mechanism is None else dump(mechanism)
     from frot.compiler.product.printing import print_cost, print_equations, print_reduced
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from frot.compiler.mechanics.geometry.figures import Ball, Flat
 from frot.compiler.mechanics.liaisons.locks import Across
 from frot.compiler.mechanics.mechanism import (
     Contact,
@@ -71,5 +70,6 @@ def _ends(link: Contact | Joint) -> tuple[Body, Body]:
 def _needs_coordinates(link: Contact | Joint) -> bool:
     if isinstance(link, Contact):
         follows = link.liaison.kind.name == "point_courbe"
-        return follows and not isinstance(link.track.figure, Flat | Ball)
+        figure = link.track.figure
+        return follows and figure.plane is None and not figure.is_round
     return any(isinstance(lock, Across) for lock in link.locks)

@@ -8,14 +8,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.mechanics.geometry.touches import reach_of
 from frot.compiler.mechanics.liaisons.motions import Roll, count_speeds
 from frot.compiler.mechanics.liaisons.moves import Column, Moved, carried, move, turned_by_time
 from frot.compiler.mechanics.liaisons.roll import roll
 from frot.compiler.mechanics.liaisons.wrenches import act
 from frot.compiler.mechanics.mechanism import Hanging, Joint, Point, frames_of, point_body
 from frot.compiler.mechanics.spatial import AT_REST, Moving, nowhere
-from frot.compiler.mechanics.values import beside_given, unit_vector
 from frot.dsl.checked import Body
 from frot.dsl.data.classes import dataclass, replace
 
@@ -89,11 +87,11 @@ def _roll(
     moved, rates = roll(motion, plane, q, v, kinematics.fixed.lower, side)
     first, _ = kinematics.places[hanging.body]
     for k, rate in enumerate(ca.vertsplit(rates)):
-        kinematics.spots[first + k] = Spotted(rate, reach_of(motion.figure, kinematics.fixed.lower))
+        kinematics.spots[first + k] = Spotted(rate, motion.figure.reach(kinematics.fixed.lower))
     assert hanging.base is not None  # without a guess a body is at the origin of the ground
     base = kinematics.pose(hanging.base)
-    along = unit_vector(motion.axis.given, kinematics.fixed.lower)
-    for k, way in enumerate((*beside_given(motion.axis.given, kinematics.fixed.lower), along)):
+    along = motion.axis.unit(kinematics.fixed.lower)
+    for k, way in enumerate((*motion.axis.beside(kinematics.fixed.lower), along)):
         kinematics.starts[first + k] = -ca.dot(base.direction(way), base.origin)
     return moved
 

@@ -12,7 +12,7 @@ from collections.abc import Callable
 import casadi as ca
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
 from frot.compiler.mechanics.constants import Constants
-from frot.compiler.mechanics.geometry.figures import Flat, Placed
+from frot.compiler.mechanics.geometry.figure import Placed
 from frot.compiler.mechanics.geometry.tracking import Track
 from frot.compiler.mechanics.hang import Node, Spotted, hang
 from frot.compiler.mechanics.liaisons.motions import Follow, count_speeds
@@ -195,9 +195,10 @@ class Kinematics:
 
     def line(self, track: Placed) -> Line:
         """A line of a planar model in ground axes."""
-        assert isinstance(track.figure, Flat)
+        axis = track.figure.plane
+        assert axis is not None
         pose = self.pose(track.point)
-        direction = pose.direction(unit_vector(track.figure.axis.given, self.fixed.lower))
+        direction = pose.direction(axis.unit(self.fixed.lower))
         return Line(pose.origin, direction, cross(Z, direction))
 
     def curve_at(self, contact: Contact) -> Line:
@@ -208,7 +209,7 @@ class Kinematics:
 
     def normal(self, contact: Contact) -> ca.SX:
         """The left normal of the curve or line that carries a point, there."""
-        if isinstance(contact.track.figure, Flat):
+        if contact.track.figure.plane is not None:
             return self.line(contact.track).normal
         tangent = self.tangents[contact.liaison]
         return cross(Z, tangent / ca.norm_2(tangent))

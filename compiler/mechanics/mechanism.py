@@ -8,9 +8,6 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from frot.compiler.lowering.walk import has_time, is_fixed
-from frot.compiler.mechanics.geometry.figures import Ball, Figure, Placed
-from frot.compiler.mechanics.liaisons.locks import Lock, NoSlip
-from frot.compiler.mechanics.liaisons.motions import Motion, comes_round
 from frot.dsl.checked import (
     Body,
     BodyPoint,
@@ -24,6 +21,13 @@ from frot.dsl.checked import (
     Surface,
 )
 from frot.dsl.data.classes import dataclass, replace
+
+# What has no bodies is told without CasADi.
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from frot.compiler.mechanics.geometry.figure import Figure, Placed
+    from frot.compiler.mechanics.liaisons.locks import Lock
+    from frot.compiler.mechanics.liaisons.motions import Motion
 
 Point = BodyPoint | Frame
 
@@ -189,11 +193,11 @@ class Mechanism:
         for link in self.contacts:
             if isinstance(link, Relation) and link.first and not self.model.planar:
                 motions = enumerate(link.joint.motions)
-                found += [(link.joint, k) for k, m in motions if comes_round(m)]
+                found += [(link.joint, k) for k, m in motions if m.comes_round]
         for link in (*self.contacts, *self.ideal):
             follows = isinstance(link, Contact) and link.liaison.kind.name == "point_courbe"
             if isinstance(link, Contact) and follows and not link.reduced:
-                found += [(link, 0)] if isinstance(link.track.figure, Ball) else []
+                found += [(link, 0)] if link.track.figure.is_round else []
         return tuple(found)
 
     @property
@@ -220,7 +224,7 @@ def is_driven(model: Model) -> bool:
 
 def rolls(joint: Joint) -> bool:
     """Whether its figures touch without slip, whatever acts on them."""
-    return any(isinstance(lock, NoSlip) for lock in joint.locks)
+    return any(lock.rolls for lock in joint.locks)
 
 
 def is_unilateral(liaison: Liaison) -> bool:

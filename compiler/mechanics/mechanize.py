@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from frot.compiler.lowering.walk import is_fixed, read_quantities, subexpressions
 from frot.compiler.mechanics.geometry.faces import part_faces
-from frot.compiler.mechanics.geometry.figures import Dot, Flat, Placed, can_touch, figure_of
+from frot.compiler.mechanics.geometry.figure import Placed
+from frot.compiler.mechanics.geometry.figures import figure_of
 from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE, pair
+from frot.compiler.mechanics.geometry.tracking import can_touch
 from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
 from frot.compiler.mechanics.liaisons.freed import OF_PLACES, OF_SPEEDS, is_row
 from frot.compiler.mechanics.liaisons.halves import halve
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, make_joint
-from frot.compiler.mechanics.liaisons.locks import Lock, Stated
+from frot.compiler.mechanics.liaisons.locks import Lock, Stated, Touching
+from frot.compiler.mechanics.liaisons.motions import Nearing
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
@@ -28,7 +33,6 @@ from frot.compiler.mechanics.refuse import (
     REACTION,
     refuse,
     refuse_places,
-    refuse_surface,
     refuse_unknown,
     spelled,
 )
@@ -44,8 +48,6 @@ from frot.dsl.checked import (
 )
 from frot.dsl.data.classes import replace
 
-ROUND = ("ring", "disc")
-
 
 def mechanize(model: Model, log: Log) -> Mechanism | None:
     """Build the mechanism; what the mechanics does not take yet is reported by name (E0701)."""
@@ -53,12 +55,12 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     if log.failed:
         return None
     model = faced.model
-    refuse_unknown(model, log)
+    refuse_unknown(model, (*JOINTS, *(IN_PLANE if model.planar else IN_SPACE)), log)
     if log.failed:
         return None
     model = free_drives(model)
     links = [e for x in model.liaisons if (e := link_of(x, model.planar, log)) is not None]
-    refuse_surface(model, links, log)
+    _refuse_surface(model, links, log)
     if log.failed:
         return None
     halved = halve(model, links)
@@ -260,7 +262,7 @@ def _is_contact(liaison: Liaison, track: Placed | None, rim: Placed | None) -> b
     if track is None or rim is None:
         return False
     on_curve = liaison.kind.name == "point_courbe"
-    if on_curve and isinstance(track.figure, Flat) and isinstance(rim.figure, Dot):
+    if on_curve and track.figure.plane is not None and rim.figure.is_point:
         return True
     return can_touch(track.figure, rim.figure, True)
 
@@ -272,3 +274,28 @@ def _read_liaisons(model: Model) -> set[Liaison]:
         for node in read_quantities(model)
         if isinstance(node.owner, Liaison) and node.name in REACTION
     }
+
+
+def _refuse_surface(model: Model, links: Iterable[Contact | Joint], log: Log) -> None:
+    """In the plane slip has a sign where there is one way to slip: at the surface of a pin, ..."""
+    plain = {
+        e.liaison
+        for e in links
+        if model.planar
+        and isinstance(e, Joint)
+        and e.radius is None
+        and not any(isinstance(x, Touching | Nearing) for x in (*e.locks, *e.motions))
+        and e.liaison.kind.name != "prismatique"
+    }
+    for node in read_quantities(model):
+        if node.owner in plain and node.name in ("slip", "tangential_force"):
+            pin = node.owner.kind.name == "rotoide"
+            why = "its pin has no radius" if pin else "it leaves no one way along which to slip"
+            log.report(
+                "E0203",
+                f"no '{node.name}' on '{node.owner.name}': {why}",
+                node.span,
+                help="read `speed` or `torque`, or give the law `coulomb(..., radius = ...)`"
+                if pin
+                else "read `force`, or the velocities of the two places",
+            )

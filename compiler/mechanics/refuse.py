@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection
 from fractions import Fraction
 
 from frot.compiler.lowering.walk import (
     follows_time,
     is_fixed,
     is_given,
-    read_quantities,
     subexpressions,
 )
-from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE
-from frot.compiler.mechanics.liaisons.joints import JOINTS
-from frot.compiler.mechanics.liaisons.locks import Touching
-from frot.compiler.mechanics.liaisons.motions import Nearing
-from frot.compiler.mechanics.mechanism import Contact, Joint, turns
+from frot.compiler.mechanics.mechanism import turns
 from frot.dsl import Log
 from frot.dsl.checked import (
     BodyPoint,
@@ -42,10 +37,13 @@ _ONE_CONTACT = "a law of one's own acts in a `contact_ponctuel` or a `point_cour
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
 
 
-def refuse_unknown(model: Model, log: Log) -> None:
-    """Tell every kind, law, force and option of the model that has no mechanics yet."""
+def refuse_unknown(model: Model, ideal: Collection[str], log: Log) -> None:
+    """Tell every kind, law, force and option of the model that has no mechanics yet.
+
+    `ideal` are the kinds of liaisons that take no laws, but for a pin.
+    """
     _refuse_geometry(model, log)
-    known = (*JOINTS, *((*PLANE_LIAISONS, *IN_PLANE) if model.planar else IN_SPACE))
+    known = (*ideal, *(PLANE_LIAISONS if model.planar else ()))
     for liaison in model.liaisons:
         if liaison.kind.name not in known and not liaison.relations:
             where = "" if model.planar else " in space"
@@ -57,7 +55,7 @@ def refuse_unknown(model: Model, log: Log) -> None:
             )
         _refuse_options(liaison, log)
         for law in liaison.laws:
-            _refuse_law(liaison, law, model.planar, log)
+            _refuse_law(liaison, law, model.planar, liaison.kind.name in ideal, log)
     for force in model.forces:
         if force.kind.name not in FORCES:
             refuse(log, f"the force '{force.kind.name}'", force.span, _one_of("forces", FORCES))
@@ -143,7 +141,7 @@ def _refuse_options(liaison: Liaison, log: Log) -> None:
         _follow_time(f"'{argument.name}' of {spelled(liaison)} '{liaison.name}'", value, log)
 
 
-def _refuse_law(liaison: Liaison, law: Law, planar: bool, log: Log) -> None:
+def _refuse_law(liaison: Liaison, law: Law, planar: bool, ideal: bool, log: Log) -> None:
     if "gap" in liaison.driven:
         log.report(
             "E0511",
@@ -165,8 +163,7 @@ def _refuse_law(liaison: Liaison, law: Law, planar: bool, log: Log) -> None:
         refuse(log, f"the law '{law.kind.name}' in space", law.span, "planar models take it")
         return
     pin = liaison.kind.name == "rotoide"
-    plain = liaison.kind.name in (*JOINTS, *IN_PLANE) or bool(liaison.relations)
-    if plain and not (pin and law.kind.name == "coulomb"):
+    if (ideal or liaison.relations) and not (pin and law.kind.name == "coulomb"):
         kind = spelled(liaison)
         refuse(log, f"the law '{law.kind.name}' of a {kind}", law.span, "`coulomb` of a rotoïde is")
         return
@@ -234,31 +231,6 @@ def _refuse_drag(force: Force, log: Log) -> None:
             c.span,
             help="give the other exponent, or c in that unit",
         )
-
-
-def refuse_surface(model: Model, links: Iterable[Contact | Joint], log: Log) -> None:
-    """In the plane slip has a sign where there is one way to slip: at the surface of a pin, ..."""
-    plain = {
-        e.liaison
-        for e in links
-        if model.planar
-        and isinstance(e, Joint)
-        and e.radius is None
-        and not any(isinstance(x, Touching | Nearing) for x in (*e.locks, *e.motions))
-        and e.liaison.kind.name != "prismatique"
-    }
-    for node in read_quantities(model):
-        if node.owner in plain and node.name in ("slip", "tangential_force"):
-            pin = node.owner.kind.name == "rotoide"
-            why = "its pin has no radius" if pin else "it leaves no one way along which to slip"
-            log.report(
-                "E0203",
-                f"no '{node.name}' on '{node.owner.name}': {why}",
-                node.span,
-                help="read `speed` or `torque`, or give the law `coulomb(..., radius = ...)`"
-                if pin
-                else "read `force`, or the velocities of the two places",
-            )
 
 
 _JOINED = {

@@ -8,8 +8,6 @@ anything; and where the implicit method may be taken, which finds its stages soo
 
 from __future__ import annotations
 
-from frot.compiler.lowering.walk import has_time
-from frot.compiler.mechanics.geometry.figures import Ball, Egg, Flat, Oval, Ring
 from frot.compiler.mechanics.liaisons.locks import NoSlip, Touching
 from frot.compiler.mechanics.liaisons.motions import Motion, Roll, Slide, Spot
 from frot.compiler.mechanics.mechanism import Joint, frames_of, point_body, turns
@@ -26,16 +24,16 @@ def can_roll(joint: Joint) -> bool:
     if point_body(joint.a).shape is not None or not turns(point_body(joint.b)):
         return False
     match touching:
-        case Touching(a=Flat(), b=Ball(radius=radius), followed=False, apart=None):
-            return not has_time(radius)
-        case Touching(a=Flat(), b=Ring() | Oval() | Egg(), followed=False, apart=None):
-            return all(frame.angle is None for frame in frames_of(joint.b))
+        case Touching(a=plane, b=figure, followed=False, apart=None) if plane.plane is not None:
+            straight = all(frame.angle is None for frame in frames_of(joint.b))
+            return figure.rolls and (figure.is_round or straight)
     return False
 
 
 def rolling_motions(joint: Joint) -> tuple[Motion, ...]:
     """The motions along the plane, away from it, and about the centre of the figure."""
     touching = joint.locks[0]
-    assert isinstance(touching, Touching) and isinstance(touching.a, Flat)
-    axis = touching.a.axis
+    assert isinstance(touching, Touching)
+    axis = touching.a.plane
+    assert axis is not None
     return Spot(axis), Slide(axis, coordinates=("height",)), Roll(touching.b, axis)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from frot.compiler.mechanics.geometry.figures import Figure, Flat
+from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.liaisons.motions import (
     Attitude,
-    Axis,
     Driven,
     Follow,
     Heading,
@@ -32,6 +31,7 @@ from frot.compiler.mechanics.mechanism import (
     turns,
 )
 from frot.compiler.mechanics.rolling import can_roll, rolling_motions
+from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Body, Liaison, Model
 from frot.dsl.data.classes import dataclass, replace
 
@@ -88,9 +88,7 @@ def in_order(links: Iterable[Contact | Joint]) -> list[Joint]:
 
 def _along(curve: Figure) -> Motion:
     """The motion along a curve."""
-    if isinstance(curve, Flat):
-        return Slide(curve.axis, coordinates=("u",))
-    return Follow(curve)
+    return Follow(curve) if curve.plane is None else Slide(curve.plane, coordinates=("u",))
 
 
 def _can_carry(link: Contact | Joint) -> bool:

@@ -9,6 +9,7 @@ from frot.compiler.lowering.walk import follows_time, has_time
 from frot.compiler.mechanics.spatial import X, Y, Z, beside, cross, whole
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Expression, Literal, Time
+from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Source, Span
 
 Lower = Callable[[Expression], ca.SX]
@@ -85,3 +86,49 @@ def pace_of(given: Mapping[str, Expression], lower: Lower) -> ca.SX:
             rate = rate_by_time(told, lower)
             size += ca.norm_1(rate_by_time(rate, lower)) + ca.sumsqr(rate)
     return size
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Axis:
+    """A direction: a vector of the text, or the name of an axis."""
+
+    given: Expression | str
+
+    def unit(self, lower: Lower) -> ca.SX:
+        """Its unit vector (3)."""
+        return unit_vector(self.given, lower)
+
+    def beside(self, lower: Lower) -> tuple[ca.SX, ca.SX]:
+        """Two unit vectors (3) beside it."""
+        return beside_given(self.given, lower)
+
+    @property
+    def turns(self) -> bool:
+        """Whether time moves it."""
+        return not isinstance(self.given, str) and has_time(self.given)
+
+
+class Moments:
+    """Lowers with time as a symbol of its own, to tell what time changes by itself.
+
+    `met`: an expression that depends on time was lowered.
+    """
+
+    def __init__(self, lower: Lower) -> None:
+        """`lower` is what time is told apart in."""
+        self._lower = lower
+        self._now = lower(NOW)
+        self.symbol = ca.SX.sym("now")
+        self.met = False
+
+    def __call__(self, expression: Expression) -> ca.SX:
+        """The value with the symbol for time."""
+        value = self._lower(expression)
+        if not ca.depends_on(value, self._now):
+            return value
+        self.met = True
+        return ca.substitute(value, self._now, self.symbol)
+
+    def back(self, *values: ca.SX) -> list[ca.SX]:
+        """The values with time itself."""
+        return [ca.SX(x) for x in ca.substitute(list(values), [self.symbol], [self._now])]

@@ -286,7 +286,7 @@ def _line(
     joints = [x for x in (*mechanism.contacts, *mechanism.ideal) if x.liaison is liaison]
     locks = [x.lock for x in rows]
     locks += [lock for x in joints if isinstance(x, Joint) for lock in x.held]
-    kinematic = sum(bool(x.kinematic) for x in (*locks, *freed))
+    kinematic = sum(x.kinematic for x in locks) + sum(x.kinematic for x in freed)
     known = dict(analysis.holonomic) if analysis is not None else {}
     return LiaisonLine(
         liaison.name,

@@ -297,12 +297,3 @@ model Corners "A box"
 end Corners;
 """
             ).report()
-
-
-def test_what_is_said_to_touch_is_what_can_be_computed() -> None:
-    from frot.compiler.mechanics.geometry.figures import CLOSED_FORMS, LEVELS
-    from frot.compiler.mechanics.geometry.levels import _FUNCTIONS
-    from frot.compiler.mechanics.geometry.touches import _TOUCHES
-
-    assert set(_TOUCHES) == CLOSED_FORMS
-    assert set(_FUNCTIONS) == set(LEVELS)

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.geometry.figures import Ball, Flat, Oval, count_parameters, is_closed
-from frot.compiler.mechanics.geometry.paths import parameter_of
-from frot.compiler.mechanics.geometry.touches import spread_of, touch
+from frot.compiler.mechanics.geometry.touches import is_closed, touch
 from frot.compiler.mechanics.geometry.tracking import on_side, track
 from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.liaisons.joint_geometry import (
@@ -21,7 +19,7 @@ from frot.compiler.mechanics.mechanism import (
     is_unilateral,
     point_body,
 )
-from frot.compiler.mechanics.spatial import X, Y, Z, cross, nowhere
+from frot.compiler.mechanics.spatial import X, Y, Z, cross
 from frot.dsl.checked import World
 from frot.dsl.data.classes import dataclass
 
@@ -137,7 +135,7 @@ def contact_geometry(
         side = ca.SX(1)
     if contact.liaison in kinematics.tangents:
         return _carried(contact, kinematics)
-    if isinstance(contact.track.figure, Flat) and is_closed(contact.track.figure, contact.figure):
+    if contact.track.figure.plane is not None and is_closed(contact.track.figure, contact.figure):
         return _on_line(contact, kinematics, side, world)
     return _on_curve(contact, kinematics, side, world)
 
@@ -156,17 +154,10 @@ def _on_line(contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
     line = kinematics.line(contact.track)
     centre, lower = kinematics.position(contact.point), kinematics.fixed.lower
     height = ca.dot(line.normal, centre - line.through)
-    radius, below = ca.SX(0), nowhere()
-    if isinstance(contact.figure, Ball):
-        radius = lower(contact.figure.radius)
-        below = radius * line.normal
-    elif isinstance(contact.figure, Oval):
-        pose = kinematics.pose(contact.point)
-        spread = spread_of(contact.figure, pose, lower) @ line.normal
-        radius = ca.sqrt(ca.dot(line.normal, spread))
-        below = spread / radius
+    figure = contact.figure
+    radius, below = figure.below(kinematics.pose(contact.point), line.normal, lower)
     touching = centre - side * below
-    at = touching if isinstance(contact.figure, Oval) else centre
+    at = centre if figure.is_round or figure.is_point else touching
     apart, nearing, turning = _apart(contact, kinematics, touching, at)
     return Geometry(
         line=line,
@@ -203,19 +194,19 @@ def _on_curve(contact: Contact, kinematics: Kinematics, side: ca.SX, world: Worl
     """On a curve of any kind; the left of a circle is its inside."""
     lower, a, b = kinematics.fixed.lower, contact.track.figure, contact.figure
     base, own = kinematics.pose(contact.track.point), kinematics.pose(contact.point)
-    left = -1 if isinstance(a, Ball) else 1
+    left = -1 if a.is_round else 1
     if is_closed(a, b):
         found = touch(a, b, (base, own), lower, left * side)
-        angle = parameter_of(a, own.origin - base.origin, base, lower)
+        angle = a.parameter(own.origin - base.origin, base, lower)
         abscissa = kinematics.counted(contact, 0, angle)
     else:
         followed = kinematics.track(
             contact.liaison, lambda: track(a, b, (base, own), lower, planar=True)
         )
         found = on_side(followed.touch, left * side)
-        by_place = count_parameters(a) < 0
+        by_place = a.parameters < 0
         apart = found.place - base.origin
-        abscissa = parameter_of(a, apart, base, lower) if by_place else followed.unknowns[0]
+        abscissa = a.parameter(apart, base, lower) if by_place else followed.unknowns[0]
     normal, witness = side * found.normal, left * found.witness
     line = Line(found.place, cross(normal, Z), normal)
     apart, nearing, turning = _apart(contact, kinematics, found.place, found.place)

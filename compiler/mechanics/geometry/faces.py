@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from frot.compiler.mechanics.geometry.figures import Flat, corners_of, figure_of
+from frot.compiler.mechanics.geometry.figures import figure_of
 from frot.compiler.mechanics.refuse import refuse_places
+from frot.compiler.mechanics.shapes import shape_of
 from frot.dsl import Log
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import BodyGeometry, BodyPoint, Liaison, Model, Place
@@ -41,9 +42,9 @@ def part_faces(model: Model, log: Log) -> Faced:
 def _corners(liaison: Liaison, planar: bool) -> tuple[bool, tuple[BodyPoint, ...]] | None:
     """Whether the face is the first place, and its corners."""
     for face, other in ((liaison.a, liaison.b), (liaison.b, liaison.a)):
-        ends = corners_of(face) if isinstance(face, BodyGeometry) else ()
+        ends = shape_of(face.body).corners(face) if isinstance(face, BodyGeometry) else ()
         plane = figure_of(other, planar)
-        if ends and plane is not None and isinstance(plane.figure, Flat):
+        if ends and plane is not None and plane.figure.plane is not None:
             return face is liaison.a, ends
     return None
 

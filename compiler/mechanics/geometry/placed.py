@@ -8,23 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from frot.compiler.mechanics.geometry.figures import (
-    Ball,
-    Dot,
-    Figure,
-    Flat,
-    Oval,
-    Path,
-    Placed,
-    Ring,
-    Sheet,
-    Straight,
-    can_touch,
-    count_parameters,
-    is_bent_by_time,
-    is_closed,
-    is_level,
-)
+from frot.compiler.mechanics.geometry.figure import Figure, Placed
+from frot.compiler.mechanics.geometry.plain import Dot
+from frot.compiler.mechanics.geometry.round import Ball
+from frot.compiler.mechanics.geometry.touches import is_closed
+from frot.compiler.mechanics.geometry.tracking import can_touch
 from frot.compiler.mechanics.liaisons.joints import Options, Pairing
 from frot.compiler.mechanics.liaisons.locks import (
     Across,
@@ -37,7 +25,9 @@ from frot.compiler.mechanics.liaisons.locks import (
     Touching,
     WayAlong,
 )
-from frot.compiler.mechanics.liaisons.motions import Attitude, Axis, Follow, Heading, Motion, Slide
+from frot.compiler.mechanics.liaisons.motions import Attitude, Follow, Heading, Motion, Slide
+from frot.compiler.mechanics.values import Axis
+from frot.dsl.data.classes import dataclass
 
 
 def _rows(*locks: Lock) -> Pairing:
@@ -56,17 +46,17 @@ def _on_line(axis: Axis, coordinate: str) -> Pairing:
 
 
 def _annular(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
-    if isinstance(b, Dot) and isinstance(a, Straight) and a.radius is None:
-        return _on_line(a.axis, "displacement")
-    if isinstance(b, Dot) and isinstance(a, Dot):
+    if b.is_point and a.line is not None:
+        return _on_line(a.line, "displacement")
+    if b.is_point and a.is_point:
         return _on_line(Axis(options.get("axis", "z")), "displacement")
     return None
 
 
 def _line_on_plane(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
-    if isinstance(a, Flat) and isinstance(b, Straight) and b.radius is None:
-        return _rows(Touching(a, Dot()), Level(a.axis, b.axis))
-    return None
+    if a.plane is None or b.line is None:
+        return None
+    return _rows(Touching(a, Dot()), Level(a.plane, b.line))
 
 
 def _rod(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
@@ -75,39 +65,29 @@ def _rod(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None
 
 def _point_on_curve(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
     """A circle is where a plane meets a round cylinder; an ellipse likewise."""
-    if not isinstance(b, Dot):
+    if not b.is_point or a.parameters != 1:
         return None
-    match a:
-        case Straight(radius=None) if not is_bent_by_time(a):
-            return _on_line(a.axis, "u")
-        case Ring():
-            locks: tuple[Lock, ...] = (
-                Touching(Flat(a.axis, False), b),
-                Touching(Straight(a.axis, a.radius), b),
-            )
-        case Oval() if not is_bent_by_time(a):
-            locks = (Touching(Flat(a.axis, False), b), Touching(a, b))
-        case Path() | Straight(radius=None) | Oval():
-            locks = (Across(a, 0), Across(a, 1))
-        case _:
-            return None
-    return Pairing((Follow(a), _any_turn(planar)), locks)
+    if a.line is not None and not a.bends:
+        return _on_line(a.line, "u")
+    walls = () if a.bends else a.walls
+    locks: tuple[Lock, ...] = tuple(Touching(wall, b) for wall in walls)
+    return Pairing((Follow(a), _any_turn(planar)), locks or (Across(a, 0), Across(a, 1)))
 
 
 def _point_on_surface(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
-    surface = is_level(a) or isinstance(a, Sheet)
-    if not isinstance(b, Dot) or not surface or not can_touch(a, b, planar):
+    if not b.is_point or not a.is_surface or not can_touch(a, b, planar):
         return None
     lock = _touch(a, b)
-    if isinstance(a, Flat):
-        ways = (Slide(a.axis, 0, coordinates=("x",)), Slide(a.axis, 1, coordinates=("y",)))
+    if a.plane is not None:
+        ways = (Slide(a.plane, 0, coordinates=("x",)), Slide(a.plane, 1, coordinates=("y",)))
         return Pairing((*ways, Attitude()), (lock,))
     return _rows(lock)
 
 
 def _touching(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
-    if _is_along_line(a, b):
-        return _rows(*_lying(a, b))
+    lying = _lying(a, b)
+    if lying is not None:
+        return _rows(lying.touching, lying.level)
     return _rows(_touch(a, b)) if can_touch(a, b, planar) else None
 
 
@@ -115,32 +95,37 @@ def _touch(a: Figure, b: Figure) -> Touching:
     return Touching(a, b, followed=not is_closed(a, b))
 
 
-def _is_along_line(a: Figure, b: Figure) -> bool:
-    """Whether a cylinder lies on a plane."""
-    return isinstance(a, Flat) and isinstance(b, Straight) and b.radius is not None
-
-
-def _lying(a: Figure, b: Figure) -> tuple[Lock, ...]:
+@dataclass(frozen=True, slots=True, eq=False)
+class _Lying:
     """A cylinder touches a plane along a line: its axis is parallel to it, at its radius."""
-    assert isinstance(a, Flat) and isinstance(b, Straight) and b.radius is not None
-    return Touching(a, Ball(b.radius)), Level(a.axis, b.axis)
+
+    touching: Touching
+    level: Level
+
+
+def _lying(a: Figure, b: Figure) -> _Lying | None:
+    """How a cylinder lies on a plane; None of other figures."""
+    if a.plane is None or b.tube is None:
+        return None
+    axis, radius = b.tube
+    return _Lying(Touching(a, Ball(radius)), Level(a.plane, axis))
 
 
 def _tangent(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
     if planar:
         return _touching(a, b, options, planar)
-    curves = count_parameters(a) == count_parameters(b) == 1
-    if not curves or (isinstance(a, Straight) and isinstance(b, Straight)):
+    curves = a.parameters == b.parameters == 1
+    if not curves or (a.line is not None and b.line is not None):
         return None
     return _rows(*(Tangent(a, b, k) for k in range(3)))
 
 
 def _rolling(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
     """Where they touch, the two have one velocity; along a line, everywhere on it."""
-    if _is_along_line(a, b):
-        assert isinstance(a, Flat) and isinstance(b, Straight) and b.radius is not None
-        still = (NoSlip(a, Ball(b.radius), k, planar) for k in range(2))
-        return _rows(*_lying(a, b), *still, NoSpin(a.axis))
+    lying = _lying(a, b)
+    if lying is not None:
+        still = (NoSlip(a, lying.touching.b, k, planar) for k in range(2))
+        return _rows(lying.touching, lying.level, *still, NoSpin(lying.level.normal))
     if not can_touch(a, b, planar):
         return None
     ways = range(1 if planar else 2)

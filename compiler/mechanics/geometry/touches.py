@@ -9,21 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 import casadi as ca
-from frot.compiler.mechanics.geometry.figures import (
-    Ball,
-    Dot,
-    Egg,
-    Figure,
-    Flat,
-    Implicit,
-    Oval,
-    Ring,
-    Straight,
-)
-from frot.compiler.mechanics.liaisons.moves import Moments
-from frot.compiler.mechanics.spatial import GROUND, Pose, Z, cross, nowhere
-from frot.compiler.mechanics.values import Lower, beside_given, unit_vector
-from frot.dsl.checked import Expression
+from frot.compiler.mechanics.geometry.figure import Figure
+from frot.compiler.mechanics.geometry.given import Implicit
+from frot.compiler.mechanics.geometry.plain import Dot, Flat, Straight
+from frot.compiler.mechanics.geometry.round import Ball, Egg, Oval, Ring
+from frot.compiler.mechanics.spatial import Pose, cross, nowhere
+from frot.compiler.mechanics.values import Lower, Moments
 from frot.dsl.data.classes import dataclass, field
 
 
@@ -61,57 +52,16 @@ def touch(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, side: ca.SX
     return Touch(gap, normal, place, witness, size, own, own * normal)
 
 
-def length(value: Expression | None, lower: Lower) -> ca.SX:
-    """A radius, zero where there is none."""
-    return ca.SX(0) if value is None else lower(value)
-
-
-def normal_of(figure: Flat, pose: Pose, lower: Lower) -> ca.SX:
-    """The normal of a plane, or the left of a line of the plane."""
-    local = unit_vector(figure.axis.given, lower)
-    return pose.direction(cross(Z, local) if figure.in_plane else local)
-
-
-def spread_of(figure: Ring | Oval | Egg, pose: Pose, lower: Lower) -> ca.SX:
-    """The matrix S of an ellipsoid, flat or not: it reaches sqrt(n . S n) in the direction n."""
-    if isinstance(figure, Egg):
-        semi = lower(figure.semi_axes)
-        local = ca.diag(ca.vertcat(*(semi[k] ** 2 for k in range(3))))
-    elif isinstance(figure, Ring):
-        axis = unit_vector(figure.axis.given, lower)
-        local = lower(figure.radius) ** 2 * (ca.SX.eye(3) - axis @ axis.T)
-    else:
-        first, second = oval_axes(figure, lower)
-        a, b = lower(figure.a), lower(figure.b)
-        local = a**2 * first @ first.T + b**2 * second @ second.T
-    return ca.sparsify(pose.axes @ ca.sparsify(local) @ pose.axes.T)
-
-
-def oval_axes(figure: Oval, lower: Lower) -> tuple[ca.SX, ca.SX]:
-    """The directions of the semi-axes in the axes of the figure's point."""
-    return beside_given(figure.axis.given, lower)
-
-
-def depth_of(figure: Figure, pose: Pose, normal: ca.SX, lower: Lower) -> ca.SX:
-    """The vector (3) to the centre from where a plane with this normal touches what rolls on it."""
-    if isinstance(figure, Ball):
-        return length(figure.radius, lower) * normal
-    assert isinstance(figure, Ring | Oval | Egg)
-    below = spread_of(figure, pose, lower) @ normal
-    return below / ca.sqrt(ca.dot(normal, below))
-
-
-def reach_of(figure: Figure, lower: Lower) -> ca.SX:
-    """How far a round figure, or an ellipsoid, reaches from its centre, but for a root of three."""
-    if isinstance(figure, Ball):
-        return length(figure.radius, lower)
-    assert isinstance(figure, Ring | Oval | Egg)
-    return ca.sqrt(ca.trace(spread_of(figure, GROUND, lower)))
+def is_closed(a: Figure, b: Figure) -> bool:
+    """Whether there is a closed form, in this order; curves that time bends have none."""
+    if a.bends or b.bends:
+        return False
+    return (type(a), type(b)) in _TOUCHES and not (a.is_thin and b.is_thin)
 
 
 def _flat_ball(a: Flat, b: Ball | Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) -> Touch:
-    normal = side * normal_of(a, pa, lower)
-    radius = length(b.radius, lower) if isinstance(b, Ball) else ca.SX(0)
+    normal = side * pa.direction(a.normal(lower))
+    radius = b.radius_in(lower)
     height = ca.dot(normal, pb.origin - pa.origin)
     place = pb.origin - radius * normal
     return Touch(height - radius, normal, place, side * height, radius)
@@ -121,18 +71,17 @@ def _flat_egg(
     a: Flat, b: Ring | Oval | Egg, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
 ) -> Touch:
     """The lowest point is S n/sqrt(n . S n) below the centre."""
-    normal = side * normal_of(a, pa, lower)
-    below = spread_of(b, pb, lower) @ normal
-    reach = ca.sqrt(ca.dot(normal, below))
+    normal = side * pa.direction(a.normal(lower))
+    reach, below = b.below(pb, normal, lower)
     height = ca.dot(normal, pb.origin - pa.origin)
-    return Touch(height - reach, normal, pb.origin - below / reach, side * height, reach)
+    return Touch(height - reach, normal, pb.origin - below, side * height, reach)
 
 
 def _ball_ball(
     a: Ball | Dot, b: Ball | Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
 ) -> Touch:
     """Outside of each other, or the smaller inside of the larger one, whichever is the first."""
-    first, second = (length(x.radius, lower) if isinstance(x, Ball) else ca.SX(0) for x in (a, b))
+    first, second = a.radius_in(lower), b.radius_in(lower)
     apart = pb.origin - pa.origin
     if second.is_zero():
         return _round(apart, pb, first, second, side)
@@ -154,26 +103,26 @@ def _round(apart: ca.SX, pb: Pose, first: ca.SX, second: ca.SX, side: ca.SX) -> 
 def _straight_ball(
     a: Straight, b: Ball | Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
 ) -> Touch:
-    along = pa.direction(unit_vector(a.axis.given, lower))
+    along = pa.direction(a.axis.unit(lower))
     apart = pb.origin - pa.origin
-    radius = length(b.radius, lower) if isinstance(b, Ball) else ca.SX(0)
+    radius = b.radius_in(lower)
     across = apart - ca.dot(along, apart) * along
-    return _round(across, pb, length(a.radius, lower), radius, side)
+    return _round(across, pb, a.radius_in(lower), radius, side)
 
 
 def _straight_straight(
     a: Straight, b: Straight, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
 ) -> Touch:
     """Along the common normal of two axes that cross."""
-    first = pa.direction(unit_vector(a.axis.given, lower))
-    second = pb.direction(unit_vector(b.axis.given, lower))
+    first = pa.direction(a.axis.unit(lower))
+    second = pb.direction(b.axis.unit(lower))
     apart, both = pb.origin - pa.origin, cross(first, second)
     across = both / ca.sqrt(ca.sumsqr(both))
     # where the axes become parallel, and go on, their product turns about
     normal = ca.sign(ca.dot(across, apart)) * across
     height = ca.dot(normal, apart)
     along = ca.dot(cross(first, both), apart) / ca.sumsqr(both)
-    ra, rb = length(a.radius, lower), length(b.radius, lower)
+    ra, rb = a.radius_in(lower), b.radius_in(lower)
     place = pb.origin + along * second - rb * normal
     return Touch(height - ra - rb, normal, place, ca.SX(1), ra + rb)
 
@@ -183,7 +132,7 @@ def _ring_ball(a: Ring, b: Ball, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) 
 
     So does the one farthest off, with which it touches the sphere from inside.
     """
-    axis, radius = pa.direction(unit_vector(a.axis.given, lower)), lower(b.radius)
+    axis, radius = pa.direction(a.axis.unit(lower)), lower(b.radius)
     apart = pb.origin - pa.origin
     across = apart - ca.dot(axis, apart) * axis
     wide = ca.sqrt(ca.sumsqr(across))
@@ -209,7 +158,7 @@ def _implicit_dot(a: Implicit, b: Dot, pa: Pose, pb: Pose, lower: Lower, side: c
 
 def _oval_dot(a: Oval, b: Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) -> Touch:
     """In the plane of the ellipse, or on the cylinder over it: x^2/a^2 + y^2/b^2 = 1."""
-    first, second = (pa.direction(e) for e in oval_axes(a, lower))
+    first, second = (pa.direction(e) for e in a.axis.beside(lower))
     apart = pb.origin - pa.origin
     x, y = ca.dot(first, apart), ca.dot(second, apart)
     p, q = lower(a.a), lower(a.b)
@@ -220,7 +169,7 @@ def _oval_dot(a: Oval, b: Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) ->
     return Touch(side * value / steep, normal, pb.origin, value, p + q)
 
 
-# Their pairs are those of `figures.CLOSED_FORMS`, which can be asked without CasADi.
+# The pairs that touch in closed form, in this order.
 _TOUCHES: Mapping[tuple[type, type], _Rule] = {
     (Flat, Dot): _flat_ball,
     (Flat, Ball): _flat_ball,

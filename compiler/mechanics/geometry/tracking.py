@@ -12,29 +12,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import casadi as ca
-from frot.compiler.mechanics.geometry.figures import (
-    Dot,
-    Egg,
-    Figure,
-    Flat,
-    Oval,
-    Path,
-    Ring,
-    Sheet,
-    Straight,
-    count_parameters,
-    is_level,
-)
+from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.levels import level
-from frot.compiler.mechanics.geometry.paths import Trace, parameter_of, point_of, trace
-from frot.compiler.mechanics.geometry.touches import Touch
+from frot.compiler.mechanics.geometry.paths import Trace, trace
+from frot.compiler.mechanics.geometry.touches import Touch, is_closed
 from frot.compiler.mechanics.spatial import Pose, Z, beside, cross
 from frot.compiler.mechanics.values import Lower
 from frot.dsl.data.classes import dataclass
 
-TURN = 16  # beginnings looked at along a round curve
-LONG = 32  # along a curve given by its points
-ACROSS = 8  # along each parameter of a surface given by its points
 ROUNDS = 2  # of the nearest point on one figure to that on the other
 
 
@@ -84,18 +69,41 @@ def on_side(found: Touch, side: ca.SX) -> Touch:
     )
 
 
+def can_touch(a: Figure, b: Figure, planar: bool) -> bool:
+    """Whether one relation says that they touch, in this order."""
+    return is_closed(a, b) or is_tracked(a, b, planar)
+
+
+def is_tracked(a: Figure, b: Figure, planar: bool) -> bool:
+    """Whether the places where they are nearest are followed, in this order.
+
+    Between functions the first is the one that tells most. A point and a curve in space, and what
+    touches along a line, meet by more than one relation.
+    """
+    if is_closed(b, a):
+        return False
+    first, second = a.parameters, b.parameters
+    if a.rank >= 0:
+        if a.plane is not None and (b.plane or b.tube or b.line) is not None:
+            return False
+        return a.rank <= b.rank if b.rank >= 0 else second >= 0
+    if first < 0 or second < 0 or second > first:
+        return False
+    return first == 2 or (first == 1 and (planar or second == 1))
+
+
 def track(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
-    """The nearest places of two figures, in the order of `figures.is_tracked`."""
-    if not is_level(a):
+    """The nearest places of two figures, in the order of `is_tracked`."""
+    if a.rank < 0:
         return _of_points(a, b, at, lower, planar)
-    if is_level(b):
+    if b.rank >= 0:
         return _of_levels(a, b, at, lower)
     return _of_level(a, b, at, lower)
 
 
 def _names(figure: Figure, of_b: bool) -> tuple[str, ...]:
     end = "_b" if of_b else ""
-    return tuple(f"{name}{end}" for name in "uv"[: count_parameters(figure)])
+    return tuple(f"{name}{end}" for name in "uv"[: figure.parameters])
 
 
 def _symbols(names: tuple[str, ...]) -> ca.SX:
@@ -157,7 +165,7 @@ def _of_levels(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Tra
 def _of_points(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
     """The way from p_a to p_b is along the common normal of both figures."""
     (pa, pb), names = at, (*_names(a, False), *_names(b, True))
-    s, n = _symbols(names), count_parameters(a)
+    s, n = _symbols(names), a.parameters
     first, second = trace(a, s[:n], pa, lower), trace(b, s[n:], pb, lower)
     way = second.point - first.point
     far = _far(pa.origin, pb.origin, first.point - pa.origin, second.point - pb.origin)
@@ -250,21 +258,6 @@ def _column(values: list[ca.SX]) -> ca.SX:
 # ---------------------------------------------------------------------- where the search begins
 
 
-def _beginnings(figure: Figure, lower: Lower) -> list[ca.SX]:
-    if isinstance(figure, Ring | Oval):
-        return [ca.SX(2 * ca.pi * k / TURN - ca.pi) for k in range(TURN)]
-    if isinstance(figure, Path):
-        return _between(lower(figure.bounds), LONG)
-    assert isinstance(figure, Sheet)
-    first, second = (_between(lower(x), ACROSS) for x in figure.bounds)
-    return [ca.vertcat(u, v) for u in first for v in second]
-
-
-def _between(bounds: ca.SX, count: int) -> list[ca.SX]:
-    first, last = ca.vertsplit(ca.vec(bounds))
-    return [first + (last - first) * (k / count) for k in range(count + 1)]
-
-
 def _least(places: list[ca.SX], values: list[ca.SX]) -> ca.SX:
     """The place of the least value."""
     best, least = places[0], values[0]
@@ -284,11 +277,11 @@ def _extremal(
     b: Figure, value: Callable[[ca.SX], ca.SX], towards: ca.SX, pb: Pose, lower: Lower
 ) -> ca.SX:
     """Where a function is least on b, or largest where it is negative on most of it."""
-    if isinstance(b, Dot):
+    if b.is_point:
         return ca.SX.zeros(0)
-    if isinstance(b, Straight):
-        return parameter_of(b, towards - pb.origin, pb, lower)
-    places = _beginnings(b, lower)
+    places = b.beginnings(lower)
+    if not places:
+        return b.parameter(towards - pb.origin, pb, lower)
     values = _all_values(places, value)
     sign = ca.if_else(sum(values, ca.SX(0)) < 0, -1, 1)
     return _least(places, [sign * x for x in values])
@@ -296,12 +289,12 @@ def _extremal(
 
 def _nearest(figure: Figure, place: ca.SX, pose: Pose, lower: Lower) -> ca.SX:
     """The parameters of the point nearest to a place."""
-    if isinstance(figure, Dot):
+    if figure.is_point:
         return ca.SX.zeros(0)
-    if isinstance(figure, Straight):
-        return parameter_of(figure, place - pose.origin, pose, lower)
-    places, local = _beginnings(figure, lower), ca.SX.sym("local", 3)
-    far = _all_values(places, lambda s: ca.sumsqr(point_of(figure, s, lower) - local))
+    places, local = figure.beginnings(lower), ca.SX.sym("local", 3)
+    if not places:
+        return figure.parameter(place - pose.origin, pose, lower)
+    far = _all_values(places, lambda s: ca.sumsqr(figure.point(s, lower) - local))
     there = ca.densify(pose.axes.T @ (place - pose.origin))
     return ca.substitute(_least(places, far), local, there)
 
@@ -313,7 +306,7 @@ def _nearest_pair(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> 
     for _ in range(ROUNDS):
         first = _nearest(a, place, pa, lower)
         place = trace(a, first, pa, lower).point
-        if isinstance(b, Dot):
+        if b.is_point:
             break
         second = _nearest(b, place, pb, lower)
         place = trace(b, second, pb, lower).point
@@ -323,21 +316,13 @@ def _nearest_pair(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> 
 def _beginning(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> ca.SX:
     """Of an ellipsoid where its normal is along the slope of F_a, else down the slope of F_b."""
     pa, pb = at
-    if isinstance(b, Egg):
-        x = ca.SX.zeros(3)
-        side = ca.if_else(level(a, pb.origin, pa, lower).value < 0, 1, -1)
-        squares = lower(b.semi_axes) ** 2
-        for _ in range(ROUNDS):
-            slope = pb.axes.T @ level(a, pb.point(x), pa, lower).slope
-            spread = squares * ca.densify(slope)
-            reach = ca.sqrt(ca.dot(spread, slope))
-            x = side * spread / ca.if_else(reach > 0, reach, 1)
-    else:
-        towards = pb.origin if isinstance(a, Flat) else pa.origin
-        found = level(a, towards, pa, lower)
-        place = towards
-        if isinstance(a, Flat):
-            place = towards - found.value * found.slope
+    x = _where_it_faces(a, b, at, lower)
+    if x is None:
+        flat = a.plane is not None
+        place = pb.origin if flat else pa.origin
+        if flat:
+            found = level(a, place, pa, lower)
+            place = place - found.value * found.slope
         for _ in range(2 * ROUNDS):
             own = level(b, place, pb, lower)
             square = ca.sumsqr(own.slope)
@@ -347,3 +332,17 @@ def _beginning(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> ca.
     first, second = level(a, place, pa, lower).slope, level(b, place, pb, lower).slope
     square = ca.sumsqr(second)
     return ca.vertcat(x, -ca.dot(first, second) / ca.if_else(square > 0, square, 1))
+
+
+def _where_it_faces(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> ca.SX | None:
+    """The point of b, in its axes, whose normal is along the slope of F_a there."""
+    pa, pb = at
+    x = ca.SX.zeros(3)
+    side = ca.if_else(level(a, pb.origin, pa, lower).value < 0, 1, -1)
+    for _ in range(ROUNDS):
+        slope = pb.axes.T @ level(a, pb.point(x), pa, lower).slope
+        found = b.facing(slope, side, lower)
+        if found is None:
+            return None
+        x = found
+    return x

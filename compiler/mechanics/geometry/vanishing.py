@@ -12,34 +12,17 @@ from collections.abc import Iterator, Mapping
 import casadi as ca
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.geometry.contacts import Geometry
-from frot.compiler.mechanics.geometry.figures import (
-    Ball,
-    Dot,
-    Egg,
-    Figure,
-    Flat,
-    Implicit,
-    Oval,
-    Path,
-    Ring,
-    Sheet,
-    Straight,
-    count_parameters,
-    is_level,
-)
-from frot.compiler.mechanics.geometry.levels import level
-from frot.compiler.mechanics.geometry.paths import point_of
+from frot.compiler.mechanics.geometry.figure import Figure
+from frot.compiler.mechanics.geometry.plain import Dot
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
 from frot.compiler.mechanics.liaisons.locks import Across, Tangent, Touching
-from frot.compiler.mechanics.liaisons.motions import Axis, Follow, Nearing
+from frot.compiler.mechanics.liaisons.motions import Follow, Nearing
 from frot.compiler.mechanics.mechanism import Contact, Joint, frames_of
-from frot.compiler.mechanics.spatial import Pose, cross, whole
-from frot.compiler.mechanics.values import Lower, unit_vector
+from frot.compiler.mechanics.spatial import Pose, whole
 from frot.dsl.checked import Expression, Liaison
 from frot.dsl.data.classes import dataclass
 
-_NO_PLACE = "no single place of '{}' is the nearest"
 COUNT = 3  # numbers that tell where (FROT_WHERE)
 
 
@@ -80,7 +63,8 @@ def find_vanishing(
             text = f"liaison '{liaison.name}': {what} has no direction"
             yield Vanishing(liaison, text, (), ca.norm_2(whole(lower(axis))), ca.SX.zeros(COUNT))
         for one in _figures(link, geometry[liaison], kinematics):
-            for what, names, distance, where in _losses(one, lower):
+            losses = one.figure.losses(one.pose, one.place, one.parameters, lower)
+            for what, names, distance, where in losses:
                 text = f"liaison '{liaison.name}': {what.format(one.name)}"
                 padded = ca.vertcat(where, ca.SX.zeros(COUNT - where.numel()))
                 yield Vanishing(liaison, text, names, distance, padded)
@@ -124,8 +108,8 @@ def _figures(
         followed = [m.curve for m in getattr(link, "motions", ()) if isinstance(m, Follow)]
         pairs = [(x, Dot()) for x in followed] or pairs
     for a, b in pairs:
-        own = ca.SX.zeros(0) if is_level(a) and is_level(b) else unknowns
-        count = 0 if is_level(a) or not own.numel() else count_parameters(a)
+        own = ca.SX.zeros(0) if a.rank >= 0 and b.rank >= 0 else unknowns
+        count = 0 if a.rank >= 0 or not own.numel() else a.parameters
         yield _Figured(name, a, first, own[:count], place)
         yield _Figured(other, b, second, own[count:], place)
 
@@ -140,53 +124,3 @@ def _pairs(joint: Joint) -> Iterator[tuple[Figure, Figure]]:
                 yield curve, Dot()
             case Tangent(a=a, b=b, part=0) | Touching(a=a, b=b):
                 yield a, b
-
-
-_Loss = tuple[str, tuple[str, ...], ca.SX, ca.SX]
-
-
-def _losses(one: _Figured, lower: Lower) -> Iterator[_Loss]:
-    """What it is, the names of the numbers that tell where, the distance, these numbers."""
-    figure, s, pose, nowhere = one.figure, one.parameters, one.pose, ca.SX.zeros(0)
-    local = ca.densify(pose.axes.T @ (one.place - pose.origin))
-    match figure:
-        case Path() if s.numel():
-            yield "the tangent of '{}' vanishes", ("u",), _from_cusp(figure, s, lower), s
-        case Sheet() if s.numel():
-            yield "the normal of '{}' vanishes", ("u", "v"), _from_fold(figure, s, lower), s
-        case Implicit() | Egg():
-            steep = level(figure, one.place, pose, lower).steep
-            yield "the normal of '{}' vanishes", ("x", "y", "z"), steep, local
-        case Ball():
-            yield _NO_PLACE, (), ca.norm_2(local / lower(figure.radius)), nowhere
-        case Straight(radius=radius, axis=axis) if radius is not None:
-            yield _NO_PLACE, (), _from_axis(axis, local / lower(radius), lower), nowhere
-        case Ring(axis=axis, radius=size) | Oval(axis=axis, a=size):
-            yield _NO_PLACE, (), _from_axis(axis, local / lower(size), lower), nowhere
-    match figure:
-        case Flat(axis=axis) | Straight(axis=axis) | Ring(axis=axis) | Oval(axis=axis):
-            if isinstance(axis.given, Expression) and not is_fixed(axis.given):
-                yield "'{}' has no direction", (), ca.norm_2(whole(lower(axis.given))), nowhere
-
-
-def _from_axis(axis: Axis, local: ca.SX, lower: Lower) -> ca.SX:
-    return ca.norm_2(cross(unit_vector(axis.given, lower), local))
-
-
-def _from_cusp(figure: Path, s: ca.SX, lower: Lower) -> ca.SX:
-    """|c'|^2/|c''|, no number where both are zero."""
-    u = ca.SX.sym("u")
-    slope = ca.jacobian(point_of(figure, u, lower), u)
-    bend = ca.sqrt(ca.sumsqr(ca.jacobian(slope, u)))
-    size = ca.sumsqr(slope)
-    distance = ca.if_else(bend > 0, size / bend, ca.sqrt(size))
-    return ca.substitute(distance, u, s)
-
-
-def _from_fold(figure: Sheet, s: ca.SX, lower: Lower) -> ca.SX:
-    """|p_u x p_v| over the greater of the slopes."""
-    u = ca.SX.sym("u", 2)
-    slope = ca.densify(ca.jacobian(point_of(figure, u, lower), u))
-    normal = cross(slope[:, 0], slope[:, 1])
-    size = ca.sqrt(ca.sumsqr(normal) / ca.fmax(ca.sumsqr(slope[:, 0]), ca.sumsqr(slope[:, 1])))
-    return ca.substitute(size, u, s)

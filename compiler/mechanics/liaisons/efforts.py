@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.contacts import Geometry
-from frot.compiler.mechanics.geometry.figures import Flat
-from frot.compiler.mechanics.geometry.paths import point_of
+from frot.compiler.mechanics.geometry.paths import slope_at
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
 from frot.compiler.mechanics.liaisons.motions import bare, name_of
@@ -41,10 +40,8 @@ def effort_along(
 def _pace(contact: Contact, geometry: Geometry, kinematics: Kinematics) -> ca.SX:
     """The way along a curve for one unit of its parameter."""
     tangent = kinematics.tangents.get(contact.liaison)
-    if tangent is None and isinstance(contact.track.figure, Flat):
+    if tangent is None and contact.track.figure.plane is not None:
         return ca.SX(1)
     if tangent is None:
-        u = ca.SX.sym("u")
-        slope = ca.jacobian(point_of(contact.track.figure, u, kinematics.fixed.lower), u)
-        tangent = ca.substitute(slope, u, geometry.abscissa)
+        tangent = slope_at(contact.track.figure, geometry.abscissa, kinematics.fixed.lower)
     return ca.norm_2(tangent)

@@ -6,7 +6,6 @@ from functools import partial
 
 import casadi as ca
 from frot.compiler.lowering.symbols import Rows
-from frot.compiler.mechanics.geometry.figures import Dot, Egg, Implicit
 from frot.compiler.mechanics.geometry.touches import Touch
 from frot.compiler.mechanics.geometry.tracking import Track, along, tangency, track
 from frot.compiler.mechanics.kinematics import Kinematics
@@ -136,7 +135,7 @@ def track_of(joint: Joint, kinematics: Kinematics) -> Track | None:
 def _near(motion: Nearing, a: Pose, b: Pose, lower: Lower, followed: Track | None) -> Action:
     """The gap on the side of a on which the figure b is; of a point it has the sign of the side."""
     found = act(_nearing(motion), a, b, lower, track=followed)
-    if isinstance(motion.b, Dot):
+    if motion.b.is_point:
         return found
     assert found.touch is not None
     side = ca.if_else(found.touch.witness < 0, -1, 1)
@@ -184,7 +183,7 @@ def relation_geometry(relation: Relation, kinematics: Kinematics, side: ca.SX) -
     if action.touch is not None:
         reach, witness[0] = reach + action.touch.size, action.touch.witness
     rate = action.rate(a, b)
-    if isinstance(relation.lock, Touching) and isinstance(relation.lock.a, Egg | Implicit):
+    if isinstance(relation.lock, Touching) and relation.lock.a.is_steep:
         rate = _exact_rate(action, a, b, kinematics)
     return RelationGeometry(action.gap, rate, witness, reach)
 

@@ -25,7 +25,6 @@ from frot.compiler.mechanics.liaisons.locks import (
 )
 from frot.compiler.mechanics.liaisons.motions import (
     Attitude,
-    Axis,
     Driven,
     Follow,
     Motion,
@@ -37,6 +36,7 @@ from frot.compiler.mechanics.liaisons.motions import (
     name_of,
 )
 from frot.compiler.mechanics.mechanism import Joint, Point, is_particle, point_body
+from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Expression, Liaison, Literal
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.quantities.dimensions import BOOLEAN

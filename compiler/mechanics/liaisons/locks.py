@@ -7,16 +7,31 @@ it is a relation between velocities, of which no places are the integral.
 
 from __future__ import annotations
 
-from frot.compiler.mechanics.geometry.figures import Figure
-from frot.compiler.mechanics.liaisons.motions import Axis, Driven
+from frot.compiler.mechanics.geometry.figure import Figure
+from frot.compiler.mechanics.liaisons.motions import Driven
+from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Expression
 from frot.dsl.data.classes import dataclass
 
 LEFT = 2
 
 
+class Lock:
+    """One scalar relation between the places a and b."""
+
+    __slots__ = ()
+
+    turns: bool
+    kinematic: bool
+
+    @property
+    def rolls(self) -> bool:
+        """Whether it keeps from slipping what touches."""
+        return False
+
+
 @dataclass(frozen=True, slots=True, eq=False)
-class Way:
+class Way(Lock):
     """No way along an axis of the ground (0, 1, 2): of a liaison that leaves no way at all."""
 
     axis: int
@@ -25,7 +40,7 @@ class Way:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class WayAlong:
+class WayAlong(Lock):
     """No way along an axis of a, along one of the two beside it, or to its left (`side`)."""
 
     axis: Axis
@@ -35,7 +50,7 @@ class WayAlong:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Parallel:
+class Parallel(Lock):
     """An axis of b stays perpendicular to one of the two beside the same axis of a.
 
     Two of them keep the axes parallel.
@@ -48,7 +63,7 @@ class Parallel:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Aligned:
+class Aligned(Lock):
     """An axis of a stays perpendicular to the next axis of b: three of them allow no turn."""
 
     axis: int
@@ -57,7 +72,7 @@ class Aligned:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class SameAngle:
+class SameAngle(Lock):
     """No turn in the plane."""
 
     turns: bool = True
@@ -65,7 +80,7 @@ class SameAngle:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Thread:
+class Thread(Lock):
     """Advance along an axis only with a turn."""
 
     axis: Axis
@@ -75,7 +90,7 @@ class Thread:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Crossed:
+class Crossed(Lock):
     """An axis of a and an axis of b keep their angle: those of a universal joint."""
 
     axis_a: Axis
@@ -85,20 +100,20 @@ class Crossed:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Drive:
+class Drive(Lock):
     """The coordinate of a motion is a value of time."""
 
     driven: Driven
     kinematic: bool = False
 
     @property
-    def turns(self) -> bool:
+    def turns(self) -> bool:  # type: ignore[override]
         """Whether it keeps from turning."""
         return self.driven.motion.turns
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Apart:
+class Apart(Lock):
     """The places keep a distance, which time may change."""
 
     length: Expression
@@ -107,7 +122,7 @@ class Apart:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Touching:
+class Touching(Lock):
     """A figure at a and one at b touch, or stay `apart`, which time may change.
 
     `followed`: where they do is solved for (tracking.py).
@@ -122,7 +137,7 @@ class Touching:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class NoSlip:
+class NoSlip(Lock):
     """Where two figures touch they do not slip along one of the two directions beside the normal.
 
     In the plane there is one direction.
@@ -136,9 +151,14 @@ class NoSlip:
     turns: bool = False
     kinematic: bool = True
 
+    @property
+    def rolls(self) -> bool:
+        """It does."""
+        return True
+
 
 @dataclass(frozen=True, slots=True, eq=False)
-class NoSpin:
+class NoSpin(Lock):
     """No turn about the normal of a plane of a: of what rolls on a line."""
 
     axis: Axis
@@ -147,7 +167,7 @@ class NoSpin:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Tangent:
+class Tangent(Lock):
     """Two curves in space are tangent: no way in two directions beside them (0, 1), or no angle.
 
     Curves that meet have one relation (they cross), tangent ones two more. One of these two says
@@ -163,7 +183,7 @@ class Tangent:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Across:
+class Across(Lock):
     """No way beside a curve on which b is, in one of two directions."""
 
     curve: Figure
@@ -173,7 +193,7 @@ class Across:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Level:
+class Level(Lock):
     """A line at b stays parallel to a plane at a."""
 
     normal: Axis
@@ -183,30 +203,10 @@ class Level:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stated:
+class Stated(Lock):
     """A relation of the user: left = right."""
 
     left: Expression
     right: Expression
     kinematic: bool
     turns: bool = False
-
-
-Lock = (
-    Across
-    | Aligned
-    | Apart
-    | Crossed
-    | Drive
-    | Level
-    | NoSlip
-    | NoSpin
-    | Parallel
-    | SameAngle
-    | Stated
-    | Tangent
-    | Thread
-    | Touching
-    | Way
-    | WayAlong
-)

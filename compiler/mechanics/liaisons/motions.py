@@ -10,18 +10,29 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Expression
 from frot.dsl.data.classes import dataclass
 
 if TYPE_CHECKING:
-    from frot.compiler.mechanics.geometry.figures import Figure
+    from frot.compiler.mechanics.geometry.figure import Figure
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Axis:
-    """A direction: a vector of the text, or the name of an axis."""
+class Motion:
+    """What b does relative to a, by coordinates."""
 
-    given: Expression | str
+    __slots__ = ()
+
+    coordinates: tuple[str, ...]
+    speeds: tuple[str, ...]
+    quaternion: Quaternion | None
+    faces_ground: bool
+    turns: bool
+
+    @property
+    def comes_round(self) -> bool:
+        """Whether a turn of the bodies brings back the posture at which the coordinate began."""
+        return False
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +46,7 @@ class Quaternion:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Turn:
+class Turn(Motion):
     """By an angle about an axis that both bodies keep.
 
     `mark`: the other axis of a universal joint, which shows the angle; None where any direction
@@ -52,9 +63,14 @@ class Turn:
     mark: Axis | None = None
     on_b: bool = False
 
+    @property
+    def comes_round(self) -> bool:
+        """After a whole turn."""
+        return True
+
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Slide:
+class Slide(Motion):
     """By a length along an axis fixed to the base, or along one of the two beside it (`side`)."""
 
     axis: Axis
@@ -68,7 +84,7 @@ class Slide:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Screw:
+class Screw(Motion):
     """By an angle about an axis and a length along it, `pitch` for each turn."""
 
     axis: Axis
@@ -80,9 +96,14 @@ class Screw:
     faces_ground: bool = False
     turns: bool = True
 
+    @property
+    def comes_round(self) -> bool:
+        """After a whole turn."""
+        return True
+
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Heading:
+class Heading(Motion):
     """Any orientation in the plane: the angle of the axes from those of the ground."""
 
     coordinates: tuple[str, ...] = ("angle",)
@@ -93,7 +114,7 @@ class Heading:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Attitude:
+class Attitude(Motion):
     """Any orientation in space: a unit quaternion, turned by the angular velocity in ground axes.
 
     What carries the body does not enter, and no orientation is singular.
@@ -107,7 +128,7 @@ class Attitude:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Pointing:
+class Pointing(Motion):
     """Any direction of the own x axis: a turn about it alone has no inertia and does not happen.
 
     P. Painlevé (1895, p. 32) counts five freedoms for a slender rod.
@@ -121,7 +142,7 @@ class Pointing:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Steady:
+class Steady(Motion):
     """No turning: the axes of a particle are those of the ground."""
 
     coordinates: tuple[str, ...] = ()
@@ -132,7 +153,7 @@ class Steady:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Follow:
+class Follow(Motion):
     """Along a curve fixed to the base, by its parameter."""
 
     curve: Figure
@@ -143,9 +164,14 @@ class Follow:
     faces_ground: bool = False
     turns: bool = False
 
+    @property
+    def comes_round(self) -> bool:
+        """After a whole turn."""
+        return True
+
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Reach:
+class Reach(Motion):
     """The distance of two places, of a rod that is drawn out: it is seen, and carries nothing."""
 
     coordinates: tuple[str, ...] = ("length",)
@@ -156,7 +182,7 @@ class Reach:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Nearing:
+class Nearing(Motion):
     """The gap of two figures that an equation of the text keeps: it is seen, and carries nothing.
 
     `followed`: where they are nearest is solved for.
@@ -173,7 +199,7 @@ class Nearing:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Spot:
+class Spot(Motion):
     """The place of what rolls along a plane of the base: it has no speeds of its own (`Roll`)."""
 
     axis: Axis
@@ -185,7 +211,7 @@ class Spot:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Roll:
+class Roll(Motion):
     """Any orientation of a figure on a plane of the base, whose turning takes its place along.
 
     The angular velocity is all that moves it along the plane: independent speeds of a motion that
@@ -202,7 +228,7 @@ class Roll:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Driven:
+class Driven(Motion):
     """A motion whose coordinate is a value of time: it has none of its own."""
 
     motion: Turn | Slide | Screw | Follow
@@ -214,23 +240,6 @@ class Driven:
     turns: bool = False
 
 
-Motion = (
-    Driven
-    | Follow
-    | Turn
-    | Slide
-    | Screw
-    | Heading
-    | Nearing
-    | Attitude
-    | Pointing
-    | Reach
-    | Roll
-    | Spot
-    | Steady
-)
-
-
 def bare(motion: Motion) -> Motion:
     """The motion itself, whether it is driven or not."""
     return motion.motion if isinstance(motion, Driven) else motion
@@ -240,11 +249,6 @@ def name_of(motion: Motion) -> str:
     """The name of the coordinate of a motion that can be counted, "" of any other."""
     own = bare(motion)
     return "" if own.faces_ground or not own.coordinates else own.coordinates[0]
-
-
-def comes_round(motion: Motion) -> bool:
-    """Whether a turn of the bodies brings back the posture at which the coordinate began."""
-    return isinstance(motion, Turn | Screw | Follow)
 
 
 def count_speeds(motion: Motion) -> int:

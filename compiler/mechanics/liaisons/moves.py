@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import casadi as ca
-from frot.compiler.mechanics.geometry.paths import point_of
 from frot.compiler.mechanics.liaisons.motions import (
     Attitude,
     Driven,
@@ -39,7 +38,7 @@ from frot.compiler.mechanics.spatial import (
     turn_in_plane,
     turning,
 )
-from frot.compiler.mechanics.values import NOW, Lower, beside_given, rate_by_time, unit_vector
+from frot.compiler.mechanics.values import Lower, rate_by_time, unit_vector
 from frot.dsl.checked import Expression
 from frot.dsl.data.classes import dataclass, field, replace
 
@@ -66,32 +65,6 @@ class Moved:
     way: ca.SX
     tangent: ca.SX | None = None
     back: ca.SX = field(default_factory=nowhere)
-
-
-class Moments:
-    """Lowers with time as a symbol of its own, to tell what time changes by itself.
-
-    `met`: an expression that depends on time was lowered.
-    """
-
-    def __init__(self, lower: Lower) -> None:
-        """`lower` is what time is told apart in."""
-        self._lower = lower
-        self._now = lower(NOW)
-        self.symbol = ca.SX.sym("now")
-        self.met = False
-
-    def __call__(self, expression: Expression) -> ca.SX:
-        """The value with the symbol for time."""
-        value = self._lower(expression)
-        if not ca.depends_on(value, self._now):
-            return value
-        self.met = True
-        return ca.substitute(value, self._now, self.symbol)
-
-    def back(self, *values: ca.SX) -> list[ca.SX]:
-        """The values with time itself."""
-        return [ca.SX(x) for x in ca.substitute(list(values), [self.symbol], [self._now])]
 
 
 def move(motion: Motion, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
@@ -195,7 +168,7 @@ def _placed(base: Moving, pose: Pose, angular: ca.SX) -> Moving:
 
 
 def _move_turn(motion: Turn, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
-    local = unit_vector(motion.axis.given, lower)
+    local = motion.axis.unit(lower)
     along = motion.sign * base.pose.direction(local)
     angle, rate = motion.sign * q, motion.sign * v
     turned = _turned(base, local, angle, rate, base.pose.direction(local), lower)
@@ -224,7 +197,7 @@ def _along_way(
 
 def _move_screw(motion: Screw, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     """First along, then about the axis: they commute."""
-    local = unit_vector(motion.axis.given, lower)
+    local = motion.axis.unit(lower)
     advance = lower(motion.pitch) / (2 * ca.pi) * motion.sign * local
     way, slid, far = _along_way(advance, base, q, v, lower)
     angle, rate = motion.sign * q, motion.sign * v
@@ -250,7 +223,7 @@ def _move_driven(motion: Driven, base: Moving, q: ca.SX, v: ca.SX, lower: Lower)
 def _move_follow(motion: Follow, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
     """The material element of the curve may move too: its parameter stays with it."""
     u = ca.SX.sym("u")
-    point = motion.sign * point_of(motion.curve, u, lower)
+    point = motion.sign * motion.curve.point(u, lower)
     along, drift = ca.jacobian(point, u), rate_by_time(point, lower)
     bends = ca.jacobian(along, u) * v**2 + 2 * rate_by_time(along, lower) * v
     bends += rate_by_time(drift, lower)
@@ -285,7 +258,7 @@ def _move_steady(motion: Steady, base: Moving, q: ca.SX, v: ca.SX, lower: Lower)
 
 
 def _move_spot(motion: Spot, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
-    first, second = beside_given(motion.axis.given, lower)
+    first, second = motion.axis.beside(lower)
     way = base.pose.direction(first * q[0] + second * q[1])
     return Moved(base.shifted(way), (), way)
 
@@ -293,8 +266,8 @@ def _move_spot(motion: Spot, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> 
 def way_of(motion: Slide, lower: Lower) -> ca.SX:
     """The unit vector of a slide in the axes of its base."""
     if motion.side is None:
-        return unit_vector(motion.axis.given, lower)
-    return beside_given(motion.axis.given, lower)[motion.side]
+        return motion.axis.unit(lower)
+    return motion.axis.beside(lower)[motion.side]
 
 
 _MOVES: dict[type, Callable[..., Moved]] = {

@@ -10,11 +10,10 @@ found at the start, and kept, as any other.
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.geometry.touches import depth_of
 from frot.compiler.mechanics.liaisons.motions import Roll
 from frot.compiler.mechanics.liaisons.moves import Column, Moved, rates
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, axes_of, cross, nowhere
-from frot.compiler.mechanics.values import Lower, beside_given, unit_vector
+from frot.compiler.mechanics.values import Lower
 
 
 def roll(
@@ -27,10 +26,10 @@ def roll(
     has a speed of its own, and what turning alone would make of it is taken off. While no speed
     changes, w x r has the rate w x r' along the plane.
     """
-    local = unit_vector(motion.axis.given, lower)
+    local = motion.axis.unit(lower)
     normal = plane.pose.direction(local)
     pose = Pose(plane.pose.origin, axes_of(q), q, ca.SX(0))
-    depth = depth_of(motion.figure, pose, side * normal, lower)
+    _, depth = motion.figure.below(pose, side * normal, lower)
     takes, bends, lever = cross(v, depth), nowhere(), nowhere()
     if ca.depends_on(depth, q):  # what is round moves along the plane alone
         across = ca.SX.eye(3) - normal @ normal.T
@@ -39,6 +38,6 @@ def roll(
     takes, bends = ca.sparsify(takes), ca.sparsify(bends)
     moving = Moving(pose, v, plane.linear + takes, nowhere(), plane.linear_bias + bends)
     columns = tuple(Column(e, ca.sparsify(-ca.dot(e, lever) * normal)) for e in (X, Y, Z))
-    ways = (plane.pose.direction(way) for way in beside_given(motion.axis.given, lower))
+    ways = (plane.pose.direction(way) for way in motion.axis.beside(lower))
     spot = ca.vertcat(*(ca.dot(way, takes) for way in ways))
     return Moved(moving, columns, depth, back=-depth), spot

@@ -9,9 +9,8 @@ from collections.abc import Callable
 from typing import Any
 
 import casadi as ca
-from frot.compiler.mechanics.geometry.paths import parameter_of, point_of
+from frot.compiler.mechanics.geometry.paths import slope_at
 from frot.compiler.mechanics.liaisons.motions import (
-    Axis,
     Driven,
     Follow,
     Motion,
@@ -20,9 +19,9 @@ from frot.compiler.mechanics.liaisons.motions import (
     Slide,
     Turn,
 )
-from frot.compiler.mechanics.liaisons.moves import Moments, way_of
+from frot.compiler.mechanics.liaisons.moves import way_of
 from frot.compiler.mechanics.spatial import Moving, Pose, Z, beside, cross
-from frot.compiler.mechanics.values import Lower, rate_by_time, unit_vector
+from frot.compiler.mechanics.values import Axis, Lower, Moments, rate_by_time
 from frot.dsl.data.classes import dataclass
 
 Seen = tuple[ca.SX, ca.SX]
@@ -59,7 +58,7 @@ def counted(angle: ca.SX, about: ca.SX) -> ca.SX:
 
 def angle_about(axis: Axis, a: Pose, b: Pose, lower: Lower) -> ca.SX:
     """The angle by which b is turned from a about an axis of both."""
-    local = unit_vector(axis.given, lower)
+    local = axis.unit(lower)
     if local is Z and a.axes[2, 2].is_one() and b.axes[2, 2].is_one():
         return b.angle - a.angle
     found = arc(Turn(axis), a, b, lower)
@@ -81,12 +80,12 @@ def arc(motion: Turn | Screw, a: Pose, b: Pose, lower: Lower) -> Arc:
     Of a universal joint with the axes e and f, the part of omega along e beside f is wanted: it is
     omega . (x x f)/|x|^2 with x = f x e.
     """
-    local = unit_vector(motion.axis.given, lower)
+    local = motion.axis.unit(lower)
     if isinstance(motion, Screw) or motion.mark is None:
         first, second = (a.direction(e) for e in beside(local))
         turned = b.direction(beside(local)[0])
         return Arc(a.direction(local), ca.dot(turned, second), ca.dot(turned, first))
-    mark = unit_vector(motion.mark.given, lower)
+    mark = motion.mark.unit(lower)
     own = (b if motion.on_b else a).direction(local)
     other = (a if motion.on_b else b).direction(mark)
     start, end, normal = a.direction(mark), b.direction(mark), cross(other, own)
@@ -102,17 +101,15 @@ def _see_turn(motion: Turn | Screw, a: Moving, b: Moving, lower: Lower) -> Seen:
         found = arc(motion, a.pose, b.pose, lower)
         rate = ca.dot(found.about, b.angular - a.angular)
         return ca.atan2(found.sine, found.cosine), rate
-    along = a.pose.direction(unit_vector(motion.axis.given, lower))
+    along = a.pose.direction(motion.axis.unit(lower))
     return angle_about(motion.axis, a.pose, b.pose, lower), ca.dot(along, b.angular - a.angular)
 
 
 def _see_follow(motion: Follow, a: Moving, b: Moving, lower: Lower) -> Seen:
     """By the place of b, whose way along the curve has the rate v . c_u/|c_u|^2."""
     there = b.pose.origin
-    at = parameter_of(motion.curve, there - a.pose.origin, a.pose, lower)
-    u = ca.SX.sym("u")
-    slope = ca.substitute(ca.jacobian(point_of(motion.curve, u, lower), u), u, at)
-    along = a.pose.direction(slope)
+    at = motion.curve.parameter(there - a.pose.origin, a.pose, lower)
+    along = a.pose.direction(slope_at(motion.curve, at, lower))
     moves = b.linear - a.velocity_of(there)
     return at, ca.dot(moves, along) / ca.sumsqr(along)
 

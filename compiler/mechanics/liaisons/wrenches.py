@@ -10,8 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import casadi as ca
-from frot.compiler.mechanics.geometry.figures import Flat
-from frot.compiler.mechanics.geometry.paths import parameter_of, point_of
+from frot.compiler.mechanics.geometry.paths import slope_at
 from frot.compiler.mechanics.geometry.touches import Touch, touch
 from frot.compiler.mechanics.geometry.tracking import Meeting, Track, on_side
 from frot.compiler.mechanics.liaisons.locks import (
@@ -33,11 +32,11 @@ from frot.compiler.mechanics.liaisons.locks import (
     Way,
     WayAlong,
 )
-from frot.compiler.mechanics.liaisons.motions import Axis, Follow, Motion, Reach, Screw, Slide, Turn
-from frot.compiler.mechanics.liaisons.moves import Column, Moments, way_of
+from frot.compiler.mechanics.liaisons.motions import Follow, Motion, Reach, Screw, Slide, Turn
+from frot.compiler.mechanics.liaisons.moves import Column, way_of
 from frot.compiler.mechanics.liaisons.seen import angle_about, arc
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, beside, cross, nowhere
-from frot.compiler.mechanics.values import Lower, beside_given, rate_by_time, unit_vector
+from frot.compiler.mechanics.values import Axis, Lower, Moments, rate_by_time
 from frot.dsl.data.classes import dataclass, field, replace
 
 
@@ -161,8 +160,8 @@ def _twist(about: ca.SX, gap: ca.SX) -> Action:
 def _along(pose: Pose, axis: Axis, lower: Lower, side: int | None = None) -> ca.SX:
     """Ground components of an axis, of one of the two beside it, or of its left in the plane."""
     if side is not None and side != LEFT:
-        return pose.direction(beside_given(axis.given, lower)[side])
-    local = unit_vector(axis.given, lower)
+        return pose.direction(axis.beside(lower)[side])
+    local = axis.unit(lower)
     return pose.direction(local if side is None else cross(Z, local))
 
 
@@ -202,7 +201,7 @@ def _thread(lock: Thread, turn: ca.SX, a: Pose, b: Pose, lower: Lower) -> Action
 def _crossed(lock: Crossed, a: Pose, b: Pose, lower: Lower) -> Action:
     """A couple about the normal of both axes, on which neither turn does work."""
     first, second = _along(a, lock.axis_a, lower), _along(b, lock.axis_b, lower)
-    natural = (unit_vector(axis.given, lower) for axis in (lock.axis_a, lock.axis_b))
+    natural = (axis.unit(lower) for axis in (lock.axis_a, lock.axis_b))
     return _twist(cross(second, first), ca.dot(first, second) - ca.dot(*natural))
 
 
@@ -215,8 +214,8 @@ def _no_slip(lock: NoSlip, found: Touch, a: Pose, lower: Lower) -> Action:
     """Along directions fixed to a plane; beside another normal, any two."""
     if lock.planar:
         way = cross(found.normal, Z)
-    elif isinstance(lock.a, Flat):
-        way = a.direction(beside_given(lock.a.axis.given, lower)[lock.side])
+    elif lock.a.plane is not None:
+        way = a.direction(lock.a.plane.beside(lower)[lock.side])
     else:
         way = beside(found.normal)[lock.side]
     column, own = Column(nowhere(), way), ca.dot(way, found.drift)
@@ -252,10 +251,8 @@ def wrench_along(
         return a.direction(way_of(motion, lower)), nowhere()
     if isinstance(motion, Follow):
         if tangent is None:
-            u = ca.SX.sym("u")
-            here = parameter_of(motion.curve, b.origin - a.origin, a, lower)
-            slope = ca.jacobian(point_of(motion.curve, u, lower), u)
-            tangent = a.direction(ca.substitute(slope, u, here))
+            here = motion.curve.parameter(b.origin - a.origin, a, lower)
+            tangent = a.direction(slope_at(motion.curve, here, lower))
         return tangent / ca.sumsqr(tangent), nowhere()
     if isinstance(motion, Reach):
         way = b.origin - a.origin
@@ -278,7 +275,7 @@ def _drive(lock: Drive, a: Pose, b: Pose, lower: Lower) -> Action:
     found = arc(motion, a, b, lower)
     c, s = ca.cos(value), ca.sin(value)
     apart = ca.atan2(found.sine * c - found.cosine * s, found.cosine * c + found.sine * s)
-    axis = unit_vector(motion.axis.given, lower)
+    axis = motion.axis.unit(lower)
     turn = b.direction(axis) if isinstance(motion, Turn) and motion.on_b else a.direction(axis)
     linear = nowhere()
     if isinstance(motion, Screw):
@@ -289,7 +286,7 @@ def _drive(lock: Drive, a: Pose, b: Pose, lower: Lower) -> Action:
 def _led(motion: Follow, value: ca.SX, a: Pose, b: Pose, lower: Lower) -> Action:
     """Along a curve: to first order, and exact where the place is the one of the value."""
     u = ca.SX.sym("u")
-    point = point_of(motion.curve, u, lower)
+    point = motion.curve.point(u, lower)
     here, slope = ca.substitute([point, ca.jacobian(point, u)], [u], [value])
     along, there = a.direction(slope), a.point(here)
     force = along / ca.sumsqr(along)

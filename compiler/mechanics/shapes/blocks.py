@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.shapes.shape import item_of, principal
+from frot.compiler.mechanics.geometry.figure import Placed
+from frot.compiler.mechanics.geometry.plain import Flat, Straight
+from frot.compiler.mechanics.geometry.round import Ring
+from frot.compiler.mechanics.shapes.shape import Shape, at_centre, item_of, principal
 from frot.compiler.mechanics.spatial import X, Y, Z, nowhere
-from frot.compiler.mechanics.values import Lower
-from frot.dsl.checked import Body
+from frot.compiler.mechanics.values import Axis, Lower
+from frot.dsl.checked import Body, BodyGeometry, BodyPoint
 
 
-class Cylinder:
+class Cylinder(Shape):
     """A homogeneous cylinder along z."""
 
     def inertia(self, body: Body, lower: Lower) -> ca.SX:
@@ -25,8 +28,19 @@ class Cylinder:
         half = lower(body.arguments["length"]) / 2
         return ca.sparsify((half if name == "top" else -half) * Z)
 
+    def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
+        """Its `side`, and the `rims` of its two ends."""
+        radius = part.body.arguments["radius"]
+        if part.name == "side":
+            return at_centre(part, Straight(Axis("z"), radius))
+        rim = item_of(part.name, "rims")
+        if not rim:
+            return None
+        end = BodyPoint(part.body, ("bottom", "top")[rim - 1], part.span)
+        return Placed(end, Ring(Axis("z"), radius))
 
-class Box:
+
+class Box(Shape):
     """A homogeneous box; its points are the centres of its faces, and its corners.
 
     Corners go round counter-clockwise from the one where x and y are least, in space first those
@@ -64,6 +78,41 @@ class Box:
         if name not in ways:
             return nowhere()
         return ca.sparsify(ways[name] * ca.dot(ca.fabs(ways[name])[: size.numel()], size) / 2)
+
+    def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
+        """A face, with its normal; in the plane an edge, with the direction whose left that is."""
+        if part.name not in _FACES:
+            return None
+        axis = Axis((_SIDES if planar else _FACES)[part.name])
+        return Placed(BodyPoint(part.body, part.name, part.span), Flat(axis, planar))
+
+    def corners(self, face: BodyGeometry) -> tuple[BodyPoint, ...]:
+        """Four of a face, two of an edge."""
+        planar = face.body.arguments["size"].type.shape[0] == 2
+        numbers = (_ENDS if planar else _CORNERS).get(face.name, ())
+        return tuple(BodyPoint(face.body, f"corners[{k}]", face.span) for k in numbers)
+
+
+# Normals of the faces; in the plane the directions whose left they are.
+_FACES = {"left": "-x", "right": "x", "bottom": "-z", "top": "z", "front": "-y", "back": "y"}
+_SIDES = {"left": "y", "right": "-y", "bottom": "-x", "top": "x", "front": "-x", "back": "x"}
+# The corners of each.
+_ENDS = {
+    "bottom": (1, 2),
+    "right": (2, 3),
+    "top": (3, 4),
+    "left": (4, 1),
+    "front": (1, 2),
+    "back": (3, 4),
+}
+_CORNERS = {
+    "bottom": (1, 2, 3, 4),
+    "top": (5, 6, 7, 8),
+    "left": (1, 4, 5, 8),
+    "right": (2, 3, 6, 7),
+    "front": (1, 2, 5, 6),
+    "back": (3, 4, 7, 8),
+}
 
 
 def corner_signs(corner: int) -> tuple[int, int, int]:

@@ -6,14 +6,29 @@ For all of them the moment about z is the sum of those about x and y, for z is z
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.shapes.particle import Particle
-from frot.compiler.mechanics.shapes.shape import item_of, principal
+from frot.compiler.mechanics.geometry import round as curves
+from frot.compiler.mechanics.geometry.figure import Placed
+from frot.compiler.mechanics.geometry.plain import Flat
+from frot.compiler.mechanics.shapes.shape import Shape, at_centre, item_of, principal
 from frot.compiler.mechanics.spatial import nowhere
-from frot.compiler.mechanics.values import Lower
-from frot.dsl.checked import Body
+from frot.compiler.mechanics.values import Axis, Lower
+from frot.dsl.checked import Binary, Body, BodyGeometry, BodyPoint
+from frot.dsl.checked.arrays import element
 
 
-class Disc(Particle):
+class _Round(Shape):
+    """What has a circle about G."""
+
+    def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
+        """Its `rim`."""
+        if part.name != "rim":
+            return None
+        radius = part.body.arguments["radius"]
+        rim = curves.Ball(radius) if planar else curves.Ring(Axis("z"), radius)
+        return at_centre(part, rim)
+
+
+class Disc(_Round):
     """A homogeneous disc."""
 
     def inertia(self, body: Body, lower: Lower) -> ca.SX:
@@ -22,7 +37,7 @@ class Disc(Particle):
         return principal(about_z / 2, about_z / 2, about_z)
 
 
-class Ring(Particle):
+class Ring(_Round):
     """A thin ring: all mass at the radius."""
 
     def inertia(self, body: Body, lower: Lower) -> ca.SX:
@@ -31,7 +46,7 @@ class Ring(Particle):
         return principal(about_z / 2, about_z / 2, about_z)
 
 
-class Ellipse(Particle):
+class Ellipse(Shape):
     """A homogeneous elliptic lamina with semi-axes a along x and b along y."""
 
     def inertia(self, body: Body, lower: Lower) -> ca.SX:
@@ -41,8 +56,15 @@ class Ellipse(Particle):
         about_y = mass * lower(body.arguments["a"]) ** 2 / 4
         return principal(about_x, about_y, about_x + about_y)
 
+    def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
+        """Its `rim`."""
+        if part.name != "rim":
+            return None
+        given = part.body.arguments
+        return at_centre(part, curves.Oval(Axis("z"), given["a"], given["b"]))
 
-class Polygon(Particle):
+
+class Polygon(Shape):
     """A homogeneous lamina; its corners in order, G is its centroid."""
 
     def point(self, body: Body, name: str, lower: Lower) -> ca.SX:
@@ -61,6 +83,23 @@ class Polygon(Particle):
         mass = lower(body.arguments["mass"])
         away = (first_x**2 + first_y**2) / area**2
         return principal(ca.SX(0), ca.SX(0), mass * (second / area - away))
+
+    def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
+        """A side, from its second corner to its first: what is inside is to its right."""
+        corners = self.corners(part)
+        if not corners:
+            return None
+        first, second = corners
+        vertices, span = part.body.arguments["vertices"], part.span
+        ends = [element(vertices, item_of(x.name, "corners") - 1, span) for x in (second, first)]
+        along = Binary("-", ends[0], ends[1], ends[0].type, span)
+        return Placed(first, Flat(Axis(along), True))
+
+    def corners(self, face: BodyGeometry) -> tuple[BodyPoint, ...]:
+        """The two ends of `sides[k]`."""
+        number, count = item_of(face.name, "sides"), face.body.arguments["vertices"].type.shape[0]
+        ends = (number, number % count + 1) if number else ()
+        return tuple(BodyPoint(face.body, f"corners[{k}]", face.span) for k in ends)
 
 
 def _areas(corners: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.shapes.shape import principal
+from frot.compiler.mechanics.geometry.figure import Placed
+from frot.compiler.mechanics.geometry.plain import Straight
+from frot.compiler.mechanics.shapes.shape import Shape, at_centre, principal
 from frot.compiler.mechanics.spatial import X, nowhere
-from frot.compiler.mechanics.values import Lower
-from frot.dsl.checked import Body
+from frot.compiler.mechanics.values import Axis, Lower
+from frot.dsl.checked import Body, BodyGeometry
 
 
-class Rod:
+class Rod(Shape):
     """Without thickness: no inertia about its own axis."""
 
     def inertia(self, body: Body, lower: Lower) -> ca.SX:
@@ -23,3 +25,7 @@ class Rod:
             return nowhere()
         half = lower(body.arguments["length"]) / 2
         return ca.sparsify((-half if name == "start" else half) * X)
+
+    def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
+        """Its `axis`."""
+        return at_centre(part, Straight(Axis("x"), None)) if part.name == "axis" else None

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.shapes.particle import Particle
-from frot.compiler.mechanics.shapes.shape import principal
+from frot.compiler.mechanics.geometry.figure import Placed
+from frot.compiler.mechanics.geometry.round import Ball, Egg
+from frot.compiler.mechanics.shapes.shape import Shape, at_centre, principal
 from frot.compiler.mechanics.spatial import whole
 from frot.compiler.mechanics.values import Lower
-from frot.dsl.checked import Body
+from frot.dsl.checked import Body, BodyGeometry
 
 
 def _of_ball(body: Body, lower: Lower, factor: float) -> ca.SX:
@@ -15,7 +16,17 @@ def _of_ball(body: Body, lower: Lower, factor: float) -> ca.SX:
     return principal(moment, moment, moment)
 
 
-class Sphere(Particle):
+class _Round(Shape):
+    """What has a sphere about G."""
+
+    def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
+        """Its `surface`."""
+        if part.name != "surface":
+            return None
+        return at_centre(part, Ball(part.body.arguments["radius"]))
+
+
+class Sphere(_Round):
     """A homogeneous ball."""
 
     def inertia(self, body: Body, lower: Lower) -> ca.SX:
@@ -23,7 +34,7 @@ class Sphere(Particle):
         return _of_ball(body, lower, 2 / 5)
 
 
-class Shell(Particle):
+class Shell(_Round):
     """A thin spherical shell."""
 
     def inertia(self, body: Body, lower: Lower) -> ca.SX:
@@ -31,7 +42,7 @@ class Shell(Particle):
         return _of_ball(body, lower, 2 / 3)
 
 
-class Ellipsoid(Particle):
+class Ellipsoid(Shape):
     """A homogeneous ellipsoid with semi-axes along x, y, z."""
 
     def inertia(self, body: Body, lower: Lower) -> ca.SX:
@@ -39,3 +50,9 @@ class Ellipsoid(Particle):
         a, b, c = (x**2 for x in ca.vertsplit(whole(lower(body.arguments["semi_axes"]))))
         mass = lower(body.arguments["mass"])
         return principal(*(mass * (p + q) / 5 for p, q in ((b, c), (c, a), (a, b))))
+
+    def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
+        """Its `surface`."""
+        if part.name != "surface":
+            return None
+        return at_centre(part, Egg(part.body.arguments["semi_axes"]))

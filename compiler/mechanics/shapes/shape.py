@@ -2,21 +2,36 @@
 
 from __future__ import annotations
 
-from typing import Protocol
-
 import casadi as ca
+from frot.compiler.mechanics.geometry.figure import Figure, Placed
+from frot.compiler.mechanics.spatial import nowhere
 from frot.compiler.mechanics.values import Lower
-from frot.dsl.checked import Body
+from frot.dsl.checked import Body, BodyGeometry, BodyPoint
 
 
-class Shape(Protocol):
+class Shape:
     """A shape of body; `lower` makes expressions of its arguments."""
 
     def inertia(self, body: Body, lower: Lower) -> ca.SX:
         """Inertia (3 x 3, kg.m^2) about G in the body's axes."""
+        raise NotImplementedError
 
     def point(self, body: Body, name: str, lower: Lower) -> ca.SX:
-        """A named point (3, m) in the body's axes at G."""
+        """A named point (3, m) in the body's axes at G, which many have alone."""
+        return nowhere()
+
+    def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
+        """The figure of a rim, a surface, a face, ...; None of one that has no figure yet."""
+        return None
+
+    def corners(self, face: BodyGeometry) -> tuple[BodyPoint, ...]:
+        """The corners of a face, or of a side; none of what is neither."""
+        return ()
+
+
+def at_centre(part: BodyGeometry, figure: Figure) -> Placed:
+    """A figure about G."""
+    return Placed(BodyPoint(part.body, "G", part.span), figure)
 
 
 def principal(first: ca.SX, second: ca.SX, third: ca.SX) -> ca.SX:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import casadi as ca
+from frot.compiler.mechanics.shapes.shape import Shape
 from frot.compiler.mechanics.spatial import nowhere, whole
 from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import Body
 
 
-class Solid:
+class Solid(Shape):
     """Its inertia is always given."""
 
     def inertia(self, body: Body, lower: Lower) -> ca.SX:

@@ -1,0 +1,135 @@
+"""Points, planes, lines and round cylinders."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import casadi as ca
+from frot.compiler.mechanics.geometry.figure import Figure, Loss, lost_axis, lost_on_axis
+from frot.compiler.mechanics.spatial import Pose, Z, cross, nowhere
+from frot.compiler.mechanics.values import Axis, Lower
+from frot.dsl.checked import Expression
+from frot.dsl.data.classes import dataclass
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Dot(Figure):
+    """A point."""
+
+    @property
+    def parameters(self) -> int:
+        """It has no other points."""
+        return 0
+
+    @property
+    def is_thin(self) -> bool:
+        """A point is."""
+        return True
+
+    def radius_in(self, lower: Lower) -> ca.SX:
+        """None."""
+        return ca.SX(0)
+
+    def below(self, pose: Pose, normal: ca.SX, lower: Lower) -> tuple[ca.SX, ca.SX]:
+        """It reaches nowhere."""
+        return ca.SX(0), nowhere()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Flat(Figure):
+    """A plane with its normal; in the plane a line with its direction, whose left is the normal."""
+
+    axis: Axis
+    in_plane: bool
+
+    @property
+    def rank(self) -> int:
+        """The distance from a plane is linear."""
+        return 0
+
+    @property
+    def plane(self) -> Axis:
+        """The normal, or the direction of the line."""
+        return self.axis
+
+    def normal(self, lower: Lower) -> ca.SX:
+        """The normal (3) in its axes."""
+        axis = self.axis.unit(lower)
+        return cross(Z, axis) if self.in_plane else axis
+
+    def function(self, x: ca.SX, lower: Lower) -> ca.SX:
+        """The height."""
+        return ca.dot(self.normal(lower), x)
+
+    def point(self, u: ca.SX, lower: Lower) -> ca.SX:
+        """Of a line of the plane, by the length along it."""
+        return ca.sparsify(u * self.axis.unit(lower))
+
+    def parameter(self, apart: ca.SX, pose: Pose, lower: Lower) -> ca.SX:
+        """The length along the line."""
+        return ca.dot(pose.direction(self.axis.unit(lower)), apart)
+
+    def losses(self, pose: Pose, place: ca.SX, s: ca.SX, lower: Lower) -> Iterator[Loss]:
+        """Its direction."""
+        return lost_axis(self.axis, lower)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Straight(Figure):
+    """A line in space, or with a radius a round cylinder about it."""
+
+    axis: Axis
+    radius: Expression | None
+
+    @property
+    def parameters(self) -> int:
+        """The length along a line."""
+        return 1 if self.radius is None else -1
+
+    @property
+    def rank(self) -> int:
+        """The function of a cylinder is the distance."""
+        return -1 if self.radius is None else 2
+
+    @property
+    def is_thin(self) -> bool:
+        """A line is."""
+        return self.radius is None
+
+    @property
+    def bends(self) -> bool:
+        """What turns about moves its elements."""
+        return self.radius is None and self.axis.turns
+
+    @property
+    def line(self) -> Axis | None:
+        """Along the line."""
+        return self.axis if self.radius is None else None
+
+    @property
+    def tube(self) -> tuple[Axis, Expression] | None:
+        """With a radius."""
+        return None if self.radius is None else (self.axis, self.radius)
+
+    def point(self, u: ca.SX, lower: Lower) -> ca.SX:
+        """By the length along it."""
+        return ca.sparsify(u * self.axis.unit(lower))
+
+    def parameter(self, apart: ca.SX, pose: Pose, lower: Lower) -> ca.SX:
+        """The length along it."""
+        return ca.dot(pose.direction(self.axis.unit(lower)), apart)
+
+    def function(self, x: ca.SX, lower: Lower) -> ca.SX:
+        """The distance from the axis, less the radius."""
+        axis = self.axis.unit(lower)
+        return ca.sqrt(ca.sumsqr(x - ca.dot(axis, x) * axis)) - self.radius_in(lower)
+
+    def radius_in(self, lower: Lower) -> ca.SX:
+        """About the axis."""
+        return ca.SX(0) if self.radius is None else lower(self.radius)
+
+    def losses(self, pose: Pose, place: ca.SX, s: ca.SX, lower: Lower) -> Iterator[Loss]:
+        """The nearest place on the axis of a cylinder; the direction."""
+        if self.radius is not None:
+            yield from lost_on_axis(self.axis, self.radius, pose, place, lower)
+        yield from lost_axis(self.axis, lower)
