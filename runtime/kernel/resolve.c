@@ -175,19 +175,24 @@ static void take_back(const frot_instant *in, const int *chosen, int count) {
       if (in->m->elements[e].contact == chosen[c]) in->at_rest[e] = in->zero[e];
 }
 
+/* The same where what begins to slip has the friction of motion, and what rests that of rest. */
+static int search_moving(const frot_instant *in, const int *chosen, int count, int *unsearched) {
+  frot_instant moving = *in;
+  moving.resists = NULL;
+  return search(&moving, chosen, count, unsearched);
+}
+
 /* What departs would be held at once by the friction of motion: where others can carry what it
  * cannot, less departs or nothing. Else some of what departs may do so without the rest: all that
  * slips has the friction of motion, and what rests that of rest. If there is no such motion, it is
  * told as it was found. */
 static int hold(const frot_instant *in, const int *chosen, int count, int *unsearched) {
-  frot_instant moving = *in;
-  moving.resists = NULL;
   take_back(in, chosen, count);
   int motions = frot_search_corners(in, chosen, count, unsearched);
   while (motions > 0 && note_departures(in, chosen, count))
     motions = frot_search_corners(in, chosen, count, unsearched);
   take_back(in, chosen, count);
-  if (motions == 0 || !in->w->search.exact) motions = search(&moving, chosen, count, unsearched);
+  if (motions == 0 || !in->w->search.exact) motions = search_moving(in, chosen, count, unsearched);
   return motions > 0 ? motions : search(in, chosen, count, unsearched);
 }
 
@@ -215,7 +220,9 @@ static int look_for_motions(const frot_instant *in, const int *chosen, int count
     if (again == 0) return hold(in, chosen, count, unsearched);
     motions = again, departed = 1;
   }
-  if (departed && motions > 0 && !in->w->search.exact)
+  /* no rest ends by passing its bound: what holds with the friction of motion is left */
+  if (motions == 0) return search_moving(in, chosen, count, unsearched);
+  if (departed && !in->w->search.exact)
     return hold_exactly(in, chosen, count, unsearched, motions);
   return motions;
 }
