@@ -59,8 +59,9 @@ double frot_pressure(const frot_instant *in, int i) {
   double lam = in->w->search.trial[i].side * in->w->core.lam[row];
   double rounding = reaction_rounding(in, row);
   double terms = fabs(lam) + frot_reaction_size(in->m, in->w, row);
-  /* what fired is zero in the terms it had, which may all vanish now: its sign is seen later */
-  if (in->fired[i] != 0) rounding += FROT_ZERO * in->s->data[in->l.scale_g + i];
+  /* what came to zero is zero in the terms it had, which may all vanish now: its sign is seen later
+   */
+  rounding += FROT_ZERO * in->vanished[i];
   double size = terms + rounding / FROT_BOUND_SLACK;
   return size > 0 ? lam / size : 0;
 }
@@ -185,9 +186,7 @@ static int contact_is_admissible(const frot_instant *in, int i) {
     double below, a = acceleration(in, row, &below);
     if (a > below) return 1;
     /* what pressed until its reaction came to zero, and would part no faster than that is zero */
-    if (in->fired[i] != 0 && in->w->search.before[i].closed)
-      below +=
-          FROT_ZERO * in->s->data[in->l.scale_g + i] * fabs(frot_effect(in->m, in->w, row, row));
+    below += FROT_ZERO * in->vanished[i] * fabs(frot_effect(in->m, in->w, row, row));
     return a >= -below && !is_carried(in, row);
   }
   if (mode->unloaded) return is_still(in, row) && is_carried(in, row);

@@ -63,7 +63,7 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
     frot_guard_polynomial(s, w, k, h, g);
     double size = s->data[w->layout.scale_g + j], inside = 0;
     for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
-    size = fmax(size, inside);
+    size = fmax(fmax(size, inside), w->guards.size[k]);
     double slope = 6 * fabs(g[1] - g[0]) / h, first = g[0];
     /* what is as near to zero at the start as events are located, and rises, has not fallen */
     for (int i = 0;

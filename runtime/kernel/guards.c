@@ -58,11 +58,20 @@ double frot_reaction_size(const frot_model *m, const frot_work *w, int row) {
   return own > 0 ? w->core.row_load[row] / own : 0;
 }
 
-/* What the loads could make of the reaction that bounds an element. */
+/* Size of the terms of a row's reaction: what loads could make of it, and as much as makes rounding
+ * of what the other reactions leave in the row no more than the floor of a guard. */
+static double terms_of_reaction(const frot_model *m, const frot_work *w, int row) {
+  double motion = w->guards.motion[m->row_group[row]];
+  double own = frot_is_reading(m, row) ? 1 : fabs(frot_effect(m, w, row, row));
+  double rounding = own > 0 ? frot_rounding_of_motion(m, w, row, motion) / own : 0;
+  return frot_reaction_size(m, w, row) + rounding / FROT_GUARD_FLOOR;
+}
+
+/* The same of the reaction that bounds an element. */
 static double bounding_size(const frot_model *m, const frot_work *w, const frot_element *e) {
   double sum = 0;
   for (int k = 0; k < 2; k++)
-    if (e->bounded_by[k] >= 0) sum += frot_reaction_size(m, w, e->bounded_by[k]);
+    if (e->bounded_by[k] >= 0) sum += terms_of_reaction(m, w, e->bounded_by[k]);
   return sum;
 }
 
@@ -73,7 +82,7 @@ static double contact_guard(const frot_model *m, const frot_work *w, const doubl
     if (scale) *scale = fabs(w->core.gap[i]) + frot_gap_size(m, w, row, q);
     return w->core.gap[i];
   }
-  if (scale) *scale = fabs(w->core.lam[row]) + frot_reaction_size(m, w, row);
+  if (scale) *scale = fabs(w->core.lam[row]) + terms_of_reaction(m, w, row);
   return mode->side * w->core.lam[row];
 }
 
@@ -91,7 +100,7 @@ static double element_guard(const frot_model *m, const frot_state *s, const frot
   if (friction == FROT_STICK) {
     double bound = frot_bound_of_rest(m, w, e, modes), lam = w->core.lam[row];
     if (scale)
-      *scale = fabs(bound) + fabs(lam) + frot_reaction_size(m, w, row) +
+      *scale = fabs(bound) + fabs(lam) + terms_of_reaction(m, w, row) +
                w->core.coefficient[2 * e + 1] * bounding_size(m, w, element);
     return k == 0 ? bound - lam : bound + lam;
   }
@@ -109,6 +118,9 @@ void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, c
                  const double *v, const double *d, const frot_contact_mode *modes, double *guard,
                  double *scale) {
   int conditions = frot_condition_guard(m);
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; scale && k < now->n_groups; k++)
+    w->guards.motion[now->groups[k]] = frot_size_of_motion(m, w, &m->groups[now->groups[k]]);
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
     double *size = scale ? scale + k : NULL;

@@ -77,7 +77,7 @@ static int note_margins(const frot_instant *in, const int *chosen, int count) {
   for (int c = 0; c < count; c++) {
     double *own = margin + chosen[c];
     *own = frot_margin_of_contact(in, chosen[c]);
-    if (in->fired[chosen[c]] != 0 && *own < 1) *own = 0;
+    if ((in->fired[chosen[c]] != 0 || in->vanished[chosen[c]] > 0) && *own < 1) *own = 0;
     for (int e = 0; e < m->n_elements; e++) {
       if (m->elements[e].contact != chosen[c]) continue;
       own = margin + m->n_contacts + e, *own = frot_margin_of_element(in, e);

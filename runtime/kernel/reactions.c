@@ -83,8 +83,7 @@ double frot_size_of_motion(const frot_model *m, const frot_work *w, const frot_g
   return motion;
 }
 
-/* What rounding of a motion of that length can do to a row's acceleration. */
-static double rounding_in_row(const frot_model *m, const frot_work *w, int row, double motion) {
+double frot_rounding_of_motion(const frot_model *m, const frot_work *w, int row, double motion) {
   const frot_group *g = frot_group_of(m, row);
   int count = g->general ? g->n : g->n_speeds;
   const double *own = frot_entries(m, g->general ? w->core.rows : w->core.half, row);
@@ -92,14 +91,14 @@ static double rounding_in_row(const frot_model *m, const frot_work *w, int row, 
 }
 
 double frot_row_rounding(const frot_model *m, const frot_work *w, int row) {
-  return rounding_in_row(m, w, row, frot_size_of_motion(m, w, frot_group_of(m, row)));
+  return frot_rounding_of_motion(m, w, row, frot_size_of_motion(m, w, frot_group_of(m, row)));
 }
 
 double frot_free_rounding(const frot_model *m, const frot_work *w, int row) {
   const frot_group *g = frot_group_of(m, row);
   const double *force = w->core.force + g->vector;
   int count = g->general ? g->n : g->n_speeds;
-  return rounding_in_row(m, w, row, sqrt(frot_dot(force, force, count)));
+  return frot_rounding_of_motion(m, w, row, sqrt(frot_dot(force, force, count)));
 }
 
 /* Whether the held rows do not accelerate and friction follows its reaction. */

@@ -35,6 +35,8 @@ double frot_size_of_motion(const frot_model *m, const frot_work *w, const frot_g
 /* What rounding can do to a row's acceleration where loads and reactions cancel: a few units of the
  * last place of all that moves the group, without reactions and by each of them. */
 double frot_row_rounding(const frot_model *m, const frot_work *w, int row);
+/* The same where all that moves the group is known to have that length. */
+double frot_rounding_of_motion(const frot_model *m, const frot_work *w, int row, double motion);
 /* The same without reactions. */
 double frot_free_rounding(const frot_model *m, const frot_work *w, int row);
 

@@ -108,18 +108,23 @@ static int refuse_impacts(const frot_instant *in, double t) {
   return FROT_OK;
 }
 
-/* Note which rests end now, and in which direction. What was left at this very instant stays left:
- * where two rests hold each other at their bounds, both end. */
-static void note_left(const frot_model *m, frot_state *s, double t) {
+/* Note which rests end now, and in which direction, and which reactions have come to zero. What was
+ * left at this very instant stays left: where two rests hold each other at their bounds, both end.
+ * What has come to zero is zero, whatever else happens at the instant. */
+static void note_ends(const frot_model *m, frot_state *s, double t) {
   frot_layout l = frot_layout_of(m);
   double *left = s->data + l.left;
   const frot_contact_mode *modes = (const void *)(s->data + l.modes);
   if (!(fabs(t - s->left_at) <= FROT_ONE_INSTANT * fmax(fabs(t), 1e-3 * s->h_max)))
-    memset(left, 0, sizeof(double) * (size_t)m->n_elements);
+    memset(left, 0, sizeof(double) * (size_t)(m->n_elements + m->n_contacts));
   for (int e = 0; e < m->n_elements; e++) {
     int way = left_by(s->data + l.fired + frot_element_guard(m, e));
     if (frot_element_mode(m, modes, e)->friction == FROT_STICK && way) left[e] = way;
   }
+  double *vanished = s->data + l.vanished;
+  for (int i = 0; i < m->n_contacts; i++)
+    if (s->data[l.fired + i] != 0 && modes[i].closed)
+      vanished[i] = fmax(vanished[i], s->data[l.scale_g + i]);
   s->left_at = t;
 }
 
@@ -280,7 +285,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   double *d = s->data + l.d, *fired = s->data + l.fired, *frozen = s->data + l.frozen;
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + l.modes);
   size_t count = (size_t)(m->n_contacts + m->n_elements);
-  note_left(m, s, t);
+  note_ends(m, s, t);
   frot_instant in = {m,
                      s,
                      w,
@@ -288,6 +293,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
                      fired,
                      s->data + l.unilateral,
                      s->data + l.left,
+                     s->data + l.vanished,
                      w->search.zero,
                      w->search.at_rest,
                      w->search.at_rest,

@@ -12,6 +12,7 @@ typedef struct {
   frot_layout l;
   const double *fired, *unilateral;
   const double *left;     /* n_elements: direction in which a rest was left at this instant */
+  const double *vanished; /* n_contacts: terms in which a reaction came to zero at this instant */
   unsigned char *zero;    /* n_elements: its motion is zero */
   unsigned char *at_rest; /* n_elements: and it has not departed: it may stay at rest */
   /* n_elements: what slips from now on is resisted by the friction of rest; NULL: of motion */

@@ -42,6 +42,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.several = at, at += m->n_contacts;
   l.due = at, at += m->n_timed;
   l.left = at, at += m->n_elements;
+  l.vanished = at, at += m->n_contacts;
   l.spare = at, at += m->n_rows;
   l.posture = at, at += m->n_rows;
   l.sign = at, at += m->n_groups;

@@ -32,7 +32,7 @@ typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, experiment, nominal, unilateral, x, y, slope, scale_x, scale_g, worth,
-      noise, along, reach, asleep, fired, several, due, left, spare, sign, posture, asked, fresh,
+      noise, along, reach, asleep, fired, several, due, left, vanished, spare, sign, posture, asked, fresh,
       modes, d, frozen, segment, size;
 } frot_layout;
 
@@ -67,7 +67,7 @@ struct frot_state {
    * that the row began with */
   double text_event, text_gap, text_ratio, text_first;
   double crowded_since;
-  double left_at;            /* instant at which rest was left last: see `left` */
+  double left_at;            /* instant of the last event: see `left` and `vanished` */
   double t;                  /* time reached */
   double h;                  /* next step */
   double last_h, last_ratio; /* the last step and its error over the bound; 0: none */

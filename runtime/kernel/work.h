@@ -131,11 +131,11 @@ typedef struct {
   unsigned char *first_use;
 } frot_opening_work;
 
-/* guards.h: those that can fall in the modes, the sizes of their terms; pins' reactions at the end
- * of a step (2 n_elements, ends.h). */
+/* guards.h: those that can fall in the modes, the sizes of their terms, of all that moves each
+ * group; pins' reactions at the end of a step (2 n_elements, ends.h). */
 typedef struct {
   int *list, count;
-  double *size, *end_reaction;
+  double *size, *motion, *end_reaction;
 } frot_guard_work;
 
 /* stages.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones at the
