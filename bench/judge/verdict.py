@@ -98,10 +98,26 @@ def sense(judge: Judge, now: Mechanics, joint: Joint, word: str, loose: float) -
     return 1 if r.rate > 0 else -1
 
 
-def later(
+# How far a motion is followed, in parts of its pace, and what of a margin is no fault then.
+SOON = 1e-4
+SLIGHT = 1e-9
+
+
+def lasts(
     judge: Judge, now: Mechanics, found: Motion, still: Mapping[str, Still], t: float
+) -> bool:
+    """Whether the modes hold a little later too: what is slightly wrong and ten times so after ten
+    times as long is no rounding, nor what following the motion roughly makes of it."""
+    soon = later(judge, now, found, still, t, SOON)
+    if soon <= -SLIGHT or soon >= -1e-3 * SLIGHT:
+        return soon > -SLIGHT
+    return not 5 < later(judge, now, found, still, t, 10 * SOON) / soon < 20
+
+
+def later(
+    judge: Judge, now: Mechanics, found: Motion, still: Mapping[str, Still], t: float, part: float
 ) -> float:
-    """The margin of the same modes a little later, along the motion they give."""
+    """The margin of the same modes a part of their pace later, along the motion they give."""
     quick = accelerations(now)
     pace = math.inf
     for k in range(now.n):
@@ -114,7 +130,7 @@ def later(
                 math.sqrt(length / a) if a > 0 else math.inf,
             )
     end = float(judge.result.time[-1]) - float(judge.result.time[0])
-    h = 1e-4 * (pace if math.isfinite(pace) else max(end, 1e-300))
+    h = part * (pace if math.isfinite(pace) else max(end, 1e-300))
     place = now.place + h * now.speed + h * h / 2 * found.acceleration
     speed = now.speed + h * found.acceleration
     state = {}
@@ -174,7 +190,7 @@ def judge_stop(judge: Judge, code: str, text: str, t: float) -> Verdict:
     good: list[Motion] = []
     deadline = time.process_time() + BUDGET
     for m in motions(now, still):
-        if m.margin > CLEAR or (m.margin > -CLEAR and later(judge, now, m, still, t) > -1e-9):
+        if m.margin > CLEAR or (m.margin > -CLEAR and lasts(judge, now, m, still, t)):
             good.append(m)
             if len(good) > 3:
                 break

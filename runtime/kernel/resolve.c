@@ -113,15 +113,15 @@ static int refuse_impacts(const frot_instant *in, double t) {
  * What has come to zero is zero, whatever else happens at the instant. */
 static void note_ends(const frot_model *m, frot_state *s, double t) {
   frot_layout l = frot_layout_of(m);
-  double *left = s->data + l.left;
+  double *left = s->data + l.left, *vanished = s->data + l.vanished;
   const frot_contact_mode *modes = (const void *)(s->data + l.modes);
   if (!(fabs(t - s->left_at) <= FROT_ONE_INSTANT * fmax(fabs(t), 1e-3 * s->h_max)))
-    memset(left, 0, sizeof(double) * (size_t)(m->n_elements + m->n_contacts));
+    memset(left, 0, sizeof(double) * (size_t)m->n_elements),
+        memset(vanished, 0, sizeof(double) * (size_t)m->n_contacts);
   for (int e = 0; e < m->n_elements; e++) {
     int way = left_by(s->data + l.fired + frot_element_guard(m, e));
     if (frot_element_mode(m, modes, e)->friction == FROT_STICK && way) left[e] = way;
   }
-  double *vanished = s->data + l.vanished;
   for (int i = 0; i < m->n_contacts; i++)
     if (s->data[l.fired + i] != 0 && modes[i].closed)
       vanished[i] = fmax(vanished[i], s->data[l.scale_g + i]);
@@ -168,6 +168,7 @@ static int search(const frot_instant *in, const int *chosen, int count, int *uns
   for (int lasting = 1; lasting >= 0; lasting--)
     for (int forced = 1; forced >= 0; forced--) {
       int motions = frot_search(in, chosen, count, forced, lasting, unsearched);
+      in->w->search.lasts = lasting;
       if (motions > 0) return motions;
     }
   return 0;
@@ -193,6 +194,7 @@ static int search_moving(const frot_instant *in, const int *chosen, int count, i
  * told as it was found. */
 static int hold(const frot_instant *in, const int *chosen, int count, int *unsearched) {
   take_back(in, chosen, count);
+  in->w->search.lasts = 1;
   int motions = frot_search_corners(in, chosen, count, unsearched);
   while (motions > 0 && note_departures(in, chosen, count))
     motions = frot_search_corners(in, chosen, count, unsearched);
@@ -218,6 +220,7 @@ static int hold_exactly(const frot_instant *in, const int *chosen, int count, in
  * at once, and what the others do follows from that: looked for again until nothing more departs.
  */
 static int look_for_motions(const frot_instant *in, const int *chosen, int count, int *unsearched) {
+  in->w->search.lasts = 1;
   if (frot_rest_goes_on(in, chosen, count)) return 1;
   int motions = search(in, chosen, count, unsearched), departed = 0;
   while (motions > 0 && note_departures(in, chosen, count)) {
@@ -248,6 +251,7 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
   frot_work *w = in->w;
   int several = 0, several_at = -1;
   if (first) memset(in->s->data + in->l.several, 0, sizeof(double) * (size_t)m->n_contacts);
+  in->s->fleeting = -1;
   find_components(in);
   for (int root = 0; root < m->n_contacts; root++) {
     int *chosen = w->search.chosen, count = 0, unsearched = 0;
@@ -256,6 +260,7 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
     if (count == 0) continue;
     int motions = look_for_motions(in, chosen, count, &unsearched);
     in->s->statistics.unsearched += unsearched;
+    if (!w->search.lasts) in->s->fleeting = chosen[0];
     if (motions == 0) {
       int fault = unsearched                  ? FROT_TOO_LARGE
                   : only_loops(in, chosen[0]) ? FROT_POSTURE

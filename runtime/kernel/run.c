@@ -243,6 +243,8 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
       frot_wake_state(m, s, w);
       if (++s->crowded > CROWD && s->statistics.events == s->told)
         status = frot_fail_step(m, s, w, FROT_DIVERGE, *g.t1, 0); /* the same modes again */
+      else if (s->crowded > CROWD && s->fleeting >= 0) /* none holds longer than the instant */
+        status = frot_fail(s, FROT_IMPASSE, *g.t1, s->fleeting, -1, -1, s->crowded);
       else if (s->crowded > CROWD)
         status = frot_fail(s, FROT_CHATTER, *g.t1, -1, condition_at_fault(m, s), -1, s->crowded);
       else

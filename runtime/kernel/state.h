@@ -45,6 +45,7 @@ struct frot_state {
   int has_slope;   /* slope holds the derivatives at the end of the current segment */
   int changed;     /* parameters or inputs were set since the last frot_settle */
   int crowded;     /* events since the time last moved on */
+  int fleeting;    /* the contact at which no motion lasts at the last event, or -1 */
   long long told;  /* events that changed something before that */
   int jumped;      /* the last event of the text moved coordinates or speeds */
   int several;     /* groups of contacts had several motions at the start: to be told as events */

@@ -182,6 +182,7 @@ typedef struct {
   double *motions, *pivot_bound, *nothing_frozen, *margin;
   int *choice, *component, *chosen;
   int exact;   /* whether `best` needs no slack: frot_is_exact */
+  int lasts;   /* and whether it lasts: frot_lasts */
   int corners; /* that may still be looked at in this search: others.c */
 } frot_search_work;
 
