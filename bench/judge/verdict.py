@@ -106,8 +106,11 @@ SLIGHT = 1e-9
 def lasts(
     judge: Judge, now: Mechanics, found: Motion, still: Mapping[str, Still], t: float
 ) -> bool:
-    """Whether the modes hold a little later too: what is slightly wrong and ten times so after ten
-    times as long is no rounding, nor what following the motion roughly makes of it."""
+    """Whether the modes hold a little later too.
+
+    What is slightly wrong, and ten times so after ten times as long, is no rounding, nor what
+    following the motion roughly makes of it.
+    """
     soon = later(judge, now, found, still, t, SOON)
     if soon <= -SLIGHT or soon >= -1e-3 * SLIGHT:
         return soon > -SLIGHT

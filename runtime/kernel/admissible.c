@@ -61,7 +61,7 @@ double frot_pressure(const frot_instant *in, int i) {
   double terms = fabs(lam) + frot_reaction_size(in->m, in->w, row);
   /* what came to zero is zero in the terms it had, which may all vanish now: its sign is seen later
    */
-  rounding += FROT_ZERO * in->vanished[i];
+  rounding += FROT_LOCATED * in->vanished[i];
   double size = terms + rounding / FROT_BOUND_SLACK;
   return size > 0 ? lam / size : 0;
 }
@@ -186,7 +186,7 @@ static int contact_is_admissible(const frot_instant *in, int i) {
     double below, a = acceleration(in, row, &below);
     if (a > below) return 1;
     /* what pressed until its reaction came to zero, and would part no faster than that is zero */
-    below += FROT_ZERO * in->vanished[i] * fabs(frot_effect(in->m, in->w, row, row));
+    below += FROT_LOCATED * in->vanished[i] * fabs(frot_effect(in->m, in->w, row, row));
     return a >= -below && !is_carried(in, row);
   }
   if (mode->unloaded) return is_still(in, row) && is_carried(in, row);

@@ -31,7 +31,9 @@ SCENES = (
 # at an event are not found; a slip on a light plank is jammed by what lies on it, slowly beside the
 # terms of its acceleration; what departs is held at once by the friction of motion, where another
 # share of the load holds it; a damper to a body of another group brings a reaction to zero; of two
-# pins that could depart together one does; a coefficient is negative where the start is looked for
+# pins that could depart together one does; a coefficient is negative where the start is looked for;
+# all loads of an instant vanish, or a reaction does among others that do; motions hold with the
+# friction of motion alone, or each for its instant alone
 ONCE_WRONG = (
     (77, "corner", 0, (0,)),
     (77, "stack", 0, (2,)),
@@ -45,6 +47,11 @@ ONCE_WRONG = (
     (9902, "anything", 6, (21,)),
     (9902, "anything", 7, (15,)),
     (9902, "chain", 0, (0,)),
+    (7302, "anything", 0, (16,)),
+    (7501, "anything", 0, (24,)),
+    (7502, "anything", 4, (15,)),
+    (8101, "anything", 5, (1,)),
+    (8101, "anything", 8, (3,)),
 )
 
 
