@@ -356,14 +356,15 @@ def _margin(
         return min(values, default=1.0), z
     from scipy.optimize import linprog
 
-    # maximise e: line (z + free y) + constant >= e, e <= 1
+    # maximise e: line (z + free y) + constant >= e, e <= 1; where any y would do, one in which the
+    # equations keep their digits
     scale = np.maximum(np.max(np.abs(np.array([line @ free for line, _ in lines])), axis=0), 1e-300)
     free = free / scale
     a = np.array([np.append(-(line @ free), 1.0) for line, _ in lines])
     b = np.array([line @ z + constant for line, constant in lines])
     k = free.shape[1]
     found = linprog(
-        np.append(np.zeros(k), -1.0), a, b, bounds=[(-1e9, 1e9)] * k + [(None, 1.0)], method="highs"
+        np.append(np.zeros(k), -1.0), a, b, bounds=[(-1e6, 1e6)] * k + [(None, 1.0)], method="highs"
     )
     if found.status != 0:
         return -np.inf, z
