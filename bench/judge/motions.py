@@ -268,10 +268,10 @@ def motion(
     rank = int(np.sum(s > 1e-11 * s[0]))
     gap = float(s[rank - 1] / s[0])
 
-    def solve(r: Floats) -> Floats:
+    def solve(r: Floats, begin: Floats | float = 0.0) -> Floats:
         # the singular vectors mix parts that do not act on each other: what a large one leaves of
         # its rounding in a small one goes by refinement
-        z = np.zeros(len(r))
+        z = np.zeros(len(r)) + begin
         for _ in range(3):
             z = z + vt[:rank].T @ ((u.T @ (r - matrix @ z))[:rank] / s[:rank])
         return z
@@ -292,6 +292,8 @@ def motion(
         return None
     free = vt[rank:].T
     margin, best = _margin(system, z / columns, free / columns[:, None], modes)
+    if not system.bends:
+        best = solve(right, best * columns) / columns
     if rank < len(s) and not holds(best * columns):  # what seemed free is only nearly so
         margin, best = _margin(system, z / columns, free[:, :0], modes)
     z = best

@@ -230,8 +230,7 @@ static int look_for_motions(const frot_instant *in, const int *chosen, int count
   }
   /* no rest ends by passing its bound: what holds with the friction of motion is left */
   if (motions == 0) return search_moving(in, chosen, count, unsearched);
-  if (departed && !in->w->search.exact)
-    return hold_exactly(in, chosen, count, unsearched, motions);
+  if (departed && !in->w->search.exact) return hold_exactly(in, chosen, count, unsearched, motions);
   return motions;
 }
 

@@ -198,8 +198,7 @@ static void bind_opening(const frot_model *m, const frot_layout *l, const extent
 
 static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, arena *a) {
   frot_step_work *p = &w->step;
-  TAKE(w->guards.list, l->ng), TAKE(w->guards.size, l->ng),
-      TAKE(w->guards.motion, m->n_groups);
+  TAKE(w->guards.list, l->ng), TAKE(w->guards.size, l->ng), TAKE(w->guards.motion, m->n_groups);
   TAKE(w->guards.end_reaction, 2 * m->n_elements);
   TAKE(p->k, DP_ALL * l->nz), TAKE(p->first, l->nz), TAKE(p->doubt, l->nz),
       TAKE(p->excused, 2 * m->nv), TAKE(p->z0, l->nz), TAKE(p->z1, l->nz), TAKE(p->z, l->nz);
