@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 import casadi as ca
 from frot.compiler.lowering.flatten import T, by_input, tunable
-from frot.compiler.mechanics.liaisons.motions import Motion, Spot, count_speeds
+from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.mechanism import Link, Mechanism
 from frot.dsl.checked import Input, Liaison, Parameter
 from frot.dsl.data.classes import dataclass, field
@@ -155,7 +155,7 @@ def make_symbols(mechanism: Mechanism) -> Symbols:
         q_speed=(*_rate_places(motions), *[-1] * turned.numel()),
         turns=_turns(motions),
         spots=tuple(
-            k for m, i, _ in _places(motions) if isinstance(m, Spot) for k in range(i.start, i.stop)
+            k for m, i, _ in _places(motions) if m.is_taken for k in range(i.start, i.stop)
         ),
         parameters=tuple(one for group in items.values() for one in group),
         inputs=tuple(one for group in of_input.values() for one in group),
@@ -168,7 +168,7 @@ def _places(motions: list[Motion]) -> Iterator[tuple[Motion, slice, slice]]:
     """Each motion with its coordinates and its speeds."""
     nq = nv = 0
     for motion in motions:
-        m, n = len(motion.coordinates), count_speeds(motion)
+        m, n = len(motion.coordinates), motion.speed_count
         yield motion, slice(nq, nq + m), slice(nv, nv + n)
         nq, nv = nq + m, nv + n
 
@@ -177,16 +177,14 @@ def _rates(motions: list[Motion], q: ca.SX, v: ca.SX) -> ca.SX:
     """Q' = N(q) v."""
     if not any(motion.quaternion for motion in motions):
         return v
-    from frot.compiler.mechanics.liaisons.moves import rates
-
-    return column(rates(motion, q[i], v[k]) for motion, i, k in _places(motions))
+    return column(motion.rates(q[i], v[k]) for motion, i, k in _places(motions))
 
 
 def _rate_places(motions: list[Motion]) -> tuple[int, ...]:
     found: list[int] = []
     for motion, i, k in _places(motions):
         count = i.stop - i.start
-        own = motion.quaternion is None and not isinstance(motion, Spot)
+        own = motion.quaternion is None and not motion.is_taken
         found += range(k.start, k.start + count) if own else [-1] * count
     return tuple(found)
 

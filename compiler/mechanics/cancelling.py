@@ -8,8 +8,8 @@ import casadi as ca
 from frot.compiler.lowering.symbols import link_rows
 from frot.compiler.mechanics.geometry.contacts import Geometry
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, RelationGeometry
-from frot.compiler.mechanics.liaisons.locks import Stated
+from frot.compiler.mechanics.liaisons.actions import RelationGeometry
+from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
 from frot.compiler.mechanics.mechanism import Mechanism, Relation
 from frot.compiler.mechanics.values import pace_of
 from frot.dsl.checked import CurvePlace, Liaison, SurfacePlace
@@ -26,7 +26,7 @@ def _closing(
     """The row, the relation and the geometry of each lock that closes a loop."""
     rows = link_rows(mechanism.contacts)
     for x, link, own in zip(rows, mechanism.contacts, geometry, strict=True):
-        if isinstance(link, Relation) and not isinstance(link.lock, Stated):
+        if isinstance(link, Relation) and not link.lock.stated:
             yield x.reaction[0], link, own
 
 

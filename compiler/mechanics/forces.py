@@ -9,7 +9,7 @@ from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.dynamics import Push
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.wrenches import Effort
+from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.mechanism import point_body
 from frot.compiler.mechanics.spatial import about_z, nowhere, whole
 from frot.dsl.catalogue import FUNCTIONS

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from frot.compiler.mechanics.liaisons.locks import Across
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
@@ -72,4 +71,4 @@ def _needs_coordinates(link: Contact | Joint) -> bool:
         follows = link.liaison.kind.name == "point_courbe"
         figure = link.track.figure
         return follows and figure.plane is None and not figure.is_round
-    return any(isinstance(lock, Across) for lock in link.locks)
+    return any(lock.by_coordinates for lock in link.locks)

@@ -8,10 +8,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.mechanics.liaisons.motions import Roll, count_speeds
-from frot.compiler.mechanics.liaisons.moves import Column, Moved, carried, move, turned_by_time
-from frot.compiler.mechanics.liaisons.roll import roll
-from frot.compiler.mechanics.liaisons.wrenches import act
+from frot.compiler.mechanics.liaisons.actions import Between
+from frot.compiler.mechanics.liaisons.moves import Column, carried, turned_by_time
 from frot.compiler.mechanics.mechanism import Hanging, Joint, Point, frames_of, point_body
 from frot.compiler.mechanics.spatial import AT_REST, Moving, nowhere
 from frot.dsl.checked import Body
@@ -38,14 +36,6 @@ class Node:
     columns: tuple[Column, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Spotted:
-    """The rate of a coordinate that what rolls takes along, and the size of that."""
-
-    rate: ca.SX
-    size: ca.SX
-
-
 def hang(kinematics: Kinematics, hanging: Hanging, nq: int, nv: int, ground: Body) -> None:
     """Go from the place that carries a body to its G."""
     symbols, body = kinematics.symbols, hanging.body
@@ -53,13 +43,9 @@ def hang(kinematics: Kinematics, hanging: Hanging, nq: int, nv: int, ground: Bod
     node = kinematics.node_of[base]
     moving, arm = at, kinematics.beyond[base] + out
     for motion in hanging.motions:
-        m, n = len(motion.coordinates), count_speeds(motion)
-        q = symbols.q[nq : nq + m]
-        v, lower = symbols.v[nv : nv + n], kinematics.fixed.lower
-        if isinstance(motion, Roll):
-            moved = _roll(kinematics, motion, hanging, moving, q, v)
-        else:
-            moved = move(motion, moving, q, v, lower)
+        m, n = len(motion.coordinates), motion.speed_count
+        q, v = symbols.q[nq : nq + m], symbols.v[nv : nv + n]
+        moved = motion.carry(kinematics, hanging, moving, q, v)
         moving = moved.moving
         if moved.tangent is not None and hanging.link is not None:
             kinematics.tangents[hanging.link.liaison] = moved.tangent
@@ -76,24 +62,6 @@ def hang(kinematics: Kinematics, hanging: Hanging, nq: int, nv: int, ground: Bod
     kinematics.bodies[body], back = _to_centre(kinematics, hanging, moving)
     kinematics.node_of[body], kinematics.beyond[body] = node, arm + back
     _measure(kinematics, hanging, base)
-
-
-def _roll(
-    kinematics: Kinematics, motion: Roll, hanging: Hanging, plane: Moving, q: ca.SX, v: ca.SX
-) -> Moved:
-    """What rolls takes the first of its coordinates along."""
-    assert hanging.link is not None
-    side = kinematics.sides[hanging.link.liaison]
-    moved, rates = roll(motion, plane, q, v, kinematics.fixed.lower, side)
-    first, _ = kinematics.places[hanging.body]
-    for k, rate in enumerate(ca.vertsplit(rates)):
-        kinematics.spots[first + k] = Spotted(rate, motion.figure.reach(kinematics.fixed.lower))
-    assert hanging.base is not None  # without a guess a body is at the origin of the ground
-    base = kinematics.pose(hanging.base)
-    along = motion.axis.unit(kinematics.fixed.lower)
-    for k, way in enumerate((*motion.axis.beside(kinematics.fixed.lower), along)):
-        kinematics.starts[first + k] = -ca.dot(base.direction(way), base.origin)
-    return moved
 
 
 def _base(kinematics: Kinematics, hanging: Hanging, ground: Body) -> tuple[Body, Moving, ca.SX]:
@@ -117,8 +85,9 @@ def _read(
     if isinstance(link, Joint):
         sign = 1 if hanging.carries_b else -1
         a, b = (at.pose, moving.pose) if hanging.carries_b else (moving.pose, at.pose)
-        tangent, lower = kinematics.tangents.get(link.liaison), kinematics.fixed.lower
-        columns = [act(x, a, b, lower, tangent=tangent).column for x in link.held]
+        tangent = kinematics.tangents.get(link.liaison)
+        between = Between(a, b, kinematics.fixed.lower, tangent=tangent)
+        columns = [lock.act(between).column for lock in link.held]
     else:
         columns = [Column(nowhere(), kinematics.normal(link))]
     nv, back = kinematics.symbols.v.numel(), nowhere()

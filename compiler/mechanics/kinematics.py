@@ -8,16 +8,18 @@ differentiated.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import casadi as ca
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.geometry.figure import Placed
 from frot.compiler.mechanics.geometry.tracking import Track
-from frot.compiler.mechanics.hang import Node, Spotted, hang
-from frot.compiler.mechanics.liaisons.motions import Follow, count_speeds
+from frot.compiler.mechanics.hang import Node, hang
+from frot.compiler.mechanics.liaisons.actions import Between, Part
+from frot.compiler.mechanics.liaisons.motion import counted, seen
 from frot.compiler.mechanics.liaisons.moves import carried, turned_by_time
-from frot.compiler.mechanics.liaisons.seen import counted, seen
+from frot.compiler.mechanics.liaisons.roll import Spotted
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Hanging,
@@ -240,6 +242,28 @@ class Kinematics:
             return made
         return self.tracks[liaison]
 
+    def track_of(self, joint: Joint) -> Track | None:
+        """What is followed where the figures of a joint touch, or where a point is on its curve."""
+        if joint.liaison in self.tangents:
+            return None
+        parts: tuple[Part, ...] = (*joint.locks, *joint.motions)
+        for part in parts:
+            if part.is_followed:
+                at, lower = (self.pose(joint.a), self.pose(joint.b)), self.fixed.lower
+                return self.track(joint.liaison, partial(part.find, at, lower, self.planar))
+        return None
+
+    def between(self, joint: Joint, side: ca.SX) -> Between:
+        """The places of a joint, with what is known there; `side` as of figures that touch."""
+        return Between(
+            self.pose(joint.a),
+            self.pose(joint.b),
+            self.fixed.lower,
+            side=side,
+            tangent=self.tangents.get(joint.liaison),
+            track=self.track_of(joint),
+        )
+
     def velocity_at(self, body: Body, place: ca.SX) -> ca.SX:
         """Velocity (3) of the material point of a body that is at `place`."""
         return self.bodies[body].velocity_of(place)
@@ -258,10 +282,10 @@ class Kinematics:
             k = index if hanging.carries_b else len(joint.motions) - 1 - index
             nq, nv = self.places[hanging.body]
             nq += sum(len(m.coordinates) for m in hanging.motions[:k])
-            nv += sum(count_speeds(m) for m in hanging.motions[:k])
+            nv += sum(m.speed_count for m in hanging.motions[:k])
             if motion.coordinates and hanging.motions[k].coordinates == motion.coordinates:
                 return self.symbols.q[nq], self.symbols.v[nv]
-        if isinstance(motion, Follow) and joint.liaison in self.tracks:
+        if motion.curve is not None and joint.liaison in self.tracks:
             return self.tracks[joint.liaison].unknowns[0], self.track_rates[joint.liaison][0]
         a, b = self.moving(joint.a), self.moving(joint.b)
         value, rate = seen(motion, a, b, self.fixed.lower)

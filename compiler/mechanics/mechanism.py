@@ -26,8 +26,8 @@ from frot.dsl.data.classes import dataclass, replace
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from frot.compiler.mechanics.geometry.figure import Figure, Placed
-    from frot.compiler.mechanics.liaisons.locks import Lock
-    from frot.compiler.mechanics.liaisons.motions import Motion
+    from frot.compiler.mechanics.liaisons.lock import Lock
+    from frot.compiler.mechanics.liaisons.motion import Motion
 
 Point = BodyPoint | Frame
 

@@ -14,8 +14,8 @@ from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told
 from frot.compiler.mechanics.liaisons.freed import OF_PLACES, OF_SPEEDS, is_row
 from frot.compiler.mechanics.liaisons.halves import halve
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, make_joint
-from frot.compiler.mechanics.liaisons.locks import Lock, Stated, Touching
-from frot.compiler.mechanics.liaisons.motions import Nearing
+from frot.compiler.mechanics.liaisons.lock import Lock
+from frot.compiler.mechanics.liaisons.stated import Stated
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Joint,
@@ -284,7 +284,7 @@ def _refuse_surface(model: Model, links: Iterable[Contact | Joint], log: Log) ->
         if model.planar
         and isinstance(e, Joint)
         and e.radius is None
-        and not any(isinstance(x, Touching | Nearing) for x in (*e.locks, *e.motions))
+        and not (any(x.touches for x in e.locks) or any(x.touches for x in e.motions))
         and e.liaison.kind.name != "prismatique"
     }
     for node in read_quantities(model):

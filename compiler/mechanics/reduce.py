@@ -35,7 +35,8 @@ from frot.compiler.mechanics.dynamics import (
 )
 from frot.compiler.mechanics.geometry.contacts import Geometry, gravity, link_geometry, row_rates
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, RelationGeometry
+from frot.compiler.mechanics.liaisons.actions import RelationGeometry
+from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
 from frot.compiler.mechanics.loads import applied_loads, sum_loads
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Mechanism, Relation
 from frot.compiler.mechanics.text_of_motion import (

@@ -8,8 +8,9 @@ anything; and where the implicit method may be taken, which finds its stages soo
 
 from __future__ import annotations
 
-from frot.compiler.mechanics.liaisons.locks import NoSlip, Touching
-from frot.compiler.mechanics.liaisons.motions import Motion, Roll, Slide, Spot
+from frot.compiler.mechanics.liaisons.motion import Motion
+from frot.compiler.mechanics.liaisons.places import Slide
+from frot.compiler.mechanics.liaisons.roll import Roll, Spot
 from frot.compiler.mechanics.mechanism import Joint, frames_of, point_body, turns
 
 
@@ -18,22 +19,19 @@ def can_roll(joint: Joint) -> bool:
 
     On a body that moves, a start that states the place of what rolls would move that body too.
     """
-    touching, *others = joint.locks or (None,)
-    if len(others) != 2 or not all(isinstance(x, NoSlip) for x in others):
+    if not joint.locks or [x.rolls for x in joint.locks[1:]] != [True, True]:
         return False
     if point_body(joint.a).shape is not None or not turns(point_body(joint.b)):
         return False
-    match touching:
-        case Touching(a=plane, b=figure, followed=False, apart=None) if plane.plane is not None:
-            straight = all(frame.angle is None for frame in frames_of(joint.b))
-            return figure.rolls and (figure.is_round or straight)
-    return False
+    found = joint.locks[0].rolls_on
+    if found is None:
+        return False
+    return found[1].is_round or all(frame.angle is None for frame in frames_of(joint.b))
 
 
 def rolling_motions(joint: Joint) -> tuple[Motion, ...]:
     """The motions along the plane, away from it, and about the centre of the figure."""
-    touching = joint.locks[0]
-    assert isinstance(touching, Touching)
-    axis = touching.a.plane
-    assert axis is not None
-    return Spot(axis), Slide(axis, coordinates=("height",)), Roll(touching.b, axis)
+    found = joint.locks[0].rolls_on
+    assert found is not None
+    axis, figure = found
+    return Spot(axis), Slide(axis, coordinates=("height",)), Roll(figure, axis)

@@ -5,20 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from frot.compiler.mechanics.geometry.figure import Figure
-from frot.compiler.mechanics.liaisons.motions import (
-    Attitude,
-    Driven,
-    Follow,
-    Heading,
-    Motion,
-    Pointing,
-    Screw,
-    Slide,
-    Steady,
-    Turn,
-    bare,
-    count_speeds,
-)
+from frot.compiler.mechanics.liaisons.curves import Follow
+from frot.compiler.mechanics.liaisons.facing import Attitude, Heading, Pointing, Steady
+from frot.compiler.mechanics.liaisons.motion import Motion
+from frot.compiler.mechanics.liaisons.places import Slide
 from frot.compiler.mechanics.mechanism import (
     Contact,
     Hanging,
@@ -33,7 +23,7 @@ from frot.compiler.mechanics.mechanism import (
 from frot.compiler.mechanics.rolling import can_roll, rolling_motions
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Body, Liaison, Model
-from frot.dsl.data.classes import dataclass, replace
+from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -160,7 +150,7 @@ class _Builder:
                 if other is point_body(joint.b):
                     yield self._jointed(other, joint, joint.a, joint.b, joint.motions)
                 else:
-                    back = tuple(reverse(m) for m in reversed(joint.motions))
+                    back = tuple(m.reversed() for m in reversed(joint.motions))
                     yield self._jointed(other, joint, joint.b, joint.a, back)
 
     def _jointed(
@@ -169,11 +159,11 @@ class _Builder:
         """Of a body in a joint: a particle has only the ways that the joint leaves."""
         ends = (point_body(base), body)
         if all(turns(b) or b.shape is None for b in ends) or (
-            turns(body) and all(isinstance(bare(m), Turn) for m in motions)
+            turns(body) and all(m.bare.hinges for m in motions)
         ):
-            chosen = tuple(self._orient(body) if isinstance(m, Attitude) else m for m in motions)
+            chosen = tuple(self._orient(body) if m.faces_ground else m for m in motions)
             return self._named(body, joint, base, own, chosen)
-        ways = tuple(m for m in motions if not isinstance(bare(m), Turn | Screw | Attitude))
+        ways = tuple(m for m in motions if not m.bare.turns)
         return self._hanging(body, joint, base, own, ways)
 
     def _hanging(
@@ -210,18 +200,8 @@ class _Builder:
             names += [f"{owner}.{name}" for name in motion.coordinates]
             rates = [f"der({owner}.{name})" for name in motion.coordinates]
             own_speeds = [f"{owner}.{name}" for name in motion.speeds] or rates
-            speeds += own_speeds[: count_speeds(motion)]
+            speeds += own_speeds[: motion.speed_count]
         return Hanging(body, link, base, own, motions, tuple(names), tuple(speeds))
-
-
-def reverse(motion: Motion) -> Motion:
-    """The motion of a relative to b."""
-    if isinstance(motion, Driven):
-        own = motion.motion
-        return replace(motion, motion=replace(own, sign=-own.sign))
-    if isinstance(motion, Turn | Slide | Screw | Follow):
-        return replace(motion, sign=-motion.sign)
-    return motion
 
 
 def _carriers(group: Body, carried: dict[Body, Contact | Joint], groups: Groups) -> list[Body]:

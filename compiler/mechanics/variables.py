@@ -9,11 +9,11 @@ from frot.compiler.equations.chains import Chains
 from frot.compiler.lowering.symbols import Rows, Symbols
 from frot.compiler.mechanics.geometry.contacts import Geometry
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.liaisons.efforts import effort_along
 from frot.compiler.mechanics.liaisons.freed import numbered
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, joint_variable
 from frot.compiler.mechanics.liaisons.stated import Reader, unit_of
-from frot.compiler.mechanics.liaisons.wrenches import Effort
 from frot.compiler.mechanics.mechanism import Contact, Joint, point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere

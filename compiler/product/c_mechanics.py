@@ -6,7 +6,6 @@ import casadi as ca
 from frot.compiler.lowering.groups import Group
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.mechanics.elements import Bound, Element
-from frot.compiler.mechanics.liaisons.motions import count_speeds
 from frot.compiler.mechanics.mechanism import Joint, Relation, rolls
 from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import place as _place
@@ -110,7 +109,7 @@ def mechanical_arrays(lowered: Lowered) -> list[str]:
         if e.bound is Bound.NORMAL and not e.rolling
     }
     motions = [m for h in reduced.mechanism.coordinates for m in h.motions]
-    whether = [m.turns for m in motions for _ in range(count_speeds(m))]
+    whether = [m.turns for m in motions for _ in range(m.speed_count)]
     own = zip(_symbols(reduced.symbols.v), whether, strict=True)
     turning = {speed for speed, turns in own if turns}
     tables = {

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.symbols import Rows, scalars_of
-from frot.compiler.mechanics.liaisons.locks import Way
 from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Relation, rolls
 from frot.dsl.data.classes import dataclass
 
@@ -96,11 +95,8 @@ def _row_names(link: Link, rows: Rows) -> tuple[str, ...]:
         return (f"{name}.reaction[{link.joint.locks.index(link.lock) + 1}]",)
     if not isinstance(link, Contact):
         couple = (f"{name}.torque",) if rows.tangent >= 0 else ()
-        ways = [
-            lock.axis
-            for lock in (link.locks if isinstance(link, Joint) else ())
-            if isinstance(lock, Way)
-        ]
+        axes = (lock.ground_axis for lock in (link.locks if isinstance(link, Joint) else ()))
+        ways = [axis for axis in axes if axis is not None]
         if len(ways) == len(rows.reaction):
             return (*(f"{name}.force.{'xyz'[k]}" for k in ways), *couple)
         locks = link.locks if isinstance(link, Joint) else ()

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, make_joint
-from frot.compiler.mechanics.liaisons.locks import LEFT, WayAlong
+from frot.compiler.mechanics.liaisons.places import LEFT, WayAlong
 from frot.compiler.mechanics.mechanism import Joint, Link, Relation
 from frot.compiler.mechanics.values import Axis
 from frot.compiler.report.redundancy import Loop

@@ -10,7 +10,7 @@ from frot.compiler.lowering.symbols import Symbols, column, make_symbols
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.geometry.contacts import link_geometry, row_rates
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.motions import Follow, Motion, Slide, count_speeds
+from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.mechanism import Contact, Link, Mechanism
 from frot.compiler.report.followed import Followed
 from frot.dsl.data.classes import dataclass, replace
@@ -243,5 +243,5 @@ def turning_speeds(motions: list[Motion]) -> NDArray[np.bool_]:
     """Which speeds are angular; along a curve they are taken as lengths."""
     found: list[bool] = []
     for motion in motions:
-        found += [not isinstance(motion, Slide | Follow)] * count_speeds(motion)
+        found += [motion.turns] * motion.speed_count
     return np.array(found, dtype=bool)

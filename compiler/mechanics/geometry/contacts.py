@@ -6,9 +6,9 @@ import casadi as ca
 from frot.compiler.mechanics.geometry.touches import is_closed, touch
 from frot.compiler.mechanics.geometry.tracking import on_side, track
 from frot.compiler.mechanics.kinematics import Kinematics, Line
+from frot.compiler.mechanics.liaisons.actions import RelationGeometry
 from frot.compiler.mechanics.liaisons.joint_geometry import (
     JointGeometry,
-    RelationGeometry,
     joint_geometry,
     relation_geometry,
 )

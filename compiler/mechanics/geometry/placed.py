@@ -13,19 +13,14 @@ from frot.compiler.mechanics.geometry.plain import Dot
 from frot.compiler.mechanics.geometry.round import Ball
 from frot.compiler.mechanics.geometry.touches import is_closed
 from frot.compiler.mechanics.geometry.tracking import can_touch
+from frot.compiler.mechanics.liaisons.curves import Across, Follow, Tangent
+from frot.compiler.mechanics.liaisons.directions import Level, NoSpin
+from frot.compiler.mechanics.liaisons.facing import Attitude, Heading
 from frot.compiler.mechanics.liaisons.joints import Options, Pairing
-from frot.compiler.mechanics.liaisons.locks import (
-    Across,
-    Apart,
-    Level,
-    Lock,
-    NoSlip,
-    NoSpin,
-    Tangent,
-    Touching,
-    WayAlong,
-)
-from frot.compiler.mechanics.liaisons.motions import Attitude, Follow, Heading, Motion, Slide
+from frot.compiler.mechanics.liaisons.lock import Lock
+from frot.compiler.mechanics.liaisons.motion import Motion
+from frot.compiler.mechanics.liaisons.places import Apart, Slide, WayAlong
+from frot.compiler.mechanics.liaisons.touching import NoSlip, Touching
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.data.classes import dataclass
 

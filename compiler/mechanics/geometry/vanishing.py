@@ -15,9 +15,8 @@ from frot.compiler.mechanics.geometry.contacts import Geometry
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.plain import Dot
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.actions import Part
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
-from frot.compiler.mechanics.liaisons.locks import Across, Tangent, Touching
-from frot.compiler.mechanics.liaisons.motions import Follow, Nearing
 from frot.compiler.mechanics.mechanism import Contact, Joint, frames_of
 from frot.compiler.mechanics.spatial import Pose, whole
 from frot.dsl.checked import Expression, Liaison
@@ -105,8 +104,8 @@ def _figures(
     name, other = reversed(texts) if swapped else texts
     if liaison in kinematics.tangents:
         unknowns = kinematics.parameter(liaison)[0]
-        followed = [m.curve for m in getattr(link, "motions", ()) if isinstance(m, Follow)]
-        pairs = [(x, Dot()) for x in followed] or pairs
+        followed = (motion.curve for motion in getattr(link, "motions", ()))
+        pairs = [(curve, Dot()) for curve in followed if curve is not None] or pairs
     for a, b in pairs:
         own = ca.SX.zeros(0) if a.rank >= 0 and b.rank >= 0 else unknowns
         count = 0 if a.rank >= 0 or not own.numel() else a.parameters
@@ -115,12 +114,7 @@ def _figures(
 
 
 def _pairs(joint: Joint) -> Iterator[tuple[Figure, Figure]]:
-    for motion in joint.motions:
-        if isinstance(motion, Nearing):
-            yield motion.a, motion.b
-    for lock in joint.locks:
-        match lock:
-            case Across(curve=curve, side=0):
-                yield curve, Dot()
-            case Tangent(a=a, b=b, part=0) | Touching(a=a, b=b):
-                yield a, b
+    parts: tuple[Part, ...] = (*joint.motions, *joint.locks)
+    for part in parts:
+        if part.figures is not None:
+            yield part.figures

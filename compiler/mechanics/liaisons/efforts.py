@@ -6,9 +6,8 @@ import casadi as ca
 from frot.compiler.mechanics.geometry.contacts import Geometry
 from frot.compiler.mechanics.geometry.paths import slope_at
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.actions import Between, Effort
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
-from frot.compiler.mechanics.liaisons.motions import bare, name_of
-from frot.compiler.mechanics.liaisons.wrenches import Effort, wrench_along
 from frot.compiler.mechanics.mechanism import Contact, Joint
 from frot.compiler.mechanics.spatial import cross, nowhere
 
@@ -30,11 +29,11 @@ def effort_along(
         normal, place = geometry.touch.normal, geometry.touch.place
         couple = cross(place - kinematics.position(link.b), normal)
         return Effort(geometry.rates["gap"], normal, couple)
-    index = [name_of(m) for m in link.motions].index(coordinate)
+    index = [m.name for m in link.motions].index(coordinate)
     rate = kinematics.coordinate(link, index)[1]
     a, b = kinematics.pose(link.a), kinematics.pose(link.b)
-    tangent = kinematics.tangents.get(link.liaison)
-    return Effort(rate, *wrench_along(bare(link.motions[index]), a, b, lower, tangent))
+    between = Between(a, b, lower, tangent=kinematics.tangents.get(link.liaison))
+    return Effort(rate, *link.motions[index].bare.wrench(between))
 
 
 def _pace(contact: Contact, geometry: Geometry, kinematics: Kinematics) -> ca.SX:

@@ -2,21 +2,13 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import casadi as ca
 from frot.compiler.lowering.symbols import Rows
 from frot.compiler.mechanics.geometry.touches import Touch
-from frot.compiler.mechanics.geometry.tracking import Track, along, tangency, track
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.locks import Across, Drive, Stated, Tangent, Thread, Touching
-from frot.compiler.mechanics.liaisons.motions import Nearing, Slide, bare, name_of
-from frot.compiler.mechanics.liaisons.moves import way_of
-from frot.compiler.mechanics.liaisons.stated import state, value_of
-from frot.compiler.mechanics.liaisons.wrenches import Action, act
-from frot.compiler.mechanics.mechanism import Joint, Relation, point_body
-from frot.compiler.mechanics.spatial import Moving, Pose, Z, conjugate, cross, nowhere, product
-from frot.compiler.mechanics.values import Lower
+from frot.compiler.mechanics.liaisons.actions import Action, RelationGeometry
+from frot.compiler.mechanics.mechanism import Joint, Relation
+from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
 from frot.dsl.data.classes import dataclass
 
 
@@ -54,42 +46,26 @@ class JointGeometry:
         return next(iter(self.rates.values()))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class RelationGeometry:
-    """One lock of a joint that closes a loop: its gap, the rate of that, and `reach`, see there."""
-
-    gap: ca.SX
-    rate: ca.SX
-    witness: ca.SX
-    reach: ca.SX
-
-
 def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGeometry:
     """A joint, whether coordinates keep it or not."""
     a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
-    lower = kinematics.fixed.lower
-    tangent, followed = kinematics.tangents.get(joint.liaison), track_of(joint, kinematics)
+    between = kinematics.between(joint, side)
     coordinates: dict[str, ca.SX] = {}
     rates: dict[str, ca.SX] = {}
     touch: Touch | None = None
     for k, motion in enumerate(joint.motions):
-        name = name_of(motion)
-        if isinstance(motion, Nearing):
-            seen = _near(motion, a.pose, b.pose, lower, followed)
-            touch, coordinates[name], rates[name] = seen.touch, seen.gap, seen.rate(a, b)
-        elif name:
-            coordinates[name], rates[name] = kinematics.coordinate(joint, k)
-    actions = tuple(
-        state(lock, joint, kinematics)
-        if isinstance(lock, Stated)
-        else act(lock, a.pose, b.pose, lower, side, tangent, track=followed)
-        for lock in joint.locks
-    )
+        near = motion.near(between)
+        if near is not None:
+            touch = near.touch
+            coordinates[motion.name], rates[motion.name] = near.gap, near.rate(a, b)
+        elif motion.name:
+            coordinates[motion.name], rates[motion.name] = kinematics.coordinate(joint, k)
+    actions = tuple(lock.of_joint(joint, kinematics, side) for lock in joint.locks)
     measured = [x.measure for x in actions if x.measure is not None]
     if measured:
         coordinates["length"] = measured[0]
     touch = next((x.touch for x in actions if x.touch is not None), touch)
-    if sum(isinstance(lock, Touching) for lock in joint.locks) > 1:
+    if sum(lock.touches for lock in joint.locks) > 1:
         touch = None  # a curve that is where two surfaces meet has no one normal
     place = b.pose.origin if touch is None else touch.place
     moves = b.velocity_of(place) - a.velocity_of(place)
@@ -101,13 +77,13 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
         touch=touch,
         moves=moves,
         way=_way(joint, a.pose, kinematics),
-        drives=tuple(isinstance(lock, Drive) for lock in joint.locks),
+        drives=tuple(lock.drives for lock in joint.locks),
         coordinates=coordinates,
         rates=rates,
         relative=b.angular - a.angular,
         attitude=product(conjugate(a.pose.quaternion), b.pose.quaternion),
         apart=ca.SX.zeros(0) if at is None else sw[at : at + len(joint.held)],
-        radius=None if joint.radius is None else lower(joint.radius),
+        radius=None if joint.radius is None else kinematics.fixed.lower(joint.radius),
         gap=ca.SX(0) if touch is None else touch.gap,
         witness=ca.SX.ones(3),
         reach=ca.SX(0),
@@ -115,89 +91,14 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
 
 
 def _way(joint: Joint, a: Pose, kinematics: Kinematics) -> ca.SX | None:
-    ways = [own for m in joint.motions if isinstance(own := bare(m), Slide)]
-    if not kinematics.planar or len(ways) != 1:
-        return None
-    return a.direction(way_of(ways[0], kinematics.fixed.lower))
-
-
-def track_of(joint: Joint, kinematics: Kinematics) -> Track | None:
-    """What is followed where the figures of a joint touch, or where a point is on its curve."""
-    if joint.liaison in kinematics.tangents:
-        return None
-    let_go = [_nearing(m) for m in joint.motions if isinstance(m, Nearing)]
-    for lock in (*joint.locks, *let_go):
-        if isinstance(lock, Across | Tangent) or (isinstance(lock, Touching) and lock.followed):
-            return kinematics.track(joint.liaison, partial(_make_track, lock, joint, kinematics))
-    return None
-
-
-def _near(motion: Nearing, a: Pose, b: Pose, lower: Lower, followed: Track | None) -> Action:
-    """The gap on the side of a on which the figure b is; of a point it has the sign of the side."""
-    found = act(_nearing(motion), a, b, lower, track=followed)
-    if motion.b.is_point:
-        return found
-    assert found.touch is not None
-    side = ca.if_else(found.touch.witness < 0, -1, 1)
-    return act(_nearing(motion), a, b, lower, side, track=followed)
-
-
-def _nearing(motion: Nearing) -> Touching:
-    return Touching(motion.a, motion.b, motion.followed)
-
-
-def _make_track(lock: Across | Tangent | Touching, joint: Joint, kinematics: Kinematics) -> Track:
-    at, lower = (kinematics.pose(joint.a), kinematics.pose(joint.b)), kinematics.fixed.lower
-    match lock:
-        case Across(curve=curve):
-            return along(curve, at, lower)
-        case Tangent(a=a, b=b):
-            return tangency(a, b, at, lower)
-    return track(lock.a, lock.b, at, lower, kinematics.planar)
+    ways = (motion.bare.way(kinematics.fixed.lower) for motion in joint.motions)
+    found = [way for way in ways if way is not None]
+    return a.direction(found[0]) if kinematics.planar and len(found) == 1 else None
 
 
 def relation_geometry(relation: Relation, kinematics: Kinematics, side: ca.SX) -> RelationGeometry:
     """A lock between bodies that coordinates do not keep together."""
-    joint = relation.joint
-    if isinstance(relation.lock, Stated):
-        value, size = value_of(relation.lock, kinematics)
-        if relation.lock.kinematic:
-            return RelationGeometry(ca.SX(0), value, ca.SX.ones(3), ca.SX(0))
-        return RelationGeometry(value, kinematics.rate(value), ca.SX.ones(3), size)
-    a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
-    turn = None
-    if isinstance(relation.lock, Thread):
-        turn = kinematics.coordinate(joint, 0)[0]
-    followed = track_of(joint, kinematics)
-    lower = kinematics.fixed.lower
-    action = act(relation.lock, a.pose, b.pose, lower, side, turn=turn, track=followed)
-    sizes = kinematics.lengths_between(
-        (point_body(joint.a), kinematics.local_point(joint.a)),
-        (point_body(joint.b), kinematics.local_point(joint.b)),
-    )
-    if isinstance(relation.lock, Tangent) and relation.lock.part == 2:
-        exact = _exact_rate(action, a, b, kinematics)
-        return RelationGeometry(action.gap, exact, ca.SX.ones(3), ca.SX(1))
-    reach = ca.SX(1) if relation.lock.turns else ca.dot(ca.fabs(action.force), sizes)
-    witness = ca.SX.ones(3)
-    if action.touch is not None:
-        reach, witness[0] = reach + action.touch.size, action.touch.witness
-    rate = action.rate(a, b)
-    if isinstance(relation.lock, Touching) and relation.lock.a.is_steep:
-        rate = _exact_rate(action, a, b, kinematics)
-    return RelationGeometry(action.gap, rate, witness, reach)
-
-
-def _exact_rate(action: Action, a: Moving, b: Moving, kinematics: Kinematics) -> ca.SX:
-    """The rate of a gap that is a distance to first order only, beside its relation too.
-
-    Auxiliary speeds, which displace nothing, move along the wrench.
-    """
-    rate, auxiliary = action.rate(a, b), kinematics.symbols.sw
-    if not auxiliary.numel():
-        return kinematics.rate(action.gap)
-    still = ca.substitute(rate, auxiliary, ca.SX.zeros(auxiliary.shape))
-    return kinematics.rate(action.gap) + rate - still
+    return relation.lock.of_relation(relation.joint, kinematics, side)
 
 
 def _beside(geometry: JointGeometry, vector: ca.SX, planar: bool) -> ca.SX:

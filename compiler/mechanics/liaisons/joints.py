@@ -9,36 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 
-from frot.compiler.mechanics.liaisons.locks import (
-    LEFT,
-    Aligned,
-    Apart,
-    Crossed,
-    Drive,
-    Lock,
-    Parallel,
-    SameAngle,
-    Thread,
-    Touching,
-    Way,
-    WayAlong,
-)
-from frot.compiler.mechanics.liaisons.motions import (
-    Attitude,
-    Driven,
-    Follow,
-    Motion,
-    Nearing,
-    Reach,
-    Screw,
-    Slide,
-    Turn,
-    name_of,
-)
+from frot.compiler.mechanics.liaisons.directions import Aligned, Crossed, Parallel, SameAngle
+from frot.compiler.mechanics.liaisons.driven import Drive, Driven
+from frot.compiler.mechanics.liaisons.facing import Attitude
+from frot.compiler.mechanics.liaisons.lock import Lock
+from frot.compiler.mechanics.liaisons.motion import Motion
+from frot.compiler.mechanics.liaisons.places import LEFT, Slide, Way, WayAlong
+from frot.compiler.mechanics.liaisons.turns import Screw, Thread, Turn
 from frot.compiler.mechanics.mechanism import Joint, Point, is_particle, point_body
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Expression, Liaison, Literal
-from frot.dsl.data.classes import dataclass, replace
+from frot.dsl.data.classes import dataclass
 from frot.dsl.quantities.dimensions import BOOLEAN
 
 Options = Mapping[str, Expression]
@@ -132,36 +113,25 @@ def drive(pairing: Pairing, values: Mapping[str, Expression]) -> Pairing:
     if "abscissa" in values:  # of a line, that is its parameter
         values = {**values, "u": values["abscissa"]}
     motions: list[Motion] = []
-    locks = list(pairing.locks)
+    locks = [lock.told(values) for lock in pairing.locks]
     for motion in pairing.motions:
-        name = name_of(motion)
-        if name in values and isinstance(motion, Turn | Slide | Screw | Follow):
-            driven = Driven(motion, values[name])
+        if motion.name in values:
+            driven = Driven(motion, values[motion.name])
             motions.append(driven)
             locks.append(Drive(driven))
         else:
             motions.append(motion)
-    if "length" in values:
-        locks = [Apart(values["length"]) if isinstance(x, Apart) else x for x in locks]
-    if "gap" in values:
-        locks = [replace(x, apart=values["gap"]) if isinstance(x, Touching) else x for x in locks]
     return Pairing(tuple(motions), tuple(locks), pairing.carries)
 
 
 def let_go(pairing: Pairing, prescribed: Collection[str]) -> Pairing:
     """A liaison whose length or gap an equation of the text prescribes: it keeps none by itself."""
-    locks: list[Lock] = []
-    motions = list(pairing.motions)
-    for lock in pairing.locks:
-        if isinstance(lock, Apart) and "length" in prescribed:
-            motions.append(Reach())
-        elif isinstance(lock, Touching) and "gap" in prescribed:
-            motions.append(Nearing(lock.a, lock.b, lock.followed))
-        else:
-            locks.append(lock)
-    if len(motions) == len(pairing.motions):
+    seen = [lock.let_go(prescribed) for lock in pairing.locks]
+    motions = tuple(motion for motion in seen if motion is not None)
+    if not motions:
         return pairing
-    return Pairing(tuple(motions), tuple(locks), carries=False)
+    kept = (x for x, motion in zip(pairing.locks, seen, strict=True) if motion is None)
+    return Pairing((*pairing.motions, *motions), tuple(kept), carries=False)
 
 
 def make_joint(

@@ -8,20 +8,48 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
-from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.locks import Stated
+from frot.compiler.mechanics.liaisons.actions import Action, Effort, RelationGeometry
+from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.liaisons.wrenches import Action, Effort
-from frot.compiler.mechanics.mechanism import Joint, point_body
+from frot.compiler.mechanics.mechanism import point_body
 from frot.compiler.mechanics.spatial import Moving, Pose, cross, nowhere, product
 from frot.dsl import Log
-from frot.dsl.checked import Liaison, Quantity, StatedRelation, Variable
+from frot.dsl.checked import Expression, Liaison, Quantity, StatedRelation, Variable
 from frot.dsl.data.classes import dataclass, replace
 
+if TYPE_CHECKING:
+    from frot.compiler.mechanics.kinematics import Kinematics
+    from frot.compiler.mechanics.mechanism import Joint
+
 _SPACE = 3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stated(Lock):
+    """A relation of the user: left = right."""
+
+    left: Expression
+    right: Expression
+    kinematic: bool
+    stated = True
+
+    def of_joint(self, joint: Joint, kinematics: Kinematics, side: ca.SX) -> Action:
+        """The wrench and the gap; of a relation between velocities there is no gap."""
+        reader = Reader(kinematics)
+        gap = ca.SX(0) if self.kinematic else reader.value(self)[0]
+        force, couple = _wrench(self, joint, reader)
+        return Action(force, couple, Column(nowhere(), nowhere()), gap)
+
+    def of_relation(self, joint: Joint, kinematics: Kinematics, side: ca.SX) -> RelationGeometry:
+        """Left side less right side, and the size of both."""
+        value, size = Reader(kinematics).value(self)
+        if self.kinematic:
+            return RelationGeometry(ca.SX(0), value, ca.SX.ones(3), ca.SX(0))
+        return RelationGeometry(value, kinematics.rate(value), ca.SX.ones(3), size)
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,11 +75,6 @@ class Reader:
         value = _read(node, self.kinematics)
         planar = self.kinematics.planar and value.numel() == _SPACE
         return ca.densify(value[:2]) if planar else value
-
-
-def value_of(lock: Stated, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
-    """Left side less right side of a relation that is a row, and the size of both."""
-    return Reader(kinematics).value(lock)
 
 
 def unit_of(relation: StatedRelation, joint: Joint, reader: Reader) -> Effort:
@@ -84,14 +107,6 @@ def _read(node: Quantity, kinematics: Kinematics) -> ca.SX:
         case "orientation":
             return moving.pose.quaternion
     return ca.densify(moving.pose.axes[:, "xyz".index(node.name[1])])
-
-
-def state(lock: Stated, joint: Joint, kinematics: Kinematics) -> Action:
-    """The wrench and the gap of a relation; of one between velocities there is no gap."""
-    reader = Reader(kinematics)
-    gap = ca.SX(0) if lock.kinematic else reader.value(lock)[0]
-    force, couple = _wrench(lock, joint, reader)
-    return Action(force, couple, Column(nowhere(), nowhere()), gap)
 
 
 def _wrench(relation: Stated | StatedRelation, joint: Joint, reader: Reader) -> tuple[ca.SX, ca.SX]:

@@ -1,0 +1,126 @@
+"""What a liaison does between two places: its wrench, the motion that forbids, its gap.
+
+One unit of the wrench is a force at the place b and a couple, of a on b. On the forbidden motion,
+at the place b, it does one unit of power, and the wrenches of the other locks of the liaison none.
+The rate of the gap is the power of the wrench on the motion of b relative to a.
+"""
+
+from __future__ import annotations
+
+import casadi as ca
+from frot.compiler.mechanics.geometry.figure import Figure
+from frot.compiler.mechanics.geometry.touches import Touch
+from frot.compiler.mechanics.geometry.tracking import Track
+from frot.compiler.mechanics.liaisons.moves import Column
+from frot.compiler.mechanics.spatial import Moving, Pose, nowhere
+from frot.compiler.mechanics.values import Lower
+from frot.dsl.data.classes import dataclass, field
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Between:
+    """The places a and b, and what a lock between them may want to know.
+
+    `side` is that of figures which touch, see there, None for the outside; `tangent` that of a
+    curve which carries b; `turn` the angle of a screw with its whole turns, else it is within half
+    a turn; `track` what is followed where they touch, or where b is on a curve.
+    """
+
+    a: Pose
+    b: Pose
+    lower: Lower
+    side: ca.SX | None = None
+    tangent: ca.SX | None = None
+    turn: ca.SX | None = None
+    track: Track | None = None
+
+    @property
+    def way(self) -> ca.SX:
+        """From a to b (3)."""
+        return self.b.origin - self.a.origin
+
+
+class Part:
+    """A lock or a motion of a liaison, and what meets there if anything does.
+
+    `touches`: the distance of two figures is what it keeps, or what it is.
+    """
+
+    __slots__ = ()
+
+    touches = False
+
+    @property
+    def is_followed(self) -> bool:
+        """Whether where the bodies are nearest is solved for."""
+        return False
+
+    @property
+    def figures(self) -> tuple[Figure, Figure] | None:
+        """What meets, told by the first of the parts that say so."""
+        return None
+
+    def find(self, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
+        """What is followed."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Effort:
+    """What one unit along a coordinate is: the rate it drives, its force and couple on b.
+
+    In a liaison of which a curve of the plane is one place, `force` is that on the point.
+    `along`: the part of each speed in the rate, where that is not linear in speeds.
+    """
+
+    rate: ca.SX
+    force: ca.SX
+    couple: ca.SX
+    along: ca.SX | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Action:
+    """A lock between two poses: `force` and `couple` of its wrench, `column`, `gap`.
+
+    `own` is the rate of the gap while neither moves. `at`: where the force acts, None for the place
+    b. `touch`: how the figures stand that touch. `measure`: a distance that the lock keeps.
+    """
+
+    force: ca.SX
+    couple: ca.SX
+    column: Column
+    gap: ca.SX
+    own: ca.SX = field(default_factory=lambda: ca.SX(0))
+    at: ca.SX | None = None
+    touch: Touch | None = None
+    measure: ca.SX | None = None
+
+    def rate(self, a: Moving, b: Moving) -> ca.SX:
+        """Rate of the gap: f . (v_b - v_a where f acts) + c . (omega_b - omega_a) + its own."""
+        place = b.pose.origin if self.at is None else self.at
+        moves = b.linear if self.at is None else b.velocity_of(place)
+        apart = moves - a.velocity_of(place)
+        return ca.dot(self.force, apart) + ca.dot(self.couple, b.angular - a.angular) + self.own
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RelationGeometry:
+    """One lock of a joint that closes a loop: its gap, the rate of that, and `reach`, see there."""
+
+    gap: ca.SX
+    rate: ca.SX
+    witness: ca.SX
+    reach: ca.SX
+
+
+def push(way: ca.SX, gap: ca.SX) -> Action:
+    """A force along a unit vector."""
+    return Action(way, nowhere(), Column(nowhere(), way), gap)
+
+
+def twist(about: ca.SX, gap: ca.SX) -> Action:
+    """A couple; the motion is that about the same line with one unit of power."""
+    square = ca.sumsqr(about)
+    turn = about if square.is_one() else about / square
+    return Action(nowhere(), about, Column(turn, nowhere()), gap)

@@ -1,0 +1,150 @@
+"""A point on a curve, and curves that are tangent."""
+
+from __future__ import annotations
+
+from typing import Self
+
+import casadi as ca
+from frot.compiler.mechanics.geometry.figure import Figure
+from frot.compiler.mechanics.geometry.paths import slope_at
+from frot.compiler.mechanics.geometry.plain import Dot
+from frot.compiler.mechanics.geometry.tracking import Track, along, tangency
+from frot.compiler.mechanics.liaisons.actions import Action, Between, push
+from frot.compiler.mechanics.liaisons.lock import Lock
+from frot.compiler.mechanics.liaisons.motion import Motion, Seen
+from frot.compiler.mechanics.liaisons.moves import Column, Moved, slid
+from frot.compiler.mechanics.spatial import Moving, Pose, beside, nowhere
+from frot.compiler.mechanics.values import Lower, rate_by_time
+from frot.dsl.data.classes import dataclass, replace
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Follow(Motion):
+    """Along a curve fixed to the base, by its parameter."""
+
+    curve: Figure
+    sign: int = 1
+    coordinates = ("u",)
+    comes_round = True
+
+    def reversed(self) -> Self:
+        """Of the base along the curve."""
+        return replace(self, sign=-self.sign)
+
+    def move(self, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
+        """The material element of the curve may move too: its parameter stays with it."""
+        u = ca.SX.sym("u")
+        point = self.sign * self.curve.point(u, lower)
+        along, drift = ca.jacobian(point, u), rate_by_time(point, lower)
+        bends = ca.jacobian(along, u) * v**2 + 2 * rate_by_time(along, lower) * v
+        bends += rate_by_time(drift, lower)
+        local = [ca.SX(x) for x in ca.substitute([point, along, drift, bends], [u], [q])]
+        way, along, drift, bends = (base.pose.direction(ca.sparsify(x)) for x in local)
+        moving = slid(base, way, along * v + drift, bends)
+        return Moved(moving, (Column(nowhere(), along),), way, along)
+
+    def see(self, a: Moving, b: Moving, lower: Lower) -> Seen:
+        """By the place of b, whose way along the curve has the rate v . c_u/|c_u|^2."""
+        there = b.pose.origin
+        at = self.curve.parameter(there - a.pose.origin, a.pose, lower)
+        along = a.pose.direction(slope_at(self.curve, at, lower))
+        moves = b.linear - a.velocity_of(there)
+        return at, ca.dot(moves, along) / ca.sumsqr(along)
+
+    def wrench(self, at: Between) -> tuple[ca.SX, ca.SX]:
+        """A force along the tangent."""
+        tangent = at.tangent
+        if tangent is None:
+            here = self.curve.parameter(at.way, at.a, at.lower)
+            tangent = at.a.direction(slope_at(self.curve, here, at.lower))
+        return tangent / ca.sumsqr(tangent), nowhere()
+
+    def hold(self, value: ca.SX, at: Between) -> Action:
+        """To first order, and exact where the place is the one of the value."""
+        u = ca.SX.sym("u")
+        point = self.curve.point(u, at.lower)
+        here, slope = ca.substitute([point, ca.jacobian(point, u)], [u], [value])
+        along, there = at.a.direction(slope), at.a.point(here)
+        force = along / ca.sumsqr(along)
+        gap = ca.dot(force, at.b.origin - there)
+        return Action(force, nowhere(), Column(nowhere(), along), gap)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Across(Lock):
+    """No way beside a curve on which b is, in one of two directions."""
+
+    curve: Figure
+    side: int
+    by_coordinates = True
+
+    @property
+    def is_followed(self) -> bool:
+        """Where coordinates do not keep b on the curve."""
+        return True
+
+    @property
+    def figures(self) -> tuple[Figure, Figure] | None:
+        """The curve and a point."""
+        return (self.curve, Dot()) if self.side == 0 else None
+
+    def find(self, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
+        """The nearest point of the curve."""
+        return along(self.curve, at, lower)
+
+    def act(self, at: Between) -> Action:
+        """Beside a tangent; what coordinates do not keep on its curve has a way to it."""
+        if at.tangent is not None:
+            return push(self._beside(at.tangent), ca.SX(0))
+        assert at.track is not None and at.track.trace is not None
+        force, found = self._beside(at.track.trace.slopes[0]), at.track.touch
+        own = ca.dot(force, found.drift)
+        return replace(push(force, ca.dot(force, found.normal)), own=own)
+
+    def _beside(self, slope: ca.SX) -> ca.SX:
+        return beside(slope / ca.norm_2(slope))[self.side]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tangent(Lock):
+    """Two curves in space are tangent: no way in two directions beside them (0, 1), or no angle.
+
+    Curves that meet have one relation (they cross), tangent ones two more. One of these two says
+    how the place moves along the curves, the other, across the plane in which they bend apart,
+    is the third relation (2).
+    """
+
+    a: Figure
+    b: Figure
+    part: int
+
+    @property
+    def turns(self) -> bool:  # type: ignore[override]
+        """The angle does."""
+        return self.part == 2
+
+    @property
+    def to_first_order(self) -> bool:
+        """The place moves along with the angle."""
+        return self.part == 2
+
+    @property
+    def is_followed(self) -> bool:
+        """Always."""
+        return True
+
+    @property
+    def figures(self) -> tuple[Figure, Figure] | None:
+        """The two."""
+        return (self.a, self.b) if self.part == 0 else None
+
+    def find(self, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
+        """Where they are tangent."""
+        return tangency(self.a, self.b, at, lower)
+
+    def act(self, at: Between) -> Action:
+        """As the place was found."""
+        assert at.track is not None
+        found = at.track.meeting[self.part]
+        nothing = Column(nowhere(), nowhere())
+        return Action(found.force, found.couple, nothing, found.gap, found.own, found.place)
