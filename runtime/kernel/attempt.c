@@ -102,8 +102,14 @@ static void see_noise(frot_state *s, frot_attempt *a) {
   a->tried_h = a->ratio > 0 && a->ratio < 1e300 ? a->h : 0, a->tried_ratio = a->ratio;
 }
 
-/* Try the step once: FROT_OK if it is good, with its dense output; then s->h is the next one's
- * length. */
+/* Whether the step is followed inside, though nobody looks: where a guard may fall, or what is
+ * evaluated there depends on more than the step. */
+static int needs_dense(const frot_model *m, const frot_state *s, const frot_work *w) {
+  return s->implicit || s->tied > 0 || s->weak || m->ny > 0 || frot_may_fall(s, w);
+}
+
+/* Try the step once: FROT_OK if it is good, with its dense output if it needs that; then s->h is
+ * the next one's length. */
 static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   double t = a->t, h = a->h;
   int status = frot_run_stages(m, s, w, t, h);
@@ -138,6 +144,8 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
       return FROT_DIVERGE;
     }
     frot_measure_end(m, s, w, t + h, w->step.z1);
+    a->dense = needs_dense(m, s, w);
+    if (!a->dense) return frot_make_cubic(w, h), a->guard = -1, FROT_OK;
     status = frot_make_dense(m, s, w, t, h);
     if (status == FROT_OK && s->implicit && !frot_implicit_follows_guards(m, s, w))
       status = FROT_DIVERGE;

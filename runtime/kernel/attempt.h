@@ -23,6 +23,7 @@ typedef struct {
   int guard,
       looks; /* the guard that falls first, or -1, at theta; looks at one that seems to dip */
   double theta;
+  int dense; /* whether its dense output is made: step.c */
 } frot_attempt;
 
 /* An attempt that begins at t. */
@@ -32,9 +33,9 @@ frot_attempt frot_attempt_from(double t);
  * not recorded as a fault. */
 int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a);
 
-/* Shorten the step until its error is within its bound; it is then made, with its dense output, and
- * a->guard falls first in it. FROT_OK with s->pending where there is none but an event at its
- * start; else the status of the fault recorded. */
+/* Shorten the step until its error is within its bound; it is then made, with its dense output if
+ * a->dense, and a->guard falls first in it. FROT_OK with s->pending where there is none but an
+ * event at its start; else the status of the fault recorded. */
 int frot_find_length(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a);
 
 #endif

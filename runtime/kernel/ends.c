@@ -24,11 +24,12 @@ void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t
     for (int k = 0; k < 2 && m->elements[e].bound == FROT_BY_PIN; k++)
       w->guards.end_reaction[2 * e + k] = w->core.lam[m->elements[e].bounded_by[k]];
   }
+  w->guards.end_kinetic = frot_kinetic(m, w, z + m->nq);
   if (frot_guards_read_loads(m, w, modes)) frot_row_loads(m, s, w, t, z, z + m->nq, d);
   frot_guards(m, s, w, z, z + m->nq, d, modes, w->step.z, w->guards.size);
 }
 
-void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z) {
+void frot_note_sizes(frot_state *s, const frot_work *w, const double *z) {
   const frot_layout *l = &w->layout;
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n - FROT_QUADRATURES; k++) {
@@ -39,7 +40,7 @@ void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, con
     double *scale = s->data + l->scale_g + w->guards.list[k];
     *scale = fmax(*scale, w->guards.size[k]);
   }
-  s->energy_scale = fmax(s->energy_scale, frot_kinetic(m, w, z + m->nq));
+  s->energy_scale = fmax(s->energy_scale, w->guards.end_kinetic);
 }
 
 int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t) {
@@ -66,7 +67,7 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
     memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
     frot_turn_references(m, s, w);
     frot_measure_end(m, s, w, t, w->step.z0);
-    frot_note_sizes(m, s, w, w->step.z0);
+    frot_note_sizes(s, w, w->step.z0);
     memcpy(frot_stage(w, 0) + w->awake.n, w->step.z, sizeof(double) * (size_t)w->guards.count);
   }
   return status;

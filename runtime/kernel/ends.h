@@ -8,12 +8,12 @@
  * the guards. FROT_OK or a status that is not recorded as a fault. */
 int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t);
 
-/* Sizes of the guards' terms at (t, z) into w->guards.size and the pins' reactions into
- * w->guards.end_reaction; the last evaluation was there. */
+/* Sizes of the guards' terms at (t, z) into w->guards.size, the pins' reactions into
+ * w->guards.end_reaction, the kinetic energy; the last evaluation was there. */
 void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z);
 
 /* Note how large values and guards have been, after frot_measure_end at z. */
-void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z);
+void frot_note_sizes(frot_state *s, const frot_work *w, const double *z);
 
 /* Turn the pins' references to their reactions at the end of the step, and with them the guards in
  * its slope. */

@@ -53,6 +53,20 @@ static int lost_at_once(const frot_state *s, const frot_work *w, int j, const do
   return rise < (s->jumped ? FROT_FLAT : -2 * FROT_ROUNDING) * inside;
 }
 
+int frot_may_fall(const frot_state *s, const frot_work *w) {
+  for (int k = 0; k < w->guards.count; k++) {
+    const double *value = w->step.k + w->awake.n + k;
+    double least = *value, most = *value;
+    for (int i = 1; i <= DP_STAGES; i++) {
+      value += w->layout.nz;
+      least = fmin(least, *value), most = fmax(most, *value);
+    }
+    double size = s->data[w->layout.scale_g + w->guards.list[k]];
+    if (!(least > most - least && least > FROT_LOCATED * size)) return 1;
+  }
+  return 0;
+}
+
 int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work *w, double t,
                        double h, double *theta) {
   int found = -1, conditions = frot_condition_guard(m);

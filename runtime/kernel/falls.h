@@ -8,6 +8,10 @@
 /* Bernstein coefficients of the listed guard k over the step h, after frot_make_dense. */
 void frot_guard_polynomial(const frot_state *s, const frot_work *w, int k, double h, double g[7]);
 
+/* Whether a listed guard may fall inside the step whose stages have run: not one that is far from
+ * zero in all of them, beside what it changes there. */
+int frot_may_fall(const frot_state *s, const frot_work *w);
+
 /* The first listed guard to fall inside the step h from t, the part of the step after which it does
  * in *theta; -1 when none does. A guard that was zero at an event is known no better than its slope
  * times the resolution of time. */

@@ -26,12 +26,20 @@
 #define CUT 0.25
 #define HALF 0.5 /* of the implicit method, whose stages were not found */
 #define SAFETY 0.9
+/* How much shorter the steps after one that failed are to be, and how much longer after one that
+ * did not: by their ratio one in twenty fails, whatever the motion is like. The least part. */
+#define FAILED 0.95
+#define PASSED 1.0025
+#define LEAST_CAUTION 0.5
+/* Error, over its bound, beyond which no caution would have helped; part of one from which on
+ * rounding may be what fails it, whatever the length. */
+#define HOPELESS 256
+#define AUDIBLE 0.01
 /* The same where the error is below what rounding does: by this where it is well below, unless a
  * step so long has failed lately, which counts less from step to step. */
 #define ALL_NOISE 1.5
 #define NOISE_ALONE 2
 #define LATELY 1.05
-#define SAFETY_OF_MOTION 0.7
 
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   int status = frot_start_slope(m, s, w, s->t);
@@ -53,25 +61,26 @@ int frot_is_too_short(const frot_state *s, const frot_attempt *a) {
   return !(a->h > FROT_LEAST_STEP * fmax(fabs(a->t), LEAST_TIME * s->h_max));
 }
 
-static int reactions_bound(const frot_model *m) {
-  for (int e = 0; e < m->n_elements; e++)
-    if (m->elements[e].bound != FROT_BY_VALUE) return 1;
-  return 0;
+/* Whether a motion limits an explicit step. What other states are measured against changes with
+ * them, and where stability limits them their error does not follow the length. */
+static int motion_limits(const frot_model *m, const frot_state *s, const frot_work *w) {
+  int j = w->step.worst;
+  return m->nv > 0 && !s->implicit && (j < 0 || j >= m->nq || m->q_speed[j] >= 0);
 }
 
-/* Change of the step's length that brings its error near the bound. More is kept back where a
- * motion that reactions bound is what limits it: reactions that pass near zero bend it at once, and
- * in a method of high order it costs little length, and saves most of the rejections. */
+/* Change of the step's length that brings its error near the bound. More is kept back where steps
+ * fail often: where reactions pass near zero they bend a motion at once, and in a method of high
+ * order a little length saves most of the rejections. */
 static double change_of_length(const frot_model *m, const frot_state *s, const frot_work *w,
                                double ratio) {
-  int j = w->step.worst;
-  int moves = reactions_bound(m) && (j < 0 || j >= m->nq || m->q_speed[j] >= 0);
   if (s->implicit) return SAFETY * pow(ratio, frot_has_motion(m) ? -1.0 / 6 : -1.0 / 5);
-  return (moves ? SAFETY_OF_MOTION : SAFETY) * pow(ratio, -1.0 / 8);
+  return (motion_limits(m, s, w) ? s->caution : 1) * SAFETY * pow(ratio, -1.0 / 8);
 }
 
 void frot_shorten(const frot_model *m, frot_state *s, const frot_work *w, frot_attempt *a) {
   s->failed_h = a->h;
+  if (a->ratio > 1 && a->ratio < HOPELESS && w->step.noisy < AUDIBLE && motion_limits(m, s, w))
+    s->caution = fmax(FAILED * s->caution, LEAST_CAUTION);
   if (a->ratio > 1 && a->ratio < 1e300)
     a->h *= fmax(change_of_length(m, s, w, a->ratio), LEAST_PART);
   else
@@ -82,10 +91,11 @@ void frot_shorten(const frot_model *m, frot_state *s, const frot_work *w, frot_a
 
 /* Change of the step's length that its error will bear if it goes on as it went from the step
  * before to this one (K. Gustafsson, ACM Trans. Math. Softw. 20, 1994, p. 496). */
-static double trend(const frot_model *m, frot_state *s, const frot_attempt *a) {
+static double trend(const frot_model *m, frot_state *s, const frot_work *w, const frot_attempt *a) {
   double change = INFINITY;
-  if (reactions_bound(m) && s->last_ratio > 0 && a->ratio > 0)
-    change = SAFETY * a->h / s->last_h * pow(s->last_ratio / (a->ratio * a->ratio), 1.0 / 8);
+  if (motion_limits(m, s, w) && s->last_ratio > 0 && a->ratio > 0)
+    change = s->caution * SAFETY * a->h / s->last_h *
+             pow(s->last_ratio / (a->ratio * a->ratio), 1.0 / 8);
   s->last_h = a->h, s->last_ratio = a->ratio;
   return change;
 }
@@ -93,7 +103,7 @@ static double trend(const frot_model *m, frot_state *s, const frot_attempt *a) {
 void frot_plan_next(const frot_model *m, frot_state *s, const frot_work *w, const frot_attempt *a,
                     double planned) {
   double factor = a->ratio > 0 ? change_of_length(m, s, w, a->ratio) : MOST_GROWTH;
-  factor = fmin(factor, trend(m, s, a));
+  factor = fmin(factor, trend(m, s, w, a));
   factor = fmin(fmax(factor, LEAST_PART), a->rejections ? 1 : MOST_GROWTH);
   if (factor < 1 && !a->to_due && frot_foresees_posture(m, s, w, a->t, a->h))
     factor = 1; /* a tied step need not be shorter */
@@ -102,6 +112,7 @@ void frot_plan_next(const frot_model *m, frot_state *s, const frot_work *w, cons
   if (w->step.noisy >= 1)
     factor = fmax(factor, w->step.noisy > NOISE_ALONE && may_grow ? ALL_NOISE : 1);
   s->failed_h *= LATELY;
+  if (a->rejections == 0) s->caution = fmin(PASSED * s->caution, 1);
   s->h = fmin(a->h * factor, fmin(a->longest, a->stable));
   if (s->weak) s->h = fmax(a->h, a->want); /* noise does not show how long it may be */
   if (a->to_due) s->h = fmax(s->h, planned);

@@ -84,7 +84,7 @@ static void guess(const frot_model *m, frot_state *s, frot_work *w, const scratc
   int n = frot_order(m);
   frot_segment last = frot_segment_at(m, s->data + w->layout.segment);
   memset(x->moved, 0, sizeof(double) * (size_t)(RA_STAGES * n));
-  if (!(*last.h > 0) || h > BEYOND * *last.h) return;
+  if (!s->was_implicit || !(*last.h > 0) || h > BEYOND * *last.h) return;
   double *start = row(w, DP_STAGES + 1), *there = row(w, DP_STAGES + 2);
   frot_interpolate(m, &last, t, start);
   for (int i = 0; i < RA_STAGES; i++) {

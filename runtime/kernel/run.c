@@ -68,7 +68,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->statistics = (frot_statistics){0};
   s->options = options ? *options : (frot_options){0, FROT_REST, 0};
   s->t = s->began = t;
-  s->h = 0;
+  s->h = 0, s->caution = 0.8;
   int status = frot_settle_parameters(m, s, w, NULL);
   if (status != FROT_OK) return status;
   frot_hold_given(m, s);
@@ -226,6 +226,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
   }
   if (s->phase != FROT_RUNNING || !(t >= s->t)) return FROT_MISUSE;
   frot_bind_work(m, w);
+  w->step.looked = recorder && recorder->segments ? -INFINITY : t;
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   if (s->changed) {

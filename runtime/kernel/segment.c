@@ -60,6 +60,10 @@ void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, doub
   memcpy(g.y0, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
   memcpy(g.y1, w->step.y_end, sizeof(double) * (size_t)m->ny);
   frot_copy_awake(w, w->step.z0, g.x0);
+  frot_keep_dense(w, &g);
+}
+
+void frot_keep_dense(const frot_work *w, const frot_segment *g) {
   for (int i = 0; i < DP_DENSE; i++)
-    frot_unpack(w, w->step.f + i * w->layout.nz, g.f + i * w->layout.nx);
+    frot_unpack(w, w->step.f + i * w->layout.nz, g->f + i * w->layout.nx);
 }

@@ -18,5 +18,7 @@ void frot_make_instant(const frot_model *m, frot_state *s, frot_work *w, double 
  * ends at `end`, which is t + h but for rounding. */
 void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, double t, double h,
                     double end);
+/* Its dense output alone. */
+void frot_keep_dense(const frot_work *w, const frot_segment *segment);
 
 #endif

@@ -120,16 +120,9 @@ int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, 
   }
 }
 
-int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
-  if (s->implicit) return frot_implicit_dense(m, s, w, t, h);
-  int nz = w->layout.nz;
-  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
-  for (int i = DP_STAGES + 1; i < DP_ALL; i++) {
-    move(w, dp_a[i], i, h, w->step.z);
-    int status = evaluate(m, s, w, t + dp_c[i] * h, w->step.z, i);
-    if (status != FROT_OK) return status;
-  }
+void frot_make_cubic(const frot_work *w, double h) {
   const double *start = frot_stage(w, 0), *end = frot_stage(w, DP_STAGES);
+  int nz = w->layout.nz;
   weigh(w, dp_a[DP_STAGES], DP_STAGES, h, w->awake.n, w->step.f); /* integrals of the guards */
   for (int j = 0; j < w->awake.n; j++) {
     int at = w->awake.now->states[j];
@@ -140,6 +133,19 @@ int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, 
     w->step.f[nz + j] = h * start[j] - step;
     w->step.f[2 * nz + j] = 2 * step - h * (end[j] + start[j]);
   }
+  memset(w->step.f + 3 * nz, 0, sizeof(double) * (size_t)((DP_DENSE - 3) * nz));
+}
+
+int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  if (s->implicit) return frot_implicit_dense(m, s, w, t, h);
+  int nz = w->layout.nz;
+  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  for (int i = DP_STAGES + 1; i < DP_ALL; i++) {
+    move(w, dp_a[i], i, h, w->step.z);
+    int status = evaluate(m, s, w, t + dp_c[i] * h, w->step.z, i);
+    if (status != FROT_OK) return status;
+  }
+  frot_make_cubic(w, h);
   for (int i = 0; i < 4; i++) weigh(w, dp_d[i], DP_ALL, h, 0, w->step.f + (3 + i) * nz);
   return FROT_OK;
 }

@@ -33,7 +33,8 @@ int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, 
 int frot_has_jammed(const frot_state *s, const frot_work *w);
 
 /* Vectors of the dense output of the step h into w->step.f (DP_DENSE x nz). Takes three
- * evaluations. */
+ * evaluations; the cubic between its ends alone takes none. */
 int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
+void frot_make_cubic(const frot_work *w, double h);
 
 #endif

@@ -54,9 +54,10 @@ struct frot_state {
   double foreseen; /* the nearest singular posture, as the last step shows it, or INFINITY */
   int weak;        /* rows of loops are weak: crossing.h */
   int tied; /* stages are put onto the relations of loops: crossing.h; < 0: not for some steps */
-  double across;  /* error, to its bound, of the last step that tried to pass a posture ahead */
-  int implicit;   /* the next step is made by the implicit method */
-  int unmeasured; /* steps since rounding was measured: see step.c */
+  double across;    /* error, to its bound, of the last step that tried to pass a posture ahead */
+  int implicit;     /* the next step is made by the implicit method */
+  int was_implicit; /* the current segment was */
+  int unmeasured;   /* steps since rounding was measured: see step.c */
   int stiff_steps, calm_steps; /* see stiffness.h */
   int patience, stay;
   double felt, explicit_step; /* see stiffness.h */
@@ -73,6 +74,7 @@ struct frot_state {
   double h;                  /* next step */
   double last_h, last_ratio; /* the last step and its error over the bound; 0: none */
   double failed_h;           /* the last step whose error was too large, and longer since */
+  double caution;            /* part of their length that steps are to have: length.c */
   int noise_shown;    /* an error was seen that rounding made, and rounding not measured since */
   double noise_level; /* how much larger it was than measured */
   double heard;       /* the longest step planned since rounding was measured last */

@@ -85,6 +85,17 @@ static void forget_noise(const frot_model *m, frot_state *s, const frot_work *w)
     guards[frot_condition_guard(m) + now->located[k]] *= FORGET;
 }
 
+/* Make the dense output of the step that was kept, if it is not there and somebody looks inside it.
+ * Nothing is decided by it, so that the motion does not depend on who looks. */
+static int show(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a) {
+  frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
+  if (a->dense || *g.t1 <= w->step.looked) return FROT_OK;
+  int status = frot_make_dense(m, s, w, a->t, a->h);
+  if (status != FROT_OK) return frot_fail_step(m, s, w, status, a->t, a->h);
+  frot_keep_dense(w, &g);
+  return FROT_OK;
+}
+
 /* Take the step: it becomes the current segment. Its end goes onto the relations; the slope there
  * serves the next step if nothing moved. */
 static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a,
@@ -94,9 +105,9 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   double end = a->to_due ? s->due : a->t + (a->h + a->beyond);
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
   s->statistics.steps++;
-  s->statistics.implicit_steps += s->implicit;
+  s->statistics.implicit_steps += s->implicit, s->was_implicit = s->implicit;
   memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
-  frot_note_sizes(m, s, w, w->step.z1);
+  frot_note_sizes(s, w, w->step.z1);
   frot_note_worth(s, w, w->step.z1);
   if (guard >= 0) s->last_ratio = 0;
   if (guard >= 0) frot_fire_guards(m, s, w, guard, a->t, a->h);
@@ -122,6 +133,8 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   if (!s->implicit) frot_keep_crossings(m, s, w, a->t, a->h);
   if (!s->pending && !s->implicit && frot_note_still(m, s, w, x))
     s->has_slope = 0; /* other guards are listed */
+  status = show(m, s, w, a);
+  if (status != FROT_OK) return status;
   frot_choose_next(m, s, a->stiff);
   if (s->implicit) frot_wake_within_step(m, s, w);
   if (end > s->crowded_since + CROWDED * s->h_max) {

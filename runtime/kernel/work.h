@@ -132,10 +132,10 @@ typedef struct {
 } frot_opening_work;
 
 /* guards.h: those that can fall in the modes, the sizes of their terms, of all that moves each
- * group; pins' reactions at the end of a step (2 n_elements, ends.h). */
+ * group; pins' reactions (2 n_elements) and the kinetic energy at the end of a step (ends.h). */
 typedef struct {
   int *list, count;
-  double *size, *motion, *end_reaction;
+  double *size, *motion, *end_reaction, end_kinetic;
 } frot_guard_work;
 
 /* stages.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones at the
@@ -150,6 +150,7 @@ typedef struct {
   double *k, *z0, *z1, *z, *y_end, *f;
   int worst;
   double noisy, turning;
+  double looked; /* time from which on somebody looks inside the steps: run.c */
 } frot_step_work;
 
 /* sizes.h (nq each, own nq + nv); the states that are no coordinates, `count` of them. */

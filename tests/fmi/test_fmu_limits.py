@@ -61,7 +61,8 @@ def test_a_spring_set_stiff_in_a_run_ends_it_by_name(one: Host) -> None:
     assert one.set(STIFFNESS, 1e20) == OK
     assert one.step(1.0, 1e3) == DISCARD
     assert 1.0 <= reached(one) < 1001.0
-    assert "values that make the motion stiff" in one.last or "step goes to zero" in one.last
+    told = ("values that make the motion stiff", "step goes to zero", "modes do not settle")
+    assert any(words in one.last for words in told)
 
 
 def test_the_limit_counts_one_step_not_the_run(one: Host) -> None:

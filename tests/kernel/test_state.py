@@ -27,6 +27,27 @@ def test_a_run_in_pieces_is_the_whole_run_to_the_last_bit(
     assert np.array_equal(found.view(np.uint64), expected.view(np.uint64))
 
 
+def run_unseen(engine: Engine, t: float) -> None:
+    """To time t, where nobody records what is between the steps."""
+    instance = (engine._model, engine._s, engine._w)
+    assert engine._library.frot_advance(*instance, t, None, None, None) == OK
+
+
+@pytest.mark.parametrize("name", STOPS)
+def test_the_motion_does_not_depend_on_who_looks(programs: dict[str, Program], name: str) -> None:
+    """Three evaluations make the dense output of a step: where nobody looks and nothing can fall
+    they are spared."""
+    seen, unseen = started(programs[name]), started(programs[name])
+    expected = seen.advance(STOPS[name]).segments
+    run_unseen(unseen, STOPS[name] / 2)
+    assert unseen.statistics.steps > 0
+    found = unseen.advance(STOPS[name]).segments
+    assert len(found) > 0
+    assert np.array_equal(found.view(np.uint64), expected[-len(found) :].view(np.uint64))
+    spared = seen.statistics.evaluations - unseen.statistics.evaluations
+    assert spared > 0 and spared % 3 == 0
+
+
 @pytest.mark.parametrize("name", STOPS)
 def test_a_restored_instance_goes_on_to_the_same_bits(
     programs: dict[str, Program], name: str

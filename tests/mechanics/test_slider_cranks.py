@@ -58,3 +58,20 @@ def test_a_slider_crank_runs_as_exactly_as_it_is_asked(crank: frot.Model, seed: 
     error = np.abs(result["O.speed"] - speed).max() / max(np.abs(speed).max(), 1e-3)
     # an error of the speed grows with the turns that were made
     assert error < 30 * tolerance * max(1, turned) + 1e-9
+
+
+def test_one_step_in_twenty_is_rejected_at_most(crank: frot.Model) -> None:
+    """Reactions that pass near zero bend the motion at once."""
+    tried = crank.simulate(stop=3.0, tolerance=1e-9).figures
+    assert tried.steps > 2000
+    assert tried.rejected < 0.05 * (tried.steps + tried.rejected)
+
+
+def test_a_pendulum_rejects_no_more() -> None:
+    text = (
+        "planar model P\n  body arm: rod(mass = 1 kg, length = 1 m);\n"
+        "  liaison pin: rotoide(ground, arm.start);\ninitial\n  pin.angle = 60 deg;\n"
+        "  pin.speed = 0 rad/s;\nend P;\n"
+    )
+    tried = frot.compile(text).simulate(stop=100.0, tolerance=1e-9).figures
+    assert tried.rejected < 0.05 * (tried.steps + tried.rejected)
