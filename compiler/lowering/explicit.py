@@ -15,7 +15,7 @@ from collections.abc import Callable
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.mechanics.mechanism import Link
+from frot.compiler.mechanics.link import Link
 from frot.dsl.checked import Literal
 
 # Unknowns of the core and rows together; elimination takes their third power in operations.
@@ -44,7 +44,7 @@ def make_explicit(system: Assembled) -> Callable[[ca.SX], ca.SX]:
 def _always_holds(joint: Link) -> bool:
     unilateral = joint.unilateral
     bilateral = isinstance(unilateral, Literal) and unilateral.value is False
-    return bilateral and joint.mu is None and joint.delta is None
+    return bilateral and not joint.frictions
 
 
 def _solution(system: Assembled) -> ca.SX:

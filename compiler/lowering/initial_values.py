@@ -19,7 +19,7 @@ from frot.compiler.lowering.guesses import (
 )
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import is_fixed
-from frot.compiler.mechanics.mechanism import Link
+from frot.compiler.mechanics.link import Link
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation
 from frot.dsl.data.classes import dataclass, replace

@@ -11,7 +11,6 @@ from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
-from frot.compiler.mechanics.mechanism import Relation
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl.catalogue import coordinates_of
 from frot.dsl.checked import (
@@ -90,7 +89,7 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
     reduced = system.reduced
     mechanism = reduced.mechanism
     for link in mechanism.contacts:
-        if not isinstance(link, Relation) or link.first:
+        if link.first:
             name = f"{link.liaison.name}.mode"
             yield Listed(name, ca.SX(0), NUMBER, "open, stick or slip", mode=True)
     for element in system.elements:

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 import casadi as ca
 from frot.compiler.lowering.flatten import T, by_input, tunable
 from frot.compiler.mechanics.liaisons.motion import Motion
-from frot.compiler.mechanics.mechanism import Link, Mechanism
+from frot.compiler.mechanics.link import Link
+from frot.compiler.mechanics.mechanism import Mechanism
 from frot.dsl.checked import Input, Liaison, Parameter
 from frot.dsl.data.classes import dataclass, field
 
@@ -111,10 +112,11 @@ def link_rows(links: tuple[Link, ...]) -> tuple[Rows, ...]:
         reaction = tuple(range(count, count + (link.readings or 1)))
         count += len(reaction)
         tangent = rolling = -1
-        if link.mu is not None:
-            tangent, count = count, count + 1
-        if link.delta is not None:
-            rolling, count = count, count + 1
+        for friction in link.frictions:
+            if friction.rolling:
+                rolling, count = count, count + 1
+            else:
+                tangent, count = count, count + 1
         rows.append(Rows(reaction, tangent, rolling))
     return tuple(rows)
 

@@ -6,34 +6,30 @@ from collections.abc import Iterator, Sequence
 
 import casadi as ca
 from frot.compiler.lowering.symbols import link_rows
-from frot.compiler.mechanics.geometry.contacts import Geometry
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.actions import RelationGeometry
-from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
-from frot.compiler.mechanics.mechanism import Mechanism, Relation
+from frot.compiler.mechanics.link import Geometry, Link
+from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.values import pace_of
 from frot.dsl.checked import CurvePlace, Liaison, SurfacePlace
-
-LinkGeometry = Geometry | JointGeometry | RelationGeometry
 
 # Of the size of its terms, what sums of products along a chain leave where they cancel out.
 _ROUNDING = 64 * 2.0**-52
 
 
 def _closing(
-    mechanism: Mechanism, geometry: Sequence[LinkGeometry]
-) -> Iterator[tuple[int, Relation, LinkGeometry]]:
+    mechanism: Mechanism, geometry: Sequence[Geometry]
+) -> Iterator[tuple[int, Link, Geometry]]:
     """The row, the relation and the geometry of each lock that closes a loop."""
     rows = link_rows(mechanism.contacts)
     for x, link, own in zip(rows, mechanism.contacts, geometry, strict=True):
-        if isinstance(link, Relation) and not link.lock.stated:
+        if link.cancels:
             yield x.reaction[0], link, own
 
 
 def rows_without_rounding(
     rows: ca.SX,
     mechanism: Mechanism,
-    geometry: Sequence[LinkGeometry],
+    geometry: Sequence[Geometry],
 ) -> ca.SX:
     """The rows of liaisons that close loops, zero where all that is in them cancels out.
 
@@ -58,7 +54,7 @@ def rows_without_rounding(
 def sizes_of_drives(
     mechanism: Mechanism,
     kinematics: Kinematics,
-    geometry: Sequence[LinkGeometry],
+    geometry: Sequence[Geometry],
 ) -> ca.SX:
     """Sizes of what time and speeds bring to the accelerations of rows that close loops.
 
@@ -69,7 +65,7 @@ def sizes_of_drives(
         return sizes
     for row, link, own in _closing(mechanism, geometry):
         sizes[row] += (1 + own.reach) * _told_by_time(link.liaison, kinematics)
-        for place in (link.joint.a, link.joint.b):
+        for place in link.ends:
             there = kinematics.moving(place)
             turns = ca.norm_1(there.angular_bias) + ca.sumsqr(there.angular)
             sizes[row] += ca.norm_1(there.linear_bias) + (1 + own.reach) * turns

@@ -6,8 +6,7 @@ from enum import Enum
 
 from frot.compiler.lowering.symbols import Rows
 from frot.compiler.lowering.walk import is_fixed
-from frot.compiler.mechanics.mechanism import Joint, Link
-from frot.dsl.checked import Expression
+from frot.compiler.mechanics.link import Link
 from frot.dsl.data.classes import dataclass
 
 
@@ -38,21 +37,15 @@ class Element:
 
 def link_elements(contact: int, link: Link, rows: Rows) -> list[Element]:
     """The elements of a liaison: sliding or turning, then rolling."""
-    bound = Bound.PIN if isinstance(link, Joint) else Bound.NORMAL
+    bound = Bound.NORMAL if link.has_normal else Bound.PIN
     found: list[Element] = []
-    if rows.tangent >= 0:
-        fixed = _is_fixed(link.mu) and _is_fixed(link.mu_s)
-        found.append(Element(contact, bound, rows.tangent, rows.reaction, False, fixed))
-    if rows.rolling >= 0:
-        fixed = _is_fixed(link.delta)
-        found.append(Element(contact, bound, rows.rolling, rows.reaction, True, fixed))
+    for friction in link.frictions:
+        row = rows.rolling if friction.rolling else rows.tangent
+        fixed = all(is_fixed(x) for x in friction.coefficients)
+        found.append(Element(contact, bound, row, rows.reaction, friction.rolling, fixed))
     return found
 
 
 def text_element(contact: int, row: int) -> Element:
     """The element of a call of `friction` in the equations."""
     return Element(contact, Bound.VALUE, row, (), False, False)
-
-
-def _is_fixed(expression: Expression | None) -> bool:
-    return expression is None or is_fixed(expression)

@@ -10,7 +10,7 @@ from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.dynamics import Push
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Effort
-from frot.compiler.mechanics.mechanism import point_body
+from frot.compiler.mechanics.link import point_body
 from frot.compiler.mechanics.spatial import about_z, nowhere, whole
 from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Liaison, Literal, Place

@@ -4,19 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from frot.compiler.mechanics.mechanism import (
-    Contact,
-    Joint,
-    Link,
-    Mechanism,
-    Relation,
-    point_body,
-    relinked,
-)
+from frot.compiler.mechanics.link import Link
+from frot.compiler.mechanics.mechanism import Mechanism, relinked
 from frot.compiler.mechanics.mechanize import link_of
 from frot.compiler.mechanics.spanning import span
 from frot.dsl import Log
-from frot.dsl.checked import Body, Liaison
+from frot.dsl.checked import Liaison
 from frot.dsl.data.classes import replace
 
 
@@ -29,19 +22,17 @@ def free(mechanism: Mechanism, wanted: Collection[Liaison]) -> Mechanism:
     """
     model, log = mechanism.model, Log()
     found = (link_of(x, model.planar, log) for x in model.liaisons if x in wanted)
-    links = [_lawless(link) for link in found if link is not None]
-    held = {body for link in links for body in _ends(link)}
+    links = [link.without_friction() for link in found if link is not None]
+    held = {body for link in links for body in link.bodies}
     own = replace(model, bodies=tuple(b for b in model.bodies if b in held))
-    tree = span(own, [x for x in links if _needs_coordinates(x)])
+    tree = span(own, [x for x in links if x.by_coordinates])
     rows: list[Link] = []
-    ideal: list[Contact | Joint] = []
+    ideal: list[Link] = []
     for link in links:
         if link.liaison in tree.kept:
-            ideal.append(replace(link, reduced=True))
-        elif isinstance(link, Contact):
-            rows.append(link)
+            ideal.append(link.kept(True))
         else:
-            rows += [Relation(link, lock, k == 0) for k, lock in enumerate(link.locks)]
+            rows += link.rows(True)
     kept = {x.liaison: x for x in ideal}
     return Mechanism(
         model=own,
@@ -52,23 +43,3 @@ def free(mechanism: Mechanism, wanted: Collection[Liaison]) -> Mechanism:
         halves={},
         corners={},
     )
-
-
-def _lawless(link: Contact | Joint) -> Contact | Joint:
-    if isinstance(link, Contact):
-        return replace(link, mu=None, mu_s=None, delta=None)
-    return replace(link, mu=None, mu_s=None, radius=None)
-
-
-def _ends(link: Contact | Joint) -> tuple[Body, Body]:
-    if isinstance(link, Contact):
-        return point_body(link.point), point_body(link.track.point)
-    return point_body(link.a), point_body(link.b)
-
-
-def _needs_coordinates(link: Contact | Joint) -> bool:
-    if isinstance(link, Contact):
-        follows = link.liaison.kind.name == "point_courbe"
-        figure = link.track.figure
-        return follows and figure.plane is None and not figure.is_round
-    return any(lock.by_coordinates for lock in link.locks)

@@ -8,9 +8,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.mechanics.liaisons.actions import Between
 from frot.compiler.mechanics.liaisons.moves import Column, carried, turned_by_time
-from frot.compiler.mechanics.mechanism import Hanging, Joint, Point, frames_of, point_body
+from frot.compiler.mechanics.link import Point, frames_of, point_body
+from frot.compiler.mechanics.mechanism import Hanging
 from frot.compiler.mechanics.spatial import AT_REST, Moving, nowhere
 from frot.dsl.checked import Body
 from frot.dsl.data.classes import dataclass, replace
@@ -81,15 +81,9 @@ def _read(
     first = None if link is None else kinematics.readings.get(link.liaison)
     if first is None or link is None:
         return moving, node, arm
-    sign = 1
-    if isinstance(link, Joint):
-        sign = 1 if hanging.carries_b else -1
-        a, b = (at.pose, moving.pose) if hanging.carries_b else (moving.pose, at.pose)
-        tangent = kinematics.tangents.get(link.liaison)
-        between = Between(a, b, kinematics.fixed.lower, tangent=tangent)
-        columns = [lock.act(between).column for lock in link.held]
-    else:
-        columns = [Column(nowhere(), kinematics.normal(link))]
+    sign = 1 if hanging.carries_b else -1
+    a, b = (at.pose, moving.pose) if hanging.carries_b else (moving.pose, at.pose)
+    columns = link.columns(kinematics, a, b)
     nv, back = kinematics.symbols.v.numel(), nowhere()
     if sign < 0:  # a reaction acts at the place b
         back = ca.sparsify(moving.pose.origin - at.pose.origin)

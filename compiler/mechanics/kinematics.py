@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from typing import TYPE_CHECKING
 
 import casadi as ca
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
@@ -20,14 +21,10 @@ from frot.compiler.mechanics.liaisons.actions import Between, Part
 from frot.compiler.mechanics.liaisons.motion import counted, seen
 from frot.compiler.mechanics.liaisons.moves import carried, turned_by_time
 from frot.compiler.mechanics.liaisons.roll import Spotted
+from frot.compiler.mechanics.link import Link, Point, point_body
 from frot.compiler.mechanics.mechanism import (
-    Contact,
     Hanging,
-    Joint,
     Mechanism,
-    Point,
-    Relation,
-    point_body,
     turns,
 )
 from frot.compiler.mechanics.shapes import shape_of
@@ -44,6 +41,10 @@ from frot.compiler.mechanics.spatial import (
 from frot.compiler.mechanics.values import unit_vector
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison
 from frot.dsl.data.classes import dataclass, replace
+
+if TYPE_CHECKING:
+    from frot.compiler.mechanics.geometry.contact import Contact
+    from frot.compiler.mechanics.liaisons.joint import Joint
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -92,7 +93,7 @@ class Kinematics:
         self.sides = {
             link.liaison: symbols.sides[k]
             for k, link in enumerate(mechanism.contacts)
-            if isinstance(link, Relation) and link.first
+            if link.first
         }
         nq = nv = 0
         for hanging in mechanism.coordinates:
@@ -291,7 +292,7 @@ class Kinematics:
         value, rate = seen(motion, a, b, self.fixed.lower)
         return self.counted(joint, index, value), rate
 
-    def counted(self, link: Joint | Contact, index: int, angle: ca.SX) -> ca.SX:
+    def counted(self, link: Link, index: int, angle: ca.SX) -> ca.SX:
         """The angle of a motion with the turns that its counter has seen, if it has one."""
         counter = self.counters.get((link.liaison, index))
         return angle if counter is None else counted(angle, counter)

@@ -5,9 +5,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 
 from frot.compiler.lowering.walk import has_time, is_fixed
+from frot.compiler.mechanics.link import Link, Point, point_body
 from frot.dsl.checked import (
     Body,
     BodyPoint,
@@ -25,110 +26,7 @@ from frot.dsl.data.classes import dataclass, replace
 # What has no bodies is told without CasADi.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from frot.compiler.mechanics.geometry.figure import Figure, Placed
-    from frot.compiler.mechanics.liaisons.lock import Lock
     from frot.compiler.mechanics.liaisons.motion import Motion
-
-Point = BodyPoint | Frame
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Contact:
-    """A point, a rim or a curve on a curve of the plane, with the laws that bound its reaction.
-
-    `figure` is what touches: a point, or a rim with its centre at `point`; `track` the figure that
-    it touches with a point of it, or its centre. `floor`: that is the line of the ground.
-    `reduced`: the coordinates of the body already keep the liaison. `track_first`: the track is
-    `a`, the first place of the liaison. Laws are None where there is none.
-    """
-
-    liaison: Liaison
-    point: Point
-    figure: Figure
-    track: Placed
-    track_first: bool
-    floor: bool
-    reduced: bool
-    unilateral: Expression
-    mu: Expression | None
-    mu_s: Expression | None
-    delta: Expression | None
-
-    @property
-    def radius(self) -> None:
-        """Of pins only."""
-        return None
-
-    @property
-    def readings(self) -> int:
-        """Reactions that auxiliary speeds bring to light: the normal one."""
-        return 1 if self.reduced else 0
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Joint:
-    """A liaison of the points `a` and `b` that leaves `motions` and locks the rest.
-
-    `carries`: coordinates can keep it, else only rows. `swapped`: `a` is the second place of the
-    liaison. `reduced`: it is built into the coordinates. `mu` and `mu_s` with the `radius` of the
-    pin bound its couple; all three are None without friction.
-    """
-
-    liaison: Liaison
-    a: Point
-    b: Point
-    motions: tuple[Motion, ...]
-    locks: tuple[Lock, ...]
-    reduced: bool
-    unilateral: Expression
-    mu: Expression | None
-    mu_s: Expression | None
-    radius: Expression | None
-    carries: bool = True
-    swapped: bool = False
-
-    @property
-    def delta(self) -> None:
-        """A joint does not roll."""
-        return None
-
-    @property
-    def held(self) -> tuple[Lock, ...]:
-        """The locks that coordinates keep, where they keep the joint: of what rolls, no slip."""
-        return tuple(x for x in self.locks if x.kinematic) if rolls(self) else self.locks
-
-    @property
-    def readings(self) -> int:
-        """Reactions that auxiliary speeds bring to light."""
-        return len(self.held) if self.reduced else 0
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Relation:
-    """One lock of a joint that closes a loop: a row of its own, kept by its reaction."""
-
-    joint: Joint
-    lock: Lock
-    first: bool
-    reduced: bool = False
-    readings: int = 0
-    mu: None = None
-    mu_s: None = None
-    delta: None = None
-    radius: None = None
-
-    @property
-    def liaison(self) -> Liaison:
-        """The liaison it belongs to."""
-        return self.joint.liaison
-
-    @property
-    def unilateral(self) -> Expression:
-        """Never."""
-        return self.joint.unilateral
-
-
-Link = Contact | Joint | Relation
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -142,7 +40,7 @@ class Hanging:
     """
 
     body: Body
-    link: Contact | Joint | None
+    link: Link | None
     base: Point | None
     own: Point | None
     motions: tuple[Motion, ...]
@@ -151,13 +49,11 @@ class Hanging:
 
     @property
     def carries_b(self) -> bool:
-        """Whether the body is that of the place `b` of its joint."""
-        return isinstance(self.link, Joint) and self.own is self.link.b
+        """Whether the body is that of the second place of its link."""
+        return self.link is not None and self.own is self.link.ends[1]
 
 
-def relinked(
-    coordinates: Iterable[Hanging], links: Mapping[Liaison, Contact | Joint]
-) -> tuple[Hanging, ...]:
+def relinked(coordinates: Iterable[Hanging], links: Mapping[Liaison, Link]) -> tuple[Hanging, ...]:
     """The same coordinates by these links, which stand for those of the same liaisons."""
     return tuple(
         h if h.link is None else replace(h, link=links[h.link.liaison]) for h in coordinates
@@ -178,27 +74,19 @@ class Mechanism:
     model: Model
     coordinates: tuple[Hanging, ...]
     contacts: tuple[Link, ...]
-    ideal: tuple[Contact | Joint, ...]
+    ideal: tuple[Link, ...]
     forces: tuple[Force, ...]
     halves: Mapping[Body, Body]
     corners: Mapping[Liaison, tuple[Liaison, ...]]
 
     @property
-    def counters(self) -> tuple[tuple[Joint | Contact, int], ...]:
+    def counters(self) -> tuple[tuple[Link, int], ...]:
         """Angles that no coordinate counts: those of liaisons that close loops, seen within a turn.
 
         Each with the place of its motion; in the plane the angles of bodies count the turns.
         """
-        found: list[tuple[Joint | Contact, int]] = []
-        for link in self.contacts:
-            if isinstance(link, Relation) and link.first and not self.model.planar:
-                motions = enumerate(link.joint.motions)
-                found += [(link.joint, k) for k, m in motions if m.comes_round]
-        for link in (*self.contacts, *self.ideal):
-            follows = isinstance(link, Contact) and link.liaison.kind.name == "point_courbe"
-            if isinstance(link, Contact) and follows and not link.reduced:
-                found += [(link, 0)] if link.track.figure.is_round else []
-        return tuple(found)
+        links = (*self.contacts, *self.ideal)
+        return tuple(one for link in links for one in link.counted(self.model.planar))
 
     @property
     def is_driven(self) -> bool:
@@ -220,11 +108,6 @@ def is_driven(model: Model) -> bool:
         moved |= bool(liaison.driven) or any(has_time(x) for x in liaison.options.values())
         moved |= any(has_time(x) for r in liaison.relations for x in (r.left, r.right))
     return moved
-
-
-def rolls(joint: Joint) -> bool:
-    """Whether its figures touch without slip, whatever acts on them."""
-    return any(lock.rolls for lock in joint.locks)
 
 
 def is_unilateral(liaison: Liaison) -> bool:
@@ -278,9 +161,8 @@ def relations_of(mechanism: Mechanism) -> dict[Liaison, int]:
     """
     found: dict[Liaison, int] = dict.fromkeys(mechanism.model.liaisons, 0)
     for link in (*mechanism.contacts, *mechanism.ideal):
-        joint = link.joint if isinstance(link, Relation) else link
-        if joint.liaison in found:
-            found[joint.liaison] = len(joint.locks) if isinstance(joint, Joint) else 1
+        if link.liaison in found:
+            found[link.liaison] = link.relation_count
     for liaison, count in prescribed(mechanism).items():
         found[liaison] += count
     return found
@@ -292,26 +174,6 @@ def prescribed(mechanism: Mechanism) -> Counter[Liaison]:
     return Counter(
         x.liaison for x in flanges if x.effort.name.startswith(f"{x.liaison.name}.drive.")
     )
-
-
-def frames_of(point: Point) -> Iterator[Frame]:
-    """The frames between a point and its body, from the point on."""
-    frame: Body | Frame = point.body if isinstance(point, BodyPoint) else point
-    while isinstance(frame, Frame):
-        yield frame
-        frame = frame.owner
-
-
-def point_body(point: Point) -> Body:
-    """The body a point belongs to."""
-    return point.body if isinstance(point, BodyPoint) else owner_body(point)
-
-
-def owner_body(owner: Body | Frame) -> Body:
-    """The body a frame, or a frame on a frame, is fixed to."""
-    while isinstance(owner, Frame):
-        owner = owner.owner
-    return owner
 
 
 def is_particle(body: Body) -> bool:

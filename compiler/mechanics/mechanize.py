@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from frot.compiler.lowering.walk import is_fixed, read_quantities, subexpressions
+from frot.compiler.mechanics.geometry.contact import Contact
 from frot.compiler.mechanics.geometry.faces import part_faces
 from frot.compiler.mechanics.geometry.figure import Placed
 from frot.compiler.mechanics.geometry.figures import figure_of
@@ -13,22 +14,12 @@ from frot.compiler.mechanics.geometry.tracking import can_touch
 from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
 from frot.compiler.mechanics.liaisons.freed import OF_PLACES, OF_SPEEDS, is_row
 from frot.compiler.mechanics.liaisons.halves import halve
+from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, make_joint
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.stated import Stated
-from frot.compiler.mechanics.mechanism import (
-    Contact,
-    Joint,
-    Link,
-    Mechanism,
-    Point,
-    Relation,
-    is_unilateral,
-    point_body,
-    relinked,
-    rolls,
-    turns,
-)
+from frot.compiler.mechanics.link import Friction, Link, Point, point_body
+from frot.compiler.mechanics.mechanism import Mechanism, is_unilateral, relinked, turns
 from frot.compiler.mechanics.refuse import (
     REACTION,
     refuse,
@@ -68,22 +59,23 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     read = _read_liaisons(model)
     read |= {corner for x in read for corner in faced.corners.get(x, ())}
     chosen: list[Link] = []
-    ideal: list[Contact | Joint] = []
-    for link in halved.links:
-        link = replace(link, reduced=link.liaison in tree.kept)
-        silent = link.mu is None and link.delta is None and link.liaison not in read
-        nothing_locked = isinstance(link, Joint) and not link.locks
-        if isinstance(link, Joint) and link.reduced and rolls(link):
-            chosen += [x for x in _relations(link, True, log) if not x.lock.kinematic]
-        if (link.reduced and silent) or nothing_locked:
+    ideal: list[Link] = []
+    for whole in halved.links:
+        link = whole.kept(whole.liaison in tree.kept)
+        silent = not link.frictions and link.liaison not in read
+        if link.reduced and link.rolls:
+            chosen += [x for x in link.rows(True) if not x.kinematic]
+        if (link.reduced and silent) or not link.relation_count:
             ideal.append(link)
-        elif isinstance(link, Contact) or link.reduced:
+        elif link.reduced:
             chosen.append(link)
         else:
-            chosen += _relations(link, link.liaison in model.liaisons, log)
+            rows = link.rows(link.liaison in model.liaisons)
+            _refuse_lost(link, rows, log)
+            chosen += rows
     if log.failed:
         return None
-    kept = {x.liaison: x for x in (*chosen, *ideal) if not isinstance(x, Relation)}
+    kept = {x.liaison: x for x in (*chosen, *ideal) if x.whole is x}
     return Mechanism(
         model=model,
         coordinates=relinked(tree.coordinates, kept),
@@ -95,16 +87,15 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     )
 
 
-def _relations(joint: Joint, told: bool, log: Log) -> list[Relation]:
-    """A joint that closes a loop, relation by relation; `told` if the text has it."""
-    if joint.mu is not None:
+def _refuse_lost(link: Link, rows: tuple[Link, ...], log: Log) -> None:
+    """Friction that a liaison would lose where it is kept relation by relation."""
+    if link.frictions and not any(row.frictions for row in rows):
         refuse(
             log,
-            f"friction in a {spelled(joint.liaison)} that closes a loop",
-            joint.liaison.span,
+            f"friction in a {spelled(link.liaison)} that closes a loop",
+            link.liaison.span,
             "all liaisons of a loop cannot have friction: leave it out of one of them",
         )
-    return [Relation(joint, lock, told and k == 0) for k, lock in enumerate(joint.locks)]
 
 
 def _law(liaison: Liaison, kind: str) -> Law | None:
@@ -112,7 +103,7 @@ def _law(liaison: Liaison, kind: str) -> Law | None:
     return next((law for law in liaison.laws if law.kind.name == kind), None)
 
 
-def link_of(liaison: Liaison, planar: bool, log: Log) -> Contact | Joint | None:
+def link_of(liaison: Liaison, planar: bool, log: Log) -> Link | None:
     """What a liaison joins and how, kept by nothing yet; None where that is reported."""
     if liaison.relations:
         return _stated(liaison, planar, log)
@@ -158,7 +149,7 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
         )
         return None
     mu, mu_s, radius = (law.arguments[key] for key in ("mu", "mu_s", "radius"))
-    return replace(joint, mu=mu, mu_s=mu_s, radius=radius)
+    return replace(joint, frictions=(Friction(mu, mu_s, arm=radius),))
 
 
 def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
@@ -241,6 +232,12 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
             rolling.span,
             help="a particle has no angle; use a disc or a ring",
         )
+    frictions: list[Friction] = []
+    if coulomb is not None:
+        frictions.append(Friction(coulomb.arguments["mu"], coulomb.arguments["mu_s"]))
+    if rolling is not None:
+        length = rolling.arguments["delta"]
+        frictions.append(Friction(length, length, rolling=True))
     place = places[first]
     return Contact(
         liaison=liaison,
@@ -249,11 +246,8 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
         track=track,
         track_first=first == 0,
         floor=isinstance(place, CurvePlace) and place.curve.span is None,
-        reduced=False,
         unilateral=liaison.options["unilateral"],
-        mu=coulomb.arguments["mu"] if coulomb else None,
-        mu_s=coulomb.arguments["mu_s"] if coulomb else None,
-        delta=rolling.arguments["delta"] if rolling else None,
+        frictions=tuple(frictions),
     )
 
 
@@ -276,17 +270,9 @@ def _read_liaisons(model: Model) -> set[Liaison]:
     }
 
 
-def _refuse_surface(model: Model, links: Iterable[Contact | Joint], log: Log) -> None:
+def _refuse_surface(model: Model, links: Iterable[Link], log: Log) -> None:
     """In the plane slip has a sign where there is one way to slip: at the surface of a pin, ..."""
-    plain = {
-        e.liaison
-        for e in links
-        if model.planar
-        and isinstance(e, Joint)
-        and e.radius is None
-        and not (any(x.touches for x in e.locks) or any(x.touches for x in e.motions))
-        and e.liaison.kind.name != "prismatique"
-    }
+    plain = {e.liaison for e in links if model.planar and not e.slips}
     for node in read_quantities(model):
         if node.owner in plain and node.name in ("slip", "tangential_force"):
             pin = node.owner.kind.name == "rotoide"

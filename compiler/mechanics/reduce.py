@@ -33,12 +33,11 @@ from frot.compiler.mechanics.dynamics import (
     speeds_by_tree,
     write_out,
 )
-from frot.compiler.mechanics.geometry.contacts import Geometry, gravity, link_geometry, row_rates
+from frot.compiler.mechanics.geometry.contacts import gravity
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.actions import RelationGeometry
-from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
+from frot.compiler.mechanics.link import Geometry, Link
 from frot.compiler.mechanics.loads import applied_loads, sum_loads
-from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Mechanism, Relation
+from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.text_of_motion import (
     add_slip_accelerations,
     chains_of_motion,
@@ -144,11 +143,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
             symbols_of = scalars(text.values[variable])
             for symbol, start in zip(symbols_of, first(variable), strict=True):
                 text.add_discrete(symbol.name(), symbol, start)
-    rates = column(
-        rate
-        for link, g in zip(mechanism.contacts, geometry, strict=True)
-        for rate in row_rates(link, g, kinematics)
-    )
+    rates = column(rate for g in geometry for rate in g.rates(kinematics))
     speeds = ca.vertcat(symbols.v, symbols.sw)
     applied = applied_loads(mechanism, variables, moving)
     coefficients = _coefficients(mechanism.contacts, moving, symbols, log)
@@ -219,28 +214,23 @@ def _with_counters(symbols: Symbols, mechanism: Mechanism, variables: Variables)
     return replace(symbols, rates=column((symbols.rates, *map(variables.settled, seen))))
 
 
-def _geometry(
-    mechanism: Mechanism, kinematics: Kinematics
-) -> list[Geometry | JointGeometry | RelationGeometry]:
+def _geometry(mechanism: Mechanism, kinematics: Kinematics) -> list[Geometry]:
     """That of each of the mechanism's contacts."""
     world, sides = mechanism.model.world, kinematics.symbols.sides
-    return [
-        link_geometry(link, kinematics, sides[k], world)
-        for k, link in enumerate(mechanism.contacts)
-    ]
+    return [link.geometry(kinematics, sides[k], world) for k, link in enumerate(mechanism.contacts)]
 
 
 def _variables(
     mechanism: Mechanism,
     kinematics: Kinematics,
     text: TextSymbols,
-    found: list[Geometry | JointGeometry | RelationGeometry],
+    found: list[Geometry],
 ) -> Variables:
     """`found` is the geometry of the mechanism's contacts."""
     world, symbols = mechanism.model.world, kinematics.symbols
-    geometry: dict[Liaison, Geometry | JointGeometry] = {}
+    geometry: dict[Liaison, Geometry] = {}
     sides: dict[Liaison, ca.SX] = {}
-    links: dict[Liaison, Contact | Joint] = {}
+    links: dict[Liaison, Link] = {}
     reactions: dict[Liaison, Rows] = {}
     for k, (link, rows, own) in enumerate(
         zip(mechanism.contacts, link_rows(mechanism.contacts), found, strict=True)
@@ -249,20 +239,15 @@ def _variables(
         before = reactions.get(link.liaison)
         all_rows = (*(before.reaction if before else ()), *rows.reaction)
         reactions[link.liaison] = Rows(all_rows, rows.tangent, rows.rolling)
-        if isinstance(link, Relation):
-            links[link.liaison] = link.joint
-            continue
-        assert not isinstance(own, RelationGeometry)
-        links[link.liaison] = link
-        geometry[link.liaison] = own
+        links[link.liaison] = link.whole
+        if link.whole is link:
+            geometry[link.liaison] = own
     for link in mechanism.ideal:  # what rolls has a row, but its reaction is not asked for
         reactions.pop(link.liaison, None)
     for link in (*mechanism.ideal, *tuple(links.values())):
         if link.liaison not in geometry:
             side = sides.get(link.liaison, ca.SX(1))
-            other = link_geometry(link, kinematics, side, world)
-            assert not isinstance(other, RelationGeometry)
-            geometry[link.liaison] = other
+            geometry[link.liaison] = link.geometry(kinematics, side, world)
         links[link.liaison] = link
     drives: dict[Liaison, list[tuple[str, ca.SX]]] = {}
     for flange in mechanism.model.flanges:
@@ -340,11 +325,9 @@ def _coefficients(
     """
     values: list[ca.SX] = []
     for contact in contacts:
-        arm = ca.SX(1) if contact.radius is None else moving.lower(contact.radius)
-        for pair in ((contact.mu, contact.mu_s), (contact.delta, contact.delta)):
-            for expression in pair:
-                if expression is None:
-                    continue
+        for friction in contact.frictions:
+            arm = ca.SX(1) if friction.arm is None else moving.lower(friction.arm)
+            for expression in friction.coefficients:
                 value = moving.lower(expression)
                 if _reads_solution(value, symbols) or _reads_speed(value, symbols):
                     log.report(

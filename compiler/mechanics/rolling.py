@@ -8,10 +8,16 @@ anything; and where the implicit method may be taken, which finds its stages soo
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.places import Slide
 from frot.compiler.mechanics.liaisons.roll import Roll, Spot
-from frot.compiler.mechanics.mechanism import Joint, frames_of, point_body, turns
+from frot.compiler.mechanics.link import frames_of, point_body
+from frot.compiler.mechanics.mechanism import turns
+
+if TYPE_CHECKING:
+    from frot.compiler.mechanics.liaisons.joint import Joint
 
 
 def can_roll(joint: Joint) -> bool:

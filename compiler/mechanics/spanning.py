@@ -4,23 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from frot.compiler.mechanics.geometry.figure import Figure
-from frot.compiler.mechanics.liaisons.curves import Follow
 from frot.compiler.mechanics.liaisons.facing import Attitude, Heading, Pointing, Steady
+from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.places import Slide
-from frot.compiler.mechanics.mechanism import (
-    Contact,
-    Hanging,
-    Joint,
-    Point,
-    is_driven,
-    is_slender,
-    is_unilateral,
-    point_body,
-    turns,
-)
-from frot.compiler.mechanics.rolling import can_roll, rolling_motions
+from frot.compiler.mechanics.link import Link, Point, point_body
+from frot.compiler.mechanics.mechanism import Hanging, is_driven, is_slender, turns
+from frot.compiler.mechanics.rolling import can_roll
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Body, Liaison, Model
 from frot.dsl.data.classes import dataclass
@@ -34,7 +24,7 @@ class Tree:
     kept: frozenset[Liaison]
 
 
-def span(model: Model, links: Iterable[Contact | Joint]) -> Tree:
+def span(model: Model, links: Iterable[Link]) -> Tree:
     """Let joints join bodies to groups, and a point on a line carry a group that has no ground.
 
     Joints with friction come first, then those that lock most, then the order of the text: what
@@ -51,10 +41,10 @@ def span(model: Model, links: Iterable[Contact | Joint]) -> Tree:
             branches[a].append((joint, b))
             branches[b].append((joint, a))
     closing = [x for x in links if not any(x is joint for b in branches.values() for joint, _ in b)]
-    carried: dict[Body, Contact | Joint] = {}
+    carried: dict[Body, Link] = {}
     for link in closing:
-        if _can_carry(link) or _can_roll(link, closing, groups, model):
-            base, own = _ends(link)
+        if link.can_carry or _can_roll(link, closing, groups, model):
+            base, own = link.bodies
             group = groups.of(own)
             chain = _carriers(groups.of(base), carried, groups)
             if group is not groups.of(model.ground) and group not in carried and group not in chain:
@@ -70,33 +60,21 @@ def span(model: Model, links: Iterable[Contact | Joint]) -> Tree:
     return Tree(tuple(ordered), frozenset(h.link.liaison for h in ordered if h.link is not None))
 
 
-def in_order(links: Iterable[Contact | Joint]) -> list[Joint]:
+def in_order(links: Iterable[Link]) -> list[Joint]:
     """The joints in the order in which they join bodies."""
-    joints = (x for x in links if isinstance(x, Joint) and x.carries)
-    return sorted(joints, key=lambda x: (x.mu is None, -len(x.locks)))
+    joints = (x.joint for x in links if x.joint is not None and x.joint.carries)
+    return sorted(joints, key=lambda x: (not x.frictions, -len(x.locks)))
 
 
-def _along(curve: Figure) -> Motion:
-    """The motion along a curve."""
-    return Follow(curve) if curve.plane is None else Slide(curve.plane, coordinates=("u",))
-
-
-def _can_carry(link: Contact | Joint) -> bool:
-    of_line = isinstance(link, Contact) and link.liaison.kind.name == "point_courbe"
-    return of_line and not is_unilateral(link.liaison)
-
-
-def _can_roll(
-    link: Contact | Joint, closing: Iterable[Contact | Joint], groups: Groups, model: Model
-) -> bool:
+def _can_roll(link: Link, closing: Iterable[Link], groups: Groups, model: Model) -> bool:
     """Whether it rolls, and no other row keeps a place of the bodies that it would carry."""
-    if isinstance(link, Contact) or not can_roll(link) or is_driven(model):
+    if link.joint is None or not can_roll(link.joint) or is_driven(model):
         return False
     if model.experiment.method != "explicit" and _may_be_stiff(model):
         return False
-    group = groups.of(point_body(link.b))
-    others = (x for x in closing if x is not link and _keeps_places(x))
-    return not any(groups.of(body) is group for x in others for body in _ends(x))
+    group = groups.of(link.bodies[1])
+    others = (x for x in closing if x is not link and x.keeps_places)
+    return not any(groups.of(body) is group for x in others for body in x.bodies)
 
 
 def _may_be_stiff(model: Model) -> bool:
@@ -105,23 +83,12 @@ def _may_be_stiff(model: Model) -> bool:
     return bool(model.forces or model.equations or model.flanges or laws)
 
 
-def _keeps_places(link: Contact | Joint) -> bool:
-    return isinstance(link, Contact) or not all(lock.kinematic for lock in link.locks)
-
-
-def _ends(link: Contact | Joint) -> tuple[Body, Body]:
-    """The body that would carry, and the one that would be carried."""
-    if isinstance(link, Contact):
-        return point_body(link.track.point), point_body(link.point)
-    return point_body(link.a), point_body(link.b)
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class _Builder:
     model: Model
     groups: Groups
     branches: dict[Body, list[tuple[Joint, Body]]]
-    carried: dict[Body, Contact | Joint]
+    carried: dict[Body, Link]
 
     def hang(self, group: Body) -> Iterator[Hanging]:
         """Coordinates of a group, from its root outwards."""
@@ -129,12 +96,8 @@ class _Builder:
             root = self.model.ground
         elif group in self.carried:
             link = self.carried[group]
-            _, root = _ends(link)
-            if isinstance(link, Joint):
-                yield self._named(root, link, link.a, link.b, rolling_motions(link))
-            else:
-                way = _along(link.track.figure)
-                yield self._hanging(root, link, link.track.point, link.point, (way,))
+            _, root = link.bodies
+            yield self._hanging(root, link, *link.ends, link.carrying())
         else:
             root = next(b for b in self.model.bodies if self.groups.of(b) is group)
             ways = "xy" if self.model.planar else "xyz"
@@ -169,13 +132,14 @@ class _Builder:
     def _hanging(
         self,
         body: Body,
-        link: Contact | Joint | None,
+        link: Link | None,
         base: Point | None,
         own: Point | None,
         ways: tuple[Motion, ...],
     ) -> Hanging:
-        """Of a body whose orientation nothing keeps."""
-        return self._named(body, link, base, own, (*ways, self._orient(body)))
+        """Of a body whose orientation nothing keeps, and which a motion may give."""
+        oriented = bool(ways) and ways[-1].faces_ground
+        return self._named(body, link, base, own, ways if oriented else (*ways, self._orient(body)))
 
     def _orient(self, body: Body) -> Motion:
         if not turns(body):
@@ -187,7 +151,7 @@ class _Builder:
     def _named(
         self,
         body: Body,
-        link: Contact | Joint | None,
+        link: Link | None,
         base: Point | None,
         own: Point | None,
         motions: tuple[Motion, ...],
@@ -204,11 +168,11 @@ class _Builder:
         return Hanging(body, link, base, own, motions, tuple(names), tuple(speeds))
 
 
-def _carriers(group: Body, carried: dict[Body, Contact | Joint], groups: Groups) -> list[Body]:
+def _carriers(group: Body, carried: dict[Body, Link], groups: Groups) -> list[Body]:
     """The group and those its coordinates hang on, one after another."""
     chain = [group]
     while group in carried:
-        base, _ = _ends(carried[group])
+        base, _ = carried[group].bodies
         group = groups.of(base)
         chain.append(group)
     return chain

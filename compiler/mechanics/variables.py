@@ -7,14 +7,11 @@ from collections.abc import Mapping
 import casadi as ca
 from frot.compiler.equations.chains import Chains
 from frot.compiler.lowering.symbols import Rows, Symbols
-from frot.compiler.mechanics.geometry.contacts import Geometry
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Effort
-from frot.compiler.mechanics.liaisons.efforts import effort_along
 from frot.compiler.mechanics.liaisons.freed import numbered
-from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, joint_variable
 from frot.compiler.mechanics.liaisons.stated import Reader, unit_of
-from frot.compiler.mechanics.mechanism import Contact, Joint, point_body
+from frot.compiler.mechanics.link import Geometry, Link, Reaction, point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity, Variable
@@ -37,8 +34,8 @@ class Variables:
     symbols: Symbols
     chains: Chains
     kinematics: Kinematics
-    geometry: dict[Liaison, Geometry | JointGeometry]
-    links: dict[Liaison, Contact | Joint]
+    geometry: dict[Liaison, Geometry]
+    links: dict[Liaison, Link]
     reactions: dict[Liaison, Rows]
     drives: dict[Liaison, list[tuple[str, ca.SX]]]
     corners: Mapping[Liaison, tuple[Liaison, ...]]
@@ -127,18 +124,14 @@ class Variables:
         link, geometry = self.links[liaison], self.geometry[liaison]
         relation = numbered(liaison, coordinate)
         if relation is not None:
-            assert isinstance(link, Joint)
+            assert link.joint is not None
             reader = Reader(self.kinematics, self.values.__getitem__, self.of_liaison)
-            return unit_of(relation, link, reader)
-        return effort_along(link, coordinate, geometry, self.kinematics)
+            return unit_of(relation, link.joint, reader)
+        return geometry.effort(coordinate, self.kinematics)
 
     def coordinate(self, liaison: Liaison, index: int) -> tuple[ca.SX, ca.SX]:
         """A coordinate of a liaison, by the place of its motion, and its rate."""
-        link, geometry = self.links[liaison], self.geometry[liaison]
-        if isinstance(link, Contact):
-            assert isinstance(geometry, Geometry)
-            return geometry.abscissa, effort_along(link, "u", geometry, self.kinematics).rate
-        return self.kinematics.coordinate(link, index)
+        return self.geometry[liaison].coordinate(index, self.kinematics)
 
     def _drive(self, liaison: Liaison) -> tuple[ca.SX, ca.SX]:
         """Force and couple of the drives of a liaison."""
@@ -159,42 +152,16 @@ class Variables:
             return parts[0] if name == "slip" else sum(parts[1:], parts[0])
         if name == "mode":
             return self.modes.get(liaison, (-1, ca.SX(0)))[1] + 1  # literals count from 1
-        geometry = self.geometry[liaison]
-        if isinstance(geometry, JointGeometry):
-            rows, planar = self.reactions.get(liaison), self.kinematics.planar
-            drive = self._drive(liaison)
-            return joint_variable(geometry, name, rows, self.symbols.lam, drive, planar)
-        match name:
-            case "gap":
-                return geometry.gap
-            case "slip":
-                return geometry.slip
-            case "u" | "abscissa":
-                return geometry.abscissa
-        rows, contact = self.reactions[liaison], self.links[liaison]
-        lam = self.symbols.lam
-        normal = lam[rows.reaction[0]]
-        tangent = ca.dot(self._drive(liaison)[0], geometry.line.direction)
-        friction = self.frictions.get(liaison, ca.SX(0))
-        friction += lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
-        tangent += friction
-        couple = lam[rows.rolling] if rows.rolling >= 0 else ca.SX(0)
-        assert isinstance(contact, Contact)
-        on_second = 1 if contact.track_first else -1
-        match name:
-            case "normal_force":
-                return normal
-            case "tangential_force":
-                return tangent
-            case "force":
-                line = geometry.line
-                push = geometry.side * normal * line.normal + tangent * line.direction
-                return on_second * push[:2]
-            case "torque":
-                return on_second * couple
-            case "power":
-                return friction * geometry.slip + couple * geometry.roll
-        raise KeyError(name)
+        return self.geometry[liaison].variable(name, self._reaction(liaison))
+
+    def _reaction(self, liaison: Liaison) -> Reaction:
+        return Reaction(
+            self.reactions.get(liaison),
+            self.symbols.lam,
+            self._drive(liaison),
+            self.frictions.get(liaison, ca.SX(0)),
+            self.kinematics.planar,
+        )
 
 
 def _is_round(inertia: ca.SX) -> bool:

@@ -6,7 +6,6 @@ import casadi as ca
 from frot.compiler.lowering.groups import Group
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.mechanics.elements import Bound, Element
-from frot.compiler.mechanics.mechanism import Joint, Relation, rolls
 from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import place as _place
 from frot.compiler.product.c_tables import record as _record
@@ -36,20 +35,17 @@ def mechanical_arrays(lowered: Lowered) -> list[str]:
     reduced, grouping, system = lowered.reduced, lowered.grouping, lowered.system
     sliding = {e.contact: k for k, e in enumerate(grouping.elements) if not e.rolling}
     for k, link in enumerate(reduced.mechanism.contacts):
-        if isinstance(link, Relation) and rolls(link.joint):
+        if link.rolls and not link.reduced:
             sliding[k] = _NEVER_SLIPS
     joints = zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
     contacts = [
-        (x.liaison.name, x.liaison.span, -1 if isinstance(x, Joint) else r.reaction[0], x.reduced)
+        (x.liaison.name, x.liaison.span, r.reaction[0] if x.has_normal else -1, x.reduced)
         for x, r in joints
     ]
     contacts += [(e.name, e.span, -1, True) for e in system.elements]
-    first = [
-        x.first if isinstance(x, Relation) else not (isinstance(x, Joint) and rolls(x))
-        for x in reduced.mechanism.contacts
-    ]
+    first = [x.first for x in reduced.mechanism.contacts]
     first += [True] * len(system.elements)
-    kinematic = [isinstance(x, Relation) and x.lock.kinematic for x in reduced.mechanism.contacts]
+    kinematic = [x.kinematic for x in reduced.mechanism.contacts]
     kinematic += [False] * len(system.elements)
     places = {v.name: k for k, v in enumerate(lowered.variables)}
     arrays = [

@@ -10,7 +10,6 @@ from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.mechanism import Contact
 from frot.compiler.product.dae_switching import (
     GUARDS,
     PARTS,
@@ -109,7 +108,7 @@ def dae_of(lowered: Lowered) -> Dae:
     reduced, s = system.reduced, system.reduced.symbols
     switches = switches_of(system)
     flags = column(reduced.conditions.flags)
-    contacts = [isinstance(link, Contact) for link in reduced.mechanism.contacts]
+    contacts = [link.opens for link in reduced.mechanism.contacts]
     sides = [x for x, one in zip(scalars_of(s.sides), contacts, strict=True) if one]
     mode = ca.vertcat(*(w.mode for w in switches if w.ruled), flags, *sides, system.discrete)
     nv, na, solved = system.nv, system.na, scalars_of(system.z)
@@ -205,11 +204,7 @@ def _names(system: Assembled, switches: list[Switch]) -> Names:
         mode=(
             *(f"{w.name}.{part}" for w in switches if w.ruled for part in PARTS),
             *conditions,
-            *(
-                f"{link.liaison.name}.side"
-                for link in reduced.mechanism.contacts
-                if isinstance(link, Contact)
-            ),
+            *(f"{link.liaison.name}.side" for link in reduced.mechanism.contacts if link.opens),
             *(x.name() for x in scalars_of(system.discrete)),
         ),
         guards=(

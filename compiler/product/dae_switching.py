@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.symbols import Rows, scalars_of
-from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Relation, rolls
 from frot.dsl.data.classes import dataclass
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)
@@ -48,19 +47,17 @@ def switches_of(system: Assembled) -> list[Switch]:
     for i, (link, rows) in enumerate(
         zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
     ):
-        contact = isinstance(link, Contact)
-        ruled = not isinstance(link, Relation) and not (isinstance(link, Joint) and rolls(link))
-        mode = ca.SX.sym("m", len(PARTS)) if ruled else ca.SX([1.0, 0.0, 0.0, 0.0])
+        mode = ca.SX.sym("m", len(PARTS)) if link.ruled else ca.SX([1.0, 0.0, 0.0, 0.0])
         found.append(
             Switch(
                 name=link.liaison.name,
                 mode=mode,
-                ruled=ruled,
+                ruled=link.ruled,
                 rows=rows,
                 free=not link.reduced,
-                normal=mode[SIDE] * lam[rows.reaction[0]] if contact else _size(lam, rows),
-                gap=None if link.reduced or not contact else system.gap[i],
-                labels=_row_names(link, rows),
+                normal=mode[SIDE] * lam[rows.reaction[0]] if link.opens else _size(lam, rows),
+                gap=None if link.reduced or not link.opens else system.gap[i],
+                labels=link.labels(rows),
             )
         )
     row = reduced.rows.size1()
@@ -87,26 +84,6 @@ def _size(lam: ca.SX, rows: Rows) -> ca.SX:
     """
     square = sum((lam[r] ** 2 for r in rows.reaction), ca.SX(0))
     return ca.if_else(square > 0, ca.sqrt(ca.if_else(square > 0, square, 1)), 0)
-
-
-def _row_names(link: Link, rows: Rows) -> tuple[str, ...]:
-    name = link.liaison.name
-    if isinstance(link, Relation):
-        return (f"{name}.reaction[{link.joint.locks.index(link.lock) + 1}]",)
-    if not isinstance(link, Contact):
-        couple = (f"{name}.torque",) if rows.tangent >= 0 else ()
-        axes = (lock.ground_axis for lock in (link.locks if isinstance(link, Joint) else ()))
-        ways = [axis for axis in axes if axis is not None]
-        if len(ways) == len(rows.reaction):
-            return (*(f"{name}.force.{'xyz'[k]}" for k in ways), *couple)
-        locks = link.locks if isinstance(link, Joint) else ()
-        first = len(locks) - len(rows.reaction) + 1
-        return (*(f"{name}.reaction[{first + k}]" for k in range(len(rows.reaction))), *couple)
-    return (
-        f"{name}.normal_force",
-        *([f"{name}.tangential_force"] if rows.tangent >= 0 else []),
-        *([f"{name}.rolling_couple"] if rows.rolling >= 0 else []),
-    )
 
 
 def _coefficient(system: Assembled, row: int, *, at_rest: bool) -> ca.SX:

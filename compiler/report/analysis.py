@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.mechanics.free import free
+from frot.compiler.mechanics.link import Link
 from frot.compiler.mechanics.mechanism import (
-    Link,
     Mechanism,
     is_unilateral,
     relations_of,

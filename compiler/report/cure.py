@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 import numpy as np
+from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, make_joint
 from frot.compiler.mechanics.liaisons.places import LEFT, WayAlong
-from frot.compiler.mechanics.mechanism import Joint, Link, Relation
+from frot.compiler.mechanics.link import Link
 from frot.compiler.mechanics.values import Axis
 from frot.compiler.report.redundancy import Loop
 from frot.compiler.report.relations import Posture, Relations, make_relations, rank
@@ -106,11 +107,11 @@ def find_cure(relations: Relations, posture: Posture, loop: Loop) -> Cure:
 def _offers(liaison: Liaison, relations: Relations) -> Iterator[tuple[str, list[Link]]]:
     """What may take the place of a liaison, best first, with its relations."""
     link = next(x for x in relations.links if x.liaison is liaison)
-    if liaison.driven or not isinstance(link, Relation):
+    joint, planar = link.joint, relations.mechanism.model.planar
+    if liaison.driven or joint is None:
         if not liaison.driven:
             yield "", []
         return
-    joint, planar = link.joint, relations.mechanism.model.planar
     for option in (_PLANAR if planar else _SOFTER).get(liaison.kind.name, ()):
         yield option.kind, _relations(joint, _pairing(option, liaison.options, planar))
     if len(joint.locks) == 1:
@@ -132,4 +133,4 @@ def _pairing(option: _Option, given: Mapping[str, Expression], planar: bool) -> 
 
 def _relations(joint: Joint, pairing: Pairing) -> list[Link]:
     other = make_joint(joint.liaison, joint.a, joint.b, replace(pairing, motions=()), {})
-    return [Relation(other, lock, k == 0) for k, lock in enumerate(other.locks)]
+    return list(other.rows(True))

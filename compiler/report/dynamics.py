@@ -7,10 +7,8 @@ from collections.abc import Iterator
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.symbols import column, scalars_of
-from frot.compiler.mechanics.mechanism import Contact, Joint, Link, Relation
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.report.numbers import Floats, Numbers
-from frot.compiler.report.relations import is_kinematic
 from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 
@@ -109,7 +107,7 @@ class Dynamics:
         if not held:
             return state
         links = self.reduced.mechanism.contacts
-        places = [x for x in self.reaction if used[x[1]] and not is_kinematic(links[x[1]])]
+        places = [x for x in self.reaction if used[x[1]] and not links[x[1]].kinematic]
         still = replace(state, v=0 * state.v)
         for _ in range(_STEPS):
             rows, rate, gap = self.relations(*still.arguments)
@@ -189,7 +187,7 @@ def make_dynamics(reduced: Reduced) -> Dynamics:
     reaction: list[tuple[int, int]] = []
     friction: list[tuple[int, int]] = []
     for k, (link, rows) in enumerate(zip(links, reduced.contact_rows, strict=True)):
-        if not link.reduced and not isinstance(link, Joint):
+        if not link.reduced:
             reaction += [(row, k) for row in rows.reaction]
         friction += [(row, k) for row in (rows.tangent, rows.rolling) if row >= 0]
     return Dynamics(
@@ -206,8 +204,3 @@ def make_dynamics(reduced: Reduced) -> Dynamics:
 
 def _items(part: ca.SX) -> Iterator[ca.SX]:
     return iter(scalars_of(part))
-
-
-def closes(link: Link) -> bool:
-    """Whether a row, not a coordinate, keeps the link."""
-    return isinstance(link, Contact | Relation) and not link.reduced

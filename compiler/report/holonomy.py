@@ -17,7 +17,6 @@ from frot.compiler.report.relations import (
     Floats,
     Posture,
     Relations,
-    is_kinematic,
     null_space,
     rank,
 )
@@ -40,7 +39,7 @@ def non_holonomic(relations: Relations, posture: Posture) -> dict[Liaison, bool 
     position.
     """
     held = np.flatnonzero(relations.holds)
-    kinematic = [int(k) for k in held if is_kinematic(relations.links[k])]
+    kinematic = [int(k) for k in held if relations.links[k].kinematic]
     if not kinematic:
         return {}
     liaisons = dict.fromkeys(relations.links[k].liaison for k in kinematic)

@@ -14,9 +14,9 @@ from collections.abc import Iterator
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.symbols import scalars_of
-from frot.compiler.mechanics.mechanism import Contact, is_unilateral
+from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.reduce import Reduced
-from frot.compiler.report.dynamics import Dynamics, State, closes, make_dynamics
+from frot.compiler.report.dynamics import Dynamics, State, make_dynamics
 from frot.compiler.report.relations import Floats, Posture
 from frot.dsl.checked import Liaison
 from frot.dsl.data.classes import dataclass, replace
@@ -52,7 +52,7 @@ def find_paradoxes(reduced: Reduced, start: Posture) -> tuple[Paradox, ...]:
     Contacts that may part are looked at one by one, the others open.
     """
     links = reduced.mechanism.contacts
-    dry = [k for k, x in enumerate(links) if x.mu is not None]
+    dry = [k for k, x in enumerate(links) if any(not f.rolling for f in x.frictions)]
     if not (dry and reduced.symbols.v.numel()):
         return ()
     dynamics = make_dynamics(reduced)
@@ -92,15 +92,13 @@ class _Watched:
         self.rows = reduced.contact_rows[index]
         self.used: NDArray[np.bool_] = np.array(
             [
-                closes(x) and (k == index or not is_unilateral(x.liaison))
+                not x.reduced and (k == index or not is_unilateral(x.liaison))
                 for k, x in enumerate(links)
             ]
         )
-        radius = getattr(self.link, "radius", None)
-        self.radius = (
-            ca.SX(1) if radius is None else reduced.variables.kinematics.fixed.lower(radius)
-        )
-        before = sum(1 for x in links[:index] for law in (x.mu, x.delta) if law is not None)
+        arm, lower = self.link.frictions[0].arm, reduced.variables.kinematics.fixed.lower
+        self.radius = ca.SX(1) if arm is None else lower(arm)
+        before = sum(len(x.frictions) for x in links[:index])
         self.alone = not self.dynamics.held(self.used & (np.arange(len(links)) != index))
         self._numbers = ca.Function(
             "coefficient",
@@ -123,7 +121,7 @@ class _Watched:
             return None
         acceleration, reactions = solved
         _, radius = (float(x) for x in self._numbers(*state.arguments))
-        if isinstance(self.link, Contact) and not self.link.reduced:
+        if not self.link.reduced:
             return abs(float(reactions[held.index(self.rows.reaction[0])])) * radius
         read = mass[nv:, :nv] @ acceleration - rows[held, nv:].T @ reactions - push[nv:]
         places = [int(np.argmax(np.abs(rows[r, nv:]))) for r in self.rows.reaction]

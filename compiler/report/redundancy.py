@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from itertools import islice
 
 import numpy as np
-from frot.compiler.mechanics.mechanism import Contact, Link, point_body
+from frot.compiler.mechanics.link import Link
 from frot.compiler.report.relations import (
     Floats,
     Posture,
@@ -110,7 +110,7 @@ def _loop(relations: Relations, rows: list[int], spare: Floats) -> Loop:
     by_liaison: dict[Liaison, list[int]] = {}
     for k, row in enumerate(rows):
         by_liaison.setdefault(relations.links[row].liaison, []).append(k)
-    ends = {relations.links[row].liaison: ends_of(relations.links[row]) for row in rows}
+    ends = {relations.links[row].liaison: relations.links[row].bodies for row in rows}
     ordered, bodies = _walk(ends)
     undetermined = tuple(_rank(spare[by_liaison[x]]) for x in ordered)
     return Loop(_rank(spare), ordered, undetermined, bodies, tuple(rows))
@@ -119,14 +119,6 @@ def _loop(relations: Relations, rows: list[int], spare: Floats) -> Loop:
 def _rank(values: Floats) -> int:
     found = np.linalg.svd(values, compute_uv=False)
     return int(np.sum(found > _TAKES_PART))
-
-
-def ends_of(link: Link) -> tuple[Body, Body]:
-    """The two bodies that a link joins."""
-    if isinstance(link, Contact):
-        return point_body(link.track.point), point_body(link.point)
-    joint = link.joint if hasattr(link, "joint") else link
-    return point_body(joint.a), point_body(joint.b)
 
 
 def _walk(

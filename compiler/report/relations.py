@@ -8,10 +8,10 @@ import casadi as ca
 import numpy as np
 from frot.compiler.lowering.symbols import Symbols, column, make_symbols
 from frot.compiler.mechanics.constants import Constants
-from frot.compiler.mechanics.geometry.contacts import link_geometry, row_rates
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.motion import Motion
-from frot.compiler.mechanics.mechanism import Contact, Link, Mechanism
+from frot.compiler.mechanics.link import Link
+from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.report.followed import Followed
 from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
@@ -200,10 +200,8 @@ def make_relations(mechanism: Mechanism, unilateral: Mapping[Link, bool]) -> Rel
     kinematics = Kinematics(mechanism, symbols, Constants(symbols))
     world = mechanism.model.world
     links = mechanism.contacts
-    found = [link_geometry(x, kinematics, symbols.sides[k], world) for k, x in enumerate(links)]
-    rates = column(
-        rate for x, g in zip(links, found, strict=True) for rate in row_rates(x, g, kinematics)
-    )
+    found = [x.geometry(kinematics, symbols.sides[k], world) for k, x in enumerate(links)]
+    rates = column(rate for g in found for rate in g.rates(kinematics))
     gaps = column(g.gap for g in found)
     still = ca.SX.zeros(symbols.v.shape)
     state = [symbols.t, symbols.q, symbols.u, symbols.p]
@@ -225,18 +223,13 @@ def make_relations(mechanism: Mechanism, unilateral: Mapping[Link, bool]) -> Rel
         kinematics=kinematics,
         links=links,
         holds=np.array([not unilateral[x] for x in links], dtype=bool),
-        geometric=np.array([not is_kinematic(x) for x in links], dtype=bool),
+        geometric=np.array([not x.kinematic for x in links], dtype=bool),
         turning=turning_speeds([m for h in mechanism.coordinates for m in h.motions]),
         row=rows,
         function=ca.Function("relations", arguments, outputs),
         witness=ca.Function("witness", arguments, [witness]),
         followed=followed,
     )
-
-
-def is_kinematic(link: Link) -> bool:
-    """Whether a relation is one between velocities."""
-    return not isinstance(link, Contact) and bool(getattr(link, "lock").kinematic)  # noqa: B009
 
 
 def turning_speeds(motions: list[Motion]) -> NDArray[np.bool_]:

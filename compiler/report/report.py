@@ -8,9 +8,7 @@ from collections.abc import Iterator
 from frot.compiler.lowering.walk import has_time, subexpressions
 from frot.compiler.mechanics.liaisons.freed import is_row
 from frot.compiler.mechanics.mechanism import (
-    Joint,
     Mechanism,
-    Relation,
     freedoms_of,
     is_unilateral,
     relations_of,
@@ -270,23 +268,20 @@ def _line(
         for law in liaison.laws
     )
     text = f"{liaison.kind.name}({_place(liaison.a)}, {_place(liaison.b)})"
-    ideal = any(c.liaison is liaison for c in mechanism.ideal)
-    reduced = ideal or any(c.liaison is liaison and c.reduced for c in mechanism.contacts)
-    rows = [x for x in mechanism.contacts if isinstance(x, Relation) and x.liaison is liaison]
+    links = [x for x in (*mechanism.contacts, *mechanism.ideal) if x.liaison is liaison]
+    built = [x.reduced or x in mechanism.ideal for x in links]
     freed = [x for x in liaison.relations if not is_row(x)]
-    built_in = reduced and (not freed or len(freed) < relations)
+    built_in = any(built) and (not freed or len(freed) < relations)
     ways = ["built into the coordinates"] * built_in
-    if rows or not reduced:
+    if not built or not all(built):
         ways.append("kept by its reaction and projection")
     if freed:
         ways.append("kept by an equation of the text each")
     kept = ", the rest ".join(ways)
     if is_unilateral(liaison):
         kept = "opens and closes by events"
-    joints = [x for x in (*mechanism.contacts, *mechanism.ideal) if x.liaison is liaison]
-    locks = [x.lock for x in rows]
-    locks += [lock for x in joints if isinstance(x, Joint) for lock in x.held]
-    kinematic = sum(x.kinematic for x in locks) + sum(x.kinematic for x in freed)
+    kinematic = sum(x.kinematic for link in links for x in link.held)
+    kinematic += sum(x.kinematic for x in freed)
     known = dict(analysis.holonomic) if analysis is not None else {}
     return LiaisonLine(
         liaison.name,

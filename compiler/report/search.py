@@ -6,8 +6,7 @@ import casadi as ca
 import numpy as np
 from frot.compiler.lowering.symbols import scalars_of
 from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.mechanism import Contact
-from frot.compiler.report.dynamics import Dynamics, State, closes
+from frot.compiler.report.dynamics import Dynamics, State
 from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.report.relations import Posture, turning_speeds
 from frot.dsl import default_values, evaluate
@@ -52,16 +51,13 @@ class Search:
         self._parts = self._unilateral()
         motions = [m for h in dynamics.reduced.mechanism.coordinates for m in h.motions]
         self._turning = turning_speeds(motions)
-        self._closing = np.array([closes(x) for x in dynamics.reduced.mechanism.contacts], bool)
+        self._closing = np.array([not x.reduced for x in dynamics.reduced.mechanism.contacts], bool)
 
     def _unilateral(self) -> NDArray[np.bool_]:
         mechanism = self.dynamics.reduced.mechanism
         values = default_values(mechanism.model, {})
         return np.array(
-            [
-                isinstance(x, Contact) and as_number(evaluate(x.unilateral, values)) != 0
-                for x in mechanism.contacts
-            ],
+            [as_number(evaluate(x.unilateral, values)) != 0 for x in mechanism.contacts],
             dtype=bool,
         )
 

@@ -11,10 +11,10 @@ from frot.compiler.lowering.initial_values import lower_initial
 from frot.compiler.lowering.lower import looking_at, state_arguments, unsolved
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.mechanism import Contact, Link, Relation
+from frot.compiler.mechanics.link import Link
 from frot.compiler.report.followed import Followed
 from frot.compiler.report.numbers import Floats, Numbers
-from frot.compiler.report.relations import Posture, Relations, is_kinematic
+from frot.compiler.report.relations import Posture, Relations
 from frot.dsl import Log, default_values, evaluate
 from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
@@ -70,7 +70,7 @@ def find_start(system: Assembled) -> Start | None:
 
     links = reduced.mechanism.contacts
     parts = np.array([may_part(x, values) for x in links], dtype=bool)
-    kept = np.array([_has_gap(x) for x in links], dtype=bool)
+    kept = np.array([x.has_gap for x in links], dtype=bool)
     gap = system.resolve(reduced.gap)
     stated, slope, size, _ = initial.position
     outputs = [stated, slope.T, size, gap, ca.jacobian(gap, system.q)]
@@ -134,13 +134,6 @@ def find_start(system: Assembled) -> Start | None:
     posture = Posture(t, own(*arguments())[0].ravel(), u, p, sides)
     closed = kept & (np.abs(gaps) <= _TOUCHES * lengths)
     return Start(posture, q, flags, discrete, y, closed, found)
-
-
-def _has_gap(link: Link) -> bool:
-    """Whether a row keeps its gap."""
-    if isinstance(link, Contact):
-        return not link.reduced
-    return isinstance(link, Relation) and not is_kinematic(link)
 
 
 def _numbers(values: Iterable[object]) -> Floats:

@@ -1,34 +1,30 @@
-"""Gap, slip and rolling rate of the contacts, and the rows of every joint."""
+"""Contacts of the plane as functions of coordinates: gap, slip and rolling rate, variables."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import casadi as ca
+from frot.compiler.mechanics.geometry.paths import slope_at
 from frot.compiler.mechanics.geometry.touches import is_closed, touch
 from frot.compiler.mechanics.geometry.tracking import on_side, track
 from frot.compiler.mechanics.kinematics import Kinematics, Line
-from frot.compiler.mechanics.liaisons.actions import RelationGeometry
-from frot.compiler.mechanics.liaisons.joint_geometry import (
-    JointGeometry,
-    joint_geometry,
-    relation_geometry,
-)
-from frot.compiler.mechanics.mechanism import (
-    Contact,
-    Joint,
-    Link,
-    is_unilateral,
-    point_body,
-)
-from frot.compiler.mechanics.spatial import X, Y, Z, cross
+from frot.compiler.mechanics.liaisons.actions import Effort
+from frot.compiler.mechanics.link import Geometry, Reaction, point_body
+from frot.compiler.mechanics.mechanism import is_unilateral
+from frot.compiler.mechanics.spatial import X, Y, Z, cross, nowhere
 from frot.dsl.checked import World
 from frot.dsl.data.classes import dataclass
+
+if TYPE_CHECKING:
+    from frot.compiler.mechanics.geometry.contact import Contact
 
 STANDARD_GRAVITY = 9.81
 DOWN = {"+x": X, "-x": -X, "+y": Y, "-y": -Y, "+z": Z, "-z": -Z}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Geometry:
+class ContactGeometry(Geometry):
     """A contact as functions of the coordinates.
 
     `line.normal` points to the left of the line's direction; `side`, chosen once, multiplies it by
@@ -41,6 +37,7 @@ class Geometry:
     line's direction, and the relative angular velocity.
     """
 
+    contact: Contact
     line: Line
     side: ca.SX
     gap: ca.SX
@@ -50,6 +47,71 @@ class Geometry:
     slip: ca.SX
     roll: ca.SX
     abscissa: ca.SX
+
+    def rates(self, kinematics: Kinematics) -> list[ca.SX]:
+        """Along the normal, along the line, and of rolling."""
+        at = kinematics.readings.get(self.contact.liaison)
+        # what coordinates keep moves along its normal by its auxiliary speed alone
+        normal = self.approach if at is None else kinematics.symbols.sw[at]
+        frictions = self.contact.frictions
+        return [normal, *(self.roll if x.rolling else self.slip for x in frictions)]
+
+    def coordinate(self, index: int, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
+        """The parameter of the curve."""
+        return self.abscissa, self.effort("u", kinematics).rate
+
+    def effort(self, coordinate: str, kinematics: Kinematics) -> Effort:
+        """A force on the point along the curve."""
+        pace = self._pace(kinematics)
+        return Effort(self.slip / pace, self.line.direction / pace, nowhere())
+
+    def _pace(self, kinematics: Kinematics) -> ca.SX:
+        """The way along the curve for one unit of its parameter."""
+        curve = self.contact.track.figure
+        tangent = kinematics.tangents.get(self.contact.liaison)
+        if tangent is None and curve.plane is not None:
+            return ca.SX(1)
+        if tangent is None:
+            tangent = slope_at(curve, self.abscissa, kinematics.fixed.lower)
+        return ca.norm_2(tangent)
+
+    def place(self, kinematics: Kinematics) -> ca.SX:
+        """On the line."""
+        return self.line.through
+
+    def variable(self, name: str, reaction: Reaction) -> ca.SX:
+        """A variable of a contact; the reaction is that of the first place on the second."""
+        match name:
+            case "gap":
+                return self.gap
+            case "slip":
+                return self.slip
+            case "u" | "abscissa":
+                return self.abscissa
+        rows, lam = reaction.rows, reaction.lam
+        if rows is None:
+            raise KeyError(name)
+        normal = lam[rows.reaction[0]]
+        tangent = ca.dot(reaction.drive[0], self.line.direction)
+        friction = reaction.friction
+        friction += lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
+        tangent += friction
+        couple = lam[rows.rolling] if rows.rolling >= 0 else ca.SX(0)
+        on_second = 1 if self.contact.track_first else -1
+        match name:
+            case "normal_force":
+                return normal
+            case "tangential_force":
+                return tangent
+            case "force":
+                line = self.line
+                push = self.side * normal * line.normal + tangent * line.direction
+                return on_second * push[:2]
+            case "torque":
+                return on_second * couple
+            case "power":
+                return friction * self.slip + couple * self.roll
+        raise KeyError(name)
 
 
 def _witness(contact: Contact, line: Line, kinematics: Kinematics, world: World) -> ca.SX:
@@ -98,39 +160,10 @@ def _upward(world: World, kinematics: Kinematics) -> ca.SX:
     return -fall / ca.if_else(size > 0, size, 1)
 
 
-def link_geometry(
-    link: Link, kinematics: Kinematics, side: ca.SX, world: World
-) -> Geometry | JointGeometry | RelationGeometry:
-    """Geometry and relative velocities of a link, be it ideal or with friction."""
-    if isinstance(link, Contact):
-        return contact_geometry(link, kinematics, side, world)
-    if isinstance(link, Joint):
-        return joint_geometry(link, kinematics, side)
-    return relation_geometry(link, kinematics, side)
-
-
-def row_rates(
-    link: Link, geometry: Geometry | JointGeometry | RelationGeometry, kinematics: Kinematics
-) -> list[ca.SX]:
-    """Relative velocities of the link's rows, in their order."""
-    if isinstance(geometry, RelationGeometry):
-        return [geometry.rate]
-    if isinstance(geometry, JointGeometry):
-        return [geometry.apart, *([geometry.speed] if link.mu is not None else [])]
-    at = kinematics.readings.get(link.liaison)
-    # what coordinates keep moves along its normal by its auxiliary speed alone
-    rates = [geometry.approach if at is None else kinematics.symbols.sw[at]]
-    if link.mu is not None:
-        rates.append(geometry.slip)
-    if link.delta is not None:
-        rates.append(geometry.roll)
-    return rates
-
-
 def contact_geometry(
     contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
-) -> Geometry:
-    """Geometry and relative velocities of a point or rim on a curve."""
+) -> ContactGeometry:
+    """ContactGeometry and relative velocities of a point or rim on a curve."""
     if _keeps_left(contact):
         side = ca.SX(1)
     if contact.liaison in kinematics.tangents:
@@ -149,7 +182,9 @@ def _apart(
     return apart, nearing, body.angular - base.angular
 
 
-def _on_line(contact: Contact, kinematics: Kinematics, side: ca.SX, world: World) -> Geometry:
+def _on_line(
+    contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
+) -> ContactGeometry:
     """A round thing comes nearer as its centre does, for it has no slope."""
     line = kinematics.line(contact.track)
     centre, lower = kinematics.position(contact.point), kinematics.fixed.lower
@@ -159,7 +194,8 @@ def _on_line(contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
     touching = centre - side * below
     at = centre if figure.is_round or figure.is_point else touching
     apart, nearing, turning = _apart(contact, kinematics, touching, at)
-    return Geometry(
+    return ContactGeometry(
+        contact=contact,
         line=line,
         side=side,
         gap=side * height - radius,
@@ -172,12 +208,13 @@ def _on_line(contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
     )
 
 
-def _carried(contact: Contact, kinematics: Kinematics) -> Geometry:
+def _carried(contact: Contact, kinematics: Kinematics) -> ContactGeometry:
     """A point that its coordinate keeps on a curve; its slip is against the curve's elements."""
     line, liaison = kinematics.curve_at(contact), contact.liaison
     value, rate = kinematics.parameter(liaison)
     _, _, turning = _apart(contact, kinematics, line.through, line.through)
-    return Geometry(
+    return ContactGeometry(
+        contact=contact,
         line=line,
         side=ca.SX(1),
         gap=ca.SX(0),
@@ -190,7 +227,9 @@ def _carried(contact: Contact, kinematics: Kinematics) -> Geometry:
     )
 
 
-def _on_curve(contact: Contact, kinematics: Kinematics, side: ca.SX, world: World) -> Geometry:
+def _on_curve(
+    contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
+) -> ContactGeometry:
     """On a curve of any kind; the left of a circle is its inside."""
     lower, a, b = kinematics.fixed.lower, contact.track.figure, contact.figure
     base, own = kinematics.pose(contact.track.point), kinematics.pose(contact.point)
@@ -216,7 +255,8 @@ def _on_curve(contact: Contact, kinematics: Kinematics, side: ca.SX, world: Worl
         (point_body(contact.point), kinematics.local_point(contact.point)),
     )
     kept = _keeps_left(contact)
-    return Geometry(
+    return ContactGeometry(
+        contact=contact,
         line=line,
         side=side,
         gap=found.gap,

@@ -11,13 +11,10 @@ from collections.abc import Iterator, Mapping
 
 import casadi as ca
 from frot.compiler.lowering.walk import is_fixed
-from frot.compiler.mechanics.geometry.contacts import Geometry
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.plain import Dot
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.actions import Part
-from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
-from frot.compiler.mechanics.mechanism import Contact, Joint, frames_of
+from frot.compiler.mechanics.link import Geometry, Link, frames_of
 from frot.compiler.mechanics.spatial import Pose, whole
 from frot.dsl.checked import Expression, Liaison
 from frot.dsl.data.classes import dataclass
@@ -51,8 +48,8 @@ class _Figured:
 
 
 def find_vanishing(
-    links: Mapping[Liaison, Contact | Joint],
-    geometry: Mapping[Liaison, Geometry | JointGeometry],
+    links: Mapping[Liaison, Link],
+    geometry: Mapping[Liaison, Geometry],
     kinematics: Kinematics,
 ) -> Iterator[Vanishing]:
     """What the figures of the liaisons may lose, and the directions that change."""
@@ -69,52 +66,32 @@ def find_vanishing(
                 yield Vanishing(liaison, text, names, distance, padded)
 
 
-def _changing(liaison: Liaison, link: Contact | Joint) -> Iterator[tuple[str, Expression]]:
+def _changing(liaison: Liaison, link: Link) -> Iterator[tuple[str, Expression]]:
     """The axes of a liaison, and of the frames that it joins, which are not given by parameters."""
     for argument in liaison.kind.arguments:
         axis = liaison.options.get(argument.name)
         if argument.kind == "axis" and axis is not None and not is_fixed(axis):
             yield f"its {argument.name}", axis
-    ends = (link.a, link.b) if isinstance(link, Joint) else (link.point, link.track.point)
-    for frame in (frame for end in ends for frame in frames_of(end)):
+    for frame in (frame for end in link.ends for frame in frames_of(end)):
         if isinstance(frame.axis, Expression) and not is_fixed(frame.axis):
             yield f"the axis of frame '{frame.name}'", frame.axis
 
 
-def _figures(
-    link: Contact | Joint, geometry: Geometry | JointGeometry, kinematics: Kinematics
-) -> Iterator[_Figured]:
+def _figures(link: Link, geometry: Geometry, kinematics: Kinematics) -> Iterator[_Figured]:
     """The figures of a liaison, that which coordinates follow alone."""
     track, liaison = kinematics.tracks.get(link.liaison), link.liaison
     unknowns = ca.SX.zeros(0) if track is None else track.unknowns
-    if isinstance(link, Contact):
-        assert isinstance(geometry, Geometry)
-        points, swapped = (link.track.point, link.point), not link.track_first
-        pairs, place = [(link.track.figure, link.figure)], geometry.line.through
-    else:
-        assert isinstance(geometry, JointGeometry)
-        points, swapped = (link.a, link.b), link.swapped
-        touch = geometry.touch
-        place = kinematics.position(link.b) if touch is None else touch.place
-        pairs = list(_pairs(link))
+    place, pairs = geometry.place(kinematics), link.pairs
     if liaison not in kinematics.tangents and not pairs:
         return
-    first, second = (kinematics.pose(point) for point in points)
+    first, second = (kinematics.pose(point) for point in link.ends)
     texts = [" ".join(x.span.text.split()) for x in (liaison.a, liaison.b)]
-    name, other = reversed(texts) if swapped else texts
+    name, other = reversed(texts) if link.swapped else texts
     if liaison in kinematics.tangents:
         unknowns = kinematics.parameter(liaison)[0]
-        followed = (motion.curve for motion in getattr(link, "motions", ()))
-        pairs = [(curve, Dot()) for curve in followed if curve is not None] or pairs
+        pairs = tuple((curve, Dot()) for curve in link.curves) or pairs
     for a, b in pairs:
         own = ca.SX.zeros(0) if a.rank >= 0 and b.rank >= 0 else unknowns
         count = 0 if a.rank >= 0 or not own.numel() else a.parameters
         yield _Figured(name, a, first, own[:count], place)
         yield _Figured(other, b, second, own[count:], place)
-
-
-def _pairs(joint: Joint) -> Iterator[tuple[Figure, Figure]]:
-    parts: tuple[Part, ...] = (*joint.motions, *joint.locks)
-    for part in parts:
-        if part.figures is not None:
-            yield part.figures

@@ -7,14 +7,20 @@ The rate of the gap is the power of the wrench on the motion of b relative to a.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.touches import Touch
 from frot.compiler.mechanics.geometry.tracking import Track
 from frot.compiler.mechanics.liaisons.moves import Column
+from frot.compiler.mechanics.link import Geometry
 from frot.compiler.mechanics.spatial import Moving, Pose, nowhere
 from frot.compiler.mechanics.values import Lower
 from frot.dsl.data.classes import dataclass, field
+
+if TYPE_CHECKING:
+    from frot.compiler.mechanics.kinematics import Kinematics
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,13 +111,17 @@ class Action:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class RelationGeometry:
+class RelationGeometry(Geometry):
     """One lock of a joint that closes a loop: its gap, the rate of that, and `reach`, see there."""
 
     gap: ca.SX
     rate: ca.SX
     witness: ca.SX
     reach: ca.SX
+
+    def rates(self, kinematics: Kinematics) -> list[ca.SX]:
+        """That of the gap."""
+        return [self.rate]
 
 
 def push(way: ca.SX, gap: ca.SX) -> Action:

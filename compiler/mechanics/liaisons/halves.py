@@ -10,8 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.joints import JOINTS, make_joint
-from frot.compiler.mechanics.mechanism import Contact, Joint, Point, point_body, turns
+from frot.compiler.mechanics.link import Link, Point, point_body
+from frot.compiler.mechanics.mechanism import turns
 from frot.compiler.mechanics.spanning import Groups, in_order
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Literal, Model
@@ -23,18 +25,18 @@ from frot.dsl.quantities.dimensions import BOOLEAN
 class Halved:
     """The links with their welds, and for each added half the body it is a part of."""
 
-    links: tuple[Contact | Joint, ...]
+    links: tuple[Link, ...]
     halves: dict[Body, Body]
 
 
-def halve(model: Model, links: Sequence[Contact | Joint]) -> Halved:
+def halve(model: Model, links: Sequence[Link]) -> Halved:
     """Part a body at each joint with friction that would close a loop of such joints."""
     groups = Groups((model.ground, *model.bodies))
     halves: dict[Body, Body] = {}
     moved: dict[Liaison, Joint] = {}
     welds: list[Joint] = []
     for joint in in_order(links):
-        if joint.mu is None or groups.join(point_body(joint.a), point_body(joint.b)):
+        if not joint.frictions or groups.join(point_body(joint.a), point_body(joint.b)):
             continue
         at_b = turns(point_body(joint.b))
         body = point_body(joint.b if at_b else joint.a)
@@ -45,7 +47,7 @@ def halve(model: Model, links: Sequence[Contact | Joint]) -> Halved:
         place = _on(joint.b if at_b else joint.a, half)
         moved[joint.liaison] = replace(joint, b=place) if at_b else replace(joint, a=place)
         welds.append(_weld(body, half, model.planar))
-    own = tuple(moved.get(x.liaison, x) if isinstance(x, Joint) else x for x in links)
+    own = tuple(moved.get(x.liaison, x) for x in links)
     return Halved((*own, *welds), halves)
 
 

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import casadi as ca
 from frot.compiler.lowering.symbols import Rows
 from frot.compiler.mechanics.geometry.touches import Touch
-from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.liaisons.actions import Action, RelationGeometry
-from frot.compiler.mechanics.mechanism import Joint, Relation
+from frot.compiler.mechanics.liaisons.actions import Action, Between, Effort
+from frot.compiler.mechanics.link import Geometry, Reaction
 from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
 from frot.dsl.data.classes import dataclass
 
+if TYPE_CHECKING:
+    from frot.compiler.mechanics.kinematics import Kinematics
+    from frot.compiler.mechanics.liaisons.joint import Joint
+
 
 @dataclass(frozen=True, slots=True, eq=False)
-class JointGeometry:
+class JointGeometry(Geometry):
     """A joint between its places.
 
     `actions` of its locks, `drives` tells those that drive coordinates; `turned` is -1 where its a
@@ -24,6 +29,7 @@ class JointGeometry:
     where no reaction is computed); `radius` of the pin or None.
     """
 
+    joint: Joint
     actions: tuple[Action, ...]
     turned: int
     touch: Touch | None
@@ -31,7 +37,7 @@ class JointGeometry:
     way: ca.SX | None
     drives: tuple[bool, ...]
     coordinates: dict[str, ca.SX]
-    rates: dict[str, ca.SX]
+    rates_of: dict[str, ca.SX]
     relative: ca.SX
     attitude: ca.SX
     apart: ca.SX
@@ -43,7 +49,103 @@ class JointGeometry:
     @property
     def speed(self) -> ca.SX:
         """The rate of its first coordinate."""
-        return next(iter(self.rates.values()))
+        return next(iter(self.rates_of.values()))
+
+    def variable(self, name: str, reaction: Reaction) -> ca.SX:
+        """A variable of a joint.
+
+        The force, at the place b, and the couple are those of a on b, in ground axes. With the
+        radius of a pin, `slip` and `tangential_force` are those at its surface; where nothing
+        touches, `tangential_force` is what drives the liaison along its ways.
+        """
+        rows, lam, planar = reaction.rows, reaction.lam, reaction.planar
+        if name in self.coordinates:
+            return self.coordinates[name]
+        match name:
+            case "speed":
+                return self.rates_of.get("displacement", self.speed)
+            case "speed_angle":
+                return self.rates_of["angle"]
+            case "angular_velocity":
+                return ca.densify(self.relative)
+            case "orientation":
+                return ca.densify(self.attitude)
+            case "gap":
+                return self.gap
+            case "slip" if self.radius is not None:
+                return self.radius * self.speed
+            case "slip":
+                return self._beside(self.moves * (1 if planar else self.turned), planar)
+        if rows is None:
+            if self.actions:
+                raise KeyError(name)
+            rows = Rows((), -1, -1)  # nothing is locked
+        force, couple = (ca.densify(x) for x in reaction.drive)
+        along = force
+        for row, action, drives in zip(rows.reaction, self.actions, self.drives, strict=True):
+            force += lam[row] * action.force
+            couple += lam[row] * action.couple
+            along += drives * lam[row] * action.force
+        friction = lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
+        force, couple = self.turned * force, self.turned * couple
+        match name:
+            case "force":
+                return force[:2] if planar else force
+            case "torque":
+                couple[2] += friction
+                return couple[2] if planar else couple
+            case "normal_force" if self.touch is not None:
+                return self.turned * ca.dot(force, self.touch.normal)
+            case "normal_force":
+                return ca.sqrt(ca.sumsqr(force[:2] if planar else force))
+            case "tangential_force" if self.radius is not None:
+                return friction / self.radius
+            case "tangential_force" if self.touch is not None:
+                return self._beside(self.turned * force if planar else force, planar)
+            case "tangential_force":
+                return self._beside(self.turned * along, planar)
+            case "power":
+                return friction * self.speed if rows.tangent >= 0 else ca.SX(0)
+        raise KeyError(name)
+
+    def rates(self, kinematics: Kinematics) -> list[ca.SX]:
+        """Along the locks that are read, then about a dry pin."""
+        return [self.apart, *([self.speed] if self.joint.frictions else [])]
+
+    def coordinate(self, index: int, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
+        """As the bodies show it."""
+        return kinematics.coordinate(self.joint, index)
+
+    def place(self, kinematics: Kinematics) -> ca.SX:
+        """Where figures touch, else b."""
+        return kinematics.position(self.joint.b) if self.touch is None else self.touch.place
+
+    def effort(self, coordinate: str, kinematics: Kinematics) -> Effort:
+        """Of a gap a force along the normal, else as the motion says."""
+        joint = self.joint
+        if coordinate == "gap":
+            assert self.touch is not None
+            normal, place = self.touch.normal, self.touch.place
+            couple = cross(place - kinematics.position(joint.b), normal)
+            return Effort(self.rates_of["gap"], normal, couple)
+        index = [motion.name for motion in joint.motions].index(coordinate)
+        rate = kinematics.coordinate(joint, index)[1]
+        tangent = kinematics.tangents.get(joint.liaison)
+        a, b = kinematics.pose(joint.a), kinematics.pose(joint.b)
+        between = Between(a, b, kinematics.fixed.lower, tangent=tangent)
+        return Effort(rate, *joint.motions[index].bare.wrench(between))
+
+    def _beside(self, vector: ca.SX, planar: bool) -> ca.SX:
+        """The part of a vector along a contact, or along the ways that a liaison leaves.
+
+        In the plane it is a signed scalar: along a contact, or along the way of a slide.
+        """
+        found = self.touch
+        if not planar:
+            return ca.densify(vector - _part(vector, None if found is None else found.normal))
+        if found is not None:
+            return ca.dot(vector, cross(found.normal, Z))
+        return ca.SX(0) if self.way is None else ca.dot(vector, self.way)
 
 
 def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGeometry:
@@ -72,6 +174,7 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
     at = kinematics.readings.get(joint.liaison)
     sw = kinematics.symbols.sw
     return JointGeometry(
+        joint=joint,
         actions=actions,
         turned=-1 if joint.swapped else 1,
         touch=touch,
@@ -79,15 +182,20 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
         way=_way(joint, a.pose, kinematics),
         drives=tuple(lock.drives for lock in joint.locks),
         coordinates=coordinates,
-        rates=rates,
+        rates_of=rates,
         relative=b.angular - a.angular,
         attitude=product(conjugate(a.pose.quaternion), b.pose.quaternion),
         apart=ca.SX.zeros(0) if at is None else sw[at : at + len(joint.held)],
-        radius=None if joint.radius is None else kinematics.fixed.lower(joint.radius),
+        radius=_radius(joint, kinematics),
         gap=ca.SX(0) if touch is None else touch.gap,
         witness=ca.SX.ones(3),
         reach=ca.SX(0),
     )
+
+
+def _radius(joint: Joint, kinematics: Kinematics) -> ca.SX | None:
+    arms = (friction.arm for friction in joint.frictions)
+    return next((kinematics.fixed.lower(arm) for arm in arms if arm is not None), None)
 
 
 def _way(joint: Joint, a: Pose, kinematics: Kinematics) -> ca.SX | None:
@@ -96,89 +204,5 @@ def _way(joint: Joint, a: Pose, kinematics: Kinematics) -> ca.SX | None:
     return a.direction(found[0]) if kinematics.planar and len(found) == 1 else None
 
 
-def relation_geometry(relation: Relation, kinematics: Kinematics, side: ca.SX) -> RelationGeometry:
-    """A lock between bodies that coordinates do not keep together."""
-    return relation.lock.of_relation(relation.joint, kinematics, side)
-
-
-def _beside(geometry: JointGeometry, vector: ca.SX, planar: bool) -> ca.SX:
-    """The part of a vector along a contact, or along the ways that a liaison leaves.
-
-    In the plane it is a signed scalar: along a contact, or along the way of a slide.
-    """
-    found = geometry.touch
-    if not planar:
-        return ca.densify(vector - _part(vector, None if found is None else found.normal))
-    if found is not None:
-        return ca.dot(vector, cross(found.normal, Z))
-    return ca.SX(0) if geometry.way is None else ca.dot(vector, geometry.way)
-
-
 def _part(vector: ca.SX, normal: ca.SX | None) -> ca.SX:
     return nowhere() if normal is None else ca.dot(vector, normal) * normal
-
-
-def joint_variable(
-    geometry: JointGeometry,
-    name: str,
-    rows: Rows | None,
-    lam: ca.SX,
-    drive: tuple[ca.SX, ca.SX],
-    planar: bool,
-) -> ca.SX:
-    """A variable of a joint; `rows` is None where its reaction is not computed.
-
-    `drive`: force and couple of what keeps prescribed coordinates.
-
-    The force, at the place b, and the couple are those of a on b, in ground axes. With the radius
-    of a pin, `slip` and `tangential_force` are those at its surface; where nothing touches,
-    `tangential_force` is what drives the liaison along its ways.
-    """
-    if name in geometry.coordinates:
-        return geometry.coordinates[name]
-    match name:
-        case "speed":
-            return geometry.rates.get("displacement", geometry.speed)
-        case "speed_angle":
-            return geometry.rates["angle"]
-        case "angular_velocity":
-            return ca.densify(geometry.relative)
-        case "orientation":
-            return ca.densify(geometry.attitude)
-        case "gap":
-            return geometry.gap
-        case "slip" if geometry.radius is not None:
-            return geometry.radius * geometry.speed
-        case "slip":
-            return _beside(geometry, geometry.moves * (1 if planar else geometry.turned), planar)
-    if rows is None:
-        if geometry.actions:
-            raise KeyError(name)
-        rows = Rows((), -1, -1)  # nothing is locked
-    force, couple = (ca.densify(x) for x in drive)
-    along = force
-    for row, action, drives in zip(rows.reaction, geometry.actions, geometry.drives, strict=True):
-        force += lam[row] * action.force
-        couple += lam[row] * action.couple
-        along += drives * lam[row] * action.force
-    friction = lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
-    force, couple = geometry.turned * force, geometry.turned * couple
-    match name:
-        case "force":
-            return force[:2] if planar else force
-        case "torque":
-            couple[2] += friction
-            return couple[2] if planar else couple
-        case "normal_force" if geometry.touch is not None:
-            return geometry.turned * ca.dot(force, geometry.touch.normal)
-        case "normal_force":
-            return ca.sqrt(ca.sumsqr(force[:2] if planar else force))
-        case "tangential_force" if geometry.radius is not None:
-            return friction / geometry.radius
-        case "tangential_force" if geometry.touch is not None:
-            return _beside(geometry, geometry.turned * force if planar else force, planar)
-        case "tangential_force":
-            return _beside(geometry, geometry.turned * along, planar)
-        case "power":
-            return friction * geometry.speed if rows.tangent >= 0 else ca.SX(0)
-    raise KeyError(name)

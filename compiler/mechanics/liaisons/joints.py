@@ -12,15 +12,16 @@ from collections.abc import Callable, Collection, Mapping
 from frot.compiler.mechanics.liaisons.directions import Aligned, Crossed, Parallel, SameAngle
 from frot.compiler.mechanics.liaisons.driven import Drive, Driven
 from frot.compiler.mechanics.liaisons.facing import Attitude
+from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.places import LEFT, Slide, Way, WayAlong
 from frot.compiler.mechanics.liaisons.turns import Screw, Thread, Turn
-from frot.compiler.mechanics.mechanism import Joint, Point, is_particle, point_body
+from frot.compiler.mechanics.link import Point, point_body
+from frot.compiler.mechanics.mechanism import is_particle
 from frot.compiler.mechanics.values import Axis
-from frot.dsl.checked import Expression, Liaison, Literal
+from frot.dsl.checked import Expression, Liaison
 from frot.dsl.data.classes import dataclass
-from frot.dsl.quantities.dimensions import BOOLEAN
 
 Options = Mapping[str, Expression]
 
@@ -159,11 +160,6 @@ def make_joint(
         locks=locks,
         carries=pairing.carries,
         swapped=swapped,
-        reduced=False,
-        unilateral=Literal(False, BOOLEAN, liaison.span),
-        mu=None,
-        mu_s=None,
-        radius=None,
     )
 
 

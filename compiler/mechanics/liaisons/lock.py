@@ -12,7 +12,7 @@ import casadi as ca
 from frot.compiler.mechanics.liaisons.actions import Action, Between, Part, RelationGeometry
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.mechanism import point_body
+from frot.compiler.mechanics.link import point_body
 from frot.compiler.mechanics.values import Axis, Moments
 from frot.dsl.checked import Expression
 from frot.dsl.data.classes import replace
@@ -20,7 +20,7 @@ from frot.dsl.data.classes import replace
 if TYPE_CHECKING:
     from frot.compiler.mechanics.geometry.figure import Figure
     from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.mechanism import Joint
+    from frot.compiler.mechanics.liaisons.joint import Joint
 
 
 class Lock(Part):

@@ -34,7 +34,8 @@ class Motion(Part):
 
     `coordinates` and `speeds` are the ends of the names of q and v (`speeds` empty where v is q').
     `faces_ground`: q places the axes relative to the ground, whatever carries them. `turns`: the
-    speeds are angular velocities. `hinges`: it does nothing but turn, about one axis.
+    speeds are angular velocities. `hinges`, `slides`: it does nothing but turn about one axis, or
+    go along one.
     """
 
     __slots__ = ()
@@ -45,6 +46,7 @@ class Motion(Part):
     faces_ground = False
     turns = False
     hinges = False
+    slides = False
     comes_round = False  # a turn of the bodies brings back the posture at which q began
     keeps_axis = False  # its rate is that by the velocities, though time may change the axis
     is_taken = False  # what another motion does takes its coordinates along

@@ -26,6 +26,7 @@ class Slide(Motion):
     side: int | None = None
     sign: int = 1
     coordinates: tuple[str, ...] = ("displacement",)
+    slides = True
 
     def way(self, lower: Lower) -> ca.SX:
         """Where it goes."""

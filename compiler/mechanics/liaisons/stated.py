@@ -15,7 +15,7 @@ from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.mechanics.liaisons.actions import Action, Effort, RelationGeometry
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.mechanism import point_body
+from frot.compiler.mechanics.link import point_body
 from frot.compiler.mechanics.spatial import Moving, Pose, cross, nowhere, product
 from frot.dsl import Log
 from frot.dsl.checked import Expression, Liaison, Quantity, StatedRelation, Variable
@@ -23,7 +23,7 @@ from frot.dsl.data.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.mechanism import Joint
+    from frot.compiler.mechanics.liaisons.joint import Joint
 
 _SPACE = 3
 

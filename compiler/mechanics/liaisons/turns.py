@@ -16,7 +16,7 @@ from frot.dsl.data.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.mechanism import Joint
+    from frot.compiler.mechanics.liaisons.joint import Joint
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,0 +1,83 @@
+"""One lock of a joint that closes a loop: a row of its own, kept by its reaction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import casadi as ca
+from frot.compiler.lowering.symbols import Rows
+from frot.compiler.mechanics.liaisons.actions import RelationGeometry
+from frot.compiler.mechanics.liaisons.lock import Lock
+from frot.compiler.mechanics.link import Link, Point
+from frot.dsl.checked import Liaison, World
+from frot.dsl.data.classes import dataclass
+
+if TYPE_CHECKING:
+    from frot.compiler.mechanics.kinematics import Kinematics
+    from frot.compiler.mechanics.liaisons.joint import Joint
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Relation(Link):
+    """A lock of a joint; `first`: it stands for the joint."""
+
+    joint: Joint
+    lock: Lock
+    first: bool
+    ruled = False
+
+    @property
+    def liaison(self) -> Liaison:
+        """That of the joint."""
+        return self.joint.liaison
+
+    @property
+    def whole(self) -> Link:
+        """The joint."""
+        return self.joint
+
+    @property
+    def ends(self) -> tuple[Point, Point]:
+        """Those of the joint."""
+        return self.joint.ends
+
+    @property
+    def relation_count(self) -> int:
+        """That of the joint."""
+        return self.joint.relation_count
+
+    @property
+    def held(self) -> tuple[Lock, ...]:
+        """It."""
+        return (self.lock,)
+
+    @property
+    def rolls(self) -> bool:  # type: ignore[override]
+        """Whether its joint does."""
+        return self.joint.rolls
+
+    @property
+    def kinematic(self) -> bool:  # type: ignore[override]
+        """Whether its lock is."""
+        return self.lock.kinematic
+
+    @property
+    def cancels(self) -> bool:  # type: ignore[override]
+        """What the text says in its own words is its own affair."""
+        return not self.lock.stated
+
+    def counted(self, planar: bool) -> Iterator[tuple[Link, int]]:
+        """In space; in the plane the angles of bodies count the turns."""
+        if self.first and not planar:
+            for k, motion in enumerate(self.joint.motions):
+                if motion.comes_round:
+                    yield self.joint, k
+
+    def geometry(self, kinematics: Kinematics, side: ca.SX, world: World) -> RelationGeometry:
+        """The gap of the lock."""
+        return self.lock.of_relation(self.joint, kinematics, side)
+
+    def labels(self, rows: Rows) -> tuple[str, ...]:
+        """By the place among the joint's locks."""
+        return (f"{self.liaison.name}.reaction[{self.joint.locks.index(self.lock) + 1}]",)
