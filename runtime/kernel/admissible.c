@@ -210,9 +210,8 @@ int frot_reactions_hold(const frot_instant *in, const int *chosen, int count) {
   return 1;
 }
 
-/* Whether an inequality of an element that slack admits holds but for rounding. What a guard has
- * brought to its bound is there as the instant was located. */
-static int element_is_exact(const frot_instant *in, int e) {
+/* What a guard has brought to its bound is there as the instant was located. */
+int frot_element_is_exact(const frot_instant *in, int e) {
   const frot_element *element = &in->m->elements[e];
   const frot_contact_mode *mode = frot_element_mode(in->m, in->w->search.trial, e);
   int stuck = frot_element_mode(in->m, in->w->search.before, e)->friction == FROT_STICK;
@@ -234,7 +233,7 @@ int frot_is_exact(const frot_instant *in, const int *chosen, int count) {
   for (int c = 0; c < count; c++) {
     int laws = in->w->search.trial[chosen[c]].closed ? frot_laws_of(in->m, chosen[c], own) : 0;
     for (int k = 0; k < laws; k++)
-      if (!element_is_exact(in, own[k])) return 0;
+      if (!frot_element_is_exact(in, own[k])) return 0;
   }
   return 1;
 }

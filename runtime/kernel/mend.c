@@ -3,7 +3,8 @@
  * Principal pivoting (K. Murty, Linear Complementarity, Linear and Nonlinear Programming, 1988, ch.
  * 4): of laws that are no cone too, as friction at rest above that of motion, where a rest that
  * ends loads its neighbours at once and may end theirs. Where the worst goes round in a circle the
- * first is taken. What is found is a motion; that others exist is not looked for. */
+ * first is taken. What is found is a motion; that others exist is not looked for. One that needs
+ * slack is mended on, for the next step would take it back. */
 #include <math.h>
 #include <string.h>
 
@@ -42,10 +43,10 @@ static int put_right(const frot_instant *in, int i, int forced) {
 }
 
 /* Of what the trial violates the worst, or the first: contact k < n_contacts or element
- * k - n_contacts; -1 for none. */
-static int violated(const frot_instant *in, const int *chosen, int count, int first) {
+ * k - n_contacts; -1 for none. `exactly`: of elements also what holds by slack alone. */
+static int violated(const frot_instant *in, const int *chosen, int count, int first, int exactly) {
   const frot_model *m = in->m;
-  double least = -FROT_BOUND_SLACK;
+  double least = 0;
   int found = -1;
   for (int c = 0; c < count && !(first && found >= 0); c++) {
     int own[FROT_LAWS_OF_CONTACT], i = chosen[c], laws = frot_laws_of(m, i, own);
@@ -53,12 +54,14 @@ static int violated(const frot_instant *in, const int *chosen, int count, int fi
     if (margin < 1 && in->w->search.trial[i].closed) margin = frot_pressure(in, i);
     /* held all round, the side follows from the reaction */
     if (in->unilateral[i] == 0 && margin < 0 && frot_all_held(in, i)) margin = 0;
-    if (margin < least) least = margin, found = i;
+    if (margin < fmin(least, -FROT_BOUND_SLACK)) least = margin, found = i;
     for (int k = 0; k < laws; k++) {
       margin = frot_margin_of_element(in, own[k]);
       if (margin < 1 && frot_is_held(m, in->w->search.trial, own[k]))
         margin = frot_reserve(in, own[k]);
-      if (margin < least) least = margin, found = m->n_contacts + own[k];
+      if (!(margin < least)) continue;
+      if (margin < -FROT_BOUND_SLACK || (exactly && !frot_element_is_exact(in, own[k])))
+        least = margin, found = m->n_contacts + own[k];
     }
   }
   return found;
@@ -85,15 +88,27 @@ static int change(const frot_instant *in, int k, int forced) {
   return put_right(in, i, forced);
 }
 
-int frot_mend_modes(const frot_instant *in, const int *chosen, int count, int forced) {
+/* Change one after the other until nothing is violated; returns whether the trial is admissible. */
+static int mend(const frot_instant *in, const int *chosen, int count, int forced, int exactly) {
   const frot_group *g = &in->m->groups[in->m->contact_group[chosen[0]]];
   int all = count + g->n_elements;
-  for (int c = 0; c < count; c++) put_right(in, chosen[c], forced);
   for (int round = 0; round < (WORST + FIRST) * all; round++) {
     if (frot_group_reactions(in->m, in->w, g, in->w->search.trial, in->resists)) return 0;
-    int k = violated(in, chosen, count, round >= WORST * all);
+    int k = violated(in, chosen, count, round >= WORST * all, exactly);
     if (k < 0) return frot_is_admissible(in, chosen, count);
     if (!change(in, k, forced)) return 0;
   }
   return 0;
+}
+
+int frot_mend_modes(const frot_instant *in, const int *chosen, int count, int forced) {
+  frot_contact_mode *trial = in->w->search.trial, *slack = in->w->search.guess;
+  size_t modes = sizeof *trial * (size_t)(in->m->n_contacts + in->m->n_elements);
+  for (int c = 0; c < count; c++) put_right(in, chosen[c], forced);
+  if (!mend(in, chosen, count, forced, 0)) return 0;
+  if (frot_is_exact(in, chosen, count)) return 1;
+  memcpy(slack, trial, modes);
+  if (mend(in, chosen, count, forced, 1) && frot_is_exact(in, chosen, count)) return 1;
+  memcpy(trial, slack, modes);
+  return frot_is_admissible(in, chosen, count);
 }

@@ -163,15 +163,32 @@ static int note_departures(const frot_instant *in, const int *chosen, int count)
   return departed;
 }
 
-/* Motions in which what fired changes, or else any; those that last before those that do not. */
+/* Put the modes found aside, or back. */
+static void put_aside(const frot_instant *in, frot_contact_mode *aside) {
+  size_t modes = sizeof *aside * (size_t)(in->m->n_contacts + in->m->n_elements);
+  memcpy(aside, in->w->search.best, modes);
+}
+static void put_back(const frot_instant *in, const frot_contact_mode *aside) {
+  size_t modes = sizeof *aside * (size_t)(in->m->n_contacts + in->m->n_elements);
+  memcpy(in->w->search.best, aside, modes);
+  in->w->search.exact = 0;
+}
+
+/* Motions in which what fired changes, or else any; those that last before those that do not.
+ * Slack admits changes that are taken back at once: of those that last, what needs it comes last.
+ */
 static int search(const frot_instant *in, const int *chosen, int count, int *unsearched) {
-  for (int lasting = 1; lasting >= 0; lasting--)
+  frot_search_work *found = &in->w->search;
+  int slack = 0;
+  for (int lasting = 1; lasting >= 0 && !slack; lasting--)
     for (int forced = 1; forced >= 0; forced--) {
       int motions = frot_search(in, chosen, count, forced, lasting, unsearched);
-      in->w->search.lasts = lasting;
-      if (motions > 0) return motions;
+      found->lasts = lasting;
+      if (motions > 0 && (found->exact || !lasting)) return motions;
+      if (motions > 0 && !slack) slack = motions, put_aside(in, found->slack);
     }
-  return 0;
+  if (slack) put_back(in, found->slack);
+  return slack;
 }
 
 /* Nothing has departed yet. */
@@ -207,12 +224,10 @@ static int hold(const frot_instant *in, const int *chosen, int count, int *unsea
  * it finds no motion that needs none. */
 static int hold_exactly(const frot_instant *in, const int *chosen, int count, int *unsearched,
                         int motions) {
-  frot_work *w = in->w;
-  size_t modes = sizeof *w->search.best * (size_t)(in->m->n_contacts + in->m->n_elements);
-  memcpy(w->search.found, w->search.best, modes);
+  put_aside(in, in->w->search.found);
   int others = hold(in, chosen, count, unsearched);
-  if (others > 0 && w->search.exact) return others;
-  memcpy(w->search.best, w->search.found, modes);
+  if (others > 0 && in->w->search.exact) return others;
+  put_back(in, in->w->search.found);
   return motions;
 }
 

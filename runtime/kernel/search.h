@@ -32,6 +32,8 @@ int frot_is_admissible(const frot_instant *in, const int *chosen, int count);
 /* Whether the inequalities of its laws, once they hold, do so but for rounding. Slack admits more:
  * where terms cancel, motions that the next step takes back. */
 int frot_is_exact(const frot_instant *in, const int *chosen, int count);
+/* The same of one element. */
+int frot_element_is_exact(const frot_instant *in, int e);
 
 /* What is left of a bound when an element holds, over its size: negative beyond the slack. */
 double frot_reserve(const frot_instant *in, int element);

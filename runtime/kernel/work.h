@@ -177,7 +177,7 @@ typedef struct {
  * it would go, and which slips no acceleration starts; of both: what is left of their inequalities
  * where that is little (lasting.c). */
 typedef struct {
-  frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner, *found;
+  frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner, *found, *slack;
   unsigned char *certain, *zero, *at_rest, *departs;
   signed char *ahead;
   double *motions, *pivot_bound, *nothing_frozen, *margin;
