@@ -152,12 +152,24 @@ static int left_here(const frot_instant *in, int i) {
   return any;
 }
 
-/* One motion by pivoting, and what it leaves in doubt examined. `ends`: a rest ends now. */
+/* The guess of the modes mended until they are admissible: one motion, or none. */
+static int mend_guess(const frot_instant *in, const int *chosen, int count, int forced,
+                      int lasting) {
+  if (!frot_mend_modes(in, chosen, count, forced)) return 0;
+  if (lasting && !frot_lasts(in, chosen, count)) return 0;
+  remember(in, chosen, count);
+  return 1;
+}
+
+/* One motion by pivoting; where it needs slack what it leaves in doubt is examined. `ends`: a rest
+ * ends now. */
 static int search_near(const frot_instant *in, const int *chosen, int count, int forced,
                        int lasting, int ends) {
   unsigned char *certain = in->w->search.certain;
   frot_option lists[FROT_OPTIONS];
   double combinations = 1;
+  frot_guess_modes(in, chosen, count, ends, certain);
+  if (mend_guess(in, chosen, count, forced, lasting) && in->w->search.exact) return 1;
   frot_guess_modes(in, chosen, count, ends, certain);
   for (int c = 0; c < count; c++) {
     int options = frot_contact_options(in, chosen[c], forced, lists);
@@ -171,10 +183,7 @@ static int search_near(const frot_instant *in, const int *chosen, int count, int
   int motions = enumerate(in, chosen, count, forced, lasting, certain);
   if (motions > 0) return motions;
   frot_guess_modes(in, chosen, count, ends, certain);
-  if (!frot_mend_modes(in, chosen, count, forced)) return 0;
-  if (lasting && !frot_lasts(in, chosen, count)) return 0;
-  remember(in, chosen, count);
-  return 1;
+  return mend_guess(in, chosen, count, forced, lasting);
 }
 
 static int search_all(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
@@ -186,7 +195,10 @@ static int search_all(const frot_instant *in, const int *chosen, int count, int 
   for (int c = 0; c < count; c++)
     combinations *= frot_contact_options(in, chosen[c], forced, lists);
   memset(w->search.trial, 0, sizeof *w->search.trial * (size_t)(m->n_contacts + m->n_elements));
-  if (combinations <= FROT_ENOUGH) return enumerate(in, chosen, count, forced, lasting, NULL);
+  /* where others were not looked for they are not either when the friction of what departs changes
+   */
+  if (combinations <= FROT_ENOUGH && !*unsearched)
+    return enumerate(in, chosen, count, forced, lasting, NULL);
   *unsearched = 1;
   int motions = search_near(in, chosen, count, forced, lasting, forced);
   /* the rest ends though what fired stays as it is: others carry what it carried */

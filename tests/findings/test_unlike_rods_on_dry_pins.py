@@ -69,6 +69,8 @@ EVERY_WAY = [0.0, RIGHT, -RIGHT, np.pi]
         (2, 0.0, EVERY_WAY, 1e-10),
         (0, 1.0, EVERY_WAY, 1e-10),  # an error that is rounding shortens no step
         (1, 0.5, [0.0], 1e-6),  # slips that slack alone admits end at once
+        (100, 0.5, [0.0], 1e-6),
+        (142, 0.0, [0.0], 1e-6),
     ],
 )
 def test_friction_far_out_is_followed_as_far_as_rounding_lets_it(
