@@ -10,7 +10,6 @@ from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.symbols import column
-from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry
 from frot.compiler.mechanics.reduce import Reduced
 from frot.dsl.catalogue import coordinates_of
 from frot.dsl.checked import (
@@ -249,41 +248,26 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
             yield from one("power", POWER, "power of the reactions")
         return
     geometry = variables.geometry[liaison]
-    reacts = liaison in variables.reactions
-    if isinstance(geometry, JointGeometry):
-        reacts |= liaison in reduced.variables.drives and not geometry.actions
-        for name in coordinates_of(liaison.kind, reduced.mechanism.model.planar):
-            if name in _COORDINATES:
-                yield from one(name, *_COORDINATES[name])
-            elif name in ("gap", "u", "abscissa"):
-                continue
-            elif name == "speed" and "displacement" in geometry.coordinates:
-                yield from one(name, VELOCITY, "speed of b along the axis")
-            else:
-                yield from one(name, RATE, "angular velocity of b from a", "AngularVelocity")
-        yield from _of_curve(reduced, liaison)
-        yield from one("gap", LENGTH, "distance of the places")
-        if geometry.radius is not None:
-            yield from one("slip", VELOCITY, "relative velocity at the surface of the pin")
-        elif geometry.touch is not None:
-            yield from one("slip", VELOCITY, "relative velocity where they touch")
-        if reacts:
-            yield from one("normal_force", FORCE, "size of the reaction")
-            if geometry.radius is not None:
-                yield from one("tangential_force", FORCE, "friction at the surface of the pin")
-            elif geometry.touch is not None:
-                yield from one("tangential_force", FORCE, "reaction along the contact")
-            yield from one("force", FORCE, "reaction of the first place on the second")
-            yield from one("torque", ENERGY, "couple of the first place on the second", "Torque")
-            yield from one("power", POWER, "power of the reaction")
-        return
+    for name in coordinates_of(liaison.kind, reduced.mechanism.model.planar):
+        if name in _COORDINATES:
+            yield from one(name, *_COORDINATES[name])
+        elif name in ("gap", "u", "abscissa"):
+            continue
+        elif name == "speed" and "displacement" in liaison.kind.coordinates:
+            yield from one(name, VELOCITY, "speed of b along the axis")
+        else:
+            yield from one(name, RATE, "angular velocity of b from a", "AngularVelocity")
     yield from _of_curve(reduced, liaison)
     yield from one("gap", LENGTH, "distance of the places")
-    yield from one("slip", VELOCITY, "velocity of the body's point along the line")
-    if not reacts:
+    words = geometry.words
+    if "slip" in words:
+        yield from one("slip", VELOCITY, words["slip"])
+    free = geometry.is_free and liaison in variables.drives
+    if not free and liaison not in variables.reactions:
         return
-    yield from one("normal_force", FORCE, "reaction along the normal, on the body")
-    yield from one("tangential_force", FORCE, "friction along the line, on the body")
+    for name in ("normal_force", "tangential_force"):
+        if name in words:
+            yield from one(name, FORCE, words[name])
     yield from one("force", FORCE, "reaction of the first place on the second")
     yield from one("torque", ENERGY, "couple of the first place on the second", "Torque")
     yield from one("power", POWER, "power of the reaction")

@@ -57,14 +57,6 @@ class _End:
         return Action(self.velocity, force, push)
 
 
-def _point(argument: Argument, kinematics: Kinematics, lowering: Lowering) -> _End:
-    if isinstance(argument, (BodyPoint, Frame)):
-        moving, body = kinematics.moving(argument), point_body(argument)
-        arm = kinematics.pose(body).direction(kinematics.local_point(argument))
-        return _End(moving.pose.origin, moving.linear, body, arm)
-    return _End(whole(lowering.lower(_value(argument))), nowhere(), None, nowhere())
-
-
 def load(
     force: Force,
     kinematics: Kinematics,
@@ -72,68 +64,95 @@ def load(
     effort: Callable[[Liaison, str], Effort],
 ) -> Load:
     """Lower one force. `lowering` is that of the motion, so that its switches are located."""
-    arguments = force.arguments
-    if force.kind.name == "on":
-        end = _point(arguments["frame"], kinematics, lowering)
-        push = whole(lowering.lower(_value(arguments["value"])))
-        return Load((end.under(push),), None)
-    if force.kind.name == "couple":
-        value = lowering.lower(_value(arguments["value"]))
-        return Load((_couple(arguments["holder"], kinematics, effort, value),), None)
-    if force.kind.name == "drag":
-        return _drag(arguments, kinematics, lowering)
-    ends = ("centre", "point") if force.kind.name == "attraction" else ("a", "b")
-    start = _point(arguments[ends[0]], kinematics, lowering)
-    end = _point(arguments[ends[1]], kinematics, lowering)
-
-    def pulls(pull: ca.SX) -> tuple[Action, Action]:
-        return end.under(pull), start.under(-pull)
-
-    apart = end.place - start.place
-    if force.kind.name == "damper":
-        damping = lowering.lower(_value(arguments["c"]))
-        along = _unit(apart)
-        rate = ca.dot(end.velocity - start.velocity, along)
-        return Load(pulls(-damping * rate * along), None)
-    stiffness = lowering.lower(_value(arguments["k"]))
-    if force.kind.name == "attraction":
-        pull, energy = -stiffness * apart, stiffness * ca.sumsqr(apart) / 2
-    else:
-        rest = lowering.lower(_value(arguments["length"]))
-        length = ca.sqrt(ca.sumsqr(apart))
-        # Where the ends meet a spring has no direction: the limit of the part without one is taken.
-        slack = (
-            ca.SX(0)
-            if _literal(arguments["length"]) == 0
-            else ca.if_else(length > 0, rest / length, ca.SX(0))
-        )
-        pull, energy = -stiffness * (1 - slack) * apart, stiffness * (length - rest) ** 2 / 2
-    constant = all(is_fixed(a) for a in arguments.values() if isinstance(a, Expression))
-    return Load(pulls(pull), energy if constant else None)
+    return _LOADS[force.kind.name](_Given(force.arguments, kinematics, lowering, effort))
 
 
-def _couple(
-    holder: Argument,
-    kinematics: Kinematics,
-    effort: Callable[[Liaison, str], Effort],
-    value: ca.SX,
-) -> Action:
-    """A couple drives the angle of a liaison, or a body (about z in the plane)."""
+@dataclass(frozen=True, slots=True, eq=False)
+class _Given:
+    """The arguments of a force, and what lowers them."""
+
+    arguments: Mapping[str, Argument]
+    kinematics: Kinematics
+    lowering: Lowering
+    effort: Callable[[Liaison, str], Effort]
+
+    def value(self, name: str) -> ca.SX:
+        """A number or a vector."""
+        return self.lowering.lower(_value(self.arguments[name]))
+
+    def end(self, name: str) -> _End:
+        """A point of a body, or a place given by its coordinates."""
+        argument = self.arguments[name]
+        if not isinstance(argument, (BodyPoint, Frame)):
+            return _End(whole(self.value(name)), nowhere(), None, nowhere())
+        moving, body = self.kinematics.moving(argument), point_body(argument)
+        local = self.kinematics.local_point(argument)
+        arm = self.kinematics.pose(body).direction(local)
+        return _End(moving.pose.origin, moving.linear, body, arm)
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether parameters alone give it."""
+        return all(is_fixed(a) for a in self.arguments.values() if isinstance(a, Expression))
+
+
+def _on(given: _Given) -> Load:
+    end = given.end("frame")
+    return Load((end.under(whole(given.value("value"))),), None)
+
+
+def _between(start: _End, end: _End, pull: ca.SX) -> tuple[Action, Action]:
+    """A force on the end, and its opposite on the start."""
+    return end.under(pull), start.under(-pull)
+
+
+def _damper(given: _Given) -> Load:
+    start, end = given.end("a"), given.end("b")
+    damping = given.value("c")
+    along = _unit(end.place - start.place)
+    rate = ca.dot(end.velocity - start.velocity, along)
+    return Load(_between(start, end, -damping * rate * along), None)
+
+
+def _attraction(given: _Given) -> Load:
+    start, end = given.end("centre"), given.end("point")
+    apart, stiffness = end.place - start.place, given.value("k")
+    energy = stiffness * ca.sumsqr(apart) / 2 if given.is_constant else None
+    return Load(_between(start, end, -stiffness * apart), energy)
+
+
+def _spring(given: _Given) -> Load:
+    """Where the ends meet it has no direction: the limit of the part without one is taken."""
+    start, end = given.end("a"), given.end("b")
+    apart, stiffness = end.place - start.place, given.value("k")
+    rest = given.value("length")
+    length = ca.sqrt(ca.sumsqr(apart))
+    slack = ca.SX(0)
+    if _literal(given.arguments["length"]) != 0:
+        slack = ca.if_else(length > 0, rest / length, ca.SX(0))
+    energy = stiffness * (length - rest) ** 2 / 2 if given.is_constant else None
+    return Load(_between(start, end, -stiffness * (1 - slack) * apart), energy)
+
+
+def _couple(given: _Given) -> Load:
+    """It drives the angle of a liaison, or a body (about z in the plane)."""
+    holder, kinematics, value = given.arguments["holder"], given.kinematics, given.value("value")
     if isinstance(holder, Liaison):
-        return Action(effort(holder, "angle").rate, value)
+        return Load((Action(given.effort(holder, "angle").rate, value),), None)
     assert isinstance(holder, BodyPoint)
     turning = kinematics.angular_velocity(holder.body)
     if not kinematics.planar:
-        return Action(turning, value)
-    return Action(turning[2], value, Push(holder.body, nowhere(), nowhere(), about_z(value)))
+        return Load((Action(turning, value),), None)
+    push = Push(holder.body, nowhere(), nowhere(), about_z(value))
+    return Load((Action(turning[2], value, push),), None)
 
 
-def _drag(arguments: Mapping[str, Argument], kinematics: Kinematics, lowering: Lowering) -> Load:
+def _drag(given: _Given) -> Load:
     """A force c |v|^exponent against v; the exponent is a number from 1 on."""
-    end = _point(arguments["body"], kinematics, lowering)
+    end = given.end("body")
     velocity = end.velocity
-    factor = lowering.lower(_value(arguments["c"]))
-    exponent = _literal(arguments["exponent"])
+    factor = given.value("c")
+    exponent = _literal(given.arguments["exponent"])
     assert isinstance(exponent, int | float)
     size = FUNCTIONS["norm"].form
     assert size is not None
@@ -144,6 +163,16 @@ def _drag(arguments: Mapping[str, Argument], kinematics: Kinematics, lowering: L
         moving = speed > 0
         factor *= ca.if_else(moving, ca.if_else(moving, speed, 1) ** (exponent - 1), 0)
     return Load((end.under(-factor * velocity),), None)
+
+
+_LOADS: Mapping[str, Callable[[_Given], Load]] = {
+    "attraction": _attraction,
+    "couple": _couple,
+    "damper": _damper,
+    "drag": _drag,
+    "on": _on,
+    "spring": _spring,
+}
 
 
 def _unit(vector: ca.SX) -> ca.SX:

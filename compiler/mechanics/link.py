@@ -7,7 +7,7 @@ lower.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Self
 
 from frot.dsl.checked import Body, BodyPoint, Expression, Frame, Liaison, Literal
@@ -62,6 +62,16 @@ class Geometry:
     gap: ca.SX
     witness: ca.SX
     reach: ca.SX
+
+    @property
+    def is_free(self) -> bool:
+        """Whether it locks nothing, so that what drives it is all that acts."""
+        return False
+
+    @property
+    def words(self) -> Mapping[str, str]:
+        """Those of `slip`, `normal_force` and `tangential_force` that it has, described."""
+        raise NotImplementedError
 
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
         """Relative velocities of the link's rows, in their order."""

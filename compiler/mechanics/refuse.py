@@ -32,7 +32,6 @@ from frot.dsl.quantities.dimensions import dimension
 
 PLANE_LIAISONS = ("point_courbe", "contact_ponctuel")
 LAWS = ("coulomb", "rolling_resistance")
-FORCES = ("attraction", "couple", "damper", "drag", "on", "spring")
 _ONE_CONTACT = "a law of one's own acts in a `contact_ponctuel` or a `point_courbe` of the plane"
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
 
@@ -57,8 +56,6 @@ def refuse_unknown(model: Model, ideal: Collection[str], log: Log) -> None:
         for law in liaison.laws:
             _refuse_law(liaison, law, model.planar, liaison.kind.name in ideal, log)
     for force in model.forces:
-        if force.kind.name not in FORCES:
-            refuse(log, f"the force '{force.kind.name}'", force.span, _one_of("forces", FORCES))
         if force.kind.name == "couple":
             _refuse_couple(force, log)
         if force.kind.name == "drag":

@@ -48,6 +48,15 @@ class ContactGeometry(Geometry):
     roll: ca.SX
     abscissa: ca.SX
 
+    @property
+    def words(self) -> dict[str, str]:
+        """Along the normal, and along the line."""
+        return {
+            "slip": "velocity of the body's point along the line",
+            "normal_force": "reaction along the normal, on the body",
+            "tangential_force": "friction along the line, on the body",
+        }
+
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
         """Along the normal, along the line, and of rolling."""
         at = kinematics.readings.get(self.contact.liaison)

@@ -51,6 +51,23 @@ class JointGeometry(Geometry):
         """The rate of its first coordinate."""
         return next(iter(self.rates_of.values()))
 
+    @property
+    def is_free(self) -> bool:
+        """Where it has no locks."""
+        return not self.actions
+
+    @property
+    def words(self) -> dict[str, str]:
+        """At the surface of a pin, or where figures touch."""
+        found = {"normal_force": "size of the reaction"}
+        if self.radius is not None:
+            found["slip"] = "relative velocity at the surface of the pin"
+            found["tangential_force"] = "friction at the surface of the pin"
+        elif self.touch is not None:
+            found["slip"] = "relative velocity where they touch"
+            found["tangential_force"] = "reaction along the contact"
+        return found
+
     def variable(self, name: str, reaction: Reaction) -> ca.SX:
         """A variable of a joint.
 
