@@ -96,7 +96,7 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
             axis = liaison.options.get(argument.name) if argument.kind == "axis" else None
             if axis is not None and axis.type.shape and is_fixed(axis):
                 yield _length(f"the {argument.name} of liaison '{liaison.name}'", axis)
-        if liaison.kind.name == "cardan" and _axes_stay(liaison):
+        if {"axis_a", "axis_b"} <= liaison.options.keys() and _axes_stay(liaison):
             yield _crossing(liaison)
         for law in liaison.laws:
             owner = f"liaison '{liaison.name}'"

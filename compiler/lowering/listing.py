@@ -275,7 +275,7 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
 
 def _of_curve(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
     """The parameter of a point on a curve; on a line it is the abscissa."""
-    if liaison.kind.name != "point_courbe" or not isinstance(liaison.b, CurvePlace):
+    if not liaison.kind.along_curve or not isinstance(liaison.b, CurvePlace):
         return
     kind = parameter_type(liaison.b.curve)
     value = reduced.variables.of_liaison(liaison, "u")

@@ -128,14 +128,7 @@ def is_slender(body: Body, model: Model) -> bool:
         for place in (x.a, x.b)
         if isinstance(place, BodyPoint | Frame) and point_body(place) is body
     ]
-    return all(x.kind.name in _OF_POINTS for x in own)
-
-
-# Liaisons that hold a point and leave every orientation.
-_OF_POINTS = (
-    *("spherique", "lineaire_annulaire", "tige", "fil", "point_courbe", "point_surface"),
-    "contact_ponctuel",
-)
+    return all(x.kind.of_points for x in own)
 
 
 def freedoms_of(body: Body, model: Model) -> int:

@@ -255,7 +255,7 @@ def _is_contact(liaison: Liaison, track: Placed | None, rim: Placed | None) -> b
     """Whether a figure can touch another; a point on a curve has the curve first."""
     if track is None or rim is None:
         return False
-    on_curve = liaison.kind.name == "point_courbe"
+    on_curve = liaison.kind.along_curve
     if on_curve and track.figure.plane is not None and rim.figure.is_point:
         return True
     return can_touch(track.figure, rim.figure, True)

@@ -9,7 +9,7 @@ from pathlib import Path
 from frot.compiler.lowering.listing import integral_name, listed_integrals
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.mechanism import is_unilateral
+from frot.compiler.mechanics.mechanism import is_unilateral, relations_of
 from frot.compiler.product.units import unit_of
 from frot.compiler.report.first_integrals import FirstIntegral
 from frot.compiler.toolchain.chosen import MODEL_FLAGS, Toolchain
@@ -80,9 +80,8 @@ def _holders(lowered: Lowered) -> tuple[str, ...]:
         return ()
     if system.nv != lowered.reduced.symbols.v.numel():
         return ()
-    return tuple(
-        x.name for x in mechanism.model.liaisons if not is_unilateral(x) and x.kind.name != "libre"
-    )
+    kept = relations_of(mechanism)
+    return tuple(x.name for x, count in kept.items() if count and not is_unilateral(x))
 
 
 def _integrals(integrals: tuple[FirstIntegral, ...]) -> tuple[IntegralInfo, ...]:

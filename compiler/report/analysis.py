@@ -156,9 +156,8 @@ def looped(mechanism: Mechanism) -> list[Liaison]:
     One by which a body hangs that nothing else holds is left out, and so on from the ends of trees.
     """
     left = {x: _ends(x) for x in mechanism.model.liaisons}
-    simple = {
-        x for x in left if not (x.relations or x.kind.name == "roulement" or is_unilateral(x))
-    }
+    rolling = {x.liaison for x in (*mechanism.contacts, *mechanism.ideal) if x.rolls}
+    simple = {x for x in left if not (x.relations or x in rolling or is_unilateral(x))}
     while True:
         held: dict[Body, list[Liaison]] = {}
         for liaison, ends in left.items():

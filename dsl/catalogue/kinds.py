@@ -76,7 +76,8 @@ class LiaisonKind:
 
     `arguments` begins with `a` and `b`; the others are options, `unilateral` the last of them.
     `relations_planar` is None where the liaison has no meaning in the plane. `coordinates` maps the
-    readable and drivable coordinates to their types in planar models.
+    readable and drivable coordinates to their types in planar models. `of_points`: it holds points,
+    and leaves every orientation of what they are on.
     """
 
     name: str
@@ -87,6 +88,12 @@ class LiaisonKind:
     unilateral: bool = False
     aliases: tuple[str, ...] = ()
     doc: str = ""
+    of_points: bool = False
+
+    @property
+    def along_curve(self) -> bool:
+        """Whether a point goes along a curve, by its parameter."""
+        return "u" in self.coordinates
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,6 +31,7 @@ def _liaison(
     options: tuple[Argument, ...] = (),
     *,
     unilateral: bool = False,
+    of_points: bool = False,
     doc: str,
 ) -> LiaisonKind:
     arguments = (
@@ -47,7 +48,14 @@ def _liaison(
         ),
     )
     return LiaisonKind(
-        name, arguments, relations[0], relations[1], coordinates or {}, unilateral, aliases, doc
+        name,
+        arguments,
+        *relations,
+        coordinates=coordinates or {},
+        unilateral=unilateral,
+        aliases=aliases,
+        doc=doc,
+        of_points=of_points,
     )
 
 
@@ -118,6 +126,7 @@ _ROWS = (
         POINT,
         (3, None),
         ANY_TURN,
+        of_points=True,
         doc="A common point.",
     ),
     _liaison(
@@ -137,6 +146,7 @@ _ROWS = (
         ("point", "curve"),
         (2, None),
         options=(_axis("axis"),),
+        of_points=True,
         doc="A point stays on a straight line.",
     ),
     _liaison(
@@ -155,6 +165,7 @@ _ROWS = (
         (1, 1),
         {"length": LENGTH},
         (Argument("length", LENGTH, sign="positive", doc="distance of the points"),),
+        of_points=True,
         doc="A massless rigid rod between two points.",
     ),
     _liaison(
@@ -166,6 +177,7 @@ _ROWS = (
         {"length": LENGTH},
         (Argument("length", LENGTH, sign="positive", doc="largest distance of the points"),),
         unilateral=True,
+        of_points=True,
         doc="A massless inextensible thread between two points.",
     ),
     _liaison(
@@ -175,6 +187,7 @@ _ROWS = (
         CURVE,
         (2, 1),
         {"u": LENGTH, "abscissa": LENGTH},
+        of_points=True,
         doc="A point of a body stays on a curve.",
     ),
     _liaison(
@@ -183,6 +196,7 @@ _ROWS = (
         POINT,
         SURFACE,
         (1, None),
+        of_points=True,
         doc="A point of a body stays on a surface.",
     ),
     _liaison(
@@ -193,6 +207,7 @@ _ROWS = (
         (1, 1),
         {"gap": LENGTH},
         unilateral=True,
+        of_points=True,
         doc="Two of point, curve, surface touch at a point.",
     ),
     _liaison(

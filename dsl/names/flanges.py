@@ -26,7 +26,7 @@ def flange(liaison: checked.Liaison, node: tree.Member, scope: Scope) -> Instanc
     own = [(c, c) for c in liaison.kind.coordinates if c in _FLANGES]
     place = liaison.b
     along = None
-    if liaison.kind.name == "point_courbe" and isinstance(place, checked.CurvePlace):
+    if liaison.kind.along_curve and isinstance(place, checked.CurvePlace):
         along = parameter_type(place.curve)
         own = [("u", "displacement" if along.dimension == LENGTH.dimension else "angle")]
     if len(own) != 1:

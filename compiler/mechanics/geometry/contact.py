@@ -77,7 +77,7 @@ class Contact(Link):
 
     @property
     def _follows(self) -> bool:
-        return self.liaison.kind.name == "point_courbe"
+        return self.liaison.kind.along_curve
 
     def counted(self, planar: bool) -> Iterator[tuple[Link, int]]:
         """That of a point on a circle."""

@@ -11,7 +11,6 @@ from frot.compiler.mechanics.geometry.tracking import on_side, track
 from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.link import Geometry, Reaction, point_body
-from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.spatial import X, Y, Z, cross, nowhere
 from frot.dsl.checked import World
 from frot.dsl.data.classes import dataclass
@@ -129,16 +128,12 @@ def _witness(contact: Contact, line: Line, kinematics: Kinematics, world: World)
     The ground is below its own line, whatever the start says, and a point that cannot leave its
     line has its normal to the left.
     """
-    if contact.floor or _keeps_left(contact):
+    if contact.floor or contact.can_carry:
         return ca.SX.ones(3)
     centre = kinematics.position(contact.point)
     middle = kinematics.position(point_body(contact.point))
     vectors = (centre - line.through, _upward(world, kinematics), middle - line.through)
     return ca.vertcat(*(ca.dot(line.normal, vector) for vector in vectors))
-
-
-def _keeps_left(contact: Contact) -> bool:
-    return contact.liaison.kind.name == "point_courbe" and not is_unilateral(contact.liaison)
 
 
 def _reach(contact: Contact, line: Line, kinematics: Kinematics) -> ca.SX:
@@ -173,7 +168,7 @@ def contact_geometry(
     contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
 ) -> ContactGeometry:
     """ContactGeometry and relative velocities of a point or rim on a curve."""
-    if _keeps_left(contact):
+    if contact.can_carry:
         side = ca.SX(1)
     if contact.liaison in kinematics.tangents:
         return _carried(contact, kinematics)
@@ -263,7 +258,7 @@ def _on_curve(
         (point_body(contact.track.point), kinematics.local_point(contact.track.point)),
         (point_body(contact.point), kinematics.local_point(contact.point)),
     )
-    kept = _keeps_left(contact)
+    kept = contact.can_carry
     return ContactGeometry(
         contact=contact,
         line=line,

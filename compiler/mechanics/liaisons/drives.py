@@ -69,7 +69,7 @@ def told_by_time(liaison: Liaison, planar: bool) -> dict[str, Expression]:
 
 
 def _goes_free(liaison: Liaison, name: str, planar: bool) -> bool:
-    along_a_line = planar and liaison.kind.name == "point_courbe"
+    along_a_line = planar and liaison.kind.along_curve
     speed = name.startswith("speed")
     return speed or along_a_line or not follows_time(drives_of(liaison)[name])
 
