@@ -35,6 +35,11 @@ Point = BodyPoint | Frame
 class Friction:
     """Dry friction of a liaison, bounded by its reaction times `mu`, at rest times `mu_s`.
 
+    Of a contact |R_t| <= mu R_n (P. Painlevé 1895, p. 39), of what rolls a couple up to delta R_n
+    (p. 106). A pin of radius r touches its bearing in one place, where R passes at the angle of
+    friction f to the normal, tan f = mu: it misses the axis by r sin f, so its couple is
+    r |R| sin f. To first order in mu that is mu r |R|, against the turning q', a slip r q'.
+
     `arm`: the radius of a pin, on which it makes a couple; None where it is a force, or where the
     coefficient is a length itself: `rolling`.
     """

@@ -118,9 +118,13 @@ def is_unilateral(liaison: Liaison) -> bool:
     return not (isinstance(option, Literal) and option.value is False)
 
 
+# Freedoms of a body that may not turn about itself.
+_SLENDER = 5
+
+
 def is_slender(body: Body, model: Model) -> bool:
     """Whether nothing gives inertia to, or sees, a turn about the body's own x axis."""
-    if body.shape is None or body.shape.name != "rod" or "inertia" in body.arguments:
+    if body.shape is None or body.shape.freedoms_space != _SLENDER or "inertia" in body.arguments:
         return False
     own = [
         x
@@ -140,11 +144,8 @@ def freedoms_of(body: Body, model: Model) -> int:
         return 0
     if model.planar:
         return body.shape.freedoms_planar
-    return body.shape.freedoms_space if is_slender(body, model) or not _is_rod(body) else 6
-
-
-def _is_rod(body: Body) -> bool:
-    return body.shape is not None and body.shape.name == "rod"
+    least = body.shape.freedoms_space
+    return 6 if least == _SLENDER and not is_slender(body, model) else least
 
 
 def relations_of(mechanism: Mechanism) -> dict[Liaison, int]:

@@ -125,8 +125,10 @@ class ContactGeometry(Geometry):
 def _witness(contact: Contact, line: Line, kinematics: Kinematics, world: World) -> ca.SX:
     """What chooses the side.
 
-    The ground is below its own line, whatever the start says, and a point that cannot leave its
-    line has its normal to the left.
+    |n . (c - o)| - r has a corner on the line, so the gap is s n . (c - o) - r, with the sign s
+    that the product has where the run begins: s n points to the body, which never gets through. On
+    the line itself up is the side, then that of G. The ground is below its own line, whatever the
+    start says, and a point that cannot leave its line has its normal to the left.
     """
     if contact.floor or contact.can_carry:
         return ca.SX.ones(3)
@@ -167,7 +169,7 @@ def _upward(world: World, kinematics: Kinematics) -> ca.SX:
 def contact_geometry(
     contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
 ) -> ContactGeometry:
-    """ContactGeometry and relative velocities of a point or rim on a curve."""
+    """Geometry and relative velocities of a point or rim on a curve."""
     if contact.can_carry:
         side = ca.SX(1)
     if contact.liaison in kinematics.tangents:
@@ -189,7 +191,13 @@ def _apart(
 def _on_line(
     contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
 ) -> ContactGeometry:
-    """A round thing comes nearer as its centre does, for it has no slope."""
+    """A round thing comes nearer as its centre does, for it has no slope.
+
+    The gap is g = s n . (c - o) - r, and the normal turns with the line, n' = w x n: so its rate is
+    s n . (v_c - v_o - w x (c - o)), by the velocity of the line's material point at c. What is not
+    round touches at the point whose normal is n, and the rate is by the material points there; they
+    slip along the line (P. Painlevé 1895, p. 39).
+    """
     line = kinematics.line(contact.track)
     centre, lower = kinematics.position(contact.point), kinematics.fixed.lower
     height = ca.dot(line.normal, centre - line.through)
@@ -234,7 +242,13 @@ def _carried(contact: Contact, kinematics: Kinematics) -> ContactGeometry:
 def _on_curve(
     contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
 ) -> ContactGeometry:
-    """On a curve of any kind; the left of a circle is its inside."""
+    """On a curve of any kind; the left of a circle is its inside.
+
+    The gap is g = n . (p_b - p_a) of the nearest points, whose difference is along n. These go
+    along their figures across n, and n' is across n: so the rate of g is n . (v_b - v_a) of the
+    material points there, with what time alone makes of g. Their difference along the curve is the
+    slip (P. Painlevé 1895, p. 39; of curves whose elements move, p. 64).
+    """
     lower, a, b = kinematics.fixed.lower, contact.track.figure, contact.figure
     base, own = kinematics.pose(contact.track.point), kinematics.pose(contact.point)
     left = -1 if a.is_round else 1

@@ -1,8 +1,11 @@
 """What a liaison does between two places: its wrench, the motion that forbids, its gap.
 
-One unit of the wrench is a force at the place b and a couple, of a on b. On the forbidden motion,
-at the place b, it does one unit of power, and the wrenches of the other locks of the liaison none.
-The rate of the gap is the power of the wrench on the motion of b relative to a.
+A liaison without friction does no work on what it leaves (P. Painlevé 1895, p. 1-6): its reaction
+is a sum lam_k W_k of wrenches that do none. One unit of W_k is a force at the place b and a couple,
+of a on b. A lock k has a motion C_k that it forbids, and W_k . C_j is one where j is k, else zero:
+an auxiliary speed along C_k has lam_k alone as its force, which is how reactions of what
+coordinates keep are read (Kane, see reduce.py). As a row W_k . (V_b - V_a) is the rate of the gap
+that the lock keeps at zero.
 """
 
 from __future__ import annotations
