@@ -21,7 +21,7 @@ _SLIGHT = 1e-12
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Guess:
-    """A scalar, the value it is guessed to have and the dimension of both.
+    """A scalar, what it is guessed to be equal to and the dimension of both.
 
     `start`: it is no statement of `initial`, but the `start` of a variable. `whole` is the vector
     of which the scalar is an item: an item that is a rounding beside the others guesses nothing.
@@ -32,6 +32,11 @@ class Guess:
     dimension: Dimension
     start: bool
     whole: ca.SX
+
+    @property
+    def missed(self) -> ca.SX:
+        """By how much the guess is missed."""
+        return self.left - self.right
 
 
 def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
@@ -50,11 +55,13 @@ def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
             starts += [Guess(a, b, of, True, a) for a, b in zip(left, right, strict=True)]
     guesses: list[Guess] = []
     for equation in model.initial:
-        if equation.guess and is_fixed(equation.right):
-            left = scalars(system.resolve(settled(looking.lower(equation.left))))
-            right = scalars(looking.lower(equation.right))
+        if equation.guess:
+            left, right = (
+                scalars(system.resolve(settled(looking.lower(side))))
+                for side in (equation.left, equation.right)
+            )
             of = equation.left.type.dimension
-            whole = column(left)
+            whole = column(left) - column(right)
             guesses += [Guess(a, b, of, False, whole) for a, b in zip(left, right, strict=True)]
     ordered = [sorted(each, key=lambda g: g.left.is_symbolic()) for each in (starts, guesses)]
     return [*ordered[0], *ordered[1]][::-1]
@@ -76,8 +83,8 @@ def guessed_places(
         for g in guesses
         if not g.start
         and free.numel()
-        and ca.depends_on(g.left, free)
-        and not (others.numel() and ca.depends_on(g.left, others))
+        and ca.depends_on(g.missed, free)
+        and not (others.numel() and ca.depends_on(g.missed, others))
     ]
     if not found:
         return []
@@ -87,8 +94,8 @@ def guessed_places(
     sizes = [
         ca.SX(1) if g.dimension == Dimension() else ca.sqrt(squares[g.dimension]) for g in found
     ]
-    missed = column(g.left - g.right for g in found)
-    linear = [g for g in guesses if not ca.depends_on(ca.jacobian(g.left, free), free)]
+    missed = column(g.missed for g in found)
+    linear = [g for g in guesses if not ca.depends_on(ca.jacobian(g.missed, free), free)]
     begin = move_by(system, linear, system.q, natural, known)
     return [missed, ca.jacobian(missed, system.q).T, column(sizes), begin]
 
@@ -118,12 +125,16 @@ def move_by(
     here |= {**given, **values_of(unknown, value), **known}
     free = [s for s in scalars_of(unknown) if s.element_hash() not in known]
     own = {s.element_hash() for s in scalars_of(unknown)} | known.keys() | given.keys()
+    solved = ca.vertcat(system.z, system.lam)
     taken: list[ca.SX] = []
     for guess in guesses:
-        inside = {s.element_hash() for s in ca.symvar(guess.left)} & here.keys()
+        missed = guess.missed
+        inside = {s.element_hash() for s in ca.symvar(missed)} & here.keys()
         if not free or (unknown is system.q and inside - own):
             continue
-        slope = replace_known(ca.jacobian(guess.left, column(free)).T, here)
+        if solved.numel() and ca.depends_on(missed, solved):
+            continue
+        slope = replace_known(ca.jacobian(missed, column(free)).T, here)
         whole = ca.sumsqr(slope)
         if guess.whole.numel() > 1:
             whole = ca.sumsqr(replace_known(ca.jacobian(guess.whole, column(free)), here))
@@ -133,7 +144,7 @@ def move_by(
         if length.is_zero():
             continue
         usable = length > _SLIGHT * whole
-        short = guess.right - replace_known(guess.left, here)
+        short = -replace_known(missed, here)
         move = ca.if_else(usable, slope * short / length, ca.SX.zeros(slope.shape))
         taken.append(ca.if_else(usable, slope / ca.sqrt(length), ca.SX.zeros(slope.shape)))
         for s, change in zip(free, ca.vertsplit(move), strict=True):

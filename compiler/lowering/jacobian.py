@@ -133,8 +133,9 @@ def _owned(system: Assembled, groups: Sequence[Group]) -> list[ca.SX]:
     parts = [system.rates]
     for g in groups:
         laws = [2 * e + k for e in g.elements for k in (0, 1)]
-        of_group = balance[list(g.unknowns)], motion[list(g.rows)], system.coefficients[laws]
-        parts.append(ca.vertcat(*of_group))
+        of_group = (balance, g.unknowns), (motion, g.rows), (system.coefficients, laws)
+        # nothing taken from a scalar would be a row of CasADi's
+        parts.append(column(values[k] for values, places in of_group for k in places))
     return [*parts, column(b.residual for b in system.blocks if not b.late)]
 
 

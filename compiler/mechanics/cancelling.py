@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import casadi as ca
-from frot.compiler.lowering.symbols import link_rows
+from frot.compiler.lowering.symbols import column, link_rows
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.link import Geometry, Link
 from frot.compiler.mechanics.mechanism import Mechanism
@@ -49,6 +49,21 @@ def rows_without_rounding(
         for k in places:
             entries[k] = ca.if_else(whole, entries[k], 0)
     return ca.SX(rows.sparsity(), ca.vertcat(*entries)) if entries else rows
+
+
+def biases_without_rounding(
+    biases: ca.SX, rows: ca.SX, mechanism: Mechanism, geometry: Sequence[Geometry]
+) -> ca.SX:
+    """The biases of the rows; where time moves nothing, what no speed moves has none.
+
+    Turned with its body the term of such a row, as of the pins of a flat loop, is rounding, with
+    nothing beside it to be measured by.
+    """
+    if mechanism.is_driven:
+        return biases
+    moved = set(rows.sparsity().row())
+    still = {row for row, _, _ in _closing(mechanism, geometry)} - moved
+    return column(ca.SX(0) if k in still else biases[k] for k in range(biases.numel()))
 
 
 def sizes_of_drives(

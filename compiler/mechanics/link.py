@@ -60,6 +60,11 @@ class Geometry:
 
     `gap` >= 0 while apart; `witness` (3), the first of which that is not zero has the sign of the
     side; `reach`, the size of the lengths that the gap is made of beside the coordinates.
+
+    Of what does not slip `still` is the velocity (3) that is zero beside the normal, with the
+    direction (3) in which the row says so. Which direction that is means nothing: how it turns
+    adds nothing to the row's acceleration in the motion, and beside it, where the stages of a step
+    lie, it must add nothing.
     """
 
     __slots__ = ()
@@ -67,6 +72,7 @@ class Geometry:
     gap: ca.SX
     witness: ca.SX
     reach: ca.SX
+    still: tuple[ca.SX, ca.SX] | None = None
 
     @property
     def is_free(self) -> bool:

@@ -111,11 +111,16 @@ def is_driven(model: Model) -> bool:
 
 
 def is_unilateral(liaison: Liaison) -> bool:
-    """Whether the liaison may part: its option is not `false`, and no drive keeps its gap."""
-    if "gap" in liaison.driven:
+    """Whether the liaison may part: its option is not `false`, and no drive keeps its distance."""
+    if "gap" in liaison.driven or "length" in liaison.driven:
         return False
     option = liaison.options["unilateral"]
     return not (isinstance(option, Literal) and option.value is False)
+
+
+def is_thread(liaison: Liaison) -> bool:
+    """Whether it keeps two points no further apart than its length."""
+    return "length" in liaison.kind.coordinates and is_unilateral(liaison)
 
 
 # Freedoms of a body that may not turn about itself.

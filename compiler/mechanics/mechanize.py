@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from frot.compiler.lowering.walk import is_fixed, read_quantities, subexpressions
+from frot.compiler.lowering.walk import read_quantities, subexpressions
 from frot.compiler.mechanics.geometry.contact import Contact
 from frot.compiler.mechanics.geometry.faces import part_faces
 from frot.compiler.mechanics.geometry.figure import Placed
 from frot.compiler.mechanics.geometry.figures import figure_of
 from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE, pair
+from frot.compiler.mechanics.geometry.plain import Dot, Tether
 from frot.compiler.mechanics.geometry.tracking import can_touch
 from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
 from frot.compiler.mechanics.liaisons.freed import OF_PLACES, OF_SPEEDS, is_row
@@ -19,7 +20,13 @@ from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, mak
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.stated import Stated
 from frot.compiler.mechanics.link import Friction, Link, Point, point_body
-from frot.compiler.mechanics.mechanism import Mechanism, is_unilateral, relinked, turns
+from frot.compiler.mechanics.mechanism import (
+    Mechanism,
+    is_thread,
+    is_unilateral,
+    relinked,
+    turns,
+)
 from frot.compiler.mechanics.refuse import (
     REACTION,
     refuse,
@@ -109,6 +116,8 @@ def link_of(liaison: Liaison, planar: bool, log: Log) -> Link | None:
         return _stated(liaison, planar, log)
     if liaison.kind.name in JOINTS:
         return _joint(liaison, planar, log)
+    if planar and is_thread(liaison):
+        return _thread(liaison, log)
     if liaison.kind.name in (IN_PLANE if planar else IN_SPACE) or "gap" in liaison.driven:
         return _placed(liaison, planar, log)
     return _contact(liaison, log)
@@ -123,7 +132,12 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
             return None
     assert isinstance(a, Point) and isinstance(b, Point)
     if is_unilateral(liaison):
-        refuse(log, f"a {told} that can part", unilateral.span)
+        log.report(
+            "E0204",
+            f"'unilateral' of '{liaison.name}': a {told} holds from all sides and cannot part",
+            unilateral.span,
+            help="leave it out; what can part is a `contact_ponctuel`, an `appui_faces` or a `fil`",
+        )
         return None
     joint = make_joint(
         liaison, a, b, JOINTS[name](liaison.options, planar), told_by_time(liaison, planar)
@@ -219,9 +233,6 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
         return None
     track, rim = figures[first], figures[1 - first]
     assert track is not None and rim is not None
-    if not is_fixed(liaison.options["unilateral"]):
-        refuse(log, "an option `unilateral` that changes", liaison.options["unilateral"].span)
-        return None
     coulomb = _law(liaison, "coulomb")
     rolling = _law(liaison, "rolling_resistance")
     moving = point_body(rim.point)
@@ -248,6 +259,31 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
         floor=isinstance(place, CurvePlace) and place.curve.span is None,
         unilateral=liaison.options["unilateral"],
         frictions=tuple(frictions),
+    )
+
+
+def _thread(liaison: Liaison, log: Log) -> Contact | None:
+    """What keeps b inside of a circle about a, whatever the place a turns with."""
+    a, b, length = liaison.a, liaison.b, liaison.options["length"]
+    if not (isinstance(a, Point) and isinstance(b, Point)):
+        refuse_places(liaison, log)
+        return None
+    if "length" in drives_of(liaison):
+        log.report(
+            "E0522",
+            f"the length of '{liaison.name}', which can go slack, follows other than time",
+            length.span,
+            help="write `unilateral = false`: what keeps such a length both pulls and pushes",
+        )
+        return None
+    return Contact(
+        liaison=liaison,
+        point=b,
+        figure=Dot(),
+        track=Placed(a, Tether(length)),
+        track_first=True,
+        floor=False,
+        unilateral=liaison.options["unilateral"],
     )
 
 

@@ -7,6 +7,7 @@ zero, and so are their accelerations, in every motion.
 
 from __future__ import annotations
 
+import itertools
 from collections import Counter
 from collections.abc import Callable, Iterable
 
@@ -23,7 +24,11 @@ from frot.compiler.equations.text_symbols import (
 from frot.compiler.lowering.expressions import Conditions, Lowering
 from frot.compiler.lowering.symbols import Rows, Symbols, column, link_rows, make_symbols
 from frot.compiler.lowering.walk import read_quantities
-from frot.compiler.mechanics.cancelling import rows_without_rounding, sizes_of_drives
+from frot.compiler.mechanics.cancelling import (
+    biases_without_rounding,
+    rows_without_rounding,
+    sizes_of_drives,
+)
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.dynamics import (
     Push,
@@ -173,6 +178,8 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     steps, potential = _masses(mechanism, variables, loads.pushes)
     motion = write_out(steps, symbols.v.numel(), speeds.numel(), large)
     settled = variables.settled
+    rows = rows_without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry)
+    biases = settled(_biases(mechanism.contacts, geometry, rates, variables))
     conditions.values = [settled(value) for value in conditions.values]
     equations.values[:] = [settled(value) for value in equations.values]
     return Reduced(
@@ -188,8 +195,8 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         force=settled(motion.force + loads.force),
         force_size=settled(motion.size + loads.size),
         load_sizes=settled(column(loads.sizes)),
-        rows=rows_without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry),
-        bias=settled(kinematics.rate(settled(rates))),
+        rows=rows,
+        bias=biases_without_rounding(biases, rows, mechanism, geometry),
         drives=settled(sizes_of_drives(mechanism, kinematics, geometry)),
         rate=settled(rates),
         gap=settled(column(g.gap for g in geometry)),
@@ -204,6 +211,25 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         ),
         potential=settled(potential + loads.potential),
     )
+
+
+def _biases(
+    links: Iterable[Link],
+    geometry: Iterable[Geometry],
+    rates: ca.SX,
+    variables: Variables,
+) -> ca.SX:
+    """What moves the rows while no speed changes; of what does not slip, along their directions."""
+    slips = {
+        rows.reaction[0]: g.still
+        for rows, g in zip(link_rows(tuple(links)), geometry, strict=True)
+        if g.still is not None
+    }
+    moved = [slips[k][0] if k in slips else rates[k] for k in range(rates.numel())]
+    found = variables.kinematics.rate(variables.settled(column(moved)))
+    ends = itertools.accumulate((x.numel() for x in moved), initial=0)
+    parts = (found[first : first + x.numel()] for first, x in zip(ends, moved, strict=False))
+    return column(ca.dot(slips[k][1], part) if k in slips else part for k, part in enumerate(parts))
 
 
 def _with_counters(symbols: Symbols, mechanism: Mechanism, variables: Variables) -> Symbols:

@@ -30,7 +30,7 @@ from frot.dsl.checked import (
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import dimension
 
-PLANE_LIAISONS = ("point_courbe", "contact_ponctuel")
+PLANE_LIAISONS = ("point_courbe", "contact_ponctuel", "courbe_courbe")
 LAWS = ("coulomb", "rolling_resistance")
 _ONE_CONTACT = "a law of one's own acts in a `contact_ponctuel` or a `point_courbe` of the plane"
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")

@@ -3,7 +3,7 @@
 What rolls so has its angular velocity and the rate of its height as its only speeds (liaisons/
 roll.py). Elsewhere rows keep it: where other figures touch, on bodies that move, where the body is
 held by rows that keep places, which would move what rolls without its turning, and where time moves
-anything; and where the implicit method may be taken, which finds its stages sooner with rows.
+anything.
 """
 
 from __future__ import annotations

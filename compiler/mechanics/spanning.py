@@ -70,17 +70,9 @@ def _can_roll(link: Link, closing: Iterable[Link], groups: Groups, model: Model)
     """Whether it rolls, and no other row keeps a place of the bodies that it would carry."""
     if link.joint is None or not can_roll(link.joint) or is_driven(model):
         return False
-    if model.experiment.method != "explicit" and _may_be_stiff(model):
-        return False
     group = groups.of(link.bodies[1])
     others = (x for x in closing if x is not link and x.keeps_places)
     return not any(groups.of(body) is group for x in others for body in x.bodies)
-
-
-def _may_be_stiff(model: Model) -> bool:
-    """Whether the implicit method may be taken, which finds its stages sooner with rows."""
-    laws = any(liaison.laws for liaison in model.liaisons)
-    return bool(model.forces or model.equations or model.flanges or laws)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -91,9 +91,8 @@ def turning(axis: ca.SX, angle: ca.SX) -> ca.SX:
 def beside(axis: ca.SX) -> tuple[ca.SX, ca.SX]:
     """Two unit vectors that make a right-handed trihedral with a unit vector, it being the last.
 
-    For z these are x and y. They jump where the choice changes: no motion meets these places where
-    the axis depends on parameters at most. Beside others they serve as directions of rows, not of
-    coordinates (see `values.beside_given`).
+    For z these are x and y. They jump where the choice changes: no motion meets these places, for
+    the axis depends on parameters at most (else see `beside_moving`, and `values.beside_given`).
     """
     for k, pair in enumerate(((Y, Z), (Z, X), (X, Y))):
         if axis.nnz() == 1 and axis[k].is_one():
@@ -103,6 +102,23 @@ def beside(axis: ca.SX) -> tuple[ca.SX, ca.SX]:
     first = start - ca.dot(start, axis) * axis
     first = ca.sparsify(ca.simplify(first / ca.norm_2(first)))
     return first, cross(axis, first)
+
+
+def beside_moving(axis: ca.SX) -> tuple[ca.SX, ca.SX]:
+    """The same of an axis n that moves, by the shortest turn that takes a fixed e to n.
+
+    They jump at n = -e alone, and no other directions would do so nowhere (H. Hopf 1926); e is none
+    that a text would name.
+    """
+    e, *others = (ca.SX(ca.DM(x)) / 7 for x in ((2, 3, 6), (3, -6, 2), (6, 2, -3)))
+    both = axis + e
+    near = ca.fmax(1 + ca.dot(axis, e), _NEAR_JUMP)
+    first, second = (x - ca.dot(axis, x) / near * both for x in others)
+    return first, second
+
+
+# At the jump itself there is one direction too.
+_NEAR_JUMP = 1e-300
 
 
 @dataclass(frozen=True, slots=True, eq=False)

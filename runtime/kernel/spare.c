@@ -45,7 +45,9 @@ int frot_spare_rows_hold(const frot_model *m, frot_state *s, frot_work *w, doubl
   for (int i = 0; i < now->n_contacts; i++) {
     int c = now->contacts[i], row = m->contacts[c].row_n;
     if (row < 0 || m->contacts[c].reduced || !frot_is_spare(w, row)) continue;
-    if (fabs(w->core.gap[c]) > FROT_DEPENDENT * frot_gap_size(m, w, row, z)) return 0;
+    /* one that nothing moves is made of lengths all the same */
+    double size = frot_gap_size(m, w, row, z) + s->data[w->layout.reach + c];
+    if (fabs(w->core.gap[c]) > FROT_DEPENDENT * size) return 0;
   }
   return 1;
 }

@@ -8,7 +8,6 @@ import pytest
 import frot
 
 POINT = "body a: particle(mass = 1 kg);"
-BALL = "body a: sphere(mass = 1 kg, radius = 0.1 m);"
 CASES = {
     "a cusp at the start": (
         f"{POINT} curve c on ground: parametric((1 m*u^3, 0 m, 1 m*u^2), u = (-1, 1));",
@@ -28,12 +27,6 @@ CASES = {
         "point_surface(a, c)",
         "a.velocity.x = 1 m/s;",
         "the normal of 'c' vanishes at u = 0, v = 0 at t = 0",
-    ),
-    "a centre": (
-        f"{BALL} surface c on ground: sphere(radius = 1 m);",
-        "contact_ponctuel(c, a.surface, unilateral = false)",
-        "a.velocity.x = 1 m/s;",
-        "no single place of 'c' is the nearest at t = 0",
     ),
     "a rim that lies flat": (
         "body a: disc(mass = 1 kg, radius = 0.1 m);",

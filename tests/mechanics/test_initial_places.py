@@ -341,3 +341,31 @@ def test_flat_loops_are_put_together_without_hints_and_without_whole_turns(count
         for k in range(count):
             assert start[f"s{k + 1}.angle"] == pytest.approx(turn, abs=1e-11)
             assert start[f"t{k}.angle"] == pytest.approx(0, abs=1e-11)
+
+
+def test_a_guess_may_follow_from_other_places() -> None:
+    """Of two rods between the same ends the joint is guessed above or below a place of the text."""
+    text = """
+planar model Beside
+  parameter Length up = 0.3 m;
+  body a: rod(mass = 1 kg, length = 1 m);
+  body b: rod(mass = 1 kg, length = 1 m);
+  frame middle on ground at (0.5, 0) m;
+  frame far on ground at (1, 0) m;
+  liaison left: rotoide(ground, a.start);
+  liaison joint_: rotoide(a.tip, b.start);
+  liaison right: rotoide(b.tip, far);
+  body free: particle(mass = 1 kg);
+initial
+  guess(a.tip.position = middle.position + (0 m, up));
+  guess(free.position = a.tip.position + (1, 0) m);
+  guess(free.velocity = 2*middle.ex*(1 m/s));
+  experiment(stop = 1e-3 s);
+end Beside;
+"""
+    model = frot.compile(text)
+    for up in (0.3, -0.3):
+        at = model.simulate(parameters={"up": up}).at(0.0)
+        assert at["b.position.y"] * up > 0
+        assert at["free.velocity.x"] == pytest.approx(2, rel=1e-12)
+        assert at["free.position.x"] > 1

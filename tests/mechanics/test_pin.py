@@ -388,8 +388,8 @@ HINGE = "liaison hinge: rotoide(ground, arm.start)"
 REFUSED = {
     "a pin that parts": (
         "liaison hinge: rotoide(ground, arm.start, unilateral = true);",
-        "E0701",
-        "a rotoïde that can part",
+        "E0204",
+        "a rotoïde holds from all sides and cannot part",
     ),
     "friction without a radius": (
         f"{HINGE} with coulomb(0.1);",

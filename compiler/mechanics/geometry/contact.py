@@ -14,7 +14,7 @@ from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
 from frot.compiler.mechanics.liaisons.places import Slide
 from frot.compiler.mechanics.link import Friction, Link, Point
-from frot.compiler.mechanics.mechanism import is_unilateral
+from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
 from frot.compiler.mechanics.spatial import Pose, nowhere
 from frot.dsl.checked import Expression, Liaison, World
 from frot.dsl.data.classes import dataclass, replace
@@ -60,9 +60,19 @@ class Contact(Link):
         return 1 if self.reduced else 0
 
     @property
+    def slips(self) -> bool:
+        """A thread has no one way to slip."""
+        return not is_thread(self.liaison)
+
+    @property
     def can_carry(self) -> bool:
         """A point that cannot leave its line."""
         return self._follows and not is_unilateral(self.liaison)
+
+    @property
+    def keeps_left(self) -> bool:
+        """Whether nothing chooses the side: of a thread it is the inside."""
+        return self.can_carry or is_thread(self.liaison)
 
     @property
     def by_coordinates(self) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -11,9 +12,11 @@ from frot.compiler.mechanics.geometry.tracking import on_side, track
 from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.link import Geometry, Reaction, point_body
+from frot.compiler.mechanics.mechanism import is_thread
 from frot.compiler.mechanics.spatial import X, Y, Z, cross, nowhere
+from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import World
-from frot.dsl.data.classes import dataclass
+from frot.dsl.data.classes import dataclass, field
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.geometry.contact import Contact
@@ -33,7 +36,7 @@ class ContactGeometry(Geometry):
     G. `reach` is the size of
     the lengths that the gap is made of beside the coordinates, even where they cancel out. `slip`
     and `roll` are the velocity of the body's material point relative to the line's, along the
-    line's direction, and the relative angular velocity.
+    line's direction, and the relative angular velocity. `lengths`: of a thread, by name.
     """
 
     contact: Contact
@@ -46,15 +49,17 @@ class ContactGeometry(Geometry):
     slip: ca.SX
     roll: ca.SX
     abscissa: ca.SX
+    lengths: Mapping[str, ca.SX] = field(default_factory=dict)
 
     @property
     def words(self) -> dict[str, str]:
         """Along the normal, and along the line."""
-        return {
+        normal = {"normal_force": "reaction along the normal, on the body"}
+        along = {
             "slip": "velocity of the body's point along the line",
-            "normal_force": "reaction along the normal, on the body",
             "tangential_force": "friction along the line, on the body",
         }
+        return normal | (along if self.contact.slips else {})
 
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
         """Along the normal, along the line, and of rolling."""
@@ -89,6 +94,8 @@ class ContactGeometry(Geometry):
 
     def variable(self, name: str, reaction: Reaction) -> ca.SX:
         """A variable of a contact; the reaction is that of the first place on the second."""
+        if name in self.lengths:
+            return self.lengths[name]
         match name:
             case "gap":
                 return self.gap
@@ -130,7 +137,7 @@ def _witness(contact: Contact, line: Line, kinematics: Kinematics, world: World)
     the line itself up is the side, then that of G. The ground is below its own line, whatever the
     start says, and a point that cannot leave its line has its normal to the left.
     """
-    if contact.floor or contact.can_carry:
+    if contact.floor or contact.keeps_left:
         return ca.SX.ones(3)
     centre = kinematics.position(contact.point)
     middle = kinematics.position(point_body(contact.point))
@@ -170,7 +177,7 @@ def contact_geometry(
     contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
 ) -> ContactGeometry:
     """Geometry and relative velocities of a point or rim on a curve."""
-    if contact.can_carry:
+    if contact.keeps_left:
         side = ca.SX(1)
     if contact.liaison in kinematics.tangents:
         return _carried(contact, kinematics)
@@ -272,7 +279,7 @@ def _on_curve(
         (point_body(contact.track.point), kinematics.local_point(contact.track.point)),
         (point_body(contact.point), kinematics.local_point(contact.point)),
     )
-    kept = contact.can_carry
+    kept = contact.keeps_left
     return ContactGeometry(
         contact=contact,
         line=line,
@@ -284,4 +291,13 @@ def _on_curve(
         slip=ca.dot(line.direction, apart + found.drift),
         roll=ca.dot(Z, turning),
         abscissa=abscissa,
+        lengths=_lengths(contact, own.origin - base.origin, lower),
     )
+
+
+def _lengths(contact: Contact, way: ca.SX, lower: Lower) -> Mapping[str, ca.SX]:
+    """How long a thread is drawn out, and what is left of it."""
+    if not is_thread(contact.liaison):
+        return {}
+    long = ca.norm_2(way)
+    return {"length": long, "gap": lower(contact.liaison.options["length"]) - long}

@@ -107,8 +107,6 @@ def _lying(a: Figure, b: Figure) -> _Lying | None:
 
 
 def _tangent(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
-    if planar:
-        return _touching(a, b, options, planar)
     curves = a.parameters == b.parameters == 1
     if not curves or (a.line is not None and b.line is not None):
         return None
@@ -143,7 +141,7 @@ _PLACED: Mapping[str, _Rule] = {
 }
 IN_SPACE = tuple(_PLACED)
 # In the plane the others are contacts, which may have friction.
-IN_PLANE = ("courbe_courbe", "fil", "roulement", "tige")
+IN_PLANE = ("fil", "roulement", "tige")
 
 
 def pair(

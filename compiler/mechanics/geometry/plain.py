@@ -36,6 +36,17 @@ class Dot(Figure):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Tether(Figure):
+    """How far a thread lets a point go from its other end."""
+
+    length: Expression
+
+    def parameter(self, apart: ca.SX, pose: Pose, lower: Lower) -> ca.SX:
+        """None: it turns with nobody."""
+        return ca.SX(0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Flat(Figure):
     """A plane with its normal; in the plane a line with its direction, whose left is the normal."""
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.given import Implicit
-from frot.compiler.mechanics.geometry.plain import Dot, Flat, Straight
+from frot.compiler.mechanics.geometry.plain import Dot, Flat, Straight, Tether
 from frot.compiler.mechanics.geometry.round import Ball, Egg, Oval, Ring
 from frot.compiler.mechanics.spatial import Pose, cross, nowhere
 from frot.compiler.mechanics.values import Lower, Moments
@@ -86,18 +86,31 @@ def _ball_ball(
     if second.is_zero():
         return _round(apart, pb, first, second, side)
     far, wide = ca.sqrt(ca.sumsqr(apart)), ca.fmax(first, second)
-    normal, beyond = side * apart / far, far - wide
+    normal, beyond = side * _way(apart, far), far - wide
     inside = ca.if_else(ca.logic_and(side < 0, first < second), 1, -1)
+    outside = ca.if_else(ca.eq(first, second), wide, beyond)  # of its size nothing is inside
     gap = side * beyond - (first + second - wide)
-    return Touch(gap, normal, pb.origin + inside * second * normal, beyond, first + second)
+    return Touch(gap, normal, pb.origin + inside * second * normal, outside, first + second)
+
+
+def _way(apart: ca.SX, far: ca.SX) -> ca.SX:
+    """The direction of a vector of length `far`; at the common centre there is none, and no row."""
+    return apart / ca.if_else(far > 0, far, 1)
 
 
 def _round(apart: ca.SX, pb: Pose, first: ca.SX, second: ca.SX, side: ca.SX) -> Touch:
     """Round things whose centres, or the nearest points of whose axes, are `apart`."""
     far = ca.sqrt(ca.sumsqr(apart))
-    normal = side * apart / far
+    normal = side * _way(apart, far)
     gap = side * (far - first) - second
     return Touch(gap, normal, pb.origin - second * normal, far - first, first + second)
+
+
+def _tether_dot(a: Tether, b: Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) -> Touch:
+    """(l^2 - d^2)/2 l is what is left of the length where that is small, smooth also at d = 0."""
+    way, long = pb.origin - pa.origin, lower(a.length)
+    gap = (long - ca.sumsqr(way) / long) / 2
+    return Touch(gap, -way / long, pb.origin, ca.SX(1), long)
 
 
 def _straight_ball(
@@ -178,6 +191,7 @@ _TOUCHES: Mapping[tuple[type, type], _Rule] = {
     (Flat, Egg): _flat_egg,
     (Ball, Dot): _ball_ball,
     (Ball, Ball): _ball_ball,
+    (Tether, Dot): _tether_dot,
     (Straight, Dot): _straight_ball,
     (Straight, Ball): _straight_ball,
     (Straight, Straight): _straight_straight,

@@ -16,7 +16,7 @@ from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.levels import level
 from frot.compiler.mechanics.geometry.paths import Trace, trace
 from frot.compiler.mechanics.geometry.touches import Touch, is_closed
-from frot.compiler.mechanics.spatial import Pose, Z, beside, cross
+from frot.compiler.mechanics.spatial import Pose, Z, beside_moving, cross
 from frot.compiler.mechanics.values import Lower
 from frot.dsl.data.classes import dataclass
 
@@ -230,7 +230,7 @@ def tangency(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track
         ca.SX(x) for x in ca.substitute(values, [way, turn], [zero, zero])
     )
     couple = couple + cross(pb.origin - place, force)
-    directions = beside(one)
+    directions = beside_moving(one)
     drift = trace(b, s[1], pb, lower).drift - first.drift
     meeting = [
         Meeting(ca.dot(e, between), e, ca.SX.zeros(3), place, ca.dot(e, drift)) for e in directions

@@ -105,11 +105,15 @@ class Action:
     touch: Touch | None = None
     measure: ca.SX | None = None
 
-    def rate(self, a: Moving, b: Moving) -> ca.SX:
-        """Rate of the gap: f . (v_b - v_a where f acts) + c . (omega_b - omega_a) + its own."""
+    def moves(self, a: Moving, b: Moving) -> ca.SX:
+        """Velocity (3) of b relative to a where the force acts."""
         place = b.pose.origin if self.at is None else self.at
         moves = b.linear if self.at is None else b.velocity_of(place)
-        apart = moves - a.velocity_of(place)
+        return moves - a.velocity_of(place)
+
+    def rate(self, a: Moving, b: Moving) -> ca.SX:
+        """Rate of the gap: f . (v_b - v_a where f acts) + c . (omega_b - omega_a) + its own."""
+        apart = self.moves(a, b)
         return ca.dot(self.force, apart) + ca.dot(self.couple, b.angular - a.angular) + self.own
 
 
@@ -121,6 +125,7 @@ class RelationGeometry(Geometry):
     rate: ca.SX
     witness: ca.SX
     reach: ca.SX
+    still: tuple[ca.SX, ca.SX] | None = None
 
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
         """That of the gap."""

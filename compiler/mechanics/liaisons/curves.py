@@ -13,7 +13,7 @@ from frot.compiler.mechanics.liaisons.actions import Action, Between, push
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.motion import Motion, Seen
 from frot.compiler.mechanics.liaisons.moves import Column, Moved, slid
-from frot.compiler.mechanics.spatial import Moving, Pose, beside, nowhere
+from frot.compiler.mechanics.spatial import Moving, Pose, beside_moving, nowhere
 from frot.compiler.mechanics.values import Lower, rate_by_time
 from frot.dsl.data.classes import dataclass, replace
 
@@ -102,7 +102,7 @@ class Across(Lock):
         return replace(push(force, ca.dot(force, found.normal)), own=own)
 
     def _beside(self, slope: ca.SX) -> ca.SX:
-        return beside(slope / ca.norm_2(slope))[self.side]
+        return beside_moving(slope / ca.norm_2(slope))[self.side]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -28,6 +28,11 @@ class Parallel(_Turning):
     axis: Axis
     side: int
 
+    @property
+    def turns_about(self) -> Axis:
+        """The one of b, and of a."""
+        return self.axis
+
     def between(self, at: Between) -> Action:
         """e_b . s_a = 0: its rate is (omega_b - omega_a) . (e_b x s_a)."""
         own = at.b.direction(self.axis.unit(at.lower))

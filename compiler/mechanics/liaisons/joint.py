@@ -16,6 +16,7 @@ from frot.compiler.mechanics.liaisons.relation import Relation
 from frot.compiler.mechanics.link import Friction, Link, Point
 from frot.compiler.mechanics.rolling import rolling_motions
 from frot.compiler.mechanics.spatial import Pose
+from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Liaison, World
 from frot.dsl.data.classes import dataclass, replace
 
@@ -126,8 +127,18 @@ class Joint(Link):
         return replace(self, frictions=())
 
     def rows(self, told: bool) -> tuple[Link, ...]:
-        """Relation by relation."""
-        return tuple(Relation(self, lock, told and k == 0) for k, lock in enumerate(self.locks))
+        """Relation by relation.
+
+        In space ways are along axes of a, last the one about which a pin turns: rows of a loop that
+        depend on each other, as those of a flat one, then do so in the same way wherever the loop
+        turns. Those along axes of the ground would take turns.
+        """
+        joint = self
+        if any(lock.ground_axis == 2 for lock in self.locks):
+            axes = (lock.turns_about for lock in self.locks)
+            axis = next((x for x in axes if x is not None), Axis("z"))
+            joint = replace(self, locks=tuple(x.turning_with_a(axis) for x in self.locks))
+        return tuple(Relation(joint, lock, told and k == 0) for k, lock in enumerate(joint.locks))
 
     def carrying(self) -> tuple[Motion, ...]:
         """By rolling."""

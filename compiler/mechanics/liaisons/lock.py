@@ -13,6 +13,7 @@ from frot.compiler.mechanics.liaisons.actions import Action, Between, Part, Rela
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
 from frot.compiler.mechanics.link import point_body
+from frot.compiler.mechanics.spatial import Moving
 from frot.compiler.mechanics.values import Axis, Moments
 from frot.dsl.checked import Expression
 from frot.dsl.data.classes import replace
@@ -86,6 +87,19 @@ class Lock(Part):
         """The angle that its gap counts."""
         return None
 
+    def still(self, action: Action, a: Moving, b: Moving) -> tuple[ca.SX, ca.SX] | None:
+        """The velocity and the direction that `Geometry` tells of."""
+        return None
+
+    def turning_with_a(self, axis: Axis) -> Lock:
+        """The same beside or along an axis of a, where it pushes along one of the ground."""
+        return self
+
+    @property
+    def turns_about(self) -> Axis | None:
+        """The axis that it keeps parallel."""
+        return None
+
     def of_joint(self, joint: Joint, kinematics: Kinematics, side: ca.SX) -> Action:
         """What it does in a joint."""
         return self.act(kinematics.between(joint, side))
@@ -106,7 +120,7 @@ class Lock(Part):
         rate = action.rate(a, b)
         if self.to_first_order:
             rate = _exact_rate(action.gap, rate, kinematics)
-        return RelationGeometry(action.gap, rate, witness, reach)
+        return RelationGeometry(action.gap, rate, witness, reach, self.still(action, a, b))
 
 
 def _exact_rate(gap: ca.SX, rate: ca.SX, kinematics: Kinematics) -> ca.SX:

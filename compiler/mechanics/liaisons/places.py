@@ -86,6 +86,10 @@ class Way(Lock):
         """It."""
         return self.axis
 
+    def turning_with_a(self, axis: Axis) -> Lock:
+        """The axis itself is the last."""
+        return WayAlong(axis, (0, 1, None)[self.axis])
+
     def between(self, at: Between) -> Action:
         """A force along the axis."""
         return push((X, Y, Z)[self.axis], at.b.origin[self.axis] - at.a.origin[self.axis])

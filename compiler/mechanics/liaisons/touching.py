@@ -12,7 +12,7 @@ from frot.compiler.mechanics.liaisons.actions import Action, Between
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.spatial import Pose, Z, beside, cross, nowhere
+from frot.compiler.mechanics.spatial import Moving, Pose, Z, beside_moving, cross, nowhere
 from frot.compiler.mechanics.values import Axis, Lower, rate_by_time
 from frot.dsl.checked import Expression
 from frot.dsl.data.classes import dataclass, replace
@@ -96,9 +96,14 @@ class NoSlip(Lock):
         elif self.a.plane is not None:
             way = at.a.direction(self.a.plane.beside(at.lower)[self.side])
         else:
-            way = beside(found.normal)[self.side]
+            way = beside_moving(found.normal)[self.side]
         column, own = Column(nowhere(), way), ca.dot(way, found.drift)
         return Action(way, nowhere(), column, ca.SX(0), own, found.place, found)
+
+    def still(self, action: Action, a: Moving, b: Moving) -> tuple[ca.SX, ca.SX] | None:
+        """Of the material points."""
+        assert action.touch is not None
+        return action.moves(a, b) + action.touch.drift, action.force
 
 
 @dataclass(frozen=True, slots=True, eq=False)
