@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 import casadi as ca
 import numpy as np
 from frot.compiler.equations.chains import Chains
+from frot.compiler.equations.collect import collect
 from frot.compiler.equations.differentiate import find_incidence
 from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.index import Index, find_unbalanced, reduce_index
@@ -72,16 +73,16 @@ def _dependences(
         inside = {i: w for i, w in zip(rows, weights, strict=True) if abs(w) > NEGLIGIBLE}
         lowest = min(index.equations[i] for i in inside)
         place = next(i for i in inside if index.equations[i] == lowest)
-        terms = []
+        terms: list[tuple[ca.SX, float]] = []
         for i, weight in inside.items():
             if index.equations[i] > lowest and chains.without_rate(values[i]):
                 break
             term = values[i]
             for _ in range(index.equations[i] - lowest):
                 term = chains.rate(term)
-            terms.append(weight / inside[place] * term)
+            terms.append((term, weight / inside[place]))
         else:
-            yield place, _without_nothing(sum(terms, ca.SX(0)), chains)
+            yield place, _without_nothing(collect(terms), chains)
 
 
 def _weights(

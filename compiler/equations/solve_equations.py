@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains, replace_known
+from frot.compiler.equations.collect import without_what_cancels
 from frot.compiler.equations.combine import combine
 from frot.compiler.equations.core import Core, make_core
 from frot.compiler.equations.differentiate import (
@@ -201,7 +202,7 @@ def _solve(
         origin = found.origins[component.equations[0]]
         solving.blocks.append(
             Block(
-                column(torn.residual),
+                column(without_what_cancels(value) for value in torn.residual),
                 first,
                 torn.linear,
                 late,

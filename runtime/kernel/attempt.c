@@ -151,7 +151,8 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
       status = FROT_DIVERGE;
     if (status == FROT_OK) {
       a->guard = frot_falling_guard(m, s, w, t, h, &a->theta);
-      if (a->looks == LOOKS || !frot_seems_to_dip(m, s, w, a->guard, a->theta, h)) return FROT_OK;
+      if (a->looks == LOOKS || !frot_seems_to_dip(m, s, w, a->guard, a->theta, t, h))
+        return FROT_OK;
       return look_closer(m, s, w, a);
     }
     a->ratio = NAN;

@@ -136,6 +136,24 @@ static int solve_nonlinear(const problem *p) {
   return FROT_ALGEBRAIC;
 }
 
+/* Move the solution as rounding may, but further: by that of the terms of each equation, and by its
+ * own. */
+static void shake(const problem *p) {
+  frot_work *w = p->w;
+  int n = p->block->count, solved = !evaluate(p) && !factor(p);
+  double *change = w->blocks.r;
+  for (int i = 0; i < n; i++) {
+    int up = ((p->block->first + i) >> w->blocks.pattern) & 1;
+    change[i] = (up ? w->blocks.shaken : -w->blocks.shaken) * w->blocks.size[i];
+  }
+  if (solved) frot_lu_apply(w->blocks.lu, n, w->blocks.pivot, w->blocks.scale, change);
+  for (int i = 0; i < n; i++) {
+    int up = ((p->block->first + i) >> w->blocks.pattern) & 1;
+    double own = (up ? w->blocks.shaken : -w->blocks.shaken) * p->y[i];
+    p->y[i] += own + (solved ? change[i] : 0);
+  }
+}
+
 static int solve(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                  const double *v, const double *d, int late) {
   w->blocks.failed = -1;
@@ -151,6 +169,7 @@ static int solve(const frot_model *m, frot_state *s, frot_work *w, double t, con
       w->blocks.failed = i;
       return status;
     }
+    if (w->blocks.shaken != 0) shake(&p);
   }
   return FROT_OK;
 }

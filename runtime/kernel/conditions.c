@@ -14,7 +14,11 @@
  * ch. 4, which ends where they are those of ideal switches). */
 #define ALL_AT_ONCE 3
 #define ONE_BY_ONE 20
-#define CROSSINGS 8 /* doublings of a rounding of time */
+/* Doublings of a rounding of time in which a condition crosses zero, and in which one whose values
+ * before and after do not move alike is on the other side after: a diode that ceases to conduct
+ * leaves its threshold a million times faster than it came to it. */
+#define CROSSINGS 8
+#define LONGEST 40
 
 static int holds(const frot_model *m, const frot_work *w, int j) {
   return m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;
@@ -39,42 +43,98 @@ int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, doubl
   return FROT_OK;
 }
 
-/* Whether a located condition that fires is still on the side on which it was. */
-static int is_short(const frot_model *m, const frot_state *s, const frot_work *w) {
-  const double *d = s->data + w->layout.d;
+/* The size of the values of a located condition. */
+static double size_of(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
+  return s->data[w->layout.scale_g + frot_condition_guard(m) + j];
+}
+
+/* An instant a little later than that of an event, along the slope there. */
+typedef struct {
+  double t, *q, *v; /* the event's */
+  double moved;     /* how much later */
+  int timed;        /* an instant known before stays what it is */
+} later;
+
+static double time_of(const later *i) { return i->timed ? i->t : i->t + i->moved; }
+
+/* Values of the conditions at it, as the flags say; into w->step.z the coordinates and speeds. */
+static int look_later(const frot_model *m, frot_state *s, frot_work *w, const later *i) {
+  const double *slope = s->data + w->layout.slope;
+  double *there = w->step.z;
+  for (int j = 0; j < m->nq; j++) there[j] = i->q[j] + i->moved * slope[j];
+  for (int j = 0; j < m->nv; j++) there[m->nq + j] = i->v[j] + i->moved * slope[m->nq + j];
+  return frot_look(m, s, w, time_of(i), there, there + m->nq);
+}
+
+/* Change the flags of the located conditions that fire, or change them back. */
+static void flip(const frot_model *m, frot_state *s, const frot_work *w) {
+  double *d = s->data + w->layout.d;
   const double *fired = s->data + w->layout.fired + frot_condition_guard(m);
   for (int j = 0; j < m->n_located; j++)
-    if (fired[j] != 0 && holds(m, w, j) == (d[j] != 0)) return 1;
-  return 0;
+    if (fired[j] != 0) d[j] = 1 - d[j];
+}
+
+typedef struct {
+  int wrong; /* a flag is not what its value says */
+  int right; /* a flag is */
+  int zero;  /* all values are zero to rounding */
+} sides;
+
+/* How the located conditions that fire stand to their flags. */
+static sides look_at_sides(const frot_model *m, const frot_state *s, const frot_work *w) {
+  const double *d = s->data + w->layout.d;
+  const double *fired = s->data + w->layout.fired + frot_condition_guard(m);
+  sides found = {0, 0, 1};
+  for (int j = 0; j < m->n_located; j++) {
+    if (fired[j] == 0) continue;
+    int agrees = holds(m, w, j) == (d[j] != 0);
+    found.wrong |= !agrees, found.right |= agrees;
+    found.zero &= fabs(w->core.condition[j]) <= FROT_UNCHANGED * size_of(m, s, w, j);
+  }
+  return found;
+}
+
+/* Whether what has crossed zero would, changed, be at once where it was before: 1 if so and a
+ * little later it may no longer be, 0 if not, -1 if it cannot be said. */
+static int is_undone(const frot_model *m, frot_state *s, frot_work *w, const later *i) {
+  flip(m, s, w);
+  int status = look_later(m, s, w, i);
+  sides after = look_at_sides(m, s, w);
+  flip(m, s, w);
+  if (status != FROT_OK) return -1;
+  return after.wrong && !after.zero;
 }
 
 int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q, double *v) {
-  const frot_layout *l = &w->layout;
-  const double *slope = s->data + l->slope;
-  const double *fired = s->data + l->fired + frot_condition_guard(m);
+  const double *fired = s->data + w->layout.fired + frot_condition_guard(m);
   int located = 0, timed = 0;
   for (int j = 0; j < m->n_located + m->n_timed; j++) {
     located |= j < m->n_located && fired[j] != 0;
     timed |= j >= m->n_located && fired[j] != 0;
   }
   if (!located) return FROT_OK;
-  int status = frot_look(m, s, w, *t, q, v);
-  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, *t);
-  double moved = 0, step = DBL_EPSILON * fmax(fabs(*t), 1e-3 * s->h_max);
-  double *there = w->step.z;
-  for (int k = 0; is_short(m, s, w); k++, step *= 2) {
-    if (k == CROSSINGS) return FROT_OK; /* one that has no rate does not cross */
-    moved += step;
-    for (int j = 0; j < m->nq; j++) there[j] = q[j] + moved * slope[j];
-    for (int j = 0; j < m->nv; j++) there[m->nq + j] = v[j] + moved * slope[m->nq + j];
-    /* an instant known before stays what it is */
-    double then = timed ? *t : *t + moved;
-    if (frot_look(m, s, w, then, there, there + m->nq) != FROT_OK) return FROT_OK;
+  later i = {*t, q, v, 0, timed};
+  double step = DBL_EPSILON * fmax(fabs(*t), 1e-3 * s->h_max), crossed = -1;
+  for (int k = 0; k < LONGEST; k++, i.moved += step, step *= 2) {
+    int status = look_later(m, s, w, &i);
+    if (status != FROT_OK && k == 0) return frot_fail_evaluation(m, s, w, status, *t);
+    if (status != FROT_OK) break;
+    sides before = look_at_sides(m, s, w);
+    if (crossed >= 0 && !before.zero) break; /* the event was before */
+    if (before.right) {
+      if (k == CROSSINGS && crossed < 0) break; /* one that has no rate does not cross */
+      continue;
+    }
+    int undone = is_undone(m, s, w, &i);
+    if (crossed < 0 || undone == 0) crossed = i.moved;
+    if (undone != 1) break;
   }
-  if (moved == 0) return FROT_OK;
-  memcpy(q, there, sizeof(double) * (size_t)m->nq);
-  memcpy(v, there + m->nq, sizeof(double) * (size_t)m->nv);
-  if (!timed) *t += moved;
+  if (!(crossed > 0)) return FROT_OK;
+  i.moved = crossed;
+  look_later(m, s, w, &i);
+  memcpy(q, w->step.z, sizeof(double) * (size_t)m->nq);
+  memcpy(v, w->step.z + m->nq, sizeof(double) * (size_t)m->nv);
+  *t = time_of(&i);
   return FROT_OK;
 }
 
@@ -82,9 +142,28 @@ int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, doub
 static int is_known(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
   double value = w->core.condition[j], known = w->events.known[j];
   if (j >= m->n_located) return value == known;
-  double size = s->data[w->layout.scale_g + frot_condition_guard(m) + j];
-  double rounding = FROT_UNCHANGED * size + 4 * DBL_EPSILON * fmax(fabs(value), fabs(known));
+  double rounding =
+      FROT_UNCHANGED * size_of(m, s, w, j) + 4 * DBL_EPSILON * fmax(fabs(value), fabs(known));
   return fabs(value - known) <= rounding;
+}
+
+int frot_change_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
+                           const double *q, const double *v) {
+  double *d = s->data + w->layout.d, *fired = s->data + w->layout.fired + frot_condition_guard(m);
+  int located = 0;
+  for (int j = 0; j < m->n_conditions; j++) {
+    if (fired[j] != 0) d[j] = 1 - d[j];
+    located |= j < m->n_located && fired[j] != 0;
+  }
+  int status = located ? frot_look(m, s, w, t, q, v) : FROT_OK;
+  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
+  for (int j = 0; j < m->n_located; j++) {
+    double value = w->core.condition[j];
+    if (fired[j] != 0 && fabs(value) <= FROT_LOCATED * size_of(m, s, w, j))
+      w->events.known[j] = value;
+  }
+  memset(fired, 0, sizeof(double) * (size_t)m->n_conditions);
+  return FROT_OK;
 }
 
 /* Decide the conditions from their values, the first that changes alone if `alone`. Returns the

@@ -25,8 +25,14 @@ int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, doubl
 
 /* Move t and (q, v) on by a rounding of time, until the located conditions that fire have passed
  * through zero: so they hold truly after it, and no root or logarithm is left on the wrong side of
- * its switch. */
+ * its switch. What the switch itself changes in their values may need a little more: as long as
+ * before it they are zero to rounding, the instant is not known better. */
 int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q, double *v);
+
+/* Change the conditions that fire. One that is still as near to zero as events are located stays
+ * what it has become until its value changes. */
+int frot_change_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
+                           const double *q, const double *v);
 
 /* Look at every condition anew with the values at (t, q, v), until none changes. Leaves what
  * `frot_look` gives there in w. FROT_OK or the status of the fault recorded: conditions that

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "awake.h"
+#include "conditions.h"
 #include "core.h"
 #include "error.h"
 #include "groups.h"
@@ -13,6 +14,8 @@
 #include "tolerances.h"
 
 #define SAMPLES 8 /* places at which a guard that seems to dip may have risen again */
+/* Part of the step in which a condition moves as its slope at the start says. */
+#define AT_ONCE 1e-6
 
 void frot_guard_polynomial(const frot_state *s, const frot_work *w, int guard, double h,
                            double g[7]) {
@@ -94,15 +97,30 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
   return found;
 }
 
-int frot_seems_to_dip(const frot_model *m, const frot_state *s, const frot_work *w, int k,
-                      double theta, double h) {
+/* Whether a located condition, zero at the start of the step, rises there by the slope. */
+static int rises(const frot_model *m, frot_state *s, frot_work *w, int k, double t, double h) {
+  const double *slope = frot_stage(w, 0), *d = s->data + w->layout.d;
+  double *z = w->step.z, part = AT_ONCE * h, first = slope[w->awake.n + k];
+  int j = w->guards.list[k] - frot_condition_guard(m);
+  memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
+  for (int i = 0; i < w->awake.n; i++) z[w->awake.now->states[i]] += part * slope[i];
+  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  if (frot_look(m, s, w, t + part, z, z + m->nq) != FROT_OK) return 0;
+  double value = d[j] != 0 ? w->core.condition[j] : -w->core.condition[j];
+  return value - first > FROT_CONDITION_ZERO * s->data[w->layout.scale_g + w->guards.list[k]];
+}
+
+int frot_seems_to_dip(const frot_model *m, frot_state *s, frot_work *w, int k, double theta,
+                      double t, double h) {
   double g[7];
-  if (k < 0 || theta > FROT_EARLY || w->guards.list[k] >= frot_condition_guard(m)) return 0;
+  if (k < 0 || theta > FROT_EARLY) return 0;
+  int condition = w->guards.list[k] - frot_condition_guard(m);
+  if (condition >= 0 && s->data[w->layout.fresh + condition] != 0) return 0;
   frot_guard_polynomial(s, w, k, h, g);
   if (fabs(g[0]) > FROT_ZERO * s->data[w->layout.scale_g + w->guards.list[k]]) return 0;
   for (int i = 1; i <= SAMPLES; i++)
     if (frot_bernstein(g, theta + (1 - theta) * i / SAMPLES) > 0) return 1;
-  return 0;
+  return condition >= 0 && theta == 0 && rises(m, s, w, k, t, h);
 }
 
 void frot_fire_at_start(frot_state *s, const frot_work *w, int guard) {

@@ -39,11 +39,11 @@ int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, doub
  * may end before it, as that of a tank that runs empty. -1 if there is none. */
 int frot_condition_at_zero(const frot_model *m, const frot_state *s, const frot_work *w);
 
-/* Whether the listed guard k, zero at the start of the step, seems to fall there at theta and to
- * rise again. What departs with no acceleration of its own grows so slowly at first that the
- * polynomial of a long step, exact to a part of its largest value, may seem to fall: a shorter step
- * tells. */
-int frot_seems_to_dip(const frot_model *m, const frot_state *s, const frot_work *w, int k,
-                      double theta, double h);
+/* Whether the listed guard k, zero at the start t of the step, seems to fall there at theta, and to
+ * rise again or, of a condition, to rise by the slope at the start. What departs with no
+ * acceleration of its own grows so slowly at first that the polynomial of a long step, exact to a
+ * part of its largest value, may seem to fall: a shorter step tells. */
+int frot_seems_to_dip(const frot_model *m, frot_state *s, frot_work *w, int k, double theta,
+                      double t, double h);
 
 #endif

@@ -233,7 +233,7 @@ static int end_run(const instant *in) {
 static int change_conditions(const instant *in, int first) {
   const frot_model *m = in->m;
   frot_state *s = in->s;
-  double *d = s->data + in->l.d, *fired = s->data + in->l.fired + frot_condition_guard(m);
+  const double *d = s->data + in->l.d;
   if (m->n_conditions == 0) return FROT_OK;
   int status = frot_note_conditions(m, s, in->w, in->t, in->q, in->v);
   if (status != FROT_OK) return status;
@@ -242,10 +242,8 @@ static int change_conditions(const instant *in, int first) {
   if (status != FROT_OK) return status;
   memcpy(in->w->events.before, d, sizeof(double) * (size_t)m->n_conditions);
   s->jumped = 0;
-  for (int j = 0; j < m->n_conditions; j++) {
-    if (fired[j] != 0) d[j] = 1 - d[j];
-    fired[j] = 0;
-  }
+  status = frot_change_conditions(m, s, in->w, in->t, in->q, in->v);
+  if (status != FROT_OK) return status;
   memset(s->data + in->l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   if (!first) status = frot_settle_conditions(m, s, in->w, in->t, in->q, in->v);
   if (status == FROT_OK) tell_conditions(in);

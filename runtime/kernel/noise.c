@@ -157,7 +157,10 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
       memcpy(w->step.z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
       for (int j = 0; j < n; j++)
         w->step.z[j] += (((j >> pattern) & 1) != 0 ? moved : -moved) * size[j];
-      if (slope_from_start(m, s, w, t * (1 + moved), w->step.z, there) != FROT_OK) return;
+      w->blocks.shaken = moved, w->blocks.pattern = pattern;
+      int status = slope_from_start(m, s, w, t * (1 + moved), w->step.z, there);
+      w->blocks.shaken = 0;
+      if (status != FROT_OK) return;
     }
     for (int j = 0; j < frot_width(w); j++) {
       if (j >= moving && j < packed) continue; /* energies follow */

@@ -199,6 +199,7 @@ static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
   double t = *g.t1;
   if (status == FROT_OK) status = frot_happen(m, s, w, t, x, x + m->nq, 0, recorder);
   memcpy(s->data + l.y, w->blocks.y, sizeof(double) * (size_t)m->ny);
+  frot_see_other_system(s);
   frot_tell(m, s, recorder);
   if (status != FROT_TERMINATED) return status;
   s->t = t;

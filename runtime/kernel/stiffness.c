@@ -44,6 +44,8 @@ void frot_choose_first(const frot_model *m, frot_state *s) {
   s->patience = STIFF_STEPS;
 }
 
+void frot_see_other_system(frot_state *s) { s->patience = STIFF_STEPS; }
+
 /* Squares of lengths of a difference, each state in units of its size: of coordinates with a speed,
  * of speeds, of all other states. */
 typedef struct {

@@ -15,6 +15,10 @@
 /* The method of the first step. */
 void frot_choose_first(const frot_model *m, frot_state *s);
 
+/* Something has happened: how long the implicit method was of use before says nothing about the
+ * equations that hold now. */
+void frot_see_other_system(frot_state *s);
+
 /* Whether the step h just accepted speaks for the implicit method. The explicit method's last
  * argument before the end is still in w->ztry. 0 where the text gives the method. */
 int frot_is_stiff(const frot_model *m, frot_state *s, frot_work *w, double h);

@@ -45,10 +45,11 @@ typedef struct {
 } frot_awake_work;
 
 /* blocks.h: y is the guess before, the solution after; the block that failed last, or -1, and
- * whether it was singular. The rest is the system of one block. */
+ * whether it was singular. Solutions are `shaken` by that part of themselves, up or down by bit
+ * `pattern` of their index: error.h. The rest is the system of one block. */
 typedef struct {
-  double *y;
-  int failed, singular;
+  double *y, shaken;
+  int failed, singular, pattern;
   double *r, *j, *lu, *size, *step, *scale;
   int *pivot;
 } frot_block_work;

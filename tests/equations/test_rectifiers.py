@@ -1,0 +1,96 @@
+"""Diodes whose voltages move a million times faster while they block than while they conduct.
+
+At the instant at which one ceases to conduct rounding of its current is a voltage far from zero.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import frot
+
+BRIDGE = """
+model Bridge "full bridge rectifier"
+  import Electrical.*;
+  parameter Frequency f = 50 Hz;
+  VoltageSource s; Diode d[4](on_resistance = 0.1 Ohm); Capacitor c(C = 1 mF);
+  Resistor load(R = 50 Ohm); Resistor rs(R = 0.2 Ohm); Ground g;
+initial
+  c.v = 0 V;
+equation
+  s.voltage = 24 V*sin(2*pi*f*time);
+  connect(s.p, rs.p);
+  connect(rs.n, d[1].p); connect(rs.n, d[2].n);
+  connect(s.n, d[3].p); connect(s.n, d[4].n);
+  connect(d[1].n, c.p); connect(d[3].n, c.p);
+  connect(d[2].p, c.n); connect(d[4].p, c.n);
+  connect(c.p, load.p); connect(c.n, load.n);
+  connect(c.n, g.p);
+  experiment(stop = 0.05 s);
+end Bridge;
+"""
+
+THREE_PHASES = """
+model ThreePhases "rectifier of three phases, their star point free"
+  import Electrical.*;
+  parameter Frequency f = 50 Hz;
+  VoltageSource s[3]; Inductor ls[3](L = 1 mH); Resistor rs[3](R = 0.1 Ohm);
+  Diode d[6](on_resistance = 0.1 Ohm); Capacitor c(C = 1 mF); Resistor load(R = 50 Ohm); Ground g;
+initial
+  c.v = 0 V; ls[1].i = 0 A; ls[2].i = 0 A;
+equation
+  for i in 1:3 loop
+    s[i].voltage = 24 V*sin(2*pi*f*time + i*2*pi/3);
+    connect(s[i].n, g.p); connect(s[i].p, ls[i].p); connect(ls[i].n, rs[i].p);
+    connect(rs[i].n, d[i].p); connect(rs[i].n, d[i+3].n);
+    connect(d[i].n, c.p); connect(d[i+3].p, c.n);
+  end for;
+  connect(c.p, load.p); connect(c.n, load.n);
+  experiment(stop = 0.1 s);
+end ThreePhases;
+"""
+
+
+@cache
+def model(text: str) -> frot.Model:
+    return frot.compile(text)
+
+
+def draw(text: str, seed: int) -> dict[str, float]:
+    """Resistances over two decades to either side, everything else within a factor of three."""
+    rng = np.random.default_rng(seed)
+    values = model(text).simulate(stop=1e-9).parameters
+    return {
+        name: float(value) * 10 ** rng.uniform(*((-2, 2) if "resistance" in name else (-0.5, 0.5)))
+        for name, value in values.items()
+        if rng.random() < 0.6
+    }
+
+
+@pytest.mark.parametrize("which", range(1, 5))
+@pytest.mark.parametrize(("what", "times"), [("forward", 0.5), ("off_resistance", 3.0)])
+def test_one_diode_is_unlike_the_others(which: int, what: str, times: float) -> None:
+    usual = {"forward": 0.6, "off_resistance": 1e6}
+    values = {f"d[{which}].{what}": usual[what] * times}
+    exact = model(BRIDGE).simulate(tolerance=1e-12, parameters=values)
+    for tolerance in (1e-4, 1e-8):
+        result = model(BRIDGE).simulate(tolerance=tolerance, parameters=values)
+        assert result["c.v"][-1] == pytest.approx(exact["c.v"][-1], rel=30 * tolerance)
+        assert result.figures.steps < 1000
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("text", [BRIDGE, THREE_PHASES])
+def test_no_diode_like_another(text: str, seed: int) -> None:
+    values = draw(text, seed)
+    exact = model(text).simulate(tolerance=1e-11, parameters=values)
+    times = np.linspace(0, exact.time[-1], 9)[1:]
+    wanted = np.array([exact.at(t)["c.v"] for t in times])
+    for tolerance in (1e-3, 1e-5, 1e-8):
+        result = model(text).simulate(tolerance=tolerance, parameters=values)
+        found = np.array([result.at(t)["c.v"] for t in times])
+        assert np.abs(found - wanted).max() < 100 * tolerance * np.abs(wanted).max()
+        assert result.figures.steps < 5000  # stiff while diodes block: every time implicitly
