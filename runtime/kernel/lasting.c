@@ -8,8 +8,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "blocks.h"
 #include "core.h"
 #include "guards.h"
+#include "mechanics.h"
 #include "projection.h"
 #include "reactions.h"
 #include "search.h"
@@ -108,7 +110,7 @@ static int evaluate(const frot_instant *in, double t, double *q, double *v) {
 }
 
 /* Move on by dt: the group with its accelerations, all else, whose speeds may drive it (a damper),
- * as it moved until now. */
+ * as it moved until now, and with their rates what has no speeds (the strain of a spring). */
 static int move_on(const frot_instant *in, const frot_group *own, double dt, double *q, double *v) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
@@ -126,6 +128,7 @@ static int move_on(const frot_instant *in, const frot_group *own, double dt, dou
     }
     frot_displace(m, g, q, w->relations.step, dt);
   }
+  frot_drift(m, q, w->search.rates, dt);
   return frot_project(m, in->s, w, in->t + dt, q, v, in->s->data + in->l.d, w->search.trial, NULL,
                       &moved);
 }
@@ -164,8 +167,13 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count) {
   frot_work *w = in->w;
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
   double *q = w->step.z, *v = q + m->nq;
+  const double *d = in->s->data + in->l.d;
   if (!note_margins(in, chosen, count)) return 1;
   frot_accelerations(m, w, w->search.nothing_frozen);
+  if (m->late_rates && (frot_solve_late(m, in->s, w, in->t, in->q, in->v, d) != FROT_OK ||
+                        frot_late_rates(m, in->s, w, in->t, in->q, in->v, d) != FROT_OK))
+    return 1;
+  memcpy(w->search.rates, w->core.qd, sizeof(double) * (size_t)m->nq);
   double step = in->s->h > 0 ? in->s->h : in->s->h_max, way = frot_time_of_way(in, g);
   int lasts = 1, slow = 1;
   for (double part = LATER; lasts && slow && part <= LATEST; part *= 10) {

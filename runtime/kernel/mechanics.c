@@ -30,6 +30,17 @@ static int sense(const frot_model *m, frot_state *s, frot_work *w, double t, con
   return frot_all_finite(values, m->n_sensed);
 }
 
+int frot_late_rates(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                    const double *v, const double *d) {
+  if (!m->late_rates) return FROT_OK;
+  frot_inputs(m, s, w, &t, q, v, d);
+  w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
+  w->call.res[0] = w->core.qd, w->call.res[1] = w->core.power;
+  frot_call(w, &m->rates);
+  return frot_all_finite(w->core.qd, m->nq) && frot_all_finite(w->core.power, 1) ? FROT_OK
+                                                                                 : FROT_NAN;
+}
+
 int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes,
                   const double *frozen, const double *along, int late) {
@@ -49,13 +60,7 @@ int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, co
     if (status != FROT_OK) return status;
   }
   if (m->n_sensed > 0 && !sense(m, s, w, t, q, v, d)) return FROT_NAN;
-  if (!m->late_rates) return FROT_OK;
-  frot_inputs(m, s, w, &t, q, v, d);
-  w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
-  w->call.res[0] = w->core.qd, w->call.res[1] = w->core.power;
-  frot_call(w, &m->rates);
-  return frot_all_finite(w->core.qd, m->nq) && frot_all_finite(w->core.power, 1) ? FROT_OK
-                                                                                 : FROT_NAN;
+  return frot_late_rates(m, s, w, t, q, v, d);
 }
 
 int frot_derivatives(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z,

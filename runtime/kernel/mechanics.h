@@ -13,6 +13,10 @@ int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, co
                   const double *v, const double *d, const frot_contact_mode *modes,
                   const double *frozen, const double *along, int late);
 
+/* The rates of coordinates and the power, where they depend on the solution. */
+int frot_late_rates(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                    const double *v, const double *d);
+
 /* Derivatives of coordinates, speeds, quadratures and of the integrals of the guards listed. */
 int frot_derivatives(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z,
                      const double *d, const frot_contact_mode *modes, const double *frozen,

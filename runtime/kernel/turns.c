@@ -56,6 +56,18 @@ void frot_displace(const frot_model *m, const frot_group *g, double *q, const do
   }
 }
 
+/* Whether coordinate j is an item of an orientation. */
+static int is_turned(const frot_model *m, int j) {
+  for (int i = 0; i < m->n_turns; i++)
+    if (j >= m->turns[i].at && j < m->turns[i].at + 4) return 1;
+  return 0;
+}
+
+void frot_drift(const frot_model *m, double *q, const double *rates, double part) {
+  for (int j = 0; j < m->nq; j++)
+    if (m->q_speed[j] < 0 && !is_turned(m, j)) q[j] += part * rates[j];
+}
+
 void frot_over_coordinates(const frot_model *m, const frot_group *g, const double *entries,
                            const double *q, double *row) {
   memset(row, 0, sizeof(double) * (size_t)m->nq);

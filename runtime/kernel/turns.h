@@ -13,6 +13,10 @@ void frot_turned(const frot_turn *turn, const double *by, const double *r, doubl
 void frot_displace(const frot_model *m, const frot_group *g, double *q, const double *step,
                    double part);
 
+/* q += part times the rates (nq) of what no speed is the rate of: plain states, places of what
+ * rolls. */
+void frot_drift(const frot_model *m, double *q, const double *rates, double part);
+
 /* row (nq) <- the row over coordinates, zero elsewhere, that gives every displacement of the group
  * what `entries`, over its speeds, give it. It is orthogonal to each quaternion itself. */
 void frot_over_coordinates(const frot_model *m, const frot_group *g, const double *entries,

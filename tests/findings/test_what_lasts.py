@@ -49,3 +49,41 @@ def test_of_the_motions_of_an_instant_that_which_lasts_is_taken(
     assert fall == pytest.approx(-G * (1.2 - gone), rel=allowed)
     held = finding("what_lasts").simulate(parameters={"rough": 1.6, "across": across})
     assert np.abs(held["c.velocity.x"]).max() == 0
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+@pytest.mark.parametrize(("first", "growth"), [(3.0, 0.0), (3.0, 1.0), (3.0, -0.5), (1e-6, 1e-6)])
+def test_a_brake_lets_go_where_a_spring_outgrows_its_bound(
+    way: float, first: float, growth: float
+) -> None:
+    """At its bound nothing accelerates: what lets go is the strain, a state that is no coordinate.
+
+    c w + k w t = first + growth t, with the speed w of a flywheel that nothing slows.
+    """
+    stiffness, damping, speed = 4.0, 0.25, 0.5
+    text = """model Wound
+  import Rotational.*;
+  parameter Torque first = 1 N.m;
+  parameter Real growth = 0;
+  parameter AngularVelocity speed = 1 rad/s;
+  Inertia held(J = 0.02 kg.m^2);
+  Inertia wheel(J = 1e15 kg.m^2);
+  SpringDamper spring(k = 4 N.m, c = 0.25 N.m.s);
+  Brake brake(mu = 0.5, radius = 2 m);
+initial
+  held.angle = 0 rad; held.speed = 0 rad/s;
+  wheel.angle = 0 rad; wheel.speed = speed;
+equation
+  brake.force = (first + growth*1 N.m/s*time)/(1 m);
+  connect(held.b, spring.a); connect(spring.b, wheel.a); connect(brake.a, held.a);
+  experiment(stop = 4 s);
+end Wound;
+"""
+    model = frot.compile(text)
+    given = {"first": first + damping * speed, "growth": growth, "speed": way * speed}
+    wanted = first / (stiffness * speed - growth)
+    for tolerance in (1e-4, 1e-9):
+        result = model.simulate(tolerance=tolerance, parameters=given)
+        lets_go = next(e for e in result.events if e.liaison == "brake")
+        assert lets_go.time == pytest.approx(wanted, rel=1e-9, abs=1e-12)
+        assert way * float(result.at(wanted + 0.1)["held.speed"]) > 0
