@@ -90,10 +90,11 @@ void frot_shorten(const frot_model *m, frot_state *s, const frot_work *w, frot_a
 }
 
 /* Change of the step's length that its error will bear if it goes on as it went from the step
- * before to this one (K. Gustafsson, ACM Trans. Math. Softw. 20, 1994, p. 496). */
+ * before to this one (K. Gustafsson, ACM Trans. Math. Softw. 20, 1994, p. 496). Errors that bound
+ * neither, of steps that something else made short, tell no trend. */
 static double trend(const frot_model *m, frot_state *s, const frot_work *w, const frot_attempt *a) {
   double change = INFINITY;
-  if (motion_limits(m, s, w) && s->last_ratio > 0 && a->ratio > 0)
+  if (motion_limits(m, s, w) && s->last_ratio > FROT_LIMITING && a->ratio > FROT_LIMITING)
     change = s->caution * SAFETY * a->h / s->last_h *
              pow(s->last_ratio / (a->ratio * a->ratio), 1.0 / 8);
   s->last_h = a->h, s->last_ratio = a->ratio;
