@@ -13,12 +13,11 @@ from collections.abc import Iterator, Sequence
 import casadi as ca
 import numpy as np
 from frot.compiler.equations.chains import Chains
-from frot.compiler.equations.collect import collect
 from frot.compiler.equations.differentiate import find_incidence
 from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.index import Index, find_unbalanced, reduce_index
 from frot.compiler.equations.order import find_components
-from frot.compiler.equations.slopes import slopes, symbols_inside
+from frot.compiler.equations.slopes import collect, slopes, symbols_inside
 from frot.compiler.equations.sparse import pivots
 from frot.compiler.lowering.symbols import column
 

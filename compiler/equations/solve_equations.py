@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains, replace_known
-from frot.compiler.equations.collect import without_what_cancels
 from frot.compiler.equations.combine import combine
 from frot.compiler.equations.core import Core, make_core
 from frot.compiler.equations.differentiate import (
@@ -31,6 +30,7 @@ from frot.compiler.equations.given import Given
 from frot.compiler.equations.index import reduce_index
 from frot.compiler.equations.order import Component, closure
 from frot.compiler.equations.origins import Origin
+from frot.compiler.equations.slopes import without_what_cancels
 from frot.compiler.equations.tear import tear
 from frot.compiler.lowering.assembled import (
     Assembled,
