@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
+
 import casadi as ca
-from frot.compiler.lowering.groups import Group
+from frot.compiler.lowering.groups import Group, Grouping
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.mechanics.elements import Bound, Element
 from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import place as _place
 from frot.compiler.product.c_tables import record as _record
 from frot.compiler.product.c_tables import text as _text
+from frot.dsl.messages.source import Span
 
 _NEVER_SLIPS = -2  # FROT_NEVER_SLIPS
 # The packed arrays of groups in the order of frot_group, and the tables of the mechanics.
@@ -32,51 +35,58 @@ MECHANICAL_TABLES = (
 
 def mechanical_arrays(lowered: Lowered) -> list[str]:
     """Contacts, elements and groups, and where rows, contacts and speeds stand in their groups."""
-    reduced, grouping, system = lowered.reduced, lowered.grouping, lowered.system
-    sliding = {e.contact: k for k, e in enumerate(grouping.elements) if not e.rolling}
-    for k, link in enumerate(reduced.mechanism.contacts):
-        if link.rolls and not link.reduced:
-            sliding[k] = _NEVER_SLIPS
-    joints = zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True)
-    contacts = [
-        (x.liaison.name, x.liaison.span, r.reaction[0] if x.has_normal else -1, x.reduced)
-        for x, r in joints
-    ]
-    contacts += [(e.name, e.span, -1, True) for e in system.elements]
-    first = [x.first for x in reduced.mechanism.contacts]
-    first += [True] * len(system.elements)
-    kinematic = [x.kinematic for x in reduced.mechanism.contacts]
-    kinematic += [False] * len(system.elements)
     places = {v.name: k for k, v in enumerate(lowered.variables)}
-    arrays = [
-        _array(
-            "frot_contact",
-            "contacts",
-            [
-                _record(
-                    _text(name),
-                    _text(_place(span)),
-                    *(row, int(kept), sliding.get(i, -1), places.get(f"{name}.power", -1)),
-                    places[f"{name}.mode"] if first[i] else -1,
-                    int(kinematic[i]),
-                )
-                for i, (name, span, row, kept) in enumerate(contacts)
-            ],
-        ),
-        _array(
-            "frot_element",
-            "elements",
-            [
-                _record(
-                    *(e.contact, e.bound.value, e.row),
-                    _record(*(*e.bounded_by, -1, -1)[:2]),
-                    *(int(e.rolling), int(e.fixed), int(e.row in grouping.prescribed)),
-                    _record(*_shown(e, contacts[e.contact][0], places)),
-                )
-                for e in grouping.elements
-            ],
-        ),
+    lists, groups = _groups(lowered.grouping)
+    turns = lowered.reduced.symbols.turns
+    turned = [_record(t.coordinate, _record(*t.speeds), int(t.own_axes)) for t in turns]
+    return [
+        _array("frot_contact", "contacts", list(_contacts(lowered, places))),
+        _array("frot_element", "elements", list(_elements(lowered, places))),
+        *lists,
+        _array("frot_turn", "turns", turned),
+        _array("frot_group", "groups", groups),
+        *(_array("int", name, [str(i) for i in x]) for name, x in _whereabouts(lowered).items()),
     ]
+
+
+def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
+    """Those of the mechanism, then the items of the text in which something rubs."""
+    reduced = lowered.reduced
+    sliding = {e.contact: k for k, e in enumerate(lowered.grouping.elements) if not e.rolling}
+
+    def one(name: str, span: Span | None, *fields: int) -> str:
+        row, kept, slides, mode, kinematic = fields
+        return _record(
+            *(_text(name), _text(_place(span)), row, kept, slides),
+            *(places.get(f"{name}.power", -1), places[f"{name}.mode"] if mode else -1, kinematic),
+        )
+
+    links = reduced.mechanism.contacts
+    for k, (link, rows) in enumerate(zip(links, reduced.contact_rows, strict=True)):
+        never = link.rolls and not link.reduced
+        slides = _NEVER_SLIPS if never else sliding.get(k, -1)
+        row = rows.reaction[0] if link.has_normal else -1
+        told = (row, int(link.reduced), slides, int(link.first), int(link.kinematic))
+        yield one(link.liaison.name, link.liaison.span, *told)
+    for k, element in enumerate(lowered.system.elements, len(links)):
+        yield one(element.name, element.span, -1, 1, sliding.get(k, -1), 1, 0)
+
+
+def _elements(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
+    links = lowered.reduced.mechanism.contacts
+    names = [*(x.liaison.name for x in links), *(x.name for x in lowered.system.elements)]
+    for e in lowered.grouping.elements:
+        yield _record(
+            *(e.contact, e.bound.value, e.row),
+            _record(*(*e.bounded_by, -1, -1)[:2]),
+            *(int(e.rolling), int(e.fixed), int(e.row in lowered.grouping.prescribed)),
+            _record(*_shown(e, names[e.contact], places)),
+        )
+
+
+def _groups(grouping: Grouping) -> tuple[list[str], list[str]]:
+    """The lists of what each group has, and the records that point at them."""
+    arrays: list[str] = []
     records: list[str] = []
     at = [0] * len(_PACKED)
     for k, g in enumerate(grouping.groups):
@@ -98,17 +108,22 @@ def mechanical_arrays(lowered: Lowered) -> list[str]:
         along = (g.tree.width, len(g.tree.steps), steps) if g.tree else (0, 0, "0")
         records.append(_record(*counts, *names, *at, *along))
         at = [a + size for a, size in zip(at, _group_sizes(g), strict=True)]
-    groups = grouping.groups
+    return arrays, records
+
+
+def _whereabouts(lowered: Lowered) -> dict[str, Sequence[int]]:
+    """Where rows, contacts and speeds stand in their groups."""
+    grouping, system, groups = lowered.grouping, lowered.system, lowered.grouping.groups
     beside = {
         e.row: e.bounded_by[0]
         for e in grouping.elements
         if e.bound is Bound.NORMAL and not e.rolling
     }
-    motions = [m for h in reduced.mechanism.coordinates for m in h.motions]
+    motions = [m for h in lowered.reduced.mechanism.coordinates for m in h.motions]
     whether = [m.turns for m in motions for _ in range(m.speed_count)]
-    own = zip(_symbols(reduced.symbols.v), whether, strict=True)
+    own = zip(_symbols(lowered.reduced.symbols.v), whether, strict=True)
     turning = {speed for speed, turns in own if turns}
-    tables = {
+    return {
         "row_reads": grouping.row_reads,
         "row_beside": [beside.get(r, -1) for r in range(len(grouping.row_reads))],
         "row_group": _places({r: k for k, g in enumerate(groups) for r in g.rows}),
@@ -125,24 +140,13 @@ def mechanical_arrays(lowered: Lowered) -> list[str]:
         ],
         "speed_turns": [int(x in turning) for x in _symbols(system.v)],
     }
-    turns = reduced.symbols.turns
-    arrays.append(
-        _array(
-            "frot_turn",
-            "turns",
-            [_record(t.coordinate, _record(*t.speeds), int(t.own_axes)) for t in turns],
-        )
-    )
-    arrays.append(_array("frot_group", "groups", records))
-    arrays += [_array("int", name, [str(i) for i in table]) for name, table in tables.items()]
-    return arrays
 
 
 def _symbols(values: ca.SX) -> list[int]:
     return [x.element_hash() for x in ca.vertsplit(values)] if values.numel() else []
 
 
-def _shown(element: Element, name: str, places: dict[str, int]) -> tuple[int, int]:
+def _shown(element: Element, name: str, places: Mapping[str, int]) -> tuple[int, int]:
     """The variables that are the motion of an element of the liaison `name`."""
     if element.rolling or element.bound is Bound.VALUE:
         return -1, -1

@@ -5,20 +5,17 @@ from __future__ import annotations
 import itertools
 import re
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import casadi as ca
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.jacobian import alike
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.price import price_of_implicit
 from frot.compiler.lowering.symbols import column
+from frot.compiler.product.c_arrays import tables_of
 from frot.compiler.product.c_mechanics import MECHANICAL_TABLES, mechanical_arrays, packed_sizes
 from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import callable_record as _callable
-from frot.compiler.product.c_tables import number as _number
-from frot.compiler.product.c_tables import place as _place
 from frot.compiler.product.c_tables import record as _record
 from frot.compiler.product.c_tables import text as _text
 from frot.compiler.product.islands import island_arrays, read_numbers, shared_functions
@@ -40,111 +37,41 @@ _PATTERN = ("order", "start", "column", "diagonal", "entry_row", "entry_column",
 
 def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[float]) -> str:
     """The C text. `key` identifies it; `defaults` and `inputs` are start values in SI."""
-    reduced = lowered.reduced
-    symbols, model = reduced.symbols, reduced.mechanism.model
-    system, contacts = lowered.system, reduced.mechanism.contacts
-    tables = [
-        _array("double", "p_default", [_number(x) for x in defaults]),
-        _array("double", "u_default", [_number(x) for x in inputs]),
+    model = lowered.reduced.mechanism.model
+    tables = tables_of(lowered, defaults, inputs)
+    arrays = [
         *mechanical_arrays(lowered),
         *island_arrays(lowered),
-        _array(
-            "frot_check",
-            "checks",
-            [_record(c.rule, _text(c.subject), _text(_place(c.span))) for c in lowered.checks],
-        ),
-        _array(
-            "frot_carried",
-            "carried",
-            [_record(_text(c.body), _text(c.by), _text(_place(c.span))) for c in lowered.carried],
-        ),
-        _array(
-            "frot_statement",
-            "statements",
-            [
-                _record(_text(s.text), _text(_place(s.span)), _text(s.unit))
-                for s in lowered.statements
-            ],
-        ),
-        _array(
-            "frot_load",
-            "loads",
-            [_record(_text(f.name), _text(_place(f.span))) for f in reduced.mechanism.forces],
-        ),
-        _array(
-            "frot_load",
-            "equations",
-            [_record(_text(o.text), _text(_place(o.span))) for o in lowered.watched],
-        ),
-        _array(
-            "frot_vanishing",
-            "vanishings",
-            [
-                _record(_text(x.text), _text(_where(x.names)), _text(_place(x.liaison.span)))
-                for x in lowered.vanishing
-            ],
-        ),
-        _array(
-            "frot_held",
-            "held",
-            [_record(_text(h.name), _text(_place(h.span))) for h in reduced.text.held],
-        ),
-        _array("frot_load", "states", [_record(*x) for x in _states(system)]),
-        _array("int", "position_statement", [str(i) for i in lowered.position_statement]),
-        _array("int", "velocity_statement", [str(i) for i in lowered.velocity_statement]),
-        _array("int", "p_dependent", [str(int(x)) for x in lowered.dependent]),
-        _array("int", "p_type", [str(_type(p.type.base)) for p in symbols.parameters]),
-        _array(
-            "unsigned char",
-            "row_depends",
-            [str(int(x)) for row in lowered.row_depends for x in row],
-        ),
-        _array(
-            "frot_condition",
-            "conditions",
-            [
-                _record(_text(text), told, _text(_place(span)))
-                for text, told, span in zip(
-                    reduced.conditions.texts,
-                    reduced.conditions.told,
-                    reduced.conditions.spans,
-                    strict=True,
-                )
-            ],
-        ),
-        _array(
-            "unsigned char", "condition_strict", [str(int(x)) for x in reduced.conditions.strict]
-        ),
-        _array("int", "q_speed", [str(k) for k in system.q_speed]),
-        _array("int", "q_alike", [str(k) for k in alike(system)]),
+        *(_array(kind, name, items) for name, (kind, items) in tables.items()),
         *_pattern_arrays(lowered),
-        _array(
-            "frot_block",
-            "blocks",
-            [
-                _record(
-                    _callable(f),
-                    *(b.first, b.residual.numel(), int(b.linear), int(b.late)),
-                    _text(b.name),
-                    _text(_place(b.span)),
-                )
-                for b, f in zip(system.blocks, lowered.blocks, strict=True)
-            ],
-        ),
-        _array("int", "when_condition", [str(k) for k in reduced.events.conditions]),
-        _array("int", "mode_contact", [str(k) for k, _ in reduced.variables.modes.values()]),
-        _array("unsigned char", "when_at_start", [str(int(x)) for x in reduced.events.at_start]),
-        _array(
-            "frot_outcome",
-            "outcomes",
-            [
-                _record(o.kind, _text(o.text), _text(_place(o.span)))
-                for o in reduced.events.outcomes
-            ],
-        ),
     ]
-    callables = "\n".join(f"  .{n} = {_callable(f)}," for n, f in lowered.functions.items())
     fields = {
+        "name": _text(model.name),
+        "key": _text(key),
+        **_counts(lowered),
+        **{name: _callable(f) for name, f in lowered.functions.items()},
+        **{name: name for name in (*MECHANICAL_TABLES, *tables)},
+    }
+    return "\n".join(
+        (
+            f"/* Generated by Frot from {model.name}. Do not edit. */",
+            '#include "frot.h"',
+            "/* Only the model's table is seen from outside. */",
+            "#define CASADI_SYMBOL_EXPORT static",
+            _functions(lowered),
+            *arrays,
+            "const frot_model frot_the_model = {",
+            *(f"  .{name} = {value}," for name, value in fields.items()),
+            "};\n",
+        )
+    )
+
+
+def _counts(lowered: Lowered) -> dict[str, float | str]:
+    """The sizes of a model, and what it has or has not."""
+    reduced, system = lowered.reduced, lowered.system
+    symbols, contacts = reduced.symbols, reduced.mechanism.contacts
+    return {
         "nq": system.q.numel(),
         "nv": system.nv,
         "na": system.na,
@@ -190,62 +117,6 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "n_variables": len(lowered.variables),
         "n_loads": len(reduced.mechanism.forces),
     }
-    numbers = "\n".join(f"  .{name} = {value}," for name, value in fields.items())
-    pointers = "\n".join(
-        f"  .{name} = {name},"
-        for name in [
-            "p_default",
-            "u_default",
-            *MECHANICAL_TABLES,
-            "checks",
-            "carried",
-            "statements",
-            "loads",
-            "states",
-            "held",
-            "vanishings",
-            "equations",
-            "position_statement",
-            "velocity_statement",
-            "p_dependent",
-            "p_type",
-            "row_depends",
-            "conditions",
-            "condition_strict",
-            "q_speed",
-            "q_alike",
-            "blocks",
-            "when_condition",
-            "mode_contact",
-            "when_at_start",
-            "outcomes",
-        ]
-    )
-    return (
-        f"/* Generated by Frot from {model.name}. Do not edit. */\n"
-        '#include "frot.h"\n'
-        "/* Only the model's table is seen from outside. */\n"
-        "#define CASADI_SYMBOL_EXPORT static\n"
-        f"{_functions(lowered)}\n" + "\n".join(tables) + "\nconst frot_model frot_the_model = {\n"
-        f"  .name = {_text(model.name)},\n  .key = {_text(key)},\n"
-        f"{numbers}\n{callables}\n{pointers}\n}};\n"
-    )
-
-
-def _where(names: tuple[str, ...]) -> str:
-    """The words for the numbers of a place, with their form."""
-    told = ", ".join(f"{name} = %.6g" for name in names)
-    return f" at {told}" if told else ""
-
-
-def _states(system: Assembled) -> Iterator[tuple[str, str]]:
-    """Names and places of the coordinates and speeds."""
-    chains = system.reduced.text.chains
-    for x in (system.q, system.v):
-        for symbol in ca.vertsplit(x) if x.numel() else ():
-            chain, _ = chains.place.get(symbol.element_hash(), (-1, 0))
-            span = chains.items[chain].span if chain >= 0 else None
-            yield _text(symbol.name()), _text(_place(span) if span is not None else "")
 
 
 def _pattern(lowered: Lowered) -> str:
@@ -327,7 +198,3 @@ def _functions(lowered: Lowered) -> str:
     text = _UNASKED.sub("", _ABSENT.sub(r"\2", text))
     text = split_functions(read_numbers(text, lowered))
     return (_QUICK + text) if len(text) > _LONG else text
-
-
-def _type(base: str) -> int:
-    return {"real": 0, "integer": 1, "boolean": 2}[base]

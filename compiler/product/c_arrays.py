@@ -1,0 +1,105 @@
+"""The tables of a model that are not mechanics: values, checks, statements, conditions, blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+import casadi as ca
+from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.lowering.jacobian import alike
+from frot.compiler.lowering.lower import Lowered
+from frot.compiler.product.c_tables import callable_record, number, place, record, text
+from frot.dsl.messages.source import Span
+
+# The type of C, and the items.
+Table = tuple[str, list[str]]
+
+
+def tables_of(
+    lowered: Lowered, defaults: Sequence[float], inputs: Sequence[float]
+) -> Mapping[str, Table]:
+    """By the names of the fields of `frot_model` that point at them."""
+    reduced, system = lowered.reduced, lowered.system
+    conditions, events = reduced.conditions, reduced.events
+    told = zip(conditions.texts, conditions.told, conditions.spans, strict=True)
+    return {
+        "p_default": ("double", [number(x) for x in defaults]),
+        "u_default": ("double", [number(x) for x in inputs]),
+        "checks": ("frot_check", [record(x.rule, *_at(x.subject, x.span)) for x in lowered.checks]),
+        "carried": (
+            "frot_carried",
+            [record(text(x.body), *_at(x.by, x.span)) for x in lowered.carried],
+        ),
+        "statements": (
+            "frot_statement",
+            [record(*_at(x.text, x.span), text(x.unit)) for x in lowered.statements],
+        ),
+        "loads": ("frot_load", [record(*_at(x.name, x.span)) for x in reduced.mechanism.forces]),
+        "equations": ("frot_load", [record(*_at(x.text, x.span)) for x in lowered.watched]),
+        "vanishings": (
+            "frot_vanishing",
+            [
+                record(text(x.text), text(_where(x.names)), text(place(x.liaison.span)))
+                for x in lowered.vanishing
+            ],
+        ),
+        "held": ("frot_held", [record(*_at(x.name, x.span)) for x in reduced.text.held]),
+        "states": ("frot_load", [record(*x) for x in _states(system)]),
+        "position_statement": ("int", _whole(lowered.position_statement)),
+        "velocity_statement": ("int", _whole(lowered.velocity_statement)),
+        "p_dependent": ("int", _whole(lowered.dependent)),
+        "p_type": ("int", [str(_TYPES[p.type.base]) for p in reduced.symbols.parameters]),
+        "row_depends": ("unsigned char", _whole(x for row in lowered.row_depends for x in row)),
+        "conditions": ("frot_condition", [record(text(a), b, text(place(c))) for a, b, c in told]),
+        "condition_strict": ("unsigned char", _whole(conditions.strict)),
+        "q_speed": ("int", _whole(system.q_speed)),
+        "q_alike": ("int", _whole(alike(system))),
+        "blocks": ("frot_block", _blocks(lowered)),
+        "when_condition": ("int", _whole(events.conditions)),
+        "mode_contact": ("int", _whole(k for k, _ in reduced.variables.modes.values())),
+        "when_at_start": ("unsigned char", _whole(events.at_start)),
+        "outcomes": (
+            "frot_outcome",
+            [record(x.kind, *_at(x.text, x.span)) for x in events.outcomes],
+        ),
+    }
+
+
+def _at(words: str, span: Span | None) -> tuple[str, str]:
+    """What is said, and of which place."""
+    return text(words), text(place(span))
+
+
+def _whole(values: Iterable[int]) -> list[str]:
+    """Whole numbers; what holds or not is 1 or 0."""
+    return [str(int(x)) for x in values]
+
+
+def _blocks(lowered: Lowered) -> list[str]:
+    return [
+        record(
+            callable_record(f),
+            *(b.first, b.residual.numel(), int(b.linear), int(b.late)),
+            *_at(b.name, b.span),
+        )
+        for b, f in zip(lowered.system.blocks, lowered.blocks, strict=True)
+    ]
+
+
+def _where(names: tuple[str, ...]) -> str:
+    """The words for the numbers of a place, with their form."""
+    told = ", ".join(f"{name} = %.6g" for name in names)
+    return f" at {told}" if told else ""
+
+
+def _states(system: Assembled) -> Iterator[tuple[str, str]]:
+    """Names and places of the coordinates and speeds."""
+    chains = system.reduced.text.chains
+    for x in (system.q, system.v):
+        for symbol in ca.vertsplit(x) if x.numel() else ():
+            chain, _ = chains.place.get(symbol.element_hash(), (-1, 0))
+            span = chains.items[chain].span if chain >= 0 else None
+            yield text(symbol.name()), text(place(span) if span is not None else "")
+
+
+_TYPES = {"real": 0, "integer": 1, "boolean": 2}
