@@ -1,7 +1,8 @@
 """What a mechanism does turned, moved, gliding, renumbered, cut elsewhere, and in the plane.
 
-One text holds a mechanism with tree and loop; parameters turn, move and push it, so that it is
-compiled once. Weight is a force of the text, which turns with the mechanism.
+One text holds a mechanism with tree and loop, another all liaisons of the table; parameters turn,
+move and push them, so that each is compiled once. Weight is a force of the text, which turns with
+the mechanism.
 """
 
 from __future__ import annotations
@@ -10,7 +11,10 @@ import numpy as np
 import pytest
 
 import frot
+from tests.liaisons.table import JOINTS as TABLE
 from tests.liaisons.table import turned, unit
+from tests.liaisons.test_table import G, H, K, first, second, stands, value
+from tests.space.newton_euler import vector
 
 BODIES = {
     "left": "body left: rod(mass = 1 kg, length = 1 m, inertia = (0.01, 0.1, 0.1) kg.m^2);",
@@ -155,3 +159,94 @@ def test_written_in_the_plane_it_moves_alike(plain: tuple[frot.Model, frot.Resul
     assert np.abs(flat["D.angle"] + still["D.angle"]).max() < 1e-10
     assert np.abs(flat["f.x"] - still["f.x"]).max() < 1e-8
     assert np.abs(flat["f.y"] - still["f.z"]).max() < 1e-8
+
+
+BASE = """
+  parameter Angle tilt = 0 rad;
+  parameter Length x = 0 m, y = 0 m, z = 0 m;
+  parameter Velocity u = 0 m/s, v = 0 m/s, w = 0 m/s;
+  parameter Acceleration g = 9.81 m/s^2;
+  world(gravity = 0 m/s^2);
+  frame base on ground at (x + u*time, y + v*time, z + w*time)
+    rotated(axis = (1, 2, 3), angle = tilt);
+  frame f0 on base at (0.1, 0.2, 0.3) m rotated(axis = (1, 2, 3), angle = 20 deg);"""
+FREE = {"orientation": "(1, 0, 0, 0)"}
+
+
+def two(kind: str) -> tuple[str, str]:
+    """A box on the base in a liaison, and one on that box; where they begin."""
+    row = TABLE[kind]
+    weights = "".join(
+        f"\n  force w{b}_{kind}: on({b}_{kind}, value = -{m} kg*g*base.ez);"
+        for b, m in (("p", 2), ("q", 1))
+    )
+    liaisons = f"""
+  liaison A_{kind}: {kind}(f0, g_{kind}{row.options});
+  liaison B_{kind}: {kind}(h_{kind}, k_{kind}{row.options});
+  output Force a_{kind} = norm(A_{kind}.force);
+  output Force b_{kind} = norm(B_{kind}.force);"""
+    begins = "".join(
+        f"\n  {liaison}_{kind}.{name} = {FREE.get(name) or value(name, '0.2')};"
+        for liaison in "AB"
+        for name in row.coordinates
+    )
+    if kind != "encastrement":
+        begins += (
+            f"\n  guess(p_{kind}.velocity = base.velocity, q_{kind}.velocity = base.velocity);"
+        )
+    return first(kind) + second(kind) + weights + liaisons, begins
+
+
+@pytest.fixture(scope="module")
+def rows() -> tuple[frot.Model, frot.Result]:
+    parts, begins = zip(*(two(kind) for kind in TABLE), strict=True)
+    model = frot.compile(f"""
+model Rows "Each liaison that coordinates keep, anywhere"{BASE}{"".join(parts)}
+initial{"".join(begins)}
+  experiment(stop = 0.6 s, tolerance = 1e-12);
+end Rows;
+""")
+    return model, model.simulate()
+
+
+@pytest.mark.parametrize("given", PLACED)
+def test_each_liaison_moves_alike_turned_moved_and_gliding(
+    rows: tuple[frot.Model, frot.Result], given: dict[str, float]
+) -> None:
+    model, still = rows
+    result = model.simulate(parameters=given)
+    turn = turned(unit(1, 2, 3), given.get("tilt", 0.0))
+    at = np.array([[given.get(c, 0.0)] for c in "xyz"])
+    at = at + np.array([[given.get(c, 0.0)] for c in "uvw"]) * result.time
+    for kind in TABLE:
+        for body in (f"p_{kind}", f"q_{kind}"):
+            want = at + turn @ places(still, body)
+            assert np.abs(places(result, body) - want).max() < 1e-10, body
+        if kind != "libre":
+            for name in (f"a_{kind}", f"b_{kind}"):
+                assert np.abs(result[name] - still[name]).max() < 1e-8, name
+        if kind != "encastrement":
+            assert np.ptp(still[f"q_{kind}.position.z"]) > 1e-3
+
+
+@pytest.mark.parametrize("kind", [x for x in TABLE if x != "libre"])
+def test_the_reactions_of_each_liaison_have_no_power(
+    rows: tuple[frot.Model, frot.Result], kind: str
+) -> None:
+    """At the places of a and b, which a slide or a plane keeps apart."""
+    _, result = rows
+    for t in (0.0, 0.2, 0.5):
+        at = result.at(t)
+        for liaison, a, b in (("A", None, ("p", G)), ("B", ("p", H), ("q", K))):
+            force, couple = (vector(at, f"{liaison}_{kind}.{x}") for x in ("force", "torque"))
+            power, size = 0.0, np.abs(force).max() + np.abs(couple).max()
+            for sign, end in ((1, b), (-1, a)):
+                if end is None:
+                    continue
+                body = f"{end[0]}_{kind}"
+                turn = vector(at, f"{body}.angular_velocity")
+                # the force acts at the place b on both
+                there = stands(at, f"{b[0]}_{kind}", b[1])[0] - vector(at, f"{body}.position")
+                moves = vector(at, f"{body}.velocity") + np.cross(turn, there)
+                power += sign * (force @ moves + couple @ turn)
+            assert abs(power) <= 1e-11 * max(size, 1.0), (liaison, t)
