@@ -128,29 +128,47 @@ static int is_in_doubt(const frot_instant *in, int e) {
   return is_still(in, element->row) && is_carried(in, element->row);
 }
 
-/* Whether what the accelerations leave in doubt goes on as the modes say: what is held in this
- * posture alone must stay at rest when the mechanism moves on, what slips must slip. */
-static int goes_on(const frot_instant *in, const frot_group *g) {
+/* What is held in this posture alone must stay at rest when the mechanism moves on, what slips must
+ * slip. Whether element e goes against that a little later. */
+static int goes_against(const frot_instant *in, int e) {
+  const frot_contact_mode *mode = frot_element_mode(in->m, in->w->search.trial, e);
+  int ahead = in->w->search.ahead[e];
+  if (!in->w->search.trial[in->m->elements[e].contact].closed) return 0;
+  if (mode->friction == FROT_STICK) return ahead != 0;
+  return in->w->search.departs[e] && ahead != (mode->friction == FROT_SLIP_FORWARD ? 1 : -1);
+}
+
+/* Look at the slips a little later if the accelerations leave any in doubt; returns whether they
+ * do, -1 where it cannot be seen. */
+static int look_at_doubts(const frot_instant *in, const frot_group *g) {
   const frot_model *m = in->m;
+  unsigned char *departs = in->w->search.departs;
   int doubt = !g->general && in->w->reactions.dependent;
+  memset(departs, 0, (size_t)m->n_elements);
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
-    if (!in->w->search.trial[m->elements[e].contact].closed || !is_in_doubt(in, e)) continue;
-    if (g->general) return 0;
-    doubt = 1;
+    departs[e] = in->w->search.trial[m->elements[e].contact].closed && is_in_doubt(in, e);
+    if (departs[e] && g->general) return -1;
+    doubt |= departs[e];
   }
-  if (!doubt) return 1;
-  unsigned char *departs = in->w->search.departs;
-  for (int e = 0; e < m->n_elements; e++)
-    departs[e] = m->row_group[m->elements[e].row] == m->contact_group[g->contacts[0]] &&
-                 in->w->search.trial[m->elements[e].contact].closed && is_in_doubt(in, e);
-  if (frot_look_ahead(in, g) != FROT_OK) return 0;
+  return doubt && frot_look_ahead(in, g) != FROT_OK ? -1 : doubt;
+}
+
+/* Whether what the accelerations leave in doubt goes on as the modes say. */
+static int goes_on(const frot_instant *in, const frot_group *g) {
+  int doubt = look_at_doubts(in, g), *against = &in->w->search.against;
+  for (int i = 0; i < g->n_elements && doubt > 0; i++) *against += goes_against(in, g->elements[i]);
+  return doubt >= 0 && *against == 0;
+}
+
+int frot_follow_ahead(const frot_instant *in, const frot_group *g) {
+  if (in->w->search.against == 0) return 0;
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i], ahead = in->w->search.ahead[e];
-    const frot_contact_mode *mode = frot_element_mode(m, in->w->search.trial, e);
-    if (!in->w->search.trial[m->elements[e].contact].closed) continue;
-    if (mode->friction == FROT_STICK && ahead != 0) return 0;
-    if (departs[e] && ahead != (mode->friction == FROT_SLIP_FORWARD ? 1 : -1)) return 0;
+    frot_contact_mode *mode = in->w->search.trial + in->m->n_contacts + e;
+    if (!goes_against(in, e)) continue;
+    mode->friction = ahead > 0 ? FROT_SLIP_FORWARD : ahead < 0 ? FROT_SLIP_BACKWARD : FROT_STICK;
+    mode->at_bound = 0;
   }
   return 1;
 }
@@ -242,6 +260,7 @@ int frot_is_admissible(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
+  w->search.against = 0;
   memcpy(w->reactions.along, in->s->data + in->l.along, sizeof(double) * 2 * (size_t)m->n_elements);
   if (frot_group_reactions(m, w, g, w->search.trial, in->resists)) return 0;
   if (!w->reactions.dependent) return frot_reactions_hold(in, chosen, count) && goes_on(in, g);

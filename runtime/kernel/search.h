@@ -42,6 +42,11 @@ double frot_pressure(const frot_instant *in, int contact);
 /* Whether the reactions as they are satisfy every inequality of the contacts. */
 int frot_reactions_hold(const frot_instant *in, const int *chosen, int count);
 
+/* Where frot_is_admissible has found that some elements, of which the accelerations say nothing, go
+ * against their modes a little later: give them the slip that they have then. Returns whether there
+ * are any. */
+int frot_follow_ahead(const frot_instant *in, const frot_group *g);
+
 /* Where reactions are not unique: whether they hold with some elements at their bounds and some
  * contacts without load, which are set in w->search.trial (others.c). */
 int frot_others_carry(const frot_instant *in, const int *chosen, int count);
