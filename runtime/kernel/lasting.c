@@ -133,12 +133,14 @@ static int move_on(const frot_instant *in, const frot_group *own, double dt, dou
                       &moved);
 }
 
-/* Whether nothing that was zero has fallen below in the meantime; *slow is set where something has
- * moved so little that it does not show. A reaction that may have either sign and was zero shows it
- * now; one that was only small comes to zero at an event of its own. */
+/* Whether nothing that was zero has fallen below in the meantime; *slow is 1 + what has fallen
+ * most, of that which has moved so little that it does not show (a contact, or n_contacts + an
+ * element). A reaction that may have either sign and was zero shows it now; one that was only small
+ * comes to zero at an event of its own. */
 static int still_holds(const frot_instant *in, const int *chosen, int count, int *slow) {
   const frot_model *m = in->m;
   const double *margin = in->w->search.margin;
+  double least = 0;
   for (int c = 0; c < count; c++) {
     int i = chosen[c];
     const frot_contact_mode *mode = &in->w->search.trial[i];
@@ -148,15 +150,15 @@ static int still_holds(const frot_instant *in, const int *chosen, int count, int
         if (margin[i] <= FROT_ZERO) frot_turn_side(in, i);
       } else if (now < 0 && now < margin[i] - CLEARLY) {
         return 0;
-      } else {
-        *slow |= now < 0;
+      } else if (now < least) {
+        *slow = i + 1, least = now;
       }
     }
     for (int e = 0; e < m->n_elements; e++) {
       if (m->elements[e].contact != i || !(margin[m->n_contacts + e] < 1)) continue;
       double now = frot_margin_of_element(in, e);
       if (now < 0 && now < margin[m->n_contacts + e] - CLEARLY) return 0;
-      *slow |= now < 0;
+      if (now < least) *slow = m->n_contacts + e + 1, least = now;
     }
   }
   return 1;
@@ -168,6 +170,7 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count) {
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
   double *q = w->step.z, *v = q + m->nq;
   const double *d = in->s->data + in->l.d;
+  w->search.falls = 0;
   if (!note_margins(in, chosen, count)) return 1;
   frot_accelerations(m, w, w->search.nothing_frozen);
   if (m->late_rates && (frot_solve_late(m, in->s, w, in->t, in->q, in->v, d) != FROT_OK ||
@@ -187,5 +190,6 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count) {
   memcpy(v, in->v, sizeof(double) * (size_t)m->nv);
   evaluate(in, in->t, q, v);
   frot_group_reactions(m, w, g, w->search.trial, in->resists);
+  w->search.falls = slow;
   return lasts;
 }

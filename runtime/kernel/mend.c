@@ -70,8 +70,8 @@ static int violated(const frot_instant *in, const int *chosen, int count, int fi
 
 /* What is violated changes: a contact opens, closes or presses on its other side, a rest ends in
  * the direction that its reaction is beyond the bound of, a slip that would start backward rests
- * or, if it has departed, turns. Returns 0 where that may not be. */
-static int change(const frot_instant *in, int k, int forced) {
+ * or, if it has departed, turns. */
+int frot_change_mode(const frot_instant *in, int k, int forced) {
   const frot_model *m = in->m;
   frot_contact_mode *mode = &in->w->search.trial[k];
   int i = k, e = k - m->n_contacts;
@@ -97,7 +97,7 @@ static int mend(const frot_instant *in, const int *chosen, int count, int forced
     if (frot_group_reactions(in->m, in->w, g, in->w->search.trial, in->resists)) return 0;
     int k = violated(in, chosen, count, round >= WORST * all, exactly);
     if (k < 0 && frot_is_admissible(in, chosen, count)) return 1;
-    if (k < 0 ? !frot_follow_ahead(in, g) : !change(in, k, forced)) return 0;
+    if (k < 0 ? !frot_follow_ahead(in, g) : !frot_change_mode(in, k, forced)) return 0;
   }
   return 0;
 }

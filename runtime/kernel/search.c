@@ -13,9 +13,9 @@ static int same(const frot_contact_mode *a, const frot_contact_mode *b) {
   return a->closed == b->closed && a->friction == b->friction && (!a->closed || a->side == b->side);
 }
 
-/* How much a combination is preferred: what needs no slack first; then rest, then continuity, or
- * the other way round. */
-static long long preference(const frot_instant *in, const int *chosen, int count) {
+/* How much a combination is preferred: what needs no slack first; what will need none, if it was
+ * looked for; then rest, then continuity, or the other way round. */
+static long long preference(const frot_instant *in, const int *chosen, int count, int lasting) {
   const frot_model *m = in->m;
   long long rest = 0, kept = 0;
   int own[FROT_LAWS_OF_CONTACT];
@@ -29,7 +29,8 @@ static long long preference(const frot_instant *in, const int *chosen, int count
     }
   }
   long long big = (1 + FROT_LAWS_OF_CONTACT) * m->n_contacts + 1;
-  long long exact = frot_is_exact(in, chosen, count) ? big * big : 0;
+  long long exact = frot_is_exact(in, chosen, count) ? 2 * big * big : 0;
+  if (lasting && !in->w->search.falls) exact += big * big;
   int continues = in->s->options.on_indeterminate == FROT_CONTINUE;
   return exact + (continues ? kept * big + rest : rest * big + kept);
 }
@@ -92,7 +93,7 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
   memcpy(w->search.guess, w->search.trial, sizeof *w->search.trial * modes);
   for (;;) {
     if (frot_is_admissible(in, chosen, count) && (!lasting || frot_lasts(in, chosen, count))) {
-      long long rank = preference(in, chosen, count);
+      long long rank = preference(in, chosen, count, lasting);
       motions = count_motion(in, chosen, motions);
       if (!any || rank > best) best = rank, remember(in, chosen, count);
       any = 1;
@@ -152,13 +153,22 @@ static int left_here(const frot_instant *in, int i) {
   return any;
 }
 
-/* The guess of the modes mended until they are admissible: one motion, or none. */
+/* The guess of the modes mended until they are admissible: one motion, or none. What falls later,
+ * though no more than slack admits, is changed in turn. */
 static int mend_guess(const frot_instant *in, const int *chosen, int count, int forced,
                       int lasting) {
-  if (!frot_mend_modes(in, chosen, count, forced)) return 0;
-  if (lasting && !frot_lasts(in, chosen, count)) return 0;
-  remember(in, chosen, count);
-  return 1;
+  int first = 0, *falls = &in->w->search.falls;
+  for (int tries = 0; tries <= count; tries++) {
+    if (!frot_mend_modes(in, chosen, count, forced)) break;
+    if (lasting && !frot_lasts(in, chosen, count)) break;
+    int better = tries == 0 || (*falls == 0 && frot_is_exact(in, chosen, count));
+    if (better) remember(in, chosen, count);
+    if (better && (!lasting || *falls == 0)) return 1;
+    if (tries == 0) first = *falls;
+    if (!frot_change_mode(in, *falls - 1, forced)) break;
+  }
+  *falls = first;
+  return first != 0;
 }
 
 /* One motion by pivoting; where it needs slack what it leaves in doubt is examined. `ends`: a rest
@@ -169,7 +179,9 @@ static int search_near(const frot_instant *in, const int *chosen, int count, int
   frot_option lists[FROT_OPTIONS];
   double combinations = 1;
   frot_guess_modes(in, chosen, count, ends, certain);
-  if (mend_guess(in, chosen, count, forced, lasting) && in->w->search.exact) return 1;
+  if (mend_guess(in, chosen, count, forced, lasting) && in->w->search.exact &&
+      !(lasting && in->w->search.falls))
+    return 1;
   frot_guess_modes(in, chosen, count, ends, certain);
   for (int c = 0; c < count; c++) {
     int options = frot_contact_options(in, chosen[c], forced, lists);

@@ -117,5 +117,8 @@ void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int 
 /* Change the modes of w->search.trial one by one, the worst first, until they are admissible;
  * `forced` as in frot_search. Returns whether they are (mend.c). */
 int frot_mend_modes(const frot_instant *in, const int *chosen, int count, int forced);
+/* Change what is violated in w->search.trial: contact k, or element k - n_contacts. Returns 0 where
+ * that may not be. */
+int frot_change_mode(const frot_instant *in, int k, int forced);
 
 #endif
