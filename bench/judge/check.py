@@ -286,7 +286,7 @@ class Judge:
         word = "c" if isinstance(c, Pin) else "t"
         if c.mu is not None:
             arm = 1.0 if isinstance(c, Contact) else (c.radius.at(now.look) if c.radius else 1.0)
-            self.friction(joint, row, loads, t, word, normal, mode, load * arm)
+            self.friction(joint, row, loads, t, word, normal, mode, load, 1e-3 * arm)
         elif word in z:
             self.found.hold("no friction", z[word], 0.0, t, name)
         if isinstance(c, Contact) and c.delta is not None:
@@ -302,19 +302,24 @@ class Judge:
         normal: float,
         mode: int,
         load: float,
+        least: float,
     ) -> None:
-        """Coulomb: rest within the bound, exactly the bound in motion, against the slip."""
+        """Coulomb: rest within the bound, exactly the bound in motion, against the slip.
+
+        A pin's coefficient has its radius in it; where it is below `least` rounding is that of
+        `least`.
+        """
         name, r = joint.liaison.name, joint.rows[word]
         force = loads.reactions[name][word]
         largest = max(joint.mu_s, joint.mu)
-        small = (SLACK * self.tol + 1e-9) * largest * load + 1e-11 * max(largest, 1e-3) * load
+        small = (SLACK * self.tol + 1e-9) * largest * load + 1e-11 * max(largest, least) * load
         slip = row.get(f"{name}.slip", r.rate)
         if mode == STICK:
             self.found.hold("held slip", slip, 0.0, t, name)
             self.found.hold("cone", max(0.0, abs(force) - joint.mu_s * normal), small, t, name)
             self.held_acceleration("held acceleration", loads, r, t, name)
             return
-        rounding = EXACT * (joint.mu * normal + abs(force)) + 1e-11 * max(joint.mu, 1e-3) * load
+        rounding = EXACT * (joint.mu * normal + abs(force)) + 1e-11 * max(joint.mu, least) * load
         self.found.hold("law", abs(force) - joint.mu * normal, rounding, t, name)
         way = slip
         if slip == 0:  # leaves rest now

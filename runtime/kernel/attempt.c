@@ -165,6 +165,8 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   a->to_due = 0;
   a->rejections++;
   int unfound = s->implicit && status == FROT_DIVERGE && frot_has_motion(m);
+  if (status == FROT_OK && a->ratio > 1 && w->step.worst < 0 && a->rejections % PATIENCE == 0)
+    frot_measure_end(m, s, w, t + h, w->step.z1); /* a guard: of what size its terms are now */
   if ((a->ratio > 1 && w->step.noisy > NOISY) ||
       ((a->ratio > 1 || unfound) && a->rejections % PATIENCE == 0))
     measure_noise(m, s, w, t + h);

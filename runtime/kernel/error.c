@@ -79,7 +79,8 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       double largest = FROT_GUARD_LOOSEST * s->data[l->scale_g + w->guards.list[j - n]];
       for (int k = 0; k <= DP_STAGES; k++) largest = fmax(largest, fabs(frot_stage(w, k)[j]));
       bound = guard_tolerance * h * largest;
-      noise = FROT_NOISE_MARGIN * h * frot_guard_noise(m, s, w, w->guards.list[j - n], h);
+      double measured = frot_guard_noise(m, s, w, w->guards.list[j - n], h);
+      noise = FROT_NOISE_MARGIN * h * fmax(measured, FROT_GUARD_FLOOR * w->guards.size[j - n]);
     }
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
     double error = joint > 0 ? fifth * fifth / joint : joint;

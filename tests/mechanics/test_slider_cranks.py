@@ -75,3 +75,47 @@ def test_a_pendulum_rejects_no_more() -> None:
     )
     tried = frot.compile(text).simulate(stop=100.0, tolerance=1e-9).figures
     assert tried.rejected < 0.05 * (tried.steps + tried.rejected)
+
+
+SECOND = """
+  body bielle2: rod(mass = 1 kg, length = 260 mm);
+  body piston2: particle(mass = 0.8 kg);
+  liaison A2: rotoide(crank.tip, bielle2.start) with coulomb(mu, radius = pin);
+  liaison B2: rotoide(bielle2.tip, piston2)     with coulomb(mu, radius = pin);
+  curve across on ground: line(through = (0, 0) m, direction = (0, 1));
+  liaison C2: point_courbe(piston2, across)     with coulomb(mu_g, mu_s = 1.25*mu_g);
+  force motor"""
+
+
+@pytest.fixture(scope="module")
+def two_cranks() -> frot.Model:
+    text = PLAIN.read_text(encoding="utf-8")
+    for old, new in {**CHANGES, "\n  force motor": SECOND}.items():
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    return frot.compile(text)
+
+
+@pytest.mark.parametrize(
+    ("start", "mu", "mu_g", "couple", "tolerance"),
+    [
+        (math.pi, 0.0011, 0.29, -11.6, 1e-8),
+        (0.0, 0.0028, 0.11, -8.6, 1e-6),
+        (math.pi / 2, 0.004, 0.12, -2.2, 1e-10),
+        (0.0, 0.0025, 0.036, 9.7, 1e-4),
+        (math.pi, 0.13, 0.28, 10.4, 1e-6),
+        (math.pi / 2, 0.0, 0.1, 5.0, 1e-8),
+    ],
+)
+def test_two_dry_slider_cranks_start_where_one_is_in_a_dead_centre(
+    two_cranks: frot.Model, start: float, mu: float, mu_g: float, couple: float, tolerance: float
+) -> None:
+    """Seven dry liaisons: too many modes to look at each, and no acceleration tells one slip's."""
+    given = {"start": start, "mu": mu, "mu_g": mu_g, "c": couple}
+    result = two_cranks.simulate(stop=0.4, tolerance=tolerance, parameters=given)
+    reference = two_cranks.simulate(stop=0.4, tolerance=1e-12, parameters=given)
+    speed, turned = reference["O.speed"], np.abs(reference["O.angle"]).max()
+    assert np.abs(speed).max() > 1
+    error = np.abs(result["O.speed"] - speed).max() / np.abs(speed).max()
+    assert error < 30 * tolerance * max(1, turned) + 1e-9
+    assert abs(result.balance.residual) <= 1e3 * tolerance * result.balance.scale
