@@ -286,7 +286,7 @@ class Judge:
         word = "c" if isinstance(c, Pin) else "t"
         if c.mu is not None:
             arm = 1.0 if isinstance(c, Contact) else (c.radius.at(now.look) if c.radius else 1.0)
-            self.friction(joint, row, loads, t, word, normal, mode, load, 1e-3 * arm)
+            self.friction(joint, row, loads, t, word, normal, mode, load, least=1e-3 * arm)
         elif word in z:
             self.found.hold("no friction", z[word], 0.0, t, name)
         if isinstance(c, Contact) and c.delta is not None:
@@ -302,6 +302,7 @@ class Judge:
         normal: float,
         mode: int,
         load: float,
+        *,
         least: float,
     ) -> None:
         """Coulomb: rest within the bound, exactly the bound in motion, against the slip.
