@@ -15,6 +15,7 @@
 #include "inertia.h"
 #include "islands.h"
 #include "linear.h"
+#include "problem.h"
 #include "tolerances.h"
 
 void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
@@ -185,12 +186,11 @@ static int holds_for_good(const frot_state *s, const frot_work *w, const frot_gr
   return 1;
 }
 
-/* A is a mass matrix. */
-static int symmetric_group(const frot_model *m, const frot_state *s, frot_work *w,
-                           const frot_group *g, int wanted) {
-  int ns = g->n_speeds, count, acting = list_wanted(m, w, g, &count);
-  int status = frot_factor(w, g);
-  if (status != FROT_OK) return status;
+/* Rows and readings by themselves: L^-1 of each, and its value without reactions. Of these the
+ * first *acting are rows that act; returns how many there are. */
+static int form_rows(const frot_model *m, frot_work *w, const frot_group *g, int *acting) {
+  int ns = g->n_speeds, count;
+  *acting = list_wanted(m, w, g, &count);
   for (int first = 0; first < count; first += FROT_ABREAST) {
     double *four = w->core.abreast + first * ns, free[FROT_ABREAST];
     halve_four(m, w, g, first, count, four);
@@ -203,27 +203,46 @@ static int symmetric_group(const frot_model *m, const frot_state *s, frot_work *
       w->core.free[r] = free[c] + (reads >= 0 ? -w->core.h[g->unknowns[reads]] : w->core.c[r]);
     }
   }
-  unsigned char *formed = &w->core.formed[g - m->groups];
-  *formed = wanted == FROT_LAWS || acting < count || !holds_for_good(s, w, g);
-  if (!*formed) return FROT_OK;
+  return count;
+}
+
+/* What those that act do to each other and to readings, right after form_rows. */
+static void form_effects(const frot_model *m, frot_work *w, const frot_group *g, int count,
+                         int acting) {
   for (int first = 0; first < count; first += FROT_ABREAST)
     for (int other = 0; other < acting; other += FROT_ABREAST)
       effects_of_four(m, w, g, first, count, other, acting);
+}
+
+/* A is a mass matrix. */
+static int symmetric_group(const frot_model *m, const frot_state *s, frot_work *w,
+                           const frot_group *g, const frot_contact_mode *modes, int wanted) {
+  unsigned char *formed = &w->core.formed[g - m->groups];
+  int acting, status = frot_factor(w, g);
+  *formed = FROT_FACTOR;
+  if (status != FROT_OK) return status;
+  if (wanted != FROT_LAWS && !s->implicit && frot_only_follows(m, g, modes)) return FROT_OK;
+  int count = form_rows(m, w, g, &acting);
+  *formed = wanted == FROT_LAWS || acting < count || !holds_for_good(s, w, g);
+  *formed = *formed ? FROT_EFFECTS : FROT_ROWS;
+  if (*formed == FROT_EFFECTS) form_effects(m, w, g, count, acting);
   return FROT_OK;
+}
+
+void frot_rows(const frot_model *m, frot_work *w, const frot_group *g) {
+  unsigned char *formed = &w->core.formed[g - m->groups];
+  int acting;
+  if (g->general || *formed != FROT_FACTOR) return;
+  form_rows(m, w, g, &acting);
+  *formed = FROT_ROWS;
 }
 
 void frot_effects(const frot_model *m, frot_work *w, const frot_group *g) {
   unsigned char *formed = &w->core.formed[g - m->groups];
-  if (g->general || *formed) return;
-  *formed = 1;
-  int count, acting = list_wanted(m, w, g, &count);
-  for (int a = 0; a < acting; a++)
-    for (int b = 0; b < acting; b++) {
-      int i = w->core.listed[a], j = w->core.listed[b];
-      const double *half = w->core.half + g->entries;
-      w->core.delassus[g->square + i * g->n_rows + j] =
-          frot_dot(half + i * g->n, half + j * g->n, g->n_speeds);
-    }
+  if (g->general || *formed == FROT_EFFECTS) return;
+  int acting, count = form_rows(m, w, g, &acting);
+  form_effects(m, w, g, count, acting);
+  *formed = FROT_EFFECTS;
 }
 
 /* Part of a row (n entries) in the motion z: the auxiliary unknowns, in whose places reactions
@@ -292,7 +311,7 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
     want_rows(m, w, g, modes, wanted);
     clean_rows(m, s, w, g, v);
     size_biases(m, s, w, g, v);
-    status = g->general ? general_group(m, w, g) : symmetric_group(m, s, w, g, wanted);
+    status = g->general ? general_group(m, w, g) : symmetric_group(m, s, w, g, modes, wanted);
   }
   return status;
 }
@@ -332,6 +351,13 @@ void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen)
     const frot_group *g = &m->groups[w->awake.now->groups[k]];
     int n = g->n, ns = g->n_speeds, active = g->general ? n : ns;
     double *z = w->core.rest;
+    if (!g->general && w->core.formed[g - m->groups] == FROT_FACTOR) { /* there already: pins.c */
+      for (int j = 0; j < n; j++) {
+        int at = g->unknowns[j];
+        if (j >= ns || frozen[at] != 0) w->core.a[at] = 0;
+      }
+      continue;
+    }
     memcpy(z, w->core.force + g->vector, sizeof(double) * (size_t)active);
     for (int i = 0; i < g->n_rows; i++) {
       double lam = w->core.lam[g->rows[i]];

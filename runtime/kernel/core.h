@@ -25,13 +25,20 @@ enum frot_wanted {
 /* Solve the blocks, evaluate the generated `dynamics` at (t, q, v, d), factor A and form for the
  * rows wanted of the contacts that are closed in `modes`: w->core.free, the acceleration (of a
  * reading: the reaction) without reactions of other rows, and w->core.delassus, what these do to
- * it; where nothing can part or slip, and no reading is wanted, only when it is asked for by
- * frot_effects. FROT_OK or a status that is not recorded as a fault. */
+ * it; where nothing can part or slip, and no reading is wanted, or friction follows readings alone
+ * (pins.c), only when it is asked for by frot_effects. FROT_OK or a status that is not recorded as
+ * a fault. */
 int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes, int wanted);
 
-/* What the rows wanted of a group do to each other, into w->core.delassus, if it is not there. */
+/* How much of that is there of a group. */
+enum frot_formed { FROT_FACTOR, FROT_ROWS, FROT_EFFECTS };
+
+/* What the rows wanted of a group do to each other, into w->core.delassus, with all that goes
+ * before it, if it is not there. */
 void frot_effects(const frot_model *m, frot_work *w, const frot_group *g);
+/* The rows wanted by themselves: L^-1 J' and w->core.free. */
+void frot_rows(const frot_model *m, frot_work *w, const frot_group *g);
 
 /* Solve the blocks and evaluate `kinematics` alone: gap, rows, rate, condition. */
 int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,

@@ -25,7 +25,10 @@ void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t
       w->guards.end_reaction[2 * e + k] = w->core.lam[m->elements[e].bounded_by[k]];
   }
   w->guards.end_kinetic = frot_kinetic(m, w, z + m->nq);
-  if (frot_guards_read_loads(m, w, modes)) frot_row_loads(m, s, w, t, z, z + m->nq, d);
+  if (frot_guards_read_loads(m, w, modes)) {
+    for (int i = 0; i < now->n_groups; i++) frot_rows(m, w, &m->groups[now->groups[i]]);
+    frot_row_loads(m, s, w, t, z, z + m->nq, d);
+  }
   frot_guards(m, s, w, z, z + m->nq, d, modes, w->step.z, w->guards.size);
 }
 

@@ -99,6 +99,22 @@ void frot_backward(const double *l, int n, int m, double *x) {
   }
 }
 
+void frot_forward_by(const double *l, const double *share, int n, double *x) {
+  for (int i = 0; i < n; i++) {
+    double sum = x[i];
+    for (int k = 0; k < i; k++) sum -= AT(l, n, i, k) * x[k];
+    x[i] = sum * share[i];
+  }
+}
+
+void frot_backward_by(const double *l, const double *share, int n, double *x) {
+  for (int i = n - 1; i >= 0; i--) {
+    double sum = x[i];
+    for (int k = n - 1; k > i; k--) sum -= AT(l, n, k, i) * x[k];
+    x[i] = sum * share[i];
+  }
+}
+
 void frot_support(const double *x, int n, int *first, int *end) {
   int from = 0, to = n;
   while (from < n && x[from] == 0) from++;

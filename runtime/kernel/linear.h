@@ -9,6 +9,11 @@ int frot_cholesky(double *a, int n);
 void frot_forward(const double *l, int n, int m, double *x);
 void frot_backward(const double *l, int n, int m, double *x);
 
+/* The same of all of it, with the reciprocals of its diagonal, in the order in which each item
+ * waits for the one before as late as can be. */
+void frot_forward_by(const double *l, const double *share, int n, double *x);
+void frot_backward_by(const double *l, const double *share, int n, double *x);
+
 /* Of four vectors abreast, x[4 i + c]: L^-1 of each; the products of a with each; those of each of
  * `a` with each of `b`, product[4 a + b]. */
 #define FROT_ABREAST 4

@@ -53,6 +53,7 @@ int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, co
     w->reactions.along[at] = along[at], w->reactions.along[at + 1] = along[at + 1];
   }
   if (frot_reactions(m, w, modes, NULL)) return FROT_DIVERGE;
+  w->reactions.warm = 1;
   frot_accelerations(m, w, frozen);
   if (!groups_finite(m, w)) return FROT_NAN;
   if (late) {

@@ -59,17 +59,18 @@ void frot_judge_passage(const frot_model *m, frot_state *s, const frot_work *w, 
 }
 
 /* Kinetic energy that rounding of loads and reactions which hold each other gives in a step. */
-static double energy_of_rounding(const frot_model *m, const frot_work *w, double h) {
+static double energy_of_rounding(const frot_model *m, frot_work *w, double h) {
   double sum = 0;
   for (int k = 0; k < w->awake.now->n_groups; k++) {
-    double size = frot_size_of_motion(m, w, &m->groups[w->awake.now->groups[k]]);
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
+    frot_rows(m, w, g);
+    double size = frot_size_of_motion(m, w, g);
     sum += 0.5 * pow(FROT_ZERO * h * size, 2);
   }
   return sum;
 }
 
-int frot_speed_lost(const frot_model *m, const frot_state *s, const frot_work *w, double t,
-                    double h) {
+int frot_speed_lost(const frot_model *m, const frot_state *s, frot_work *w, double t, double h) {
   if (!frot_has_loops(m, s, w)) return -1;
   double before = frot_kinetic(m, w, w->step.z1 + m->nq);
   double after = frot_kinetic(m, w, s->data + w->layout.x + m->nq);

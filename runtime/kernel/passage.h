@@ -31,7 +31,6 @@ void frot_judge_passage(const frot_model *m, frot_state *s, const frot_work *w, 
  * relations has taken more of the kinetic energy than errors within the tolerance make, -1 if not:
  * the projection is orthogonal in the metric of the mass, so that it takes what they amount to
  * squared. What rounding alone moves in a step of length h is none (an equilibrium). */
-int frot_speed_lost(const frot_model *m, const frot_state *s, const frot_work *w, double t,
-                    double h);
+int frot_speed_lost(const frot_model *m, const frot_state *s, frot_work *w, double t, double h);
 
 #endif

@@ -48,6 +48,14 @@ void frot_follow_readings(frot_problem *p);
  * missing in each equation; returns the largest part of a friction that is, beyond rounding. */
 double frot_turn_pins(const frot_problem *p, double *rest);
 
+/* Whether the friction of several elements follows readings and nothing else acts in a group, that
+ * is no general one, so that frot_follow_in_turn is tried first (pins.c). */
+int frot_only_follows(const frot_model *m, const frot_group *g, const frot_contact_mode *modes);
+
+/* Its reactions w->core.lam by the inertia alone, after frot_list_unknowns. Returns 0 where they do
+ * much to each other: they are to be found from what frot_effects forms. */
+int frot_follow_in_turn(const frot_problem *p);
+
 /* Least reactions, in units w->reactions.unit_of, of the system that w->linear.matrix holds
  * (least.c). */
 void frot_solve_least(const frot_problem *p, double *x);

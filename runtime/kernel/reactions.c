@@ -217,6 +217,18 @@ static double mend(const frot_problem *p, double *rest, double missed) {
   return 0;
 }
 
+/* Find what frot_dynamics has left to pins.c; else see that what the rest asks for is there. */
+static int left_to_pins(const frot_problem *p) {
+  frot_work *w = p->w;
+  if (w->core.formed[p->g - p->m->groups] != FROT_FACTOR || p->g->general) return 0;
+  int found = frot_follow_in_turn(p);
+  if (found)
+    w->reactions.sign[p->g - p->m->groups] = 1;
+  else
+    frot_effects(p->m, w, p->g);
+  return found;
+}
+
 int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
                          const frot_contact_mode *modes, const unsigned char *at_rest) {
   frot_problem p = {m, w, g, modes, 0, 0, 0, 0, 0};
@@ -227,6 +239,7 @@ int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
   for (int f = p.held; f < p.unknowns; f++)
     pins |= m->elements[w->reactions.owner[f]].bound == FROT_BY_PIN;
   w->span.rank = 0;
+  if (left_to_pins(&p)) return 0;
   if (p.unknowns == 0) return spread_reactions(&p, w->reactions.solution), !group_is_finite(&p);
   if (frot_hold_rows(&p)) return 1;
   if (p.equations > p.unknowns) return 1; /* no reaction is left for a row that is to be kept */

@@ -111,7 +111,7 @@ int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, 
     int at = 2 * now->elements[k];
     memcpy(w->reactions.along + at, s->data + w->layout.along + at, 2 * sizeof(double));
   }
-  w->reactions.follow = 1;
+  w->reactions.follow = 1, w->reactions.warm = 0;
   memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)frot_width(w));
   for (int pass = 0;; pass++) {
     status = run_once(m, s, w, t, h, loops, &reached);
@@ -133,7 +133,8 @@ void frot_make_cubic(const frot_work *w, double h) {
     w->step.f[nz + j] = h * start[j] - step;
     w->step.f[2 * nz + j] = 2 * step - h * (end[j] + start[j]);
   }
-  memset(w->step.f + 3 * nz, 0, sizeof(double) * (size_t)((DP_DENSE - 3) * nz));
+  for (int i = 3; i < DP_DENSE; i++)
+    memset(w->step.f + i * nz, 0, sizeof(double) * (size_t)frot_width(w));
 }
 
 int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {

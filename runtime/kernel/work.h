@@ -66,7 +66,7 @@ typedef struct {
   double t;
   double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
   double *effect, *metric;
-  double *factor, *force, *half, *lu, *lu_scale;
+  double *factor, *share, *force, *half, *lu, *lu_scale;
   int *lu_pivot;
   unsigned char *wanted, *formed;
   int *listed, *support;
@@ -89,6 +89,7 @@ typedef struct {
   double *known, *effects;
   int dependent, *sign; /* sign (n_groups): of the determinant, 0 where there is none */
   int follow;           /* 1: pins' directions are looked for from the last stage's on */
+  int warm;             /* the reactions are those of a stage before: pins.c */
 } frot_reaction_work;
 
 /* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:

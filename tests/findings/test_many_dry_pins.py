@@ -95,3 +95,38 @@ initial
 end Slide;
 """).simulate()
     assert result["bar.velocity.x"][-1] == pytest.approx(3 - 0.33 * 9.81 * 0.5, rel=1e-9)
+
+
+def test_friction_follows_reactions_to_rounding_however_much_it_does_to_them() -> None:
+    """In journals of a millimetre friction does next to nothing to the reactions, in those of the
+    size of the rods as much as their weight: both are found as exactly."""
+    n = 6
+    parts = "".join(
+        f"  body b{i}: rod(mass = {1 + i % 3} kg, length = 1 m);\n"
+        f"  liaison j{i}: rotoide({f'b{i - 1}.tip' if i else 'ground'}, b{i}.start)"
+        " with coulomb(mu, radius = r);\n"
+        for i in range(n)
+    )
+    starts = "".join(
+        f"  b{i}.angle = {0.7 * i - 1} rad;\n  b{i}.angular_velocity = {(-1) ** i * 20} rad/s;\n"
+        for i in range(n)
+    )
+    model = frot.compile(
+        "planar model Journals\n  parameter Real mu = 0.25;\n  parameter Length r = 1 mm;\n"
+        f"{parts}initial\n{starts}end Journals;\n"
+    )
+    for radius in (1e-3, 0.03, 0.3):
+        result = model.simulate(stop=0.03, tolerance=1e-9, parameters={"r": radius})
+        slips = 0
+        for t in (0.004, 0.012, 0.02, 0.028):
+            now = result.at(t)
+            for i in range(n):
+                bound = 0.25 * radius * np.hypot(now[f"j{i}.force.x"], now[f"j{i}.force.y"])
+                if (slip := float(now[f"j{i}.slip"])) == 0:
+                    continue
+                slips += 1
+                assert float(now[f"j{i}.torque"]) == pytest.approx(
+                    -np.sign(slip) * bound, rel=1e-12
+                )
+        assert slips > 12
+        assert abs(result.balance.residual) <= 1e-8 * result.balance.scale
