@@ -4,16 +4,74 @@
 #include <string.h>
 
 #include "core.h"
+#include "crossing.h"
+#include "groups.h"
+#include "linear.h"
 #include "projection.h"
 #include "terms.h"
 #include "tolerances.h"
 
-void frot_note_spare(const frot_model *m, frot_state *s, const frot_work *w) {
+/* How much more must be left of a row that was left out for it to take the place of another. */
+#define STEADY 2.0
+
+/* The rows of loops of a group into `list`, what they do into w->span.basis; their number. */
+static int list_loop_rows(const frot_model *m, const frot_state *s, frot_work *w,
+                          const frot_group *g, int *list) {
+  int n = 0, ns = g->n_speeds;
+  for (int i = 0; i < g->n_contacts; i++) {
+    const frot_contact *contact = &m->contacts[g->contacts[i]];
+    if (contact->reduced || contact->row_n < 0 || !frot_is_loop(m, s, w, g->contacts[i])) continue;
+    const double *own = frot_entries(m, w->core.half, contact->row_n);
+    memcpy(w->span.basis + ns * n, own, sizeof(double) * (size_t)ns);
+    list[n++] = contact->row_n;
+  }
+  return n;
+}
+
+/* Of the rows of loops listed `count` say what the others do. Which are left out is free: those of
+ * which the others leave least. Else a kept one may vanish beside one that is left out, as the rows
+ * of a point that rolls in turn do where its path is curved. */
+static void leave_out(frot_state *s, const frot_work *w, const frot_group *g, int *list, int n,
+                      int count) {
+  double *spare = s->data + w->layout.spare;
+  int ns = g->n_speeds;
+  for (int kept = 0; kept < n - count; kept++) {
+    int best = -1;
+    double most = 0;
+    for (int i = kept; i < n; i++) {
+      const double *x = w->span.basis + ns * i;
+      double left = sqrt(frot_dot(x, x, ns)) * (spare[list[i]] != 0 ? 1 : STEADY);
+      if (left > most) most = left, best = i;
+    }
+    if (best < 0) break;
+    double *x = w->span.basis + ns * kept, *by = w->span.basis + ns * best;
+    double length = sqrt(frot_dot(by, by, ns));
+    for (int k = 0; k < ns; k++) {
+      double own = by[k] / length;
+      by[k] = x[k], x[k] = own;
+    }
+    int row = list[best];
+    list[best] = list[kept], list[kept] = row;
+    for (int i = kept + 1; i < n; i++) {
+      double *other = w->span.basis + ns * i, part = frot_dot(other, x, ns);
+      for (int k = 0; k < ns; k++) other[k] -= part * x[k];
+    }
+  }
+  for (int i = 0; i < n; i++) spare[list[i]] = i >= n - count;
+}
+
+void frot_note_spare(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_groups; k++) {
     const frot_group *g = &m->groups[now->groups[k]];
+    int *list = w->reactions.unknown, n = list_loop_rows(m, s, w, g, list), count = 0;
+    for (int i = 0; i < n; i++) count += w->reactions.carried[list[i]];
+    if (count > 0) leave_out(s, w, g, list, n, count);
+    for (int i = 0; i < g->n_rows; i++) w->span.spare[g->rows[i]] = 0;
+    for (int i = 0; i < n && count > 0; i++) w->span.spare[list[i]] = 1;
     for (int i = 0; i < g->n_rows; i++)
-      s->data[w->layout.spare + g->rows[i]] = w->reactions.carried[g->rows[i]];
+      if (!w->span.spare[g->rows[i]])
+        s->data[w->layout.spare + g->rows[i]] = w->reactions.carried[g->rows[i]];
   }
 }
 

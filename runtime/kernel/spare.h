@@ -9,8 +9,9 @@
 
 #include "work.h"
 
-/* Decide: the rows that the evaluation at the start of a step found to depend on others. */
-void frot_note_spare(const frot_model *m, frot_state *s, const frot_work *w);
+/* Decide: of the rows that the evaluation at the start of a step found to depend on each other
+ * those that are best left out, as many as it found too many. */
+void frot_note_spare(const frot_model *m, frot_state *s, frot_work *w);
 
 /* Follow what was decided, until frot_see_anew. */
 void frot_follow_spare(const frot_model *m, const frot_state *s, frot_work *w);
