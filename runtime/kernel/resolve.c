@@ -20,14 +20,17 @@ static double speed_to_come(const frot_instant *in, int row) {
   return fabs(in->s->h) * in->w->core.row_load[row];
 }
 
-/* Whether the motion of element e is zero: its guard fired at zero, or it is zero to rounding
+/* Whether the motion of element e is zero: its guard fired at zero, as near as events are located
+ * (what a landing next to a dead centre leaves of it is a motion: to hold it would stop the
+ * mechanism), or it is zero to rounding
  * against its terms, the sizes it had, the motion as a whole and the motion to come. */
 static int is_zero_rate(const frot_instant *in, int e, const double *v, int slipped) {
   int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
-  if (slipped && in->fired[guard] != 0) return 1;
+  double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
+  double located = FROT_LOCATED * size;
+  if (slipped && in->fired[guard] != 0 && fabs(in->w->core.rate[row]) <= located) return 1;
   if (in->m->elements[e].prescribed && fabs(in->w->core.rate[row]) <= FROT_PRESCRIBED_REST)
     return 1;
-  double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
   size = fmax(size, speed_to_come(in, row));
   return fabs(in->w->core.rate[row]) <=
          FROT_ZERO * size + FROT_ZERO_OF_MOTION * frot_row_speed(in->m, in->w, row, v);

@@ -119,3 +119,17 @@ def test_two_dry_slider_cranks_start_where_one_is_in_a_dead_centre(
     error = np.abs(result["O.speed"] - speed).max() / np.abs(speed).max()
     assert error < 30 * tolerance * max(1, turned) + 1e-9
     assert abs(result.balance.residual) <= 1e3 * tolerance * result.balance.scale
+
+
+def test_a_slip_that_turns_back_next_to_a_dead_centre_does_not_stop_the_crank(
+    crank: frot.Model,
+) -> None:
+    """There an event is located at a small slip; to hold that took all of the kinetic energy."""
+    given = {"mu": 0, "mu_g": 0.0641113675938412, "l": 0.24021214417977566}
+    given |= {"c": 4, "a": 3, "start": -0.6946870506503751}
+    result = crank.simulate(stop=2.1, tolerance=1e-5, parameters=given)
+    reference = crank.simulate(stop=2.1, tolerance=1e-12, parameters=given)
+    assert (
+        np.abs(result["O.speed"] - reference["O.speed"]).max() < 1e-2 * reference["O.speed"].max()
+    )
+    assert abs(result.balance.residual) <= 1e-3 * result.balance.scale
