@@ -135,6 +135,34 @@ double frot_noise_of_rate(const frot_model *m, const frot_state *s, const frot_w
   return noise[state] + BY_STAGES * fabs(h) * noise[m->nq + m->q_speed[state]];
 }
 
+/* The real parameters moved apart as values are, up and down in turn. */
+static void move_parameters(const frot_model *m, frot_state *s, const frot_work *w, double part) {
+  double *p = s->data + w->layout.p;
+  for (int k = 0; k < m->np; k++)
+    if (m->p_type[k] == FROT_REAL) p[k] = w->step.parameters[k] * (1 + (k & 1 ? part : -part));
+}
+
+/* What rounding leaves of terms that cancel and hold no state: the drop of voltage between two
+ * places that a source of a thousand volts feeds. The parameters say the same moved up and down,
+ * but for that. */
+static void add_rounding_of_constants(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                      const double *base) {
+  double *forth = frot_stage(w, 2), *back = frot_stage(w, 3), *noise = s->data + w->layout.noise;
+  size_t size = sizeof(double) * (size_t)m->np;
+  memcpy(w->step.parameters, s->data + w->layout.p, size);
+  move_parameters(m, s, w, FROT_APART);
+  int status = slope_from_start(m, s, w, t, w->step.z0, forth);
+  move_parameters(m, s, w, -FROT_APART);
+  if (status == FROT_OK) status = slope_from_start(m, s, w, t, w->step.z0, back);
+  memcpy(s->data + w->layout.p, w->step.parameters, size);
+  if (status != FROT_OK) return;
+  for (int j = 0; j < w->awake.n - FROT_QUADRATURES; j++) {
+    double rounding = 0.5 * fabs(forth[j] - 2 * base[j] + back[j]);
+    double *own = noise + w->awake.now->states[j];
+    *own = fmax(*own, level(s) * rounding);
+  }
+}
+
 void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
   double *base = frot_stage(w, 1), *forth = frot_stage(w, 2), *back = frot_stage(w, 3);
   double *noise = s->data + w->layout.noise, *largest = w->step.f, *size = largest + w->layout.nz;
@@ -170,6 +198,7 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
       *own = fmax(*own, level(s) * (sensitivity + rounding));
     }
   }
+  add_rounding_of_constants(m, s, w, t, base);
   add_rounding(m, s, w, t, w->step.z0, NULL);
   /* where terms no longer vanish by symmetry: a step that is far too long ends where all is large
    */

@@ -145,9 +145,9 @@ typedef struct {
  * whose error is the worst, or -1, and what part of that rounding may be (error.h); blur.h. Between
  * steps z1 and z are scratch. crossing.h: what is left of each row in each stage ((DP_STAGES + 1) x
  * n_rows) and its first direction; the slope at the start, what is doubtful in slopes near
- * postures, and excused in errors. */
+ * postures, and excused in errors; the parameters while noise.c moves them. */
 typedef struct {
-  double *left, *direction, *first, *doubt, *excused, *motion;
+  double *left, *direction, *first, *doubt, *excused, *motion, *parameters;
   unsigned char *near;
   double *k, *z0, *z1, *z, *y_end, *f;
   int worst;
