@@ -30,10 +30,11 @@ static int list_loop_rows(const frot_model *m, const frot_state *s, frot_work *w
 
 /* Of the rows of loops listed `count` say what the others do. Which are left out is free: those of
  * which the others leave least. Else a kept one may vanish beside one that is left out, as the rows
- * of a point that rolls in turn do where its path is curved. */
-static void leave_out(frot_state *s, const frot_work *w, const frot_group *g, int *list, int n,
-                      int count) {
-  double *spare = s->data + w->layout.spare;
+ * of a point that rolls in turn do where its path is curved. They come last in the list. Returns
+ * whether the others say it alone, without what rests. */
+static int sort_spare(const frot_model *m, const frot_state *s, const frot_work *w,
+                      const frot_group *g, int *list, int n, int count) {
+  const double *spare = s->data + w->layout.spare;
   int ns = g->n_speeds;
   for (int kept = 0; kept < n - count; kept++) {
     int best = -1;
@@ -43,7 +44,7 @@ static void leave_out(frot_state *s, const frot_work *w, const frot_group *g, in
       double left = sqrt(frot_dot(x, x, ns)) * (spare[list[i]] != 0 ? 1 : STEADY);
       if (left > most) most = left, best = i;
     }
-    if (best < 0) break;
+    if (best < 0) return 0;
     double *x = w->span.basis + ns * kept, *by = w->span.basis + ns * best;
     double length = sqrt(frot_dot(by, by, ns));
     for (int k = 0; k < ns; k++) {
@@ -57,21 +58,26 @@ static void leave_out(frot_state *s, const frot_work *w, const frot_group *g, in
       for (int k = 0; k < ns; k++) other[k] -= part * x[k];
     }
   }
-  for (int i = 0; i < n; i++) spare[list[i]] = i >= n - count;
+  for (int i = n - count; i < n; i++) {
+    const double *own = frot_entries(m, w->core.half, list[i]), *left = w->span.basis + ns * i;
+    double length = sqrt(frot_dot(own, own, ns));
+    if (sqrt(frot_dot(left, left, ns)) > FROT_DEPENDENT * length) return 0;
+  }
+  return 1;
 }
 
 void frot_note_spare(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
+  double *spare = s->data + w->layout.spare;
+  s->spare_loops = 0;
   for (int k = 0; k < now->n_groups; k++) {
     const frot_group *g = &m->groups[now->groups[k]];
     int *list = w->reactions.unknown, n = list_loop_rows(m, s, w, g, list), count = 0;
     for (int i = 0; i < n; i++) count += w->reactions.carried[list[i]];
-    if (count > 0) leave_out(s, w, g, list, n, count);
-    for (int i = 0; i < g->n_rows; i++) w->span.spare[g->rows[i]] = 0;
-    for (int i = 0; i < n && count > 0; i++) w->span.spare[list[i]] = 1;
-    for (int i = 0; i < g->n_rows; i++)
-      if (!w->span.spare[g->rows[i]])
-        s->data[w->layout.spare + g->rows[i]] = w->reactions.carried[g->rows[i]];
+    int sorted = count > 0 && sort_spare(m, s, w, g, list, n, count);
+    for (int i = 0; i < g->n_rows; i++) spare[g->rows[i]] = w->reactions.carried[g->rows[i]];
+    for (int i = 0; i < n && sorted; i++) spare[list[i]] = i >= n - count;
+    s->spare_loops |= sorted;
   }
 }
 

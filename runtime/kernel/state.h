@@ -52,6 +52,7 @@ struct frot_state {
   int asleep;      /* islands that sleep: see awake.h */
   int naps;        /* times that this has changed */
   double foreseen; /* the nearest singular posture, as the last step shows it, or INFINITY */
+  int spare_loops; /* rows of loops are left out, others may be at the next start: spare.h */
   int weak;        /* rows of loops are weak: crossing.h */
   int tied; /* stages are put onto the relations of loops: crossing.h; < 0: not for some steps */
   double across;    /* error, to its bound, of the last step that tried to pass a posture ahead */

@@ -128,7 +128,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   lost = moved ? frot_speed_lost(m, s, w, end, a->h) : -1;
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
-  s->has_slope = !moved && !s->pending && !w->span.follow; /* others may be spare */
+  s->has_slope = !moved && !s->pending && !s->spare_loops;
   if (s->has_slope) frot_turn_at_end(m, s, w, slope);
   if (!s->implicit) frot_keep_crossings(m, s, w, a->t, a->h);
   if (!s->pending && !s->implicit && frot_note_still(m, s, w, x))
