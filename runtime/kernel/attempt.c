@@ -63,7 +63,7 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   a->to_due = a->h >= s->due - a->t;
   if (a->to_due) a->h = s->due - a->t;
   a->first = a->h;
-  if (status == FROT_OK) frot_follow_spare(m, s, w);
+  if (status == FROT_OK) frot_follow_spare(m, w, s->data + w->layout.spare);
   return status;
 }
 

@@ -17,6 +17,9 @@
 /* What noise of slopes makes of speeds in the stages, and these of the error of a coordinate, over
  * what it makes of that of a speed: |e' A| / |e| of the method of order eight. */
 #define BY_STAGES 4
+/* Stages near the start of a step, and how much farther than their slopes lead it may end. */
+#define FIRST_STAGES 3
+#define ASTRAY 1e3
 
 /* How much larger noise has shown itself than it was measured. */
 static double level(const frot_state *s) { return s->noise_level > 1 ? s->noise_level : 1; }
@@ -135,6 +138,20 @@ double frot_noise_of_rate(const frot_model *m, const frot_state *s, const frot_w
   return noise[state] + BY_STAGES * fabs(h) * noise[m->nq + m->q_speed[state]];
 }
 
+/* Whether the step that ran ends where its first slopes do not lead: one that is far too long may
+ * end anywhere, and what terms are made of there says nothing. */
+static int strays(const frot_model *m, frot_state *s, const frot_work *w, double t) {
+  double h = fabs(t - *frot_segment_at(m, s->data + w->layout.segment).t1), way = 0, fastest = 0;
+  for (int j = 0; j < w->awake.n - FROT_QUADRATURES; j++) {
+    int state = w->awake.now->states[j];
+    if (state < m->nq) continue;
+    way = fmax(way, fabs(w->step.z1[state] - w->step.z0[state]));
+    for (int i = 0; i < (s->implicit ? 1 : FIRST_STAGES); i++)
+      fastest = fmax(fastest, fabs(frot_stage(w, i)[j]));
+  }
+  return !(way <= ASTRAY * h * fastest);
+}
+
 /* The real parameters moved apart as values are, up and down in turn. */
 static void move_parameters(const frot_model *m, frot_state *s, const frot_work *w, double part) {
   double *p = s->data + w->layout.p;
@@ -176,6 +193,7 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
       largest[j] = fmax(largest[j], fabs(frot_stage(w, i)[j]));
   }
   s->noise_shown = 0;
+  int astray = strays(m, s, w, t);
   if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return;
   note_neighbours(m, w, size);
   for (int j = 0; j < n + w->layout.ng; j++) noise[j] *= BEFORE;
@@ -202,7 +220,7 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
   add_rounding(m, s, w, t, w->step.z0, NULL);
   /* where terms no longer vanish by symmetry: a step that is far too long ends where all is large
    */
-  add_rounding(m, s, w, t, w->step.z1, largest);
+  if (!astray) add_rounding(m, s, w, t, w->step.z1, largest);
   for (int j = 0; j < m->nq; j++)
     if (m->q_speed[j] >= 0)
       noise[j] = fmax(noise[j], FROT_NUDGE * fabs(w->step.z0[m->nq + m->q_speed[j]]));

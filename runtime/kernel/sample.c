@@ -47,7 +47,7 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
     status = frot_project_jointly(m, s, w, t, q, v, g->d, g->modes, NULL, NULL, g->frozen, &moved);
   else if (holds_anything(m, w, g->modes)) {
     status = frot_dynamics(m, s, w, t, q, v, g->d, g->modes, FROT_MOTION);
-    frot_follow_spare(m, s, w);
+    frot_follow_spare(m, w, g->spare);
     if (status == FROT_OK) status = frot_project(m, s, w, t, q, v, g->d, g->modes, NULL, &moved);
   }
   if (status == FROT_OK)

@@ -39,6 +39,7 @@ void frot_make_instant(const frot_model *m, frot_state *s, frot_work *w, double 
   *g.t0 = *g.t1 = t;
   *g.h = 0;
   copy_modes(m, s, &l, &g);
+  memset(g.spare, 0, sizeof(double) * (size_t)m->n_rows);
   memcpy(s->data + l.y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   memcpy(g.y0, w->blocks.y, sizeof(double) * (size_t)m->ny);
   memcpy(g.y1, w->blocks.y, sizeof(double) * (size_t)m->ny);
@@ -53,6 +54,7 @@ void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, doub
   frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
   *g.t0 = t, *g.t1 = end, *g.h = h;
   if (s->asleep == 0) copy_modes(m, s, &w->layout, &g); /* what wakes changes them */
+  memcpy(g.spare, s->data + w->layout.spare, sizeof(double) * (size_t)m->n_rows);
   const frot_awake_lists *now = w->awake.now;
   for (int i = 0; i < now->n_elements; i++)
     memcpy(g.along + 2 * now->elements[i], s->data + w->layout.along + 2 * now->elements[i],

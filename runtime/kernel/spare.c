@@ -81,14 +81,14 @@ void frot_note_spare(const frot_model *m, frot_state *s, frot_work *w) {
   }
 }
 
-void frot_follow_spare(const frot_model *m, const frot_state *s, frot_work *w) {
+void frot_follow_spare(const frot_model *m, frot_work *w, const double *spare) {
   w->span.follow = 0;
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_groups; k++) {
     const frot_group *g = &m->groups[now->groups[k]];
     for (int i = 0; i < g->n_rows; i++) {
       int r = g->rows[i];
-      w->span.spare[r] = s->data[w->layout.spare + r] != 0;
+      w->span.spare[r] = spare[r] != 0;
       w->span.follow |= w->span.spare[r];
     }
   }

@@ -13,8 +13,8 @@
  * those that are best left out, as many as it found too many. */
 void frot_note_spare(const frot_model *m, frot_state *s, frot_work *w);
 
-/* Follow what was decided, until frot_see_anew. */
-void frot_follow_spare(const frot_model *m, const frot_state *s, frot_work *w);
+/* Follow what was decided, spare (n_rows), until frot_see_anew. */
+void frot_follow_spare(const frot_model *m, frot_work *w, const double *spare);
 
 /* Let every evaluation see for itself what depends on what. */
 void frot_see_anew(frot_work *w);

@@ -15,7 +15,8 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.nf = m->n_contacts + 2 * m->n_elements + m->n_conditions;
   l.nz = l.nx + l.ng;
   l.nd = m->n_conditions + m->n_contacts + m->n_discrete;
-  l.ns = 3 + m->n_contacts + 3 * m->n_elements + l.nd + m->nv + 2 * m->ny + l.nx + DP_DENSE * l.nx;
+  l.ns = 3 + m->n_contacts + 3 * m->n_elements + l.nd + m->nv + m->n_rows + 2 * m->ny + l.nx +
+         DP_DENSE * l.nx;
   l.early = 0;
   for (int i = 0; i < m->n_blocks; i++)
     if (!m->blocks[i].late) l.early += m->blocks[i].count;
@@ -71,6 +72,7 @@ frot_segment frot_segment_at(const frot_model *m, double *data) {
   s.modes = (frot_contact_mode *)(void *)data, data += m->n_contacts + m->n_elements;
   s.d = data, data += m->n_conditions + m->n_contacts + m->n_discrete;
   s.frozen = data, data += m->nv;
+  s.spare = data, data += m->n_rows;
   s.along = data, data += 2 * m->n_elements;
   s.y0 = data, data += m->ny;
   s.y1 = data, data += m->ny;

@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 11
+#define FROT_LAYOUT_VERSION 12
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -96,6 +96,7 @@ typedef struct {
   double *t0, *t1, *h;
   frot_contact_mode *modes;
   double *d, *frozen;
+  double *spare;   /* n_rows: left to others inside it, none at an instant: spare.h */
   double *along;   /* 2 n_elements: where to begin to look for the directions of pins' reactions */
   double *y0, *y1; /* unknowns of the blocks at its ends */
   double *x0;      /* nx: q, v, quadratures */

@@ -40,6 +40,7 @@ static void write_awake(const frot_model *m, frot_state *s, frot_work *w, tape *
   const frot_awake_lists *now = w->awake.now;
   write(to, s->data + w->layout.segment, TIMES);
   for (int k = 0; k < now->n_elements; k++) write(to, g.along + 2 * now->elements[k], 2);
+  write(to, g.spare, m->n_rows);
   write(to, g.y0, 2 * m->ny);
   for (int i = -1; i < DP_DENSE; i++) {
     frot_pack(w, i < 0 ? g.x0 : g.f + i * w->layout.nx, to->at);
@@ -74,6 +75,7 @@ frot_segment frot_read_record(const frot_model *m, frot_work *w, const double *r
   const frot_awake_lists *some = &w->awake.some;
   read(&from, w->tape, TIMES);
   for (int k = 0; k < some->n_elements; k++) read(&from, g.along + 2 * some->elements[k], 2);
+  read(&from, g.spare, m->n_rows);
   read(&from, g.y0, 2 * m->ny);
   for (int i = -1; i < DP_DENSE; i++) {
     double *all = i < 0 ? g.x0 : g.f + i * w->layout.nx;

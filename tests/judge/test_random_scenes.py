@@ -52,6 +52,8 @@ ONCE_WRONG = (
     (7502, "anything", 4, (15,)),
     (8101, "anything", 5, (1,)),
     (8101, "anything", 8, (3,)),
+    (8401, "anything", 4, (1,)),
+    (8401, "anything", 24, (5,)),
 )
 
 
