@@ -70,14 +70,15 @@ def collect(terms: Sequence[tuple[ca.SX, float]]) -> ca.SX:
 
 
 def without_what_cancels(value: ca.SX) -> ca.SX:
-    """The value; without the symbols that cancel out of it where there are such.
+    """The value; as a sum of other terms alone where symbols cancel out of it.
 
-    Potentials do that were drops of voltage are added up: `(a - p) + (p - b)`.
+    Potentials do that were drops of voltage are added up: `(a - p) + (p - b)`. In a product with
+    others such a symbol stays.
     """
     if not _summands(value):
         return value
-    gone = [x for x, weight in _weigh([(value, 1.0)]) if weight == 0 and x.is_symbolic()]
-    return ca.substitute(value, column(gone), ca.SX.zeros(len(gone))) if gone else value
+    gone = any(weight == 0 and x.is_symbolic() for x, weight in _weigh([(value, 1.0)]))
+    return collect([(value, 1.0)]) if gone else value
 
 
 def _weigh(terms: Sequence[tuple[ca.SX, float]]) -> list[tuple[ca.SX, float]]:

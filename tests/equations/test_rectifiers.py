@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from functools import cache
 
+import casadi as ca
 import numpy as np
 import pytest
+from frot.compiler.equations.slopes import without_what_cancels
 
 import frot
 
@@ -95,3 +97,12 @@ def test_no_diode_like_another(text: str, seed: int) -> None:
         assert np.abs(found - wanted).max() < 100 * tolerance * np.abs(wanted).max()
         # stiff while diodes block: every time implicitly
         assert result.figures.steps < 60 * (10 + len(result.events))
+
+
+def test_what_cancels_in_a_sum_stays_in_a_product() -> None:
+    """0 = (a - p) + (p - b) + p y: only the potential p of the product is left."""
+    a, b, p, y = (ca.SX.sym(name) for name in "abpy")
+    left = without_what_cancels((a - p) + (p - b) + p * y)
+    value = ca.Function("left", [a, b, p, y], [left])
+    assert float(value(5, 3, 7, 2)) == 16
+    assert not ca.depends_on(without_what_cancels((a - p) + (p - b)), p)
