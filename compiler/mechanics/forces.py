@@ -135,16 +135,16 @@ def _spring(given: _Given) -> Load:
 
 
 def _couple(given: _Given) -> Load:
-    """It drives the angle of a liaison, or a body (about z in the plane)."""
+    """It drives the angle of a liaison, or a body (in the plane about z)."""
     holder, kinematics, value = given.arguments["holder"], given.kinematics, given.value("value")
     if isinstance(holder, Liaison):
         return Load((Action(given.effort(holder, "angle").rate, value),), None)
     assert isinstance(holder, BodyPoint)
     turning = kinematics.angular_velocity(holder.body)
-    if not kinematics.planar:
-        return Load((Action(turning, value),), None)
-    push = Push(holder.body, nowhere(), nowhere(), about_z(value))
-    return Load((Action(turning[2], value, push),), None)
+    whole_couple = about_z(value) if kinematics.planar else ca.sparsify(value)
+    push = Push(holder.body, nowhere(), nowhere(), whole_couple)
+    turning = turning[2] if kinematics.planar else turning
+    return Load((Action(turning, value, push),), None)
 
 
 def _drag(given: _Given) -> Load:

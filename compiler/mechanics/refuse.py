@@ -196,7 +196,7 @@ def _refuse_couple(force: Force, log: Log) -> None:
                 "E0205",
                 f"liaison '{holder.name}' has no angle that a couple could drive",
                 force.span,
-                help="a couple acts in a `rotoide`, or on a body",
+                help="a couple acts in a liaison with an angle, or on a body",
             )
     elif isinstance(holder, BodyPoint) and not turns(holder.body):
         log.report(

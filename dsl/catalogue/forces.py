@@ -29,7 +29,7 @@ _ROWS = (
         "couple",
         (
             Argument("holder", kind="holder", doc="a body, or a liaison with an angle"),
-            Argument("value", TORQUE, doc="couple about z in planar models"),
+            Argument("value", TORQUE, "couple", doc="about z, the liaison's axis, or ground axes"),
         ),
         aliases=("torque",),
         doc="A couple on a body, or in a liaison between its two bodies.",

@@ -19,6 +19,7 @@ class Argument:
     * `expression`: a scalar of `type` (or of one of `others`, where a liaison decides);
     * `number`: a scalar whose dimension another argument decides;
     * `vector`: a vector of `type`, two components in planar models and three in space;
+    * `couple`: a scalar in planar models and of a liaison, in space a vector for a body;
     * `inertia`: a scalar in planar models; in space three principal moments, or a 3 x 3 array;
     * `boolean`: a condition on parameters;
     * `word`: one of `words`;

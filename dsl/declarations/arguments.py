@@ -8,7 +8,7 @@ from itertools import pairwise
 from frot.dsl import checked
 from frot.dsl.catalogue import Argument, vector
 from frot.dsl.checked.describe import listed
-from frot.dsl.data.classes import dataclass
+from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.declarations.argument_values import Bound, argument_value
 from frot.dsl.messages.source import Span
 from frot.dsl.names.near import did_you_mean
@@ -42,6 +42,7 @@ def bind(
     usable = [a for a in wanted if not (a.space_only and scope.planar)]
     result = Arguments({}, True)
     written: dict[str, tree.Argument] = {}
+    found: list[Argument] = []
     position = 0
     for before, item in pairwise(given):
         if _is_decimal_comma(before, item):
@@ -63,13 +64,24 @@ def bind(
             result.complete = False
             continue
         written[argument.name] = item
-        value = argument_value(argument, item.value, what, scope, constants)
+        found.append(argument)
+    for argument in sorted(found, key=lambda a: a.kind == "couple"):
+        node = written[argument.name].value
+        if argument.kind == "couple" and not scope.planar:
+            argument = _couple(argument, result.values.get("holder"))
+        value = argument_value(argument, node, what, scope, constants)
         if value is None:
             result.complete = False
         else:
             result.values[argument.name] = value
     _fill(usable, written, what, span, scope, result)
     return result
+
+
+def _couple(argument: Argument, holder: Bound | None) -> Argument:
+    """In space: a vector on a body, a scalar about the axis of a liaison."""
+    kind = "vector" if isinstance(holder, checked.BodyPoint) else "expression"
+    return replace(argument, kind=kind)
 
 
 def _is_decimal_comma(before: tree.Argument, item: tree.Argument) -> bool:
