@@ -22,8 +22,9 @@ from frot.dsl.data.classes import dataclass
 class Group:
     """One group: places in z (speeds, auxiliary, algebraic), rows, contacts, elements.
 
-    `general`: its part of the matrix is no mass matrix, or E is not J'. `tree`: its mass matrix is
-    given by the steps of large trees.
+    `entries`: where its rows of J, one after the other, are not zero in every posture. `general`:
+    its part of the matrix is no mass matrix, or E is not J'. `tree`: its mass matrix is given by
+    the steps of large trees.
     """
 
     unknowns: tuple[int, ...]
@@ -32,6 +33,7 @@ class Group:
     rows: tuple[int, ...]
     contacts: tuple[int, ...]
     elements: tuple[int, ...]
+    entries: tuple[int, ...]
     general: bool
     tree: TreeTable | None
 
@@ -99,10 +101,10 @@ def make_groups(system: Assembled) -> Grouping:
     for places in speeds_by_tree([step.node for step in tree.steps]):
         for place in places[1:]:
             sets.join(places[0], place)
-    moved = set()
+    moved: dict[int, list[int]] = {}
     for r, k in _entries(rows):
         sets.join(nw + r, k)
-        moved.add(r)
+        moved.setdefault(r, []).append(k)
     for k, r in _entries(spread):
         sets.join(nw + r, k)
     owners: dict[int, int] = {}
@@ -119,19 +121,25 @@ def make_groups(system: Assembled) -> Grouping:
         unknowns = tuple(i for i in items if i < nw)
         own = tuple(i - nw for i in items if i >= nw)
         steps = not tree.large.isdisjoint(unknowns)
+        local = {z: k for k, z in enumerate(unknowns)}
         groups.append(
             Group(
-                unknowns,
-                sum(i < nv for i in unknowns),
-                sum(nv <= i < nv + na for i in unknowns),
-                own,
-                tuple(sorted({owners[r] for r in own})),
-                tuple(k for k, e in enumerate(elements) if e.row in own),
-                not steps and _is_general(system, unknowns, own),
-                make_tree(tree.steps, unknowns, nv, planar) if steps else None,
+                unknowns=unknowns,
+                n_speeds=sum(i < nv for i in unknowns),
+                n_auxiliary=sum(nv <= i < nv + na for i in unknowns),
+                rows=own,
+                contacts=tuple(sorted({owners[r] for r in own})),
+                elements=tuple(k for k, e in enumerate(elements) if e.row in own),
+                entries=tuple(
+                    i * len(unknowns) + k
+                    for i, r in enumerate(own)
+                    for k in sorted(local[z] for z in moved.get(r, ()))
+                ),
+                general=not steps and _is_general(system, unknowns, own),
+                tree=make_tree(tree.steps, unknowns, nv, planar) if steps else None,
             )
         )
-    return _grouping(system, groups, elements, frozenset(range(n_rows)) - moved)
+    return _grouping(system, groups, elements, frozenset(range(n_rows)) - moved.keys())
 
 
 def reorder_groups(system: Assembled, grouping: Grouping, order: Sequence[int]) -> Grouping:
@@ -165,8 +173,9 @@ def pack_matrix(system: Assembled, groups: Sequence[Group]) -> ca.SX:
 
 
 def pack_rows(system: Assembled, groups: Sequence[Group]) -> ca.SX:
-    """Their rows of J."""
-    return _pack(system.rows[r, list(g.unknowns)] for g in groups for r in g.rows)
+    """Their entries of J."""
+    entries = [(g, *divmod(at, len(g.unknowns))) for g in groups for at in g.entries]
+    return _pack(system.rows[g.rows[i], g.unknowns[k]] for g, i, k in entries)
 
 
 def pack_spread(system: Assembled, groups: Sequence[Group]) -> tuple[ca.SX, ca.SX]:
@@ -178,7 +187,13 @@ def pack_spread(system: Assembled, groups: Sequence[Group]) -> tuple[ca.SX, ca.S
 
 
 def _matrix(system: Assembled, g: Group) -> ca.SX:
-    return g.tree.data if g.tree else system.matrix[list(g.unknowns), list(g.unknowns)]
+    """Of a mass matrix the columns of speeds, of readings, which do not move, the diagonal."""
+    if g.tree:
+        return g.tree.data
+    whole = system.matrix[list(g.unknowns), list(g.unknowns)]
+    if g.general:
+        return whole
+    return _pack([whole[:, : g.n_speeds], ca.diag(whole)[g.n_speeds :]])
 
 
 def _metric(system: Assembled, g: Group) -> ca.SX:

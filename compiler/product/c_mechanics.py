@@ -15,7 +15,8 @@ from frot.compiler.product.c_tables import text as _text
 from frot.dsl.messages.source import Span
 
 _NEVER_SLIPS = -2  # FROT_NEVER_SLIPS
-# The packed arrays of groups in the order of frot_group, and the tables of the mechanics.
+# The lists of a group and its packed arrays, in the order of frot_group; tables of the mechanics.
+_LISTS = ("unknowns", "rows", "contacts", "elements", "given")
 _PACKED = ("vector", "matrix", "metric", "entries", "square")
 MECHANICAL_TABLES = (
     *(
@@ -90,8 +91,8 @@ def _groups(grouping: Grouping) -> tuple[list[str], list[str]]:
     records: list[str] = []
     at = [0] * len(_PACKED)
     for k, g in enumerate(grouping.groups):
-        lists = (g.unknowns, g.rows, g.contacts, g.elements)
-        names = [f"group_{k}_{name}" for name in ("unknowns", "rows", "contacts", "elements")]
+        lists = (g.unknowns, g.rows, g.contacts, g.elements, g.entries)
+        names = [f"group_{k}_{name}" for name in _LISTS]
         for name, items in zip(names, lists, strict=True):
             arrays.append(_array("int", name, [str(i) for i in items]))
         counts = (int(g.general), len(g.unknowns), g.n_speeds, g.n_auxiliary, *map(len, lists[1:]))
@@ -162,7 +163,8 @@ def _group_sizes(g: Group) -> tuple[int, ...]:
     n, rows = len(g.unknowns), len(g.rows)
     if g.tree is not None:
         return n, int(g.tree.data.numel()), g.tree.factor, rows * n, rows**2
-    return n, n * n, g.n_speeds**2, rows * n, rows**2
+    matrix = n * n if g.general else n * g.n_speeds + n - g.n_speeds
+    return n, matrix, g.n_speeds**2, rows * n, rows**2
 
 
 def packed_sizes(lowered: Lowered) -> dict[str, int]:

@@ -60,6 +60,12 @@ static void tree_column(const frot_work *w, const frot_group *g, int k, double *
   frot_tree_times(g, w->core.mass + g->matrix, w->core.twist, column);
 }
 
+/* That of an unknown, where only the columns of speeds are there and the diagonal of the rest. */
+static double own_inertia(const frot_group *g, const double *mass, int k) {
+  int ns = g->n_speeds;
+  return k < ns ? mass[k * g->n + k] : mass[ns * g->n + k - ns];
+}
+
 double frot_mass_column(const frot_work *w, const frot_group *g, int k, double *column) {
   const double *mass = w->core.mass + g->matrix;
   if (g->n_links > 0) {
@@ -69,7 +75,7 @@ double frot_mass_column(const frot_work *w, const frot_group *g, int k, double *
     return whole[k];
   }
   for (int i = 0; i < g->n_speeds; i++) column[i] = mass[i * g->n + k];
-  return mass[k * g->n + k];
+  return own_inertia(g, mass, k);
 }
 
 void frot_momenta(const frot_work *w, const frot_group *g, const double *x, double *y) {
@@ -112,7 +118,7 @@ void frot_own_inertias(const frot_work *w, const frot_group *g, double *own) {
   if (g->n_links > 0)
     frot_tree_diagonal(g, mass, w->core.inertia, own);
   else
-    for (int k = 0; k < g->n; k++) own[k] = mass[k * g->n + k];
+    for (int k = 0; k < g->n; k++) own[k] = own_inertia(g, mass, k);
 }
 
 void frot_whole_column(const frot_work *w, const frot_group *g, int k, double *column) {

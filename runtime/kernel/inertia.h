@@ -18,7 +18,8 @@ void frot_respond(const frot_work *w, const frot_group *g, double *x);
 /* column (n_speeds) <- entries of the speeds in the column of the unknown k; returns that of k. */
 double frot_mass_column(const frot_work *w, const frot_group *g, int k, double *column);
 
-/* column (n) <- that of the unknown k in the whole matrix; of any group. */
+/* column (n) <- that of the unknown k in the whole matrix; of any group, of a mass matrix k is a
+ * speed. */
 void frot_whole_column(const frot_work *w, const frot_group *g, int k, double *column);
 
 /* y <- A x for speeds x (n_speeds), and the diagonal of the whole matrix (n), of a group that is

@@ -49,10 +49,21 @@ static results divide(const frot_island *island, const frot_island_extent *size,
   return r;
 }
 
+/* Put the rows of groups that are given one after the other where they belong; what is zero in
+ * every posture stays zero. */
+static void spread_rows(const frot_model *m, frot_work *w, int first, int count) {
+  const double *given = w->core.given;
+  for (int k = first; k < first + count; k++) {
+    const frot_group *g = &m->groups[k];
+    given = scatter(given, g->given, g->n_given, w->core.rows + g->entries);
+  }
+}
+
 /* Put what belongs to groups where it belongs. */
 static void spread_results(const frot_model *m, frot_work *w, const frot_island *island,
                            const results *r) {
   const double *h = r->h, *c = r->c, *rate = r->rate, *gap = r->gap, *law = r->coefficient;
+  spread_rows(m, w, island->first_group, island->n_groups);
   for (int k = 0; k < island->n_groups; k++) {
     const frot_group *g = &m->groups[island->first_group + k];
     h = scatter(h, g->unknowns, g->n, w->core.h);
@@ -70,8 +81,8 @@ static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, 
   const frot_island_extent *size = &w->awake.extent[i];
   double *at = take_inputs(s, w, island, &t, q, v, d);
   results r = divide(island, size, at, island->n_located);
-  double *matrix = w->core.mass + size->matrix, *entries = w->core.rows + size->entries;
-  double *res[] = {r.qd,   matrix, r.h,         entries,       r.c,
+  double *matrix = w->core.mass + size->matrix, *given = w->core.given;
+  double *res[] = {r.qd,   matrix, r.h,         given,         r.c,
                    r.rate, r.gap,  r.condition, r.coefficient, r.power};
   memcpy(w->call.res, res, sizeof res);
   frot_call(w, &island->dynamics);
@@ -79,12 +90,13 @@ static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, 
   scatter(r.qd, island->q, island->nq, w->core.qd);
   scatter(r.condition, island->conditions, island->n_located, w->core.condition);
   spread_results(m, w, island, &r);
-  if (!frot_all_finite(matrix, size->matrices) || !frot_all_finite(entries, size->all_entries) ||
-      !frot_all_finite(r.qd, (int)(r.h - r.qd)) || !frot_all_finite(r.c, (int)(r.condition - r.c)))
-    return 0;
-  if (wanted != FROT_INERTIA && (!frot_all_finite(r.h, (int)(r.c - r.h)) ||
-                                 !frot_all_finite(r.condition, (int)(r.end - r.condition))))
-    return 0;
+  int finite = frot_all_finite(matrix, size->matrices) && frot_all_finite(given, size->given);
+  if (wanted == FROT_INERTIA)
+    finite = finite && frot_all_finite(r.qd, (int)(r.h - r.qd)) &&
+             frot_all_finite(r.c, (int)(r.condition - r.c));
+  else
+    finite = finite && frot_all_finite(r.qd, (int)(r.end - r.qd));
+  if (!finite) return 0;
   w->awake.power[i] = *r.power;
   w->core.power[0] += *r.power;
   if (!island->spread.call) return 1;
@@ -103,14 +115,15 @@ static int loads_finite(const frot_model *m, const frot_work *w) {
 static int call_whole(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                       const double *v, const double *d, int wanted) {
   frot_inputs(m, s, w, &t, q, v, d);
-  double *res[] = {w->core.qd,          w->core.mass, w->core.h,   w->core.rows,
+  double *res[] = {w->core.qd,          w->core.mass, w->core.h,   w->core.given,
                    w->core.c,           w->core.rate, w->core.gap, w->core.condition,
                    w->core.coefficient, w->core.power};
   memcpy(w->call.res, res, sizeof res);
   frot_call(w, &m->dynamics);
-  if (!frot_all_finite(w->core.mass, m->n_matrix) || !frot_all_finite(w->core.rows, m->n_entries) ||
-      !frot_all_finite(w->core.qd, m->nq) || !frot_all_finite(w->core.c, m->n_rows) ||
-      !frot_all_finite(w->core.gap, m->n_contacts))
+  spread_rows(m, w, 0, m->n_groups);
+  if (!frot_all_finite(w->core.mass, m->n_matrix) ||
+      !frot_all_finite(w->core.given, w->core.n_given) || !frot_all_finite(w->core.qd, m->nq) ||
+      !frot_all_finite(w->core.c, m->n_rows) || !frot_all_finite(w->core.gap, m->n_contacts))
     return 0;
   if (wanted != FROT_INERTIA && !loads_finite(m, w)) return 0;
   if (!m->general) return 1;
@@ -137,6 +150,22 @@ void frot_measure_islands(const frot_model *m, frot_work *w) {
       const frot_group *g = first + k;
       size->unknowns += g->n, size->rows += g->n_rows;
       size->contacts += g->n_contacts, size->elements += g->n_elements;
+      size->given += g->n_given;
+    }
+  }
+}
+
+void frot_measure_rows(const frot_model *m, frot_work *w) {
+  memset(w->core.rows, 0, sizeof(double) * (size_t)m->n_entries);
+  memset(w->core.reach, 0, 2 * sizeof(int) * (size_t)m->n_rows);
+  w->core.n_given = 0;
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    w->core.n_given += g->n_given;
+    for (int i = 0; i < g->n_given; i++) {
+      int *reach = w->core.reach + 2 * g->rows[g->given[i] / g->n], at = g->given[i] % g->n;
+      if (reach[1] == 0) reach[0] = at;
+      reach[1] = at + 1;
     }
   }
 }
@@ -155,20 +184,21 @@ void frot_call_kinematics(const frot_model *m, frot_state *s, frot_work *w, doub
                           const double *q, const double *v, const double *d) {
   if (m->n_islands == 0) {
     frot_inputs(m, s, w, &t, q, v, d);
-    w->call.res[0] = w->core.gap, w->call.res[1] = w->core.rows;
+    w->call.res[0] = w->core.gap, w->call.res[1] = w->core.given;
     w->call.res[2] = w->core.rate, w->call.res[3] = w->core.condition;
     frot_call(w, &m->kinematics);
+    spread_rows(m, w, 0, m->n_groups);
     return;
   }
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_islands; k++) {
     const frot_island *island = &m->islands[now->islands[k]];
     double *at = take_inputs(s, w, island, &t, q, v, d);
-    const frot_island_extent *size = &w->awake.extent[now->islands[k]];
-    results r = divide(island, size, at, island->n_conditions);
-    w->call.res[0] = r.gap, w->call.res[1] = w->core.rows + size->entries;
+    results r = divide(island, &w->awake.extent[now->islands[k]], at, island->n_conditions);
+    w->call.res[0] = r.gap, w->call.res[1] = w->core.given;
     w->call.res[2] = r.rate, w->call.res[3] = r.condition;
     frot_call(w, &island->kinematics);
+    spread_rows(m, w, island->first_group, island->n_groups);
     scatter(r.condition, island->conditions, island->n_conditions, w->core.condition);
     const double *rate = r.rate, *gap = r.gap;
     for (int i = 0; i < island->n_groups; i++) {

@@ -5,8 +5,10 @@
 
 #include "work.h"
 
-/* Fill w->awake.extent; once for a block of scratch memory. */
+/* Fill w->awake.extent; make the rows w->core.rows zero, and tell where they can be anything else;
+ * once for a block of scratch memory. */
 void frot_measure_islands(const frot_model *m, frot_work *w);
+void frot_measure_rows(const frot_model *m, frot_work *w);
 
 /* The results of `dynamics` and `spread`, into w->core; of `kinematics`; of `sizes`, into
  * w->core.load. Where a model has no islands, those of the whole. The first returns 0 where a

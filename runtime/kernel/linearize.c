@@ -165,9 +165,10 @@ static void balance(problem *p) {
   int n = g->n;
   for (int k = 0; k < n; k++) {
     double *column = entry(p, 0, k);
-    frot_whole_column(w, g, k, column);
-    int auxiliary = k >= g->n_speeds && k < g->n_speeds + g->n_auxiliary;
-    if (!auxiliary || g->general) continue;
+    if (g->general || k < g->n_speeds) {
+      frot_whole_column(w, g, k, column);
+      continue;
+    }
     memset(column, 0, sizeof(double) * (size_t)n);
     column[k] = -1;
   }

@@ -22,8 +22,9 @@ enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 
  * place stand the reactions of the liaisons that coordinates keep), algebraic unknowns of the core
  * (nc), where the rows accelerate by J z + c. The rates q' are explicit; q_speed[k] is the speed
  * that is the rate of q[k], or -1 where q[k] is another state. Matrices are dense within their
- * groups, packed one group after the other, by columns; every row of J and every column of E has
- * one entry for each unknown of its group. Every argument is given and every result taken. */
+ * groups, packed one group after the other, by columns; every column of E has one entry for each
+ * unknown of its group, every row of J those that its group tells (`given`). Every argument is
+ * given and every result taken. */
 typedef struct {
   const char *name;
   const char *key; /* identity of the compiled model; kept in saved states */
@@ -69,7 +70,7 @@ typedef struct {
   frot_callable initial_velocity;
   /* kinematics, dynamics, spread and sizes: islands have their own, and then only `sizes` is called
    * for the whole, for the second of its results.
-   * kinematics -> gap (n_contacts), rows J (n_entries), rate (n_rows), conditions
+   * kinematics -> gap (n_contacts), rows J (as given), rate (n_rows), conditions
    * (n_conditions; -1 for those that `sensed` gives) */
   frot_callable kinematics;
   /* sides -> what chooses the side of each contact at the start (3 x n_contacts): height of its
@@ -86,7 +87,7 @@ typedef struct {
   /* pace -> sizes of what depends on time at given states (n_paced), and its rates by time alone
    * (n_paced). Called where n_paced > 0. */
   frot_callable pace;
-  /* dynamics -> q' (nq), A (n_matrix), h (nw), J (n_entries), c (n_rows), rate (n_rows), gap
+  /* dynamics -> q' (nq), A (n_matrix), h (nw), J (as given), c (n_rows), rate (n_rows), gap
    *   (n_contacts), conditions (n_located), coefficients of motion and of rest (2 x n_elements),
    *   power of the forces that have no potential (1) */
   frot_callable dynamics;

@@ -50,10 +50,10 @@ static void load_by_friction(const frot_problem *p, double *load) {
   memset(load, 0, sizeof(double) * (size_t)g->n);
   for (int i = 0; i < g->n_elements; i++) {
     int row = p->m->elements[g->elements[i]].row;
-    const int *support = w->core.support + 2 * i;
+    const int *reach = w->core.reach + 2 * row;
     const double lam = w->core.lam[row], *entries = frot_entries(p->m, w->core.rows, row);
     if (lam == 0) continue;
-    for (int k = support[0]; k < support[1]; k++) load[k] += lam * entries[k];
+    for (int k = reach[0]; k < reach[1]; k++) load[k] += lam * entries[k];
   }
 }
 
@@ -95,10 +95,9 @@ static void begin(const frot_problem *p) {
   int warm = w->reactions.follow && w->reactions.warm;
   for (int i = 0; i < g->n_rows && !warm; i++) w->core.lam[g->rows[i]] = 0;
   for (int i = 0; i < g->n_elements; i++) {
-    int e = g->elements[i], *support = w->core.support + 2 * i;
+    int e = g->elements[i];
     if (m->elements[e].bound == FROT_BY_VALUE)
       w->core.lam[m->elements[e].row] = w->reactions.ratio[e];
-    frot_support(frot_entries(m, w->core.rows, m->elements[e].row), g->n, &support[0], &support[1]);
   }
 }
 

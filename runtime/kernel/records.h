@@ -73,14 +73,16 @@ typedef struct {
 /* Unknowns of the core and rows that act on each other, in no posture on others: they share no
  * matrix. The unknowns are places in z: speeds first, then auxiliary ones, then algebraic ones.
  * `general`: the matrix is any matrix and `spread` gives E; else it is a mass matrix and E = J'.
- * Its parts of packed arrays begin at: vector (n items), matrix (n x n, by columns), metric
- * (n_speeds x n_speeds), entries (n_rows x n), square (n_rows x n_rows). Of a mass matrix given by
- * `links`, those of `width` components, the matrix and the metric are as long as these need. */
+ * `given`: where its rows (n_rows x n) are not zero in every posture, ascending.
+ * Its parts of packed arrays begin at: vector (n items), matrix (n x n, by columns; of a mass
+ * matrix those of the speeds, n x n_speeds, then the diagonal of the rest), metric (n_speeds x
+ * n_speeds), entries (n_rows x n), square (n_rows x n_rows). Of a mass matrix given by `links`,
+ * those of `width` components, the matrix and the metric are as long as these need. */
 typedef struct {
   int general;
   int n, n_speeds, n_auxiliary;
-  int n_rows, n_contacts, n_elements;
-  const int *unknowns, *rows, *contacts, *elements;
+  int n_rows, n_contacts, n_elements, n_given;
+  const int *unknowns, *rows, *contacts, *elements, *given;
   int vector, matrix, metric, entries, square;
   int width, n_links;
   const frot_link *links;

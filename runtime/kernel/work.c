@@ -124,6 +124,9 @@ static void bind_blocks(const frot_model *m, const extent *e, frot_block_work *w
 static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work *w, arena *a) {
   int nr = m->n_rows, general = m->general != 0;
   TAKE(w->qd, m->nq), TAKE(w->mass, m->n_matrix), TAKE(w->h, l->nw), TAKE(w->rows, m->n_entries);
+  int given = 0;
+  for (int k = 0; k < m->n_groups; k++) given += m->groups[k].n_given;
+  TAKE(w->given, given), TAKE(w->reach, 2 * nr);
   TAKE(w->c, nr), TAKE(w->rate, nr), TAKE(w->gap, m->n_contacts);
   TAKE(w->condition, m->n_conditions), TAKE(w->coefficient, 2 * m->n_elements), TAKE(w->power, 1);
   TAKE(w->effect, general * m->n_entries), TAKE(w->metric, general * m->n_metric);
@@ -268,6 +271,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
 void frot_bind_work(const frot_model *model, frot_work *work) {
   bind(model, work, (char *)work);
   frot_measure_islands(model, work);
+  frot_measure_rows(model, work);
   frot_list_all(model, work);
 }
 

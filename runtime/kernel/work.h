@@ -26,7 +26,7 @@ typedef struct {
 /* islands.h: what an island's groups have together, where their parts of packed arrays begin, and
  * the items of these. */
 typedef struct {
-  int unknowns, rows, contacts, elements;
+  int unknowns, rows, contacts, elements, given;
   int matrix, entries, metric;
   int matrices, all_entries, metrics;
 } frot_island_extent;
@@ -59,17 +59,18 @@ typedef struct {
  * A^-1 h, A^-1 E); what it does to the rows wanted, and of which groups what these do to each other
  * is there (formed, n_groups); sizes of all loads and of what they do, and
  * of the terms of c (bias_size, n_rows);
- * reactions lam (n_rows) and the solution a (nw). Scratch: rest and column (nw), the rows of a
- * group that are looked at (listed), four of them abreast and where these are not zero; of large
- * trees inertia, twist and momenta (inertia.h). */
+ * reactions lam (n_rows) and the solution a (nw). Of each row where it is not zero in every posture
+ * (reach, 2 n_rows: from, to). Scratch: what the functions give of the rows (given), rest and
+ * column (nw), the rows of a group that are looked at (listed), four of them abreast and where
+ * these are not zero; of large trees inertia, twist and momenta (inertia.h). */
 typedef struct {
   double t;
-  double *qd, *mass, *h, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
+  double *qd, *mass, *h, *given, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
   double *effect, *metric;
   double *factor, *share, *force, *half, *lu, *lu_scale;
   int *lu_pivot;
   unsigned char *wanted, *formed;
-  int *listed, *support;
+  int n_given, *listed, *support, *reach;
   double *free, *delassus;
   double *load, *load_size, *row_load, *bias_size;
   double *lam, *a;

@@ -46,10 +46,8 @@ static int initial_velocity(const double **arg, double **res, long long *iw, dou
   return 0;
 }
 
-static void rows(double *jacobian) {
-  jacobian[0] = 0.0, jacobian[1] = 1.0; /* normal */
-  jacobian[2] = 1.0, jacobian[3] = 0.0; /* slip */
-}
+/* What is not zero of the rows: the normal moves the auxiliary speed, the slip the block. */
+static void rows(double *jacobian) { jacobian[0] = jacobian[1] = 1.0; }
 
 static int kinematics(const double **arg, double **res, long long *iw, double *w, int mem) {
   (void)iw, (void)w, (void)mem;
@@ -76,7 +74,7 @@ static int dynamics(const double **arg, double **res, long long *iw, double *w, 
   const double x = arg[1][0], v = arg[2][0], *u = arg[3], *p = arg[4];
   (void)iw, (void)w, (void)mem;
   if (res[0]) res[0][0] = v;
-  if (res[1]) res[1][0] = p[3], res[1][1] = 0.0, res[1][2] = 0.0, res[1][3] = p[3];
+  if (res[1]) res[1][0] = p[3], res[1][1] = 0.0, res[1][2] = p[3];
   if (res[2]) res[2][0] = (p[5] != 0.0 ? -p[1] * x : 0.0) + u[0], res[2][1] = -p[6];
   if (res[3]) rows(res[3]);
   if (res[4]) res[4][0] = 0.0, res[4][1] = 0.0;
@@ -111,8 +109,9 @@ static const double u_default[1] = {0.0};
 static const frot_contact contacts[1] = {{"guide", "hand_model.c:1:1", 0, 1, 0, -1, 0, 0}};
 static const frot_element elements[1] = {{0, FROT_BY_NORMAL, 1, {0, -1}, 0, 1, 0, {-1, -1}}};
 static const int places[2] = {0, 1};
+static const int entries[2] = {1, 2};
 static const frot_group groups[1] = {
-    {0, 2, 1, 1, 2, 1, 1, places, places, places, places, 0, 0, 0, 0, 0, 0, 0, 0}};
+    {0, 2, 1, 1, 2, 1, 1, 2, places, places, places, places, entries, 0, 0, 0, 0, 0, 0, 0, 0}};
 static const int row_reads[2] = {1, -1};
 static const int row_beside[2] = {-1, 0};
 static const int none[2] = {0, 0};
@@ -144,7 +143,7 @@ const frot_model frot_the_model = {
     .n_contacts = 1,
     .n_elements = 1,
     .n_groups = 1,
-    .n_matrix = 4,
+    .n_matrix = 3,
     .n_metric = 1,
     .n_entries = 4,
     .n_square = 4,

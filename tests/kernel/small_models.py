@@ -159,6 +159,18 @@ def _size(residual: ca.SX, *of: ca.SX) -> ca.SX:
     return ca.fabs(residual) + ca.fabs(ca.jacobian(residual, x)) @ ca.fabs(x) + 1e-30
 
 
+def _packed(matrix: ca.SX, m: Small) -> ca.SX:
+    """Of a mass matrix the columns of speeds and the diagonal of the rest."""
+    if m.general:
+        return matrix
+    return ca.vertcat(ca.vec(matrix[:, : m.nv]), ca.diag(matrix)[m.nv :])
+
+
+def _matrix_size(m: Small) -> int:
+    nw = m.nv + m.na + m.nc
+    return nw * nw if m.general else nw * m.nv + nw - m.nv
+
+
 def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
     """The generated functions by the names of the contract."""
 
@@ -205,7 +217,7 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
             s.state,
             [
                 rates,
-                of(m.mass, nw, nw),
+                _packed(of(m.mass, nw, nw), m),
                 of(m.force, nw),
                 rows.T,
                 of(m.bias, nr),
@@ -296,9 +308,11 @@ def source(m: Small, folder: Path) -> str:
         ("int", "all_rows"): range(m.n_rows),
         ("int", "all_contacts"): range(len(m.elements)),
         ("int", "all_elements"): range(len(laws)),
+        ("int", "all_entries"): range(m.n_rows * nw),
         ("frot_group", "groups"): [
             f"{{{int(m.general)}, {nw}, {m.nv}, {m.na}, {m.n_rows}, {len(m.elements)}, "
-            f"{len(laws)}, all_unknowns, all_rows, all_contacts, all_elements, 0, 0, 0, 0, 0}}"
+            f"{len(laws)}, {m.n_rows * nw}, all_unknowns, all_rows, all_contacts, all_elements, "
+            "all_entries, 0, 0, 0, 0, 0}"
         ],
         ("int", "row_reads"): reads,
         ("int", "row_beside"): [-1] * m.n_rows,
@@ -342,8 +356,8 @@ def source(m: Small, folder: Path) -> str:
     sizes = {
         "nq": m.nq, "nv": m.nv, "na": m.na, "nc": m.nc, "nu": len(m.inputs),
         "np": len(m.parameters), "ny": m.ny, "n_rows": m.n_rows, "n_contacts": len(m.elements),
-        "n_elements": len(laws), "n_groups": 1, "n_matrix": nw * nw, "n_metric": m.nv * m.nv,
-        "n_entries": m.n_rows * nw, "n_square": m.n_rows**2,
+        "n_elements": len(laws), "n_groups": 1, "n_matrix": _matrix_size(m),
+        "n_metric": m.nv * m.nv, "n_entries": m.n_rows * nw, "n_square": m.n_rows**2,
         "n_conditions": m.n_conditions, "n_located": m.n_conditions,
         "n_discrete": m.n_discrete, "n_blocks": len(m.blocks),
         "n_invariants": made["invariants"].numel_out(0) if m.invariants else 0,
