@@ -120,7 +120,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &a->part) : -1;
   a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
   see_noise(s, a);
-  if (a->ratio <= 1 && shrinks_unheard(s, w, a)) {
+  if (a->ratio <= 1 && (shrinks_unheard(s, w, a) || (!s->implicit && s->noise_measured < 0))) {
     measure_noise(m, s, w, t + h);
     return FROT_DIVERGE; /* its stages made way */
   }

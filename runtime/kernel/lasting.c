@@ -140,7 +140,7 @@ static int move_on(const frot_instant *in, const frot_group *own, double dt, dou
 static int still_holds(const frot_instant *in, const int *chosen, int count, int *slow) {
   const frot_model *m = in->m;
   const double *margin = in->w->search.margin;
-  double least = 0;
+  double least = -FROT_ROUNDING;
   for (int c = 0; c < count; c++) {
     int i = chosen[c];
     const frot_contact_mode *mode = &in->w->search.trial[i];

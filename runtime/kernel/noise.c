@@ -192,11 +192,12 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
     for (int i = 0; i <= DP_STAGES; i += s->implicit ? DP_STAGES : 1)
       largest[j] = fmax(largest[j], fabs(frot_stage(w, i)[j]));
   }
-  s->noise_shown = 0;
+  double before = s->noise_measured < 0 ? 0 : BEFORE;
+  s->noise_shown = 0, s->noise_measured = 1;
   int astray = strays(m, s, w, t);
   if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return;
   note_neighbours(m, w, size);
-  for (int j = 0; j < n + w->layout.ng; j++) noise[j] *= BEFORE;
+  for (int j = 0; j < n + w->layout.ng; j++) noise[j] *= before;
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {
       double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;

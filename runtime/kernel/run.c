@@ -84,7 +84,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->pending = s->has_slope = s->changed = s->crowded = s->several = s->untold = 0;
   for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
   s->crowded_since = s->left_at = t, s->told = s->statistics.events;
-  s->weak = s->tied = s->unmeasured = 0, s->across = s->foreseen = INFINITY;
+  s->weak = s->tied = s->unmeasured = s->noise_measured = 0, s->across = s->foreseen = INFINITY;
   for (int i = 0; i < m->n_rows; i++) s->data[l.posture + i] = NAN;
   frot_choose_first(m, s);
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
@@ -200,6 +200,7 @@ static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
   if (status == FROT_OK) status = frot_happen(m, s, w, t, x, x + m->nq, 0, recorder);
   memcpy(s->data + l.y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   frot_see_other_system(s);
+  if (s->noise_measured > 0) s->noise_measured = -1;
   frot_tell(m, s, recorder);
   if (status != FROT_TERMINATED) return status;
   s->t = t;

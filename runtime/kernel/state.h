@@ -76,6 +76,7 @@ struct frot_state {
   double last_h, last_ratio; /* the last step and its error over the bound; 0: none */
   double failed_h;           /* the last step whose error was too large, and longer since */
   double caution;            /* part of their length that steps are to have: length.c */
+  int noise_measured; /* rounding is known; < 0: from before the last event, of another system */
   int noise_shown;    /* an error was seen that rounding made, and rounding not measured since */
   double noise_level; /* how much larger it was than measured */
   double heard;       /* the longest step planned since rounding was measured last */

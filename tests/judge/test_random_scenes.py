@@ -33,7 +33,8 @@ SCENES = (
 # share of the load holds it; a damper to a body of another group brings a reaction to zero; of two
 # pins that could depart together one does; a coefficient is negative where the start is looked for;
 # all loads of an instant vanish, or a reaction does among others that do; motions hold with the
-# friction of motion alone, or each for its instant alone
+# friction of motion alone, or each for its instant alone; rounding from before an event would hide
+# a reversal after it
 ONCE_WRONG = (
     (77, "corner", 0, (0,)),
     (77, "stack", 0, (2,)),
@@ -54,6 +55,7 @@ ONCE_WRONG = (
     (8101, "anything", 8, (3,)),
     (8401, "anything", 4, (1,)),
     (8401, "anything", 24, (5,)),
+    (8501, "anything", 36, (9,)),
 )
 
 
