@@ -137,6 +137,10 @@ def lower(
     if carried:
         outputs["places"] = (state, [column(body.value for body in carried)])
     lost = _vanishing(reduced)
+    nowhere = next((x for x in lost if x.distance.is_zero()), None)
+    if nowhere is not None:
+        log.report("E0911", f"{nowhere.text} everywhere", nowhere.liaison.span)
+        return None
     if lost:
         told = column(x.distance for x in lost), ca.horzcat(*(x.where for x in lost))
         outputs["vanishing"] = (state, [resolve(settled(x)) for x in told])

@@ -11,7 +11,7 @@ from frot.compiler.mechanics.liaisons.places import LEFT, WayAlong
 from frot.compiler.mechanics.link import Link
 from frot.compiler.mechanics.values import Axis
 from frot.compiler.report.redundancy import Loop
-from frot.compiler.report.relations import Posture, Relations, make_relations, rank
+from frot.compiler.report.relations import Floats, Posture, Relations, make_relations, rank
 from frot.dsl.checked import Expression, Liaison
 from frot.dsl.data.classes import dataclass, replace
 
@@ -64,6 +64,10 @@ _PLANAR: Mapping[str, tuple[_Option, ...]] = {
 }
 
 
+# Ways looked at; then the best of them is told.
+_TRIES = 300
+
+
 def find_cure(relations: Relations, posture: Posture, loop: Loop) -> Cure:
     """Liaisons of the loop that may lock less, one after another, until nothing is too much.
 
@@ -86,22 +90,58 @@ def find_cure(relations: Relations, posture: Posture, loop: Loop) -> Cure:
     own = {x: [k for k, y in rows.items() if y is x] for x in loop.liaisons}
     needed = rank(values[list(rows)])
     left = len(rows) - needed
-    changes: list[Change] = []
-    changed: set[Liaison] = set()
+    options: dict[Liaison, list[tuple[str, list[int]]]] = {x: [] for x, _, _ in offered}
     for liaison, kind, locks in offered:
-        places = list(range(count, count + len(locks)))
+        options[liaison].append((kind, list(range(count, count + len(locks)))))
         count += len(locks)
-        saved = len(own[liaison]) - len(places)
-        if liaison in changed or not 0 < saved <= left:
-            continue
-        after = [r for x, r in own.items() if x is not liaison]
-        chosen = [*(k for some in after for k in some), *places]
-        if rank(values[chosen]) < needed:
-            continue
-        changed.add(liaison)
-        own[liaison], left = places, left - saved
-        changes.append(Change(liaison, kind))
-    return Cure(tuple(changes), left)
+    found = _Soften(values, own, options, needed).found(left)
+    return Cure(tuple(Change(x, kind) for x, kind in found[0]), found[1])
+
+
+class _Soften:
+    """Looks for the first way to lock less, liaison after liaison, that leaves nothing too much."""
+
+    def __init__(
+        self,
+        values: Floats,
+        own: Mapping[Liaison, list[int]],
+        options: Mapping[Liaison, list[tuple[str, list[int]]]],
+        needed: int,
+    ) -> None:
+        self.values, self.own, self.options, self.needed = values, own, options, needed
+        self.tries = _TRIES
+        self.best: tuple[list[tuple[Liaison, str]], int] = ([], 0)
+
+    def found(self, left: int) -> tuple[list[tuple[Liaison, str]], int]:
+        """The changes of the first way that leaves least, and how much that is."""
+        self.best = ([], left)
+        self._go(list(self.options), dict(self.own), [], left)
+        return self.best
+
+    def _go(
+        self,
+        open_: list[Liaison],
+        rows: dict[Liaison, list[int]],
+        changes: list[tuple[Liaison, str]],
+        left: int,
+    ) -> None:
+        if left < self.best[1]:
+            self.best = (changes, left)
+        if not open_ or not self.best[1]:
+            return
+        first, others = open_[0], open_[1:]
+        for kind, places in self.options[first]:
+            saved = len(self.own[first]) - len(places)
+            if not 0 < saved <= left or not self.tries:
+                continue
+            self.tries -= 1
+            after = {**rows, first: places}
+            if rank(self.values[[k for some in after.values() for k in some]]) < self.needed:
+                continue
+            self._go(others, after, [*changes, (first, kind)], left - saved)
+            if not self.best[1]:
+                return
+        self._go(others, rows, changes, left)
 
 
 def _offers(liaison: Liaison, relations: Relations) -> Iterator[tuple[str, list[Link]]]:

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 _CLOSED = 1e-11
 # Nearer to a posture in which rows depend on each other digits are lost: no motion is told.
 _CLEAR = 1e-3
+# What is left of a row that depends on others.
+_NONE = 1e-8
 # Of speeds and accelerations along the rows, beside their terms.
 _KEPT = 1e-9
 _STEPS = 30
@@ -125,7 +127,10 @@ class Dynamics:
         else:
             return None
         missing = held_rows @ state.v + own
-        v = state.v - np.linalg.lstsq(held_rows, missing, rcond=_CLEAR)[0]
+        change, _, _, values = np.linalg.lstsq(held_rows, missing, rcond=_NONE)
+        if not _is_clear(np.asarray(values, dtype=float)):
+            return None
+        v = state.v - change
         wrong = np.abs(held_rows @ v + own)
         if np.any(wrong > _KEPT * (1 + np.abs(held_rows) @ np.abs(v) + np.abs(own))):
             return None
@@ -150,6 +155,12 @@ class Dynamics:
         return solve(now.mass[:nv, :nv], rows, load, -now.bias[held])
 
 
+def _is_clear(values: Floats) -> bool:
+    """Whether each row depends on the others or is far from doing so, by the singular values."""
+    kept = values[values > _NONE * values[0]]
+    return bool(np.min(kept, initial=values[0]) >= _CLEAR * values[0])
+
+
 def solve(mass: Floats, rows: Floats, load: Floats, wanted: Floats) -> tuple[Floats, Floats] | None:
     """The a with `mass` a = `load` + `rows`' lam, `rows` a = `wanted`; sizes of its terms."""
     try:
@@ -161,11 +172,12 @@ def solve(mass: Floats, rows: Floats, load: Floats, wanted: Floats) -> tuple[Flo
         return np.asarray(free), np.asarray(np.abs(free))
     even = np.linalg.solve(factor, rows.T)
     sizes = np.linalg.norm(even, axis=0)
-    sizes[sizes == 0] = 1
+    largest = np.max(sizes)
+    sizes[sizes <= _NONE * largest] = largest or 1  # a row that vanishes, but for rounding
     left, values, right = np.linalg.svd(even / sizes, full_matrices=False)
-    kept = values > 1e-8 * values[0]
-    if np.min(values[kept], initial=values[0]) < _CLEAR * values[0]:
+    if not _is_clear(values):
         return None
+    kept = values > _NONE * values[0]
     short = (right @ ((wanted - rows @ free) / sizes))[kept]
     bound = np.linalg.solve(factor.T, left[:, kept] @ (short / values[kept]))
     found = free + bound

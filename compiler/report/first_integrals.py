@@ -68,7 +68,8 @@ def find_first_integrals(reduced: Reduced, start: Posture | None) -> tuple[First
 
     Beside the candidates with names, combinations: momenta along and about any axis of the ground,
     and the energy in a frame that turns or moves steadily (P. Painlevé 1895; C. Jacobi). Of more
-    speeds than `MOST_SPEEDS` only the energy is looked at, for which no start is needed.
+    speeds than `MOST_SPEEDS` only the energy is looked at, for which no start is needed, and where
+    states tell of nothing, as about a start from which the mechanism goes on in several ways.
     """
     if not reduced.symbols.v.numel():
         return ()
@@ -84,12 +85,12 @@ def find_first_integrals(reduced: Reduced, start: Posture | None) -> tuple[First
     search = Search(dynamics, ca.vertcat(*(c.value for c in named), *twists), start)
     looked = search.look(start.p, _FIRST)
     if looked is None:
-        return ()
+        return _energy_alone(reduced)
     hopeful = np.flatnonzero(looked.constant()[: len(named)]).size
     # friction on the ground leaves no momentum, whatever the axis
     ideal = not dynamics.friction
     if not (hopeful or ideal):
-        return ()
+        return _energy_alone(reduced)
     more = search.look(start.p, hopeful + _SAMPLES, seed=3)
     looked = looked if more is None else more
     holds = looked.constant()
@@ -100,7 +101,7 @@ def find_first_integrals(reduced: Reduced, start: Posture | None) -> tuple[First
     kept = list(_new(looked.values / sizes, kept))
     combined = list(_combined(listed.twists, named, looked, kept, sizes)) if ideal else []
     if not (kept or combined):
-        return ()
+        return _energy_alone(reduced)
     generally = search.look(search.other_parameters(), _FIRST)
     count = looked.values.shape[1]
     weights = [np.eye(count)[k] for k in kept] + [w for _, w in combined]

@@ -83,7 +83,10 @@ def find_ranks(
 def find_loops(
     relations: Relations, posture: Posture, used: Floats | None = None
 ) -> tuple[Loop, ...]:
-    """The redundant relations at a posture, those that have to do with each other together."""
+    """The redundant relations at a posture, those that have to do with each other together.
+
+    So have those of the same liaisons: hinges on one shaft keep each way and turn twice.
+    """
     chosen = relations.holds if used is None else used.astype(bool)
     places = np.flatnonzero(chosen)
     rows = relations.scaled(relations.at(posture).rows)[chosen]
@@ -92,7 +95,7 @@ def find_loops(
         return ()
     projector = spare @ spare.T
     part = np.abs(projector) > _TAKES_PART
-    loops: list[Loop] = []
+    groups: list[set[int]] = []
     left = {int(k) for k in np.flatnonzero(np.diag(part))}
     while left:
         group: set[int] = set()
@@ -101,9 +104,20 @@ def find_loops(
             group |= new
             new = {int(j) for i in new for j in np.flatnonzero(part[i])} - group
         left -= group
-        own = sorted(group)
-        loops.append(_loop(relations, [int(places[i]) for i in own], spare[own]))
-    return tuple(loops)
+        groups.append(group)
+
+    def liaisons(group: set[int]) -> set[Liaison]:
+        return {relations.links[places[i]].liaison for i in group}
+
+    joined: list[set[int]] = []
+    for group in sorted(groups, key=lambda g: (-len(liaisons(g)), min(g))):
+        wider = next((x for x in joined if liaisons(group) <= liaisons(x)), None)
+        if wider is None:
+            joined.append(group)
+        else:
+            wider |= group
+    ordered = sorted(sorted(group) for group in joined)
+    return tuple(_loop(relations, [int(places[i]) for i in own], spare[own]) for own in ordered)
 
 
 def _loop(relations: Relations, rows: list[int], spare: Floats) -> Loop:

@@ -1,9 +1,15 @@
-"""`min` and `max` of what is declared: those of what moves are assertions."""
+"""Bounds of what is declared: those of what moves are assertions."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 from frot.dsl import checked
+from frot.dsl.catalogue import Argument
 from frot.dsl.checked.arrays import component_names, scalars
+from frot.dsl.checked.evaluation import constant
+from frot.dsl.expressions.known import known
+from frot.dsl.names.flanges import parameter_type
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.types import Kind
 from frot.dsl.quantities.dimensions import BOOLEAN
@@ -22,6 +28,45 @@ def hold(value: checked.Expression, name: str, bounds: Bounds, kind: Kind, scope
         for item, told, limit in zip(scalars(value), names, limits, strict=True):
             inside = checked.Binary(_ORDER[word], item, limit, BOOLEAN, span)
             side = "below its min" if word == "min" else "above its max"
-            text = f"'{told}' is {side}, {' '.join(bound.span.text.split())}"
-            owner = scope.instance.name
-            scope.build.assertions.append(checked.Assertion(inside, text, "error", span, owner))
+            _assert(inside, f"'{told}' is {side}, {_written(bound)}", scope)
+
+
+def keep_positive(
+    values: Mapping[str, checked.Expression], kinds: Sequence[Argument], what: str, scope: Scope
+) -> None:
+    """Assert that the sizes of `what` that change stay positive; of the others it is known."""
+    for kind in kinds:
+        value = values.get(kind.name)
+        if kind.sign != "positive" or value is None or constant(value) is None:
+            continue
+        zero = checked.Literal(0.0, value.type, value.span)
+        inside = checked.Binary(">", value, zero, BOOLEAN, value.span)
+        _assert(inside, f"{kind.name} of {what} is not positive any more", scope)
+
+
+def keep_on_curve(made: checked.Liaison, scope: Scope) -> None:
+    """Assert that a point stays between the ends of a curve that has ends."""
+    place = made.b
+    if not made.kind.along_curve or not isinstance(place, checked.CurvePlace):
+        return
+    curve = place.curve
+    if curve.kind != "parametric" or known(curve.arguments["periodic"], scope) is True:
+        return
+    ends, kind = curve.arguments["u"], parameter_type(curve)
+    u = checked.Quantity(made, "u", kind, made.span)
+    for k, order in enumerate((">=", "<=")):
+        end = checked.Element(ends, k, kind, ends.span)
+        inside = checked.Binary(order, u, end, BOOLEAN, made.span)
+        written = f"u = {_written(ends)}"
+        _assert(
+            inside, f"liaison '{made.name}' leaves '{curve.name}', which ends: {written}", scope
+        )
+
+
+def _written(value: checked.Expression) -> str:
+    return " ".join(value.span.text.split())
+
+
+def _assert(inside: checked.Binary, text: str, scope: Scope) -> None:
+    found = checked.Assertion(inside, text, "error", inside.span, scope.instance.name)
+    scope.build.assertions.append(found)

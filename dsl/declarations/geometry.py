@@ -10,6 +10,7 @@ from frot.dsl.catalogue.types import LENGTH
 from frot.dsl.checked.describe import describe
 from frot.dsl.checked.evaluation import constant
 from frot.dsl.declarations.arguments import bind
+from frot.dsl.declarations.bounds import keep_positive
 from frot.dsl.declarations.user_kinds import stated_shape
 from frot.dsl.expressions.expression import agrees, expect, expression, fitting
 from frot.dsl.expressions.known import known, out_of_bounds
@@ -146,6 +147,7 @@ def curve(node: tree.Curve, name: str, scope: Scope) -> checked.Curve | None:
     else:
         found = bind(arguments, _CURVES[kind], kind, node.kind.span, scope)
         values = cast("dict[str, checked.Expression]", found.values) if found.complete else None
+        keep_positive(values or {}, _CURVES[kind], f"curve '{name}'", scope)
     if values is None:
         return None
     kind = {"droite": "line", "cercle": "circle"}.get(kind, kind)
@@ -181,6 +183,7 @@ def surface(node: tree.Surface, name: str, scope: Scope) -> checked.Surface | No
     else:
         found = bind(arguments, _SURFACES[kind], kind, node.kind.span, scope)
         values = cast("dict[str, checked.Expression]", found.values) if found.complete else None
+        keep_positive(values or {}, _SURFACES[kind], f"surface '{name}'", scope)
     kind = {"plan": "plane"}.get(kind, kind)
     return None if values is None else checked.Surface(name, owner, kind, values, node.span)
 
@@ -214,14 +217,15 @@ def _parametric(
             return None
         values[name] = bounds
         local[name] = checked.Variable(name, bounds.type.item, named[name].span)
-    if "periodic" in named and expect(named["periodic"], BOOLEAN, scope) is None:
-        return None
+    periodic: checked.Expression | None = checked.Literal(False, BOOLEAN, node.span)
+    if "periodic" in named:
+        periodic = expect(named["periodic"], BOOLEAN, scope)
     point = expect(plain[0].value, vector(LENGTH, scope.planar), scope.inside(**local))
-    if point is None:
+    if point is None or periodic is None:
         return None
     first = values[names[0]]
     start = checked.Element(first, 0, first.type.item, first.span)
-    return {"point": point, "from": start, **values}
+    return {"point": point, "from": start, "periodic": periodic, **values}
 
 
 def _implicit(

@@ -300,3 +300,46 @@ end Followed;
     assert dict(loop.undetermined) == {"D": 1, "E": 1}
     assert {x.name: x.holonomic for x in report.liaisons}["R"] is False
     assert "energy\n" in str(report)
+
+
+def test_hinges_on_one_shaft_are_one_loop_with_its_cure() -> None:
+    """Five relations of the second say again what the first says, each by itself."""
+    found = frot.compile("""
+model Door "Two hinges"
+  body d: box(mass = 1 kg, size = (0.8, 0.05, 2) m);
+  frame h1 on ground at (0, 0, 0.5) m;
+  frame h2 on ground at (0, 0, 1.5) m;
+  frame g1 on d at (-0.4, 0, -0.5) m;
+  frame g2 on d at (-0.4, 0, 0.5) m;
+  liaison A: rotoide(h1, g1);
+  liaison B: rotoide(h2, g2);
+end Door;
+""").report()
+    [loop] = found.analysis.loops
+    assert loop.degree == 5
+    assert loop.left == 0
+    assert dict(loop.cure) == {"A": "spherique", "B": "lineaire_annulaire"}
+
+
+def test_the_energy_is_kept_where_a_loop_may_go_on_in_several_ways() -> None:
+    """The second parallelogram starts folded up: about there states tell of nothing."""
+    rods = "".join(f"  body {x}: rod(mass = 1 kg, length = 1 m);\n" for x in "abcde")
+    found = frot.compile(
+        "model Folded\n"
+        + rods
+        + """
+  frame f1 on ground at (1, 0, 0) m;
+  frame f2 on ground at (2, 0, 0) m;
+  liaison A: rotoide(ground, a.start, axis = y);
+  liaison B: rotoide(a.tip, b.start, axis = y);
+  liaison C: rotoide(b.tip, c.tip, axis = y);
+  liaison D: rotoide(f1, c.start, axis = y);
+  liaison E: rotoide(b.tip, d.start, axis = y);
+  liaison F: rotoide(d.tip, e.tip, axis = y);
+  liaison G: rotoide(f2, e.start, axis = y);
+initial
+  guess(A.angle = -1.2, D.angle = -1.2, B.angle = 1.2, C.angle = 0);
+end Folded;
+"""
+    ).report()
+    assert [x.text for x in found.analysis.integrals] == ["energy"]

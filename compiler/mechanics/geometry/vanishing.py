@@ -16,7 +16,7 @@ from frot.compiler.mechanics.geometry.plain import Dot
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.link import Geometry, Link, frames_of
 from frot.compiler.mechanics.spatial import Pose, whole
-from frot.dsl.checked import Expression, Liaison
+from frot.dsl.checked import Curve, CurvePlace, Expression, Liaison, Surface, SurfacePlace
 from frot.dsl.data.classes import dataclass
 
 COUNT = 3  # numbers that tell where (FROT_WHERE)
@@ -55,9 +55,12 @@ def find_vanishing(
     """What the figures of the liaisons may lose, and the directions that change."""
     lower = kinematics.fixed.lower
     for liaison, link in links.items():
-        for what, axis in _changing(liaison, link):
-            text = f"liaison '{liaison.name}': {what} has no direction"
-            yield Vanishing(liaison, text, (), ca.norm_2(whole(lower(axis))), ca.SX.zeros(COUNT))
+        for what, value in _changing(liaison, link):
+            size = lower(value)
+            size = ca.norm_2(whole(size)) if value.type.shape else ca.fabs(size)
+            yield Vanishing(
+                liaison, f"liaison '{liaison.name}': {what}", (), size, ca.SX.zeros(COUNT)
+            )
         for one in _figures(link, geometry[liaison], kinematics):
             losses = one.figure.losses(one.pose, one.place, one.parameters, lower)
             for what, names, distance, where in losses:
@@ -67,14 +70,31 @@ def find_vanishing(
 
 
 def _changing(liaison: Liaison, link: Link) -> Iterator[tuple[str, Expression]]:
-    """The axes of a liaison, and of the frames that it joins, which are not given by parameters."""
+    """Axes and sizes of a liaison, and of what it joins, which are not given by parameters."""
     for argument in liaison.kind.arguments:
-        axis = liaison.options.get(argument.name)
-        if argument.kind == "axis" and axis is not None and not is_fixed(axis):
-            yield f"its {argument.name}", axis
+        value = liaison.options.get(argument.name)
+        if value is None or is_fixed(value):
+            continue
+        if argument.kind == "axis":
+            yield f"its {argument.name} has no direction", value
+        elif argument.sign == "positive":
+            yield f"its {argument.name} vanishes", value
     for frame in (frame for end in link.ends for frame in frames_of(end)):
         if isinstance(frame.axis, Expression) and not is_fixed(frame.axis):
-            yield f"the axis of frame '{frame.name}'", frame.axis
+            yield f"the axis of frame '{frame.name}' has no direction", frame.axis
+    for place in (liaison.a, liaison.b):
+        shaped: Curve | Surface
+        match place:
+            case CurvePlace():
+                shaped = place.curve
+            case SurfacePlace():
+                shaped = place.surface
+            case _:
+                continue
+        for name in ("radius", "a", "b"):
+            value = shaped.arguments.get(name)
+            if value is not None and not is_fixed(value):
+                yield f"the {name} of '{shaped.name}' vanishes", value
 
 
 def _figures(link: Link, geometry: Geometry, kinematics: Kinematics) -> Iterator[_Figured]:

@@ -1,0 +1,72 @@
+"""A curve ends where its parameter does; a size that time takes to nothing has no meaning."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import frot
+
+SLOPE = """
+model Slope "A bead slides down a straight wire of 2 m"
+  body bead: particle(mass = 1 kg);
+  curve wire on ground: parametric((u, 0 m, -0.75*u), u = (-1 m, 1 m){periodic});
+  liaison guide: point_courbe(bead, wire);
+  experiment(stop = 1 s);
+end Slope;
+"""
+
+
+def test_a_point_ends_where_its_curve_does() -> None:
+    """It falls from the middle with 0.6 g along the wire, whose half is 1.25 m long."""
+    with pytest.raises(frot.FrotError, match=r"'guide' leaves 'wire', which ends") as raised:
+        frot.compile(SLOPE.format(periodic="")).simulate()
+    result = raised.value.result  # type: ignore[attr-defined]
+    assert result.time[-1] == pytest.approx(np.sqrt(2 * 1.25 / (0.6 * 9.81)), rel=1e-9)
+
+
+def test_a_closed_curve_has_no_end() -> None:
+    result = frot.compile(SLOPE.format(periodic=", periodic = true")).simulate()
+    assert result["guide.u"][-1] > 2
+
+
+@pytest.mark.parametrize(
+    ("figure", "liaison", "told"),
+    [
+        ("circle(radius = SIZE)", "point_courbe(b, c)", "liaison 'L': the radius of 'c' vanishes"),
+        (
+            "ellipse(a = SIZE, b = 1 m)",
+            "point_courbe(b, c)",
+            "a of curve 'c' is not positive any more",
+        ),
+        (
+            "circle(radius = 1 m)",
+            "tige(ground, b, length = SIZE)",
+            "liaison 'L': its length vanishes",
+        ),
+    ],
+)
+def test_sizes_stay_positive(figure: str, liaison: str, told: str) -> None:
+    text = f"""
+planar model Shrinking "Something that time takes to nothing at 0.1 s"
+  world(gravity = 0 m/s^2);
+  body b: particle(mass = 1 kg);
+  curve c on ground: {figure};
+  liaison L: {liaison};
+  experiment(stop = 1 s);
+end Shrinking;
+""".replace("SIZE", "(1 m - 10 m/s*time)")
+    with pytest.raises(frot.FrotError, match=told):
+        frot.compile(text).simulate()
+
+
+def test_a_surface_whose_normal_vanishes_everywhere_is_told() -> None:
+    """Its two parameters go the same way: it is a line."""
+    with pytest.raises(frot.FrotError, match=r"the normal of 'c' vanishes everywhere"):
+        frot.compile("""
+model Line "A surface that is none"
+  body b: particle(mass = 1 kg);
+  surface c on ground: parametric((u + v, u + v, 0 m), u = (-1 m, 1 m), v = (-1 m, 1 m));
+  liaison L: point_surface(b, c);
+end Line;
+""").simulate()
