@@ -51,7 +51,11 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   a->longest = frot_longest_step(m, s, w, a->t, 0);
   a->h = fmin(s->h, a->longest);
   frot_see_anew(w);
-  int status = frot_start_slope(m, s, w, a->t);
+  int known = s->has_slope, status = frot_start_slope(m, s, w, a->t);
+  if (status == FROT_OK && !known && frot_note_still_at_start(m, s, w)) {
+    frot_let_sleep(m, s, w);
+    status = frot_start_slope(m, s, w, a->t);
+  }
   if (status == FROT_OK && is_still(w)) {
     a->longest = frot_longest_step(m, s, w, a->t, 1);
     a->h = m->time_dependent ? fmin(s->h, a->longest) : a->longest;

@@ -96,6 +96,48 @@ static int dissipates(const frot_model *m, const frot_state *s, const frot_work 
   return 0;
 }
 
+/* Let the islands found be asleep; returns how many they are. */
+static int let_sleep(frot_state *s, int found) {
+  s->asleep += found;
+  s->naps += found > 0;
+  return found;
+}
+
+/* Marks the groups a guard of which is not above zero at the start of the step. */
+static void mark_falling(const frot_model *m, const frot_work *w, unsigned char *falls) {
+  const double *guard = frot_stage(w, 0) + w->awake.n;
+  memset(falls, 0, (size_t)m->n_groups);
+  for (int k = 0; k < w->guards.count; k++) {
+    int j = w->guards.list[k];
+    if (guard[k] > 0 || j >= frot_condition_guard(m)) continue;
+    int e = (j - m->n_contacts) / 2;
+    falls[j < m->n_contacts ? m->contact_group[j] : m->row_group[m->elements[e].row]] = 1;
+  }
+}
+
+int frot_note_still_at_start(const frot_model *m, frot_state *s, frot_work *w) {
+  const frot_awake_lists *now = w->awake.now;
+  const double *slope = frot_stage(w, 0);
+  unsigned char *falls = w->awake.group;
+  int found = 0;
+  if (m->n_islands == 0 || s->implicit) return 0;
+  mark_falling(m, w, falls);
+  for (int k = 0; k < now->n_islands; k++) {
+    const frot_island *island = &m->islands[now->islands[k]];
+    int still = island->sleeps && w->awake.power[now->islands[k]] == 0 && island->n_located == 0;
+    for (int j = 0; j < island->n_groups && still; j++) still = !falls[island->first_group + j];
+    for (int j = 0; j < island->nv && still; j++) {
+      int state = m->nq + island->v[j];
+      still = w->step.z0[state] == 0 && slope[now->place[state]] == 0;
+    }
+    for (int j = 0; j < island->nq && still; j++) still = slope[now->place[island->q[j]]] == 0;
+    if (!still || dissipates(m, s, w, island)) continue;
+    s->data[w->layout.asleep + now->islands[k]] = 1;
+    found++;
+  }
+  return let_sleep(s, found);
+}
+
 int frot_note_still(const frot_model *m, frot_state *s, frot_work *w, const double *x) {
   const frot_awake_lists *now = w->awake.now;
   const double *start = frot_stage(w, 0), *end = frot_stage(w, DP_STAGES);
@@ -117,9 +159,7 @@ int frot_note_still(const frot_model *m, frot_state *s, frot_work *w, const doub
     asleep[now->islands[k]] = 1;
     found++;
   }
-  s->asleep += found;
-  s->naps += found > 0;
-  return found;
+  return let_sleep(s, found);
 }
 
 void frot_unpack(const frot_work *w, const double *packed, double *all) {

@@ -1,8 +1,8 @@
 /* Islands (records.h) that are awake: those that evaluations and steps look at.
  *
- * Outside frot_step all are. In a step those sleep whose states have stood still through a whole
- * step before, at every instant of it: they depend on nothing that moves, so that they stand still
- * until an event or a change from outside, after which all are awake. */
+ * Outside frot_step all are. In a step those sleep that stand still at its start, or whose states
+ * have stood still through the step before: they depend on nothing that moves, so that they stand
+ * still until an event or a change from outside, after which all are awake. */
 #ifndef FROT_AWAKE_H
 #define FROT_AWAKE_H
 
@@ -20,6 +20,10 @@ void frot_wake_state(const frot_model *m, frot_state *s, frot_work *w);
 
 /* The same from inside a step: implicit ones are of all states. */
 void frot_wake_within_step(const frot_model *m, frot_state *s, frot_work *w);
+
+/* With the slopes at the start of a step in w->step.k: note the islands that stand still there and
+ * have no guard that is zero, nor conditions. Returns their number. */
+int frot_note_still_at_start(const frot_model *m, frot_state *s, frot_work *w);
 
 /* After an accepted step without an event, with its slopes in w->step.k and its end in x: note the
  * islands that stood still. Returns their number. */

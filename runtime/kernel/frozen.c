@@ -45,7 +45,7 @@ static int frozen_by_rows(const frot_model *m, frot_work *w, const frot_group *g
   }
   for (int i = 0; i < n; i++) {
     int row = w->relations.rows[i], usable = !m->row_depends[row * (m->nq + 1) + m->nq];
-    for (int k = 0; k < m->nq; k++)
+    for (int k = 0; k < m->nq && usable; k++)
       if (m->row_depends[row * (m->nq + 1) + k] && (m->q_speed[k] < 0 || known[m->q_speed[k]] == 0))
         usable = 0;
     if (!usable) continue;
@@ -72,16 +72,17 @@ void frot_find_frozen(const frot_model *m, const frot_state *s, frot_work *w,
                       const frot_contact_mode *modes, double *frozen) {
   double *known = w->core.load;
   drop_cancelled(m, s, w);
-  for (int k = 0; k < m->nv; k++) frozen[k] = 0;
+  for (int k = 0; k < m->nv; k++) frozen[k] = known[k] = 0;
   for (int i = 0; i < m->n_groups; i++) {
     const frot_group *g = &m->groups[i];
     int n = frot_rows_of_group(m, g, modes, NULL, 0, w->relations.rows), count = g->n_speeds + 1;
-    for (int k = 0; k < m->nv; k++) known[k] = m->speed_group[k] == i;
+    for (int k = 0; k < g->n_speeds; k++) known[g->unknowns[k]] = 1;
     while (n > 0) {
       int now = frozen_by_rows(m, w, g, n, known, frozen);
       if (now == count || now == 0) break;
       count = now;
       for (int k = 0; k < g->n_speeds; k++) known[g->unknowns[k]] = frozen[g->unknowns[k]];
     }
+    for (int k = 0; k < g->n_speeds; k++) known[g->unknowns[k]] = 0;
   }
 }

@@ -115,8 +115,15 @@ void frot_backward_by(const double *l, const double *share, int n, double *x) {
   }
 }
 
+/* Whether none of four numbers is anything. */
+static inline int nothing(const double *x) {
+  return (fabs(x[0]) + fabs(x[1])) + (fabs(x[2]) + fabs(x[3])) == 0;
+}
+
 void frot_support(const double *x, int n, int *first, int *end) {
   int from = 0, to = n;
+  while (from + 4 <= n && nothing(x + from)) from += 4;
+  while (to - 4 >= from && nothing(x + to - 4)) to -= 4;
   while (from < n && x[from] == 0) from++;
   while (to > from && x[to - 1] == 0) to--;
   *first = from, *end = to;

@@ -15,9 +15,10 @@ int frot_bounds_something(const frot_model *m, const frot_work *w, int element) 
 
 /* Elements of a contact; returns how many. */
 int frot_laws_of(const frot_model *m, int contact, int own[FROT_LAWS_OF_CONTACT]) {
+  const frot_group *g = &m->groups[m->contact_group[contact]];
   int n = 0;
-  for (int e = 0; e < m->n_elements && n < FROT_LAWS_OF_CONTACT; e++)
-    if (m->elements[e].contact == contact) own[n++] = e;
+  for (int k = 0; k < g->n_elements && n < FROT_LAWS_OF_CONTACT; k++)
+    if (m->elements[g->elements[k]].contact == contact) own[n++] = g->elements[k];
   return n;
 }
 

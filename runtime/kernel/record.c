@@ -53,12 +53,14 @@ void frot_note_changes(const frot_model *m, frot_state *s, double t,
     }
     if (!before[i].closed || !after[i].closed) continue;
     int bounds = 0; /* a side that bounds nothing makes no difference, and is not followed */
-    for (int e = 0; e < m->n_elements; e++)
-      if (m->elements[e].contact == i) {
-        bounds = 1;
-        note_element(m, s, t, e, frot_element_mode(m, before, e)->friction,
-                     frot_element_mode(m, after, e)->friction, recorder);
-      }
+    const frot_group *g = &m->groups[m->contact_group[i]];
+    for (int k = 0; k < g->n_elements; k++) {
+      int e = g->elements[k];
+      if (m->elements[e].contact != i) continue;
+      bounds = 1;
+      note_element(m, s, t, e, frot_element_mode(m, before, e)->friction,
+                   frot_element_mode(m, after, e)->friction, recorder);
+    }
     if (bounds && before[i].side != after[i].side && unilateral[i] == 0)
       frot_note(recorder, s, t, FROT_EVENT_REACTION, i, from, to, 1);
   }

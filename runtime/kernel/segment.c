@@ -53,7 +53,12 @@ void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, doub
                     double end) {
   frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
   *g.t0 = t, *g.t1 = end, *g.h = h;
-  if (s->asleep == 0) copy_modes(m, s, &w->layout, &g); /* what wakes changes them */
+  if (s->asleep == 0 || s->naps != s->kept_naps) { /* what wakes changes modes */
+    copy_modes(m, s, &w->layout, &g);
+    memcpy(g.x0, s->data + w->layout.x, sizeof(double) * (size_t)w->layout.nx);
+    memset(g.f, 0, sizeof(double) * DP_DENSE * (size_t)w->layout.nx);
+    s->kept_naps = s->naps;
+  }
   memcpy(g.spare, s->data + w->layout.spare, sizeof(double) * (size_t)m->n_rows);
   const frot_awake_lists *now = w->awake.now;
   for (int i = 0; i < now->n_elements; i++)

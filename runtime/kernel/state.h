@@ -51,6 +51,7 @@ struct frot_state {
   int several;     /* groups of contacts had several motions at the start: to be told as events */
   int asleep;      /* islands that sleep: see awake.h */
   int naps;        /* times that this has changed */
+  int kept_naps;   /* the same when the whole segment was kept, and not what is awake alone */
   double foreseen; /* the nearest singular posture, as the last step shows it, or INFINITY */
   int spare_loops; /* rows of loops are left out, others may be at the next start: spare.h */
   int weak;        /* rows of loops are weak: crossing.h */

@@ -43,13 +43,21 @@ double frot_length_size(const frot_model *m, const frot_work *w, int contact, co
          frot_gap_size(m, w, m->contacts[contact].row_n, q);
 }
 
+/* Note between which unknowns the slopes of equation i stand. */
+static void bound(const frot_opening *p, int i) {
+  int nx = frot_opening_count(p), *bounds = p->w->relations.bounds + 2 * i;
+  frot_support(p->w->relations.jacobian + nx * i, nx, &bounds[0], &bounds[1]);
+}
+
 /* What unknowns of their usual sizes, at least 1 in SI, change in equation i. An angle that is zero
  * but for rounding leaves that much of it. */
 static double reach_of(const frot_opening *p, int i) {
-  int nx = frot_opening_count(p);
+  const int *bounds = p->w->relations.bounds + 2 * i;
+  const double *slope = p->w->relations.jacobian + frot_opening_count(p) * i;
+  const double *x = frot_opening_unknown(p);
   double sum = 0;
-  for (int k = 0; k < nx; k++)
-    sum += fabs(p->w->relations.jacobian[nx * i + k]) * fmax(fabs(frot_opening_unknown(p)[k]), 1);
+  for (int k = bounds[0]; k < bounds[1]; k++)
+    if (slope[k] != 0) sum += fabs(slope[k]) * fmax(fabs(x[k]), 1);
   return sum;
 }
 
@@ -106,9 +114,11 @@ int frot_evaluate_statements(frot_opening *p) {
     if (status != FROT_OK) return status;
     size_vectors(p, p->velocity ? m->velocity_statement : m->position_statement, n);
     /* slopes that are rounding of what cancels out tell no way */
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n; i++) {
+      bound(p, i);
       if (reach_of(p, i) <= FROT_CONSTANT * w->relations.size[i])
         memset(w->relations.jacobian + nx * i, 0, sizeof(double) * (size_t)nx);
+    }
   }
   for (int i = 0; i < m->n_contacts; i++) {
     if (!p->use[i] || (m->contacts[i].kinematic && !p->velocity)) continue;
@@ -131,14 +141,14 @@ int frot_evaluate_statements(frot_opening *p) {
       if (p->velocity && frot_is_still(p, n, w->opening.reach[i]))
         w->relations.residual[n] = w->relations.size[n] = 0;
     }
-    n++;
+    bound(p, n++);
   }
   if (p->guessed && !p->velocity) {
     frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
     w->call.res[0] = w->relations.residual + n, w->call.res[1] = w->relations.jacobian + nx * n;
     w->call.res[2] = w->relations.size + n, w->call.res[3] = w->opening.natural;
     frot_call(w, &m->guessed);
-    n += m->n_guessed;
+    for (int i = 0; i < m->n_guessed; i++) bound(p, n++);
   }
   for (int i = 0; i < n && p->left > 0; i++)
     w->relations.residual[i] -= p->left * w->opening.left[i];
@@ -150,15 +160,17 @@ int frot_evaluate_statements(frot_opening *p) {
 
 double frot_statement_size(const frot_opening *p, int i) {
   double sum = p->w->relations.size[i];
+  const int *bounds = p->w->relations.bounds + 2 * i;
   const double *x = frot_opening_unknown(p);
-  int nx = frot_opening_count(p);
-  for (int k = 0; k < nx; k++) sum += fabs(p->w->relations.jacobian[nx * i + k] * x[k]);
+  const double *slope = p->w->relations.jacobian + frot_opening_count(p) * i;
+  for (int k = bounds[0]; k < bounds[1]; k++) sum += fabs(slope[k] * x[k]);
   return sum;
 }
 
 int frot_only_unknown(const frot_opening *p, int i) {
+  const int *bounds = p->w->relations.bounds + 2 * i;
   int nx = frot_opening_count(p), only = -1;
-  for (int k = 0; k < nx; k++) {
+  for (int k = bounds[0]; k < bounds[1]; k++) {
     if (p->w->relations.jacobian[nx * i + k] == 0) continue;
     if (only >= 0) return -1;
     only = k;

@@ -181,6 +181,7 @@ static void bind_relations(const frot_model *m, const frot_layout *l, const exte
   TAKE(r->jacobian, wide * e->equations), TAKE(r->residual, e->equations + l->nw);
   TAKE(r->size, e->equations), TAKE(r->step, wide + l->nw + e->equations);
   TAKE(r->unit, wide), TAKE(r->rows, m->n_rows + m->n_contacts + m->n_elements);
+  TAKE(r->bounds, 2 * e->equations);
 }
 
 static void bind_opening(const frot_model *m, const frot_layout *l, const extent *e,

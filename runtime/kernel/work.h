@@ -111,10 +111,11 @@ typedef struct {
 } frot_linear_work;
 
 /* The relations that a projection or the search at the start makes hold: their residuals, rows and
- * sizes, the units of the states, the change, and which rows of the core they are. */
+ * sizes, the units of the states, the change, and which rows of the core they are. Of those of the
+ * start, between which states they stand (bounds: from, to). */
 typedef struct {
   double *jacobian, *residual, *size, *step, *unit;
-  int *rows;
+  int *rows, *bounds;
 } frot_relation_work;
 
 /* Initial values: witness and reach (3 and 1 a contact) are results of `sides`; `use` says which
