@@ -87,25 +87,32 @@ static double follow(const frot_problem *p, const double *whole, const double *l
   return most;
 }
 
-/* The friction that values bound; of those that follow what it was in the stage before, or none. */
-static void begin(const frot_problem *p) {
+/* The friction that values bound; of those that follow what it was in the stage before, or none.
+ * Returns whether it was that. */
+static int begin(const frot_problem *p) {
   const frot_model *m = p->m;
   const frot_group *g = p->g;
   frot_work *w = p->w;
   int warm = w->reactions.follow && w->reactions.warm;
+  if (!warm) w->reactions.rate[g - m->groups] = 0;
   for (int i = 0; i < g->n_rows && !warm; i++) w->core.lam[g->rows[i]] = 0;
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
     if (m->elements[e].bound == FROT_BY_VALUE)
       w->core.lam[m->elements[e].row] = w->reactions.ratio[e];
   }
+  return warm;
 }
 
+/* What a pass leaves of a change is only seen by one more: a first pass that changes little, from
+ * the friction of the stage before, may leave it nearly whole (near a jam). So the rate is that of
+ * the slowest pass seen in the step. */
 int frot_follow_in_turn(const frot_problem *p) {
   const frot_group *g = p->g;
   frot_work *w = p->w;
-  double *load = w->core.column, *whole = w->core.rest, before = 1;
-  begin(p);
+  double *load = w->core.column, *whole = w->core.rest, before = 0;
+  double *rate = &w->reactions.rate[g - p->m->groups];
+  if (begin(p) && *rate > FASTER) return 0;
   for (int pass = 0; pass < PASSES; pass++) {
     load_by_friction(p, load);
     memcpy(whole, load, sizeof(double) * (size_t)g->n_speeds);
@@ -113,11 +120,11 @@ int frot_follow_in_turn(const frot_problem *p) {
     for (int k = 0; k < g->n_speeds; k++) w->core.a[g->unknowns[k]] = whole[k];
     frot_read_momenta(w, g, whole);
     double changed = follow(p, whole, load);
-    int done = changed * (changed / before) <= ENOUGH;
-    if (!done && pass > 0 && !(changed <= FASTER * before)) {
-      if (!(changed <= ROUNDED)) return 0;
-      done = 1;
-    }
+    if (isnan(changed)) return 0;
+    if (before > ROUNDED) *rate = fmax(*rate, changed / before);
+    if (*rate > FASTER) return 0;
+    int known = *rate > 0 || changed == 0, stays = changed > FASTER * before;
+    int done = known && (changed * *rate <= ENOUGH || (changed <= ROUNDED && before > 0 && stays));
     before = changed;
     if (!done) continue;
     for (int i = 0; i < g->n_rows; i++) {

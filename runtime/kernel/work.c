@@ -161,7 +161,7 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
     followers = larger(followers, m->groups[k].n_elements);
     followed = larger(followed, m->groups[k].n_elements * m->groups[k].n_rows);
   }
-  TAKE(r->known, 2 * followers), TAKE(r->effects, 2 * followed);
+  TAKE(r->known, 2 * followers), TAKE(r->effects, 2 * followed), TAKE(r->rate, m->n_groups);
   TAKE(w->span.basis, (n + 1) * e->widest), TAKE(w->span.parts, n + e->widest);
   TAKE(w->span.along, n);
   TAKE(w->span.bias, n), TAKE(w->span.bias_size, n), TAKE(w->span.left, n);

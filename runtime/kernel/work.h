@@ -88,6 +88,7 @@ typedef struct {
   unsigned char *friction, *carried;
   double *fold_ratio, *ratio, *along, *unit_of, *weight, *solution;
   double *known, *effects;
+  double *rate;         /* n_groups: what a pass of pins.c leaves of a change, in the step */
   int dependent, *sign; /* sign (n_groups): of the determinant, 0 where there is none */
   int follow;           /* 1: pins' directions are looked for from the last stage's on */
   int warm;             /* the reactions are those of a stage before: pins.c */
