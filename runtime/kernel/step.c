@@ -86,14 +86,13 @@ static void forget_noise(const frot_model *m, frot_state *s, const frot_work *w)
 }
 
 /* Make the dense output of the step that was kept, if it is not there and somebody looks inside it.
- * Nothing is decided by it, so that the motion does not depend on who looks. */
-static int show(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a) {
+ * Nothing is decided by it, so that the motion does not depend on who looks: next to a place beyond
+ * which there is no motion its stages may lie beyond that, and the cubic of the step has to do,
+ * which is as short there as its ends are near. */
+static void show(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a) {
   frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
-  if (a->dense || *g.t1 <= w->step.looked) return FROT_OK;
-  int status = frot_make_dense(m, s, w, a->t, a->h);
-  if (status != FROT_OK) return frot_fail_step(m, s, w, status, a->t, a->h);
-  frot_keep_dense(w, &g);
-  return FROT_OK;
+  if (a->dense || *g.t1 <= w->step.looked) return;
+  if (frot_make_dense(m, s, w, a->t, a->h) == FROT_OK) frot_keep_dense(w, &g);
 }
 
 /* Take the step: it becomes the current segment. Its end goes onto the relations; the slope there
@@ -133,8 +132,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   if (!s->implicit) frot_keep_crossings(m, s, w, a->t, a->h);
   if (!s->pending && !s->implicit && frot_note_still(m, s, w, x))
     s->has_slope = 0; /* other guards are listed */
-  status = show(m, s, w, a);
-  if (status != FROT_OK) return status;
+  show(m, s, w, a);
   frot_choose_next(m, s, a->stiff);
   if (s->implicit) frot_wake_within_step(m, s, w);
   if (end > s->crowded_since + CROWDED * s->h_max) {

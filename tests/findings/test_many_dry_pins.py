@@ -130,3 +130,31 @@ def test_friction_follows_reactions_to_rounding_however_much_it_does_to_them() -
                 )
         assert slips > 12
         assert abs(result.balance.residual) <= 1e-8 * result.balance.scale
+
+
+def test_a_motion_that_ceases_does_so_at_one_instant_whatever_the_tolerance() -> None:
+    """Journals larger than the rods: friction comes to do as much to the reactions as the weight,
+    and two motions meet and end. Next to that instant neither reactions found roughly nor a look
+    inside the step may end it sooner."""
+    n = 4
+    parts = "".join(
+        f"  body b{i}: rod(mass = {1 + i % 3} kg, length = 1 m);\n"
+        f"  liaison j{i}: rotoide({f'b{i - 1}.tip' if i else 'ground'}, b{i}.start)"
+        " with coulomb(0.25, radius = 1.1 m);\n"
+        for i in range(n)
+    )
+    angles, speeds = (2.2, 2.1, 1.9, -1.4), (-3.4, 3.6, 0.9, -4.0)
+    starts = "".join(
+        f"  b{i}.angle = {angles[i]} rad;\n  b{i}.angular_velocity = {speeds[i]} rad/s;\n"
+        for i in range(n)
+    )
+    model = frot.compile(
+        "planar model Journals\n  world(gravity = 9.81 m/s^2);\n"
+        f"{parts}initial\n{starts}end Journals;\n"
+    )
+    ends = []
+    for tolerance in (1e-6, 1e-9, 1e-11, 1e-12):
+        with pytest.raises(frot.SimulationError) as stop:
+            model.simulate(stop=0.5, tolerance=tolerance)
+        ends.append(stop.value.result.time[-1])
+    assert ends == pytest.approx([ends[-1]] * 4, rel=3e-8)
