@@ -23,6 +23,8 @@
 #define ENOUGH (8 * DBL_EPSILON)
 /* Part of a friction within which it is what rounding of its terms leaves that a pass changes. */
 #define ROUNDED 1e-12
+/* The same from which on what the next pass changes shows what passes leave, and no rounding. */
+#define SHOWN 1e-6
 
 int frot_only_follows(const frot_model *m, const frot_group *g, const frot_contact_mode *modes) {
   int followers = 0;
@@ -121,7 +123,8 @@ int frot_follow_in_turn(const frot_problem *p) {
     frot_read_momenta(w, g, whole);
     double changed = follow(p, whole, load);
     if (isnan(changed)) return 0;
-    if (before > ROUNDED) *rate = fmax(*rate, changed / before);
+    int far = pass == 1 && before == 1 && changed > FASTER; /* from none at all: only a beginning */
+    if (before > SHOWN && !far) *rate = fmax(*rate, changed / before);
     if (*rate > FASTER) return 0;
     int known = *rate > 0 || changed == 0, stays = changed > FASTER * before;
     int done = known && (changed * *rate <= ENOUGH || (changed <= ROUNDED && before > 0 && stays));
