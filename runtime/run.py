@@ -236,14 +236,20 @@ def _fault(engine: Engine, result: Result | None) -> SimulationError:
 
 
 def _help(fault: Fault) -> str:
-    """The remedy: of a posture in which no step has been taken, to begin elsewhere."""
-    begins = fault.status == POSTURE and fault.value == 0
-    return _BEGIN_BESIDE if begins else _HELP.get(fault.status, "")
+    """The remedy: where no step has been taken, to say which way, or to begin elsewhere."""
+    if fault.status != POSTURE or fault.value != 0:
+        return _HELP.get(fault.status, "")
+    return _SAY_WHICH if fault.other >= 0 else _BEGIN_BESIDE
 
 
 _BEGIN_BESIDE = (
     "begin beside that posture: state a place a little before it, or beyond it on the way that "
     "the loop is to go"
+)
+
+_SAY_WHICH = (
+    "state that speed, or guess it: the motion that misses the guesses by far less is taken; "
+    "or begin beside that posture"
 )
 
 _HELP = {

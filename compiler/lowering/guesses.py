@@ -78,7 +78,32 @@ def guessed_places(
     """
     free = column(s for s in scalars_of(system.q) if s.element_hash() not in known)
     others = ca.vertcat(system.v, system.y, system.z, system.lam)
-    found = [
+    found = _guesses_of(guesses, free, others)
+    if not found:
+        return []
+    missed, sizes = _measured(found)
+    linear = [g for g in guesses if not ca.depends_on(ca.jacobian(g.missed, free), free)]
+    begin = move_by(system, linear, system.q, natural, known)
+    return [missed, ca.jacobian(missed, system.q).T, sizes, begin]
+
+
+def guessed_speeds(
+    system: Assembled, guesses: Sequence[Guess], known: Mapping[int, ca.SX]
+) -> list[ca.SX]:
+    """By how much each guess of `initial` of speeds that are not `known` is missed.
+
+    And what that is measured by, as for places. Nothing without guesses, or where no loop asks.
+    """
+    if not system.reduced.mechanism.contacts:
+        return []
+    free = column(s for s in scalars_of(system.v) if s.element_hash() not in known)
+    found = _guesses_of(guesses, free, ca.vertcat(system.y, system.z, system.lam))
+    return list(_measured(found)) if found else []
+
+
+def _guesses_of(guesses: Sequence[Guess], free: ca.SX, others: ca.SX) -> list[Guess]:
+    """Those of `initial` that follow from what is free, and not from `others`."""
+    return [
         g
         for g in guesses
         if not g.start
@@ -86,18 +111,17 @@ def guessed_places(
         and ca.depends_on(g.missed, free)
         and not (others.numel() and ca.depends_on(g.missed, others))
     ]
-    if not found:
-        return []
+
+
+def _measured(found: Sequence[Guess]) -> tuple[ca.SX, ca.SX]:
+    """By how much guesses are missed, and the size of all of the same dimension; of numbers 1."""
     squares = defaultdict[Dimension, ca.SX](lambda: ca.SX(0))
     for g in found:
         squares[g.dimension] += g.left**2 + g.right**2
-    sizes = [
+    sizes = (
         ca.SX(1) if g.dimension == Dimension() else ca.sqrt(squares[g.dimension]) for g in found
-    ]
-    missed = column(g.missed for g in found)
-    linear = [g for g in guesses if not ca.depends_on(ca.jacobian(g.missed, free), free)]
-    begin = move_by(system, linear, system.q, natural, known)
-    return [missed, ca.jacobian(missed, system.q).T, column(sizes), begin]
+    )
+    return column(g.missed for g in found), column(sizes)
 
 
 def move_by(

@@ -13,6 +13,7 @@ from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.guesses import (
     guessed_places,
+    guessed_speeds,
     list_guesses,
     move_by,
     values_of,
@@ -46,6 +47,7 @@ class Initial:
     position_statement: tuple[int, ...]
     velocity_statement: tuple[int, ...]
     guessed: list[ca.SX]
+    guessed_speeds: list[ca.SX]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,6 +128,7 @@ def lower_initial(
         tuple(r.statement for r in position),
         tuple(r.statement for r in velocity),
         guessed,
+        guessed_speeds(system, guesses, direct),
     )
 
 

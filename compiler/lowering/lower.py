@@ -38,7 +38,8 @@ class Lowered:
     """The functions by their names in the contract, and their tables.
 
     `position_statement` and `velocity_statement` give, for each scalar initial equation, the index
-    of its statement in `statements`. `n_guessed`: scalars whose places are guessed.
+    of its statement in `statements`. `n_guessed`: scalars whose places are guessed,
+    `n_guessed_speeds`: and speeds.
     `blocks` are the functions of the blocks of `system`.
     Where there are `islands`, each is of one of the `kinds`. `conditions`: the values of all.
     """
@@ -59,6 +60,7 @@ class Lowered:
     position_statement: tuple[int, ...]
     velocity_statement: tuple[int, ...]
     n_guessed: int
+    n_guessed_speeds: int
     row_depends: tuple[tuple[bool, ...], ...]
     dependent: tuple[bool, ...]
     jacobian: Jacobian | None
@@ -128,6 +130,8 @@ def lower(
     }
     if initial.guessed:
         outputs["guessed"] = (state, initial.guessed)
+    if initial.guessed_speeds:
+        outputs["guessed_speeds"] = (state, initial.guessed_speeds)
     if not islands:
         outputs |= _whole(system, grouping, unsolved(conditions, system), state)
     if reduced.conditions.sensed:
@@ -197,6 +201,7 @@ def lower(
         position_statement=initial.position_statement,
         velocity_statement=initial.velocity_statement,
         n_guessed=initial.guessed[0].numel() if initial.guessed else 0,
+        n_guessed_speeds=initial.guessed_speeds[0].numel() if initial.guessed_speeds else 0,
         row_depends=_row_depends(system),
         dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
         jacobian=jacobian,

@@ -128,11 +128,12 @@ TOOLS: Mapping[str, Row] = {
     "E0910": (
         "a loop in a singular posture",
         "The loop that the liaison closes comes to a posture in which its relations depend on each "
-        "other, as a parallelogram that is flat. A motion that passes goes straight on; one that "
-        "begins or comes to rest there, or passes so slowly that rounding decides, could go on in "
-        "several ways. The run ends there and keeps its motion.",
-        "Give it more speed there, begin beside it, or keep it away from there by a stop or by "
-        "other lengths.",
+        "other, as a parallelogram that is flat. A motion that passes goes straight on, and one "
+        "that begins there goes the way that its speeds say; one that is or comes to rest there, "
+        "or passes so slowly that rounding decides, could go on in several ways. The run ends "
+        "there and keeps its motion.",
+        "State or guess the speeds that say the way, give it more speed there, begin beside it, or "
+        "keep it away from there by a stop or by other lengths.",
         "",
     ),
     "E0911": (

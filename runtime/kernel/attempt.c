@@ -71,7 +71,9 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   return status;
 }
 
+/* Next to a posture that the step comes from there is far more of it than where the step leads. */
 static void measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
+  if (s->from_posture) return;
   frot_measure_noise(m, s, w, t);
   s->heard = s->h;
 }
@@ -192,7 +194,7 @@ static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attemp
     if (begun == FROT_OK) return FROT_OK;
   }
   int weak = frot_posture_at(m, s, w, a->t);
-  double tried = s->statistics.steps > 0 ? a->h : 0; /* the run begins there: text.c */
+  double tried = s->statistics.steps > 0; /* else the run begins there: text.c */
   if (ends < 0 && weak >= 0) return frot_fail(s, FROT_POSTURE, a->t, weak, -1, -1, tried);
   if (ends < 0)
     return frot_fail_step(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, a->t, a->h);

@@ -147,6 +147,7 @@ static double locate(const frot_model *m, frot_state *s, const frot_work *w, int
                      double t, double h) {
   double far, *posture = s->data + w->layout.posture + row;
   double at = find_zero(m, w, row, reached, &far), known = (*posture - t) / h;
+  if (s->from_posture && fabs(at) < NEAR) at = 0;
   double seen = t + h * (isnan(at) ? far : at);
   if (!(fabs(seen - t) >= fabs(s->foreseen - t))) s->foreseen = seen;
   if (isnan(at) && !(known > 0 && known < 1)) at = known;
@@ -166,6 +167,7 @@ int frot_find_crossings(const frot_model *m, frot_state *s, frot_work *w, double
     weak |= at > -FROT_AROUND && at < 1 + FROT_AROUND;
     for (int j = 0; j <= DP_STAGES; j++) near[j] |= fabs(dp_c[j] - at) < NEAR;
   }
+  if (s->from_posture) near[0] = 0; /* the slope is known there */
   for (int k = 0; k <= DP_STAGES; k++) {
     again |= near[k] != w->step.near[k], any |= near[k];
     w->step.near[k] = near[k];
@@ -265,7 +267,7 @@ void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w,
   const double *posture = s->data + w->layout.posture;
   int passed = frot_passes(m, s, w, t, h), near = fabs(s->foreseen - (t + h)) <= FAR * s->h;
   const frot_awake_lists *now = w->awake.now;
-  s->weak = 0;
+  s->weak = s->from_posture = 0;
   for (int k = 0; k < now->n_contacts; k++) {
     int row = m->contacts[now->contacts[k]].row_n;
     s->weak |= row >= 0 && fabs(posture[row] - (t + h)) <= FOLLOWS * s->h;

@@ -10,6 +10,7 @@
 #include "spare.h"
 #include "stages.h"
 #include "terms.h"
+#include "ways.h"
 
 static const frot_contact_mode *modes_of(const frot_state *s, const frot_work *w) {
   return (const frot_contact_mode *)(const void *)(s->data + w->layout.modes);
@@ -65,13 +66,20 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   int status = frot_slope(m, s, w, t, w->step.z0, frot_stage(w, 0));
   if (status == FROT_OK) {
-    frot_note_spare(m, s, w);
+    if (!s->from_posture) frot_note_spare(m, s, w);
     for (int k = 0; k < m->n_groups; k++) s->data[l->sign + k] = w->reactions.sign[k];
     memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
     frot_turn_references(m, s, w);
     frot_measure_end(m, s, w, t, w->step.z0);
     frot_note_sizes(s, w, w->step.z0);
     memcpy(frot_stage(w, 0) + w->awake.n, w->step.z, sizeof(double) * (size_t)w->guards.count);
+  }
+  if (status != FROT_OK || !s->from_posture) return status;
+  const double *q = w->step.z0, *d = s->data + l->d;
+  status = frot_follow_ways(m, s, w, t, q, q + m->nq, d, modes_of(s, w), s->data + l->spare);
+  for (int k = 0; k < w->awake.n - FROT_QUADRATURES; k++) {
+    int speed = w->awake.now->states[k] - m->nq;
+    if (speed >= 0) frot_stage(w, 0)[k] = w->core.a[speed];
   }
   return status;
 }

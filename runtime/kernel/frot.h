@@ -88,10 +88,12 @@ typedef struct {
   int status; /* frot_status */
   /* contact; check, statement, or of FROT_CHATTER a condition or, counted on, a held value; second
    * statement or condition: -1 where none; of FROT_INITIAL without statement -2 for speeds; of
+   * FROT_POSTURE the item is 0 where the speeds at the start say no way, or several, which differ
+   * in the speed `other`; of
    * FROT_DIVERGE the item is 0 where time takes the contact apart */
   int contact, item, other;
   double t, value;
-  double where[FROT_WHERE]; /* of FROT_VANISHED */
+  double where[FROT_WHERE]; /* of FROT_VANISHED; values of that speed */
 } frot_fault;
 
 typedef struct {

@@ -9,7 +9,7 @@
 #include "statements.h"
 
 /* Mean square of what guesses are missed by, in parts, at which they are met; and how much less a
- * place must miss them than another to be meant rather. */
+ * place, or a way on from it, must miss them than another to be meant rather. */
 #define FROT_GUESS_MET 1e-18
 #define FROT_GUESS_LESS 0.06
 

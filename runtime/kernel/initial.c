@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "branch.h"
 #include "changes.h"
 #include "core.h"
 #include "elsewhere.h"
@@ -200,6 +201,7 @@ static int solve_once(frot_opening *p, double *q, double *v) {
     p->use[i] = touches && unilateral[i] == 0 && !contact->reduced;
   }
   status = solve_speeds(p, modes);
+  if (status == FROT_OK) status = frot_choose_ways(p);
   if (status != FROT_OK) return status;
   set_conditions(m, w, d);
   return FROT_OK;
@@ -208,7 +210,7 @@ static int solve_once(frot_opening *p, double *q, double *v) {
 int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v) {
   frot_layout l = frot_layout_of(m);
-  frot_opening p = {m, s, w, t, q, v, s->data + l.d, w->opening.use, 0, 0, NULL, NULL,
+  frot_opening p = {m, s, w, t, q, v, s->data + l.d, w->opening.use, 0, 0, NULL, NULL, 0,
                     0, 0, 0, 0, 0, 0};
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
   size_t size = sizeof(double) * (size_t)m->n_conditions;

@@ -5,6 +5,7 @@
 #include "blame.h"
 #include "crossing.h"
 #include "ends.h"
+#include "groups.h"
 #include "jacobian.h"
 #include "lost.h"
 #include "pace.h"
@@ -12,6 +13,7 @@
 #include "spare.h"
 #include "stages.h"
 #include "tolerances.h"
+#include "ways.h"
 
 /* Time from which on steps are measured by its resolution, in longest steps. */
 #define LEAST_TIME 1e-12
@@ -20,6 +22,9 @@
 /* Part of a value by which the first step may change it, and its length at least. */
 #define FIRST_CHANGE 0.01
 #define FIRST_LEAST 1e-6
+/* The angle by which a loop turns in the first step from a singular posture: nearer to it rounding
+ * grows faster than errors shrink. */
+#define LEAVES 0.2
 /* Change of the step's length: at most, at least, after no value, and what of it is taken. */
 #define MOST_GROWTH 6
 #define LEAST_PART (1.0 / 3)
@@ -47,7 +52,13 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   s->statistics.free = frot_free_speeds(m, s, w);
   double h = FIRST_PART * s->h_max;
   int lost = frot_starts_singular(m, s, w, s->t, h);
-  if (lost >= 0) return frot_fail(s, FROT_POSTURE, s->t, lost, -1, -1, 0);
+  if (lost >= 0 && !frot_begins_on_way(m, s, w, s->t, lost))
+    return frot_fail(s, FROT_POSTURE, s->t, lost, -1, -1, 0);
+  if (lost >= 0) {
+    const frot_group *g = frot_group_of(m, m->contacts[lost].row_n);
+    s->h = fmin(LEAVES * frot_time_of_turn(m, s, g, w->step.z0 + m->nq), s->h_max);
+    return FROT_OK;
+  }
   for (int j = 0; j < m->nq + m->nv; j++) {
     double slope = fabs(frot_stage(w, 0)[j]), size = fabs(w->step.z0[j]);
     if (slope > 0 && size > 0) h = fmin(h, FIRST_CHANGE * size / slope);

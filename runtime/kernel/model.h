@@ -47,8 +47,8 @@ typedef struct {
   int time_dependent; /* forces, coefficients or located conditions depend on time */
   int method;         /* frot_method of the text */
   int has_jacobian;   /* 1: the implicit method can run: q' not late */
-  double implicit_price; /* explicit steps that cost what an implicit one does */
-  int n_guessed;         /* guesses of places */
+  double implicit_price;           /* explicit steps that cost what an implicit one does */
+  int n_guessed, n_guessed_speeds; /* guesses of places, and of speeds */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
   /* the first variables are the modes of the contacts that have one, the others are real */
 
@@ -66,6 +66,9 @@ typedef struct {
    * q (nq x n_guessed), the size that it is measured by; q where the search begins but for the
    * guesses that are no linear functions of q */
   frot_callable guessed;
+  /* guessed_speeds -> by how much each guess of a speed is missed (n_guessed_speeds), the size that
+   * it is measured by */
+  frot_callable guessed_speeds;
   /* initial_velocity -> the same in v: (nv x n_velocity), (ny x n_velocity) */
   frot_callable initial_velocity;
   /* kinematics, dynamics, spread and sizes: islands have their own, and then only `sizes` is called

@@ -44,7 +44,10 @@ static void take_blurred(frot_state *s, frot_attempt *a) {
 }
 
 void frot_take_forced(frot_state *s, frot_attempt *a) {
-  if (a->ratio > 1 && a->ratio <= SLACK * a->best_ratio) take_blurred(s, a);
+  /* from a posture no step is better: the nearer to it one ends, the more rounding there is */
+  int as_good = s->from_posture ? a->ratio * frot_step_tolerance(s) <= MOST_BLUR
+                                : a->ratio <= SLACK * a->best_ratio;
+  if (a->ratio > 1 && as_good) take_blurred(s, a);
 }
 
 void frot_judge_passage(const frot_model *m, frot_state *s, const frot_work *w, frot_attempt *a) {

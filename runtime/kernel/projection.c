@@ -76,10 +76,7 @@ typedef struct {
   double missed;
 } frame;
 
-/* The n rows H = L^-1 J' of w->relations.rows made orthonormal, H = Q R: into row i of
- * w->linear.matrix the column i of R, into w->linear.pivot which of them it is, or -1. A row that
- * depends on those before it is left to them. */
-static void orthonormalize(const frot_model *m, frot_work *w, const frot_group *g, int n) {
+void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *g, int n) {
   int ns = g->n_speeds, rank = 0;
   for (int i = 0; i < n; i++) {
     int row = w->relations.rows[i];
@@ -119,7 +116,7 @@ static void correction(frot_work *w, const frot_group *g, int n) {
 static void correct(const frot_model *m, frot_work *w, const frot_group *g, int n, double missed,
                     frame *f) {
   int serves = f->group == g && f->n == n && n >= MANY && missed <= FASTER * f->missed;
-  if (!serves) orthonormalize(m, w, g, n);
+  if (!serves) frot_orthonormal_rows(m, w, g, n);
   *f = (frame){g, n, missed};
   correction(w, g, n);
 }

@@ -22,4 +22,9 @@ int frot_holding_rows(const frot_model *m, frot_work *w, const frot_contact_mode
 int frot_rows_of_group(const frot_model *m, const frot_group *g, const frot_contact_mode *modes,
                        const unsigned char *stuck, int normals_only, int *rows);
 
+/* The n rows H = L^-1 J' of a group in w->relations.rows made orthonormal, H = Q R, Q into
+ * w->span.basis: into row i of w->linear.matrix the column i of R, into w->linear.pivot which of
+ * them it is, or -1. A row that depends on those before it is left to them. */
+void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *g, int n);
+
 #endif

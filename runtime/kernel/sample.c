@@ -12,6 +12,7 @@
 #include "spare.h"
 #include "tape.h"
 #include "turns.h"
+#include "ways.h"
 
 /* Whether a mode holds anything that coordinates do not. */
 static int holds_anything(const frot_model *m, frot_work *w, const frot_contact_mode *modes) {
@@ -52,6 +53,8 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   }
   if (status == FROT_OK)
     status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, g->along, 1);
+  if (status == FROT_OK && w->reactions.dependent)
+    status = frot_follow_ways(m, s, w, t, q, v, g->d, g->modes, g->spare);
   frot_see_anew(w);
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
   if (status != FROT_OK) return status;

@@ -56,6 +56,7 @@ struct frot_state {
   int spare_loops; /* rows of loops are left out, others may be at the next start: spare.h */
   int weak;        /* rows of loops are weak: crossing.h */
   int tied; /* stages are put onto the relations of loops: crossing.h; < 0: not for some steps */
+  int from_posture; /* the first step begins in one, on a way that its speeds say: ways.h */
   double across;    /* error, to its bound, of the last step that tried to pass a posture ahead */
   int implicit;     /* the next step is made by the implicit method */
   int was_implicit; /* the current segment was */

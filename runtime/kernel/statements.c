@@ -10,6 +10,7 @@
 #include "terms.h"
 #include "tolerances.h"
 #include "turns.h"
+#include "ways.h"
 
 /* The statements depend on the unknowns of the blocks too, and these on the states:
  * J <- J - J_y (dr/dy)^-1 dr/dx. */
@@ -95,6 +96,29 @@ static void size_vectors(frot_opening *p, const int *statement, int n) {
   }
 }
 
+/* What speeds are to meet in singular postures, as equations from n on; returns their end. */
+static int append_ways(const frot_opening *p, int n) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  const frot_contact_mode *modes = (const void *)(p->s->data + w->layout.modes);
+  if (frot_dynamics(m, p->s, w, p->t, p->q, p->v, p->d, modes, FROT_INERTIA) != FROT_OK) return n;
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    int count = frot_find_ways(m, p->s, w, g, p->t, p->q, p->v, p->d);
+    for (int i = 0; i < count; i++, n++) {
+      double *row = w->linear.scratch + g->n_speeds * i, *whole = w->core.column;
+      double *equation = w->relations.jacobian + m->nv * n;
+      frot_outwards(w, g, row);
+      frot_momenta(w, g, row, whole);
+      memset(equation, 0, sizeof(double) * (size_t)m->nv);
+      for (int j = 0; j < g->n_speeds; j++) equation[g->unknowns[j]] = whole[j];
+      w->relations.residual[n] = w->linear.right[i];
+      w->relations.size[n] = fabs(w->linear.right[i]);
+    }
+  }
+  return n;
+}
+
 int frot_evaluate_statements(frot_opening *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
@@ -150,6 +174,7 @@ int frot_evaluate_statements(frot_opening *p) {
     frot_call(w, &m->guessed);
     for (int i = 0; i < m->n_guessed; i++) bound(p, n++);
   }
+  if (p->ways && p->velocity) n = append_ways(p, n);
   for (int i = 0; i < n && p->left > 0; i++)
     w->relations.residual[i] -= p->left * w->opening.left[i];
   p->n = n;

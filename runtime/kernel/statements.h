@@ -21,6 +21,7 @@ typedef struct {
   int wide;     /* the search may begin elsewhere too */
   int guessed;  /* the guesses of places are equations too, after the others */
   double left;  /* the part of w->opening.left that may still be missed (gradual.h) */
+  int ways;     /* speeds are to begin a motion in singular postures too (ways.h) */
 } frot_opening;
 
 static inline double *frot_opening_unknown(const frot_opening *p) {

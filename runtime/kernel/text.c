@@ -142,6 +142,28 @@ static void chatter_text(const frot_model *m, const frot_fault *f, char *text, s
       what);
 }
 
+/* What a speed is the rate of, or else its own name. */
+static const char *rated(const frot_model *m, int speed) {
+  int of = m->speed_coordinate[speed];
+  return m->states[of >= 0 ? of : m->nq + speed].name;
+}
+
+/* A loop that begins in a singular posture with speeds that do not say how it goes on (branch.h).
+ */
+static void posture_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
+  const char *name = contact_name(m, f->contact);
+  if (f->other >= 0 && m->states)
+    snprintf(text, size,
+             "liaison '%s': at the start, t = %.17g, the loop that it closes is in a singular "
+             "posture, and several motions begin there: the rate of %s may be %.6g or %.6g",
+             name, f->t, rated(m, f->other), f->where[0], f->where[1]);
+  else
+    snprintf(text, size,
+             "liaison '%s': at the start, t = %.17g, the loop that it closes is in a singular "
+             "posture, and no motion begins there with the speeds that are stated",
+             name, f->t);
+}
+
 void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_t size) {
   const frot_fault *f = &s->fault;
   const char *name = contact_name(m, f->contact);
@@ -265,6 +287,10 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       vanished_text(m, f, text, size);
       return;
     case FROT_POSTURE:
+      if (f->item >= 0) {
+        posture_text(m, f, text, size);
+        return;
+      }
       if (f->value == 0) { /* no step has been taken */
         snprintf(text, size,
                  "liaison '%s': at the start, t = %.17g, relations of the loop that it closes "

@@ -36,7 +36,7 @@ static int larger(int a, int b) { return a > b ? a : b; }
 static extent extent_of(const frot_model *m, const frot_layout *l) {
   extent e = {0, m->n_invariants > 0 ? m->nq + m->nv : m->nq, 0, 0, 0};
   e.equations = larger(m->n_position, m->n_velocity) + m->n_rows + m->n_contacts + m->n_invariants +
-                m->n_guessed;
+                larger(m->n_guessed, m->n_guessed_speeds);
   e.states = larger(e.states, l->nw);
   e.square = larger(e.equations, l->nw);
   for (int k = 0; k < m->n_groups; k++) e.widest = larger(e.widest, m->groups[k].n);
@@ -51,6 +51,7 @@ static frot_callable scratch_of_all(const frot_model *m) {
                                   &m->initial_position,
                                   &m->initial_velocity,
                                   &m->guessed,
+                                  &m->guessed_speeds,
                                   &m->kinematics,
                                   &m->sides,
                                   &m->places,
@@ -163,7 +164,7 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   }
   TAKE(r->known, 2 * followers), TAKE(r->effects, 2 * followed), TAKE(r->rate, m->n_groups);
   TAKE(w->span.basis, (n + 1) * e->widest), TAKE(w->span.parts, n + e->widest);
-  TAKE(w->span.along, n);
+  TAKE(w->span.along, n), TAKE(w->span.way, n);
   TAKE(w->span.bias, n), TAKE(w->span.bias_size, n), TAKE(w->span.left, n);
   TAKE(w->span.direction, m->n_entries), TAKE(w->step.direction, m->n_entries);
   TAKE(w->step.motion, m->n_entries);
@@ -194,11 +195,12 @@ static void bind_opening(const frot_model *m, const frot_layout *l, const extent
   TAKE(w->off_at_first, e->equations), TAKE(w->begin, e->states), TAKE(w->nearest, e->states);
   TAKE(w->behind, m->nq), TAKE(w->here, m->nq), TAKE(w->first_factor, m->nv * m->nv),
       TAKE(w->first_unit, m->nq);
-  TAKE(w->found, m->nq), TAKE(w->way, m->nq), TAKE(w->next_way, m->nq), TAKE(w->apart, m->nq);
+  TAKE(w->found, m->nq), TAKE(w->way, larger(m->nq, m->nv)), TAKE(w->next_way, m->nq),
+      TAKE(w->apart, larger(m->nq, m->nv));
   TAKE(w->scratch, 3 * larger(m->nq, m->nv));
   TAKE(w->left, e->equations), TAKE(w->natural, m->nq),
       TAKE(w->first, m->nq + m->ny + m->n_contacts), TAKE(w->near, m->nq + m->ny);
-  TAKE(w->first_use, m->n_contacts);
+  TAKE(w->first_use, m->n_contacts), TAKE(w->start, m->nv), TAKE(w->second, m->nv);
 }
 
 static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, arena *a) {

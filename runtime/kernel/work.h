@@ -101,6 +101,7 @@ typedef struct {
   int rank, follow; /* whether `spare` (n_rows) says what depends on others: spare.h */
   unsigned char *spare;
   int *along; /* n_rows: how many of them each held row lies along at most */
+  int *way;   /* n_rows: ways.h */
   double *left, *direction;
   double *basis, *parts, *bias, *bias_size;
 } frot_span_work;
@@ -132,6 +133,7 @@ typedef struct {
   double *found, *way, *next_way, *apart, *scratch; /* closest.c; scratch: 3 nq */
   double *left;                                     /* gradual.h */
   double *natural, *near;                           /* guesses.h; near: q, y */
+  double *start, *second;                           /* branch.c: speeds */
   double *first; /* initial.c: q, y and the sides of the place found first, its `use` */
   unsigned char *first_use;
 } frot_opening_work;

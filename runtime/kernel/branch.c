@@ -1,0 +1,144 @@
+#include "branch.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core.h"
+#include "guesses.h"
+#include "inertia.h"
+#include "linear.h"
+#include "nearest.h"
+#include "ways.h"
+
+/* Speeds that differ by less than this part of them are the same. */
+#define SAME 1e-6
+/* Speeds from which ways are looked for, along each of the conditions, in sizes of the motion. */
+#define PLACES 4
+static const double place[PLACES] = {1, -1, 4, -4};
+
+/* Two ways, w->opening.nearest and w->opening.second: the square of what they miss the guesses of
+ * speeds by, in parts (1 where there are none), INFINITY where there is no way. */
+typedef struct {
+  double missed[2];
+} two_ways;
+
+static double guesses_missed(const frot_opening *p) {
+  int n = p->m->n_guessed_speeds;
+  double *missed = p->w->relations.residual, *size = p->w->relations.size, sum = 0;
+  if (n == 0) return 1;
+  frot_inputs(p->m, p->s, p->w, &p->t, p->q, p->v, p->d);
+  p->w->call.res[0] = missed, p->w->call.res[1] = size;
+  frot_call(p->w, &p->m->guessed_speeds);
+  for (int i = 0; i < n; i++) {
+    double part = size[i] > 0 ? missed[i] / size[i] : 0;
+    sum += part * part;
+  }
+  return isfinite(sum) ? sum : 1;
+}
+
+/* The inertia and the conditions of a group at p->v. */
+static int look(frot_opening *p, const frot_group *g) {
+  const frot_contact_mode *modes = (const void *)(p->s->data + p->w->layout.modes);
+  int status = frot_dynamics(p->m, p->s, p->w, p->t, p->q, p->v, p->d, modes, FROT_INERTIA);
+  return status == FROT_OK ? frot_find_ways(p->m, p->s, p->w, g, p->t, p->q, p->v, p->d) : 0;
+}
+
+/* Distance of speeds, by the kinetic energy of their difference. */
+static double between(const frot_opening *p, const double *v, const double *other) {
+  double *apart = p->w->opening.apart, sum = 0;
+  for (int k = 0; k < p->m->nv; k++) apart[k] = v[k] - other[k];
+  for (int k = 0; k < p->m->n_groups; k++) sum += frot_square_of(p->w, &p->m->groups[k], apart);
+  return sqrt(sum);
+}
+
+/* On from p->v to a way, which is kept if it is one of the two that miss the guesses least. */
+static void find(frot_opening *p, two_ways *found) {
+  double *first = p->w->opening.nearest, *second = p->w->opening.second;
+  size_t bytes = sizeof(double) * (size_t)p->m->nv;
+  p->ways = 1;
+  int status = frot_solve_nearest(p);
+  p->ways = 0;
+  if (status != FROT_OK) {
+    frot_clear_opening(p);
+    return;
+  }
+  double missed = guesses_missed(p), size = sqrt(2 * frot_kinetic(p->m, p->w, p->v));
+  for (int k = 0; k < 2; k++)
+    if (isfinite(found->missed[k]) && !(between(p, p->v, k ? second : first) > SAME * size)) return;
+  if (missed < found->missed[0]) {
+    memcpy(second, first, bytes), memcpy(first, p->v, bytes);
+    found->missed[1] = found->missed[0], found->missed[0] = missed;
+  } else if (missed < found->missed[1]) {
+    memcpy(second, p->v, bytes), found->missed[1] = missed;
+  }
+}
+
+/* w->opening.way <- a change of the speeds w->opening.start, as large as they are, that statements
+ * and liaisons leave open, along condition i of a group. Returns 0 if there is none. */
+static int open_change(frot_opening *p, const frot_group *g, int i) {
+  const double *start = p->w->opening.start;
+  double *along = p->w->linear.scratch + g->n_speeds * i, *change = p->w->opening.way;
+  memcpy(p->v, start, sizeof(double) * (size_t)p->m->nv);
+  if (look(p, g) <= i) return 0;
+  double size = sqrt(frot_square_of(p->w, g, start));
+  frot_outwards(p->w, g, along);
+  for (int j = 0; j < g->n_speeds; j++) p->v[g->unknowns[j]] += size * along[j];
+  if (frot_solve_nearest(p) != FROT_OK) {
+    frot_clear_opening(p);
+    return 0;
+  }
+  double far = between(p, p->v, start);
+  for (int k = 0; k < p->m->nv; k++) change[k] = size / far * (p->v[k] - start[k]);
+  return far > SAME * size;
+}
+
+/* Look for ways from both sides of the speeds w->opening.start, along each condition of a group. */
+static void look_around(frot_opening *p, const frot_group *g, two_ways *found) {
+  const double *start = p->w->opening.start, *change = p->w->opening.way;
+  memcpy(p->v, start, sizeof(double) * (size_t)p->m->nv);
+  int count = look(p, g);
+  for (int i = 0; i < count; i++) {
+    if (!open_change(p, g, i)) continue;
+    for (int k = 0; k < PLACES; k++) {
+      for (int j = 0; j < p->m->nv; j++) p->v[j] = start[j] + place[k] * change[j];
+      find(p, found);
+    }
+  }
+}
+
+/* That no motion begins, or two that are about as near. */
+static int tell(frot_opening *p, int contact, const two_ways *found) {
+  const double *first = p->w->opening.nearest, *second = p->w->opening.second;
+  int differs = -1;
+  double most = 0;
+  for (int k = 0; k < p->m->nv && isfinite(found->missed[1]); k++) {
+    double apart = fabs(first[k] - second[k]);
+    if (apart > most && frot_angle_of(p->m, k) >= 0) most = apart, differs = k;
+  }
+  for (int k = 0; k < p->m->nv && isfinite(found->missed[1]) && differs < 0; k++)
+    if (fabs(first[k] - second[k]) > most) most = fabs(first[k] - second[k]), differs = k;
+  int status = frot_fail(p->s, FROT_POSTURE, p->t, contact, 0, differs, 0);
+  if (differs >= 0) p->s->fault.where[0] = first[differs], p->s->fault.where[1] = second[differs];
+  return status;
+}
+
+int frot_choose_ways(frot_opening *p) {
+  frot_work *w = p->w;
+  const frot_model *m = p->m;
+  size_t bytes = sizeof(double) * (size_t)m->nv;
+  two_ways found = {{INFINITY, INFINITY}};
+  int contact = -1;
+  for (int k = 0; k < m->n_groups; k++) {
+    if (look(p, &m->groups[k]) == 0) continue;
+    for (int i = 0; i < m->n_contacts && contact < 0; i++)
+      if (m->contacts[i].row_n == w->span.way[0]) contact = i;
+  }
+  if (contact < 0) return FROT_OK;
+  memcpy(w->opening.start, p->v, bytes);
+  find(p, &found);
+  for (int k = 0; k < m->n_groups; k++) look_around(p, &m->groups[k], &found);
+  if (!isfinite(found.missed[0]) || found.missed[0] >= FROT_GUESS_LESS * found.missed[1])
+    return tell(p, contact, &found);
+  memcpy(p->v, w->opening.nearest, bytes);
+  return frot_solve_nearest(p);
+}
