@@ -267,7 +267,8 @@ _HELP = {
     30: "write the event so that it says one thing",
     POSTURE: "give it more speed there, or keep it away from there by a stop or by other lengths",
     VANISHED: "state or guess another place, keep the motion away from there, or give the figure "
-    "another form; what touches along a line is a `lineaire_rectiligne`, or a model of the plane",
+    "another form; what touches along a line is a `lineaire_rectiligne`, a `roulement` of parallel "
+    "cylinders, or a model of the plane",
     19: "give every body a mass and an inertia of a usual size",
     20: "leave friction out of some of the liaisons that act on each other",
 }

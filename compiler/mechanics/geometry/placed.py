@@ -14,7 +14,7 @@ from frot.compiler.mechanics.geometry.round import Ball
 from frot.compiler.mechanics.geometry.touches import is_closed
 from frot.compiler.mechanics.geometry.tracking import can_touch
 from frot.compiler.mechanics.liaisons.curves import Across, Follow, Tangent
-from frot.compiler.mechanics.liaisons.directions import Level, NoSpin
+from frot.compiler.mechanics.liaisons.directions import Alongside, Level, NoSpin
 from frot.compiler.mechanics.liaisons.facing import Attitude, Heading
 from frot.compiler.mechanics.liaisons.joints import Options, Pairing
 from frot.compiler.mechanics.liaisons.lock import Lock
@@ -22,6 +22,7 @@ from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.places import Apart, Slide, WayAlong
 from frot.compiler.mechanics.liaisons.touching import NoSlip, Touching
 from frot.compiler.mechanics.values import Axis
+from frot.dsl.checked import Expression
 from frot.dsl.data.classes import dataclass
 
 
@@ -114,16 +115,32 @@ def _tangent(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | 
 
 
 def _rolling(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
-    """Where they touch, the two have one velocity; along a line, everywhere on it."""
+    """Where they touch, the two have one velocity; along a line, everywhere on it.
+
+    Parallel cylinders do touch so, and those that roll are taken for parallel ones.
+    """
     lying = _lying(a, b)
     if lying is not None:
         still = (NoSlip(a, lying.touching.b, k, planar) for k in range(2))
         return _rows(lying.touching, lying.level, *still, NoSpin(lying.level.normal))
+    if a.tube is not None and b.tube is not None:
+        return _side_by_side(a, a.tube[0], *b.tube)
     if not can_touch(a, b, planar):
         return None
     ways = range(1 if planar else 2)
     touching = _touch(a, b)
     return _rows(touching, *(NoSlip(a, b, k, planar, touching.followed) for k in ways))
+
+
+def _side_by_side(a: Figure, along_a: Axis, along_b: Axis, radius: Expression) -> Pairing:
+    """Cylinders that roll on each other stay parallel: they touch along a line, as rollers do.
+
+    It is where a ball about the middle of b touches a that they do not slip.
+    """
+    ball = Ball(radius)
+    still = (NoSlip(a, ball, k, planar=False) for k in range(2))
+    straight = (Alongside(along_a, along_b, k) for k in range(2))
+    return _rows(Touching(a, ball), *straight, *still)
 
 
 _Rule = Callable[[Figure, Figure, Options, bool], Pairing | None]

@@ -37,6 +37,8 @@ class Touch:
 
 
 _Rule = Callable[..., Touch]
+# Of two unit vectors: what rounding leaves of their product.
+_PARALLEL = 1e-12
 
 
 def touch(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, side: ca.SX) -> Touch:
@@ -80,17 +82,9 @@ def _flat_egg(
 def _ball_ball(
     a: Ball | Dot, b: Ball | Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
 ) -> Touch:
-    """Outside of each other, or the smaller inside of the larger one, whichever is the first."""
-    first, second = a.radius_in(lower), b.radius_in(lower)
+    """As round things do."""
     apart = pb.origin - pa.origin
-    if second.is_zero():
-        return _round(apart, pb, first, second, side)
-    far, wide = ca.sqrt(ca.sumsqr(apart)), ca.fmax(first, second)
-    normal, beyond = side * _way(apart, far), far - wide
-    inside = ca.if_else(ca.logic_and(side < 0, first < second), 1, -1)
-    outside = ca.if_else(ca.eq(first, second), wide, beyond)  # of its size nothing is inside
-    gap = side * beyond - (first + second - wide)
-    return Touch(gap, normal, pb.origin + inside * second * normal, outside, first + second)
+    return _round(apart, pb, a.radius_in(lower), b.radius_in(lower), side)
 
 
 def _way(apart: ca.SX, far: ca.SX) -> ca.SX:
@@ -99,11 +93,20 @@ def _way(apart: ca.SX, far: ca.SX) -> ca.SX:
 
 
 def _round(apart: ca.SX, pb: Pose, first: ca.SX, second: ca.SX, side: ca.SX) -> Touch:
-    """Round things whose centres, or the nearest points of whose axes, are `apart`."""
+    """Round things whose centres, or the nearest points of whose axes, are `apart`.
+
+    Outside of each other, or the smaller inside of the larger one, whichever is the first.
+    """
     far = ca.sqrt(ca.sumsqr(apart))
     normal = side * _way(apart, far)
-    gap = side * (far - first) - second
-    return Touch(gap, normal, pb.origin - second * normal, far - first, first + second)
+    if first.is_zero() or second.is_zero():
+        gap = side * (far - first) - second
+        return Touch(gap, normal, pb.origin - second * normal, far - first, first + second)
+    wide = ca.fmax(first, second)
+    inside = ca.if_else(ca.logic_and(side < 0, first < second), 1, -1)
+    outside = ca.if_else(ca.eq(first, second), wide, far - wide)  # of its size nothing is inside
+    gap = side * (far - wide) - (first + second - wide)
+    return Touch(gap, normal, pb.origin + inside * second * normal, outside, first + second)
 
 
 def _tether_dot(a: Tether, b: Dot, pa: Pose, pb: Pose, lower: Lower, side: ca.SX) -> Touch:
@@ -126,11 +129,12 @@ def _straight_ball(
 def _straight_straight(
     a: Straight, b: Straight, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
 ) -> Touch:
-    """Along the common normal of two axes that cross."""
+    """Along the common normal of two axes that cross; of parallel ones there is none."""
     first = pa.direction(a.axis.unit(lower))
     second = pb.direction(b.axis.unit(lower))
     apart, both = pb.origin - pa.origin, cross(first, second)
-    across = both / ca.sqrt(ca.sumsqr(both))
+    crossing = ca.sqrt(ca.sumsqr(both))
+    across = both / ca.if_else(crossing > _PARALLEL, crossing, ca.SX.nan())
     # where the axes become parallel, and go on, their product turns about
     normal = ca.sign(ca.dot(across, apart)) * across
     height = ca.dot(normal, apart)

@@ -34,9 +34,25 @@ class Parallel(_Turning):
         return self.axis
 
     def between(self, at: Between) -> Action:
+        """As of two axes."""
+        return Alongside(self.axis, self.axis, self.side).between(at)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Alongside(_Turning):
+    """An axis of b stays perpendicular to one of the two beside another one of a.
+
+    Two of them keep the axes parallel, or against each other.
+    """
+
+    axis_a: Axis
+    axis_b: Axis
+    side: int
+
+    def between(self, at: Between) -> Action:
         """e_b . s_a = 0: its rate is (omega_b - omega_a) . (e_b x s_a)."""
-        own = at.b.direction(self.axis.unit(at.lower))
-        other = at.a.direction(self.axis.beside(at.lower)[self.side])
+        own = at.b.direction(self.axis_b.unit(at.lower))
+        other = at.a.direction(self.axis_a.beside(at.lower)[self.side])
         return twist(cross(own, other), ca.dot(own, other))
 
 
