@@ -77,7 +77,7 @@ end Planets;
 
 
 def test_planets_go_as_willis_says() -> None:
-    """R. Willis 1841: the sun turns 1 + 0.4/0.2 times as fast as the arm; here all are cylinders."""
+    """R. Willis 1841: the sun turns 1 + 0.4/0.2 times as fast as the arm; all are cylinders."""
     model = frot.compile(PLANETS)
     result = model.simulate()
     sun, arm = result.at(1.0)["A.speed"], result.at(1.0)["B.speed"]

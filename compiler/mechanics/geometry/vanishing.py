@@ -113,5 +113,14 @@ def _figures(link: Link, geometry: Geometry, kinematics: Kinematics) -> Iterator
     for a, b in pairs:
         own = ca.SX.zeros(0) if a.rank >= 0 and b.rank >= 0 else unknowns
         count = 0 if a.rank >= 0 or not own.numel() else a.parameters
-        yield _Figured(name, a, first, own[:count], place)
-        yield _Figured(other, b, second, own[count:], place)
+        yield _figured(name, a, first, own[:count], place, kinematics)
+        yield _figured(other, b, second, own[count:], place, kinematics)
+
+
+def _figured(
+    name: str, figure: Figure, pose: Pose, own: ca.SX, place: ca.SX, kinematics: Kinematics
+) -> _Figured:
+    """Where its parameters tell the place of its own, it is that."""
+    if own.numel() and own.numel() == figure.parameters:
+        place = pose.point(figure.point(own, kinematics.fixed.lower))
+    return _Figured(name, figure, pose, own, place)
