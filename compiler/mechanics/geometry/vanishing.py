@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 import casadi as ca
-from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.lowering.walk import follows_time, is_fixed
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.plain import Dot
 from frot.compiler.mechanics.kinematics import Kinematics
@@ -73,8 +73,8 @@ def _changing(liaison: Liaison, link: Link) -> Iterator[tuple[str, Expression]]:
     """Axes and sizes of a liaison, and of what it joins, which are not given by parameters."""
     for argument in liaison.kind.arguments:
         value = liaison.options.get(argument.name)
-        if value is None or is_fixed(value):
-            continue
+        if value is None or is_fixed(value) or not follows_time(value):
+            continue  # a length by the text or by motions is kept positive by an assertion
         if argument.kind == "axis":
             yield f"its {argument.name} has no direction", value
         elif argument.sign == "positive":

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Self
 import casadi as ca
 from frot.compiler.mechanics.liaisons.actions import Action, Between
 from frot.compiler.mechanics.liaisons.lock import Lock
-from frot.compiler.mechanics.liaisons.motion import Motion, Seen
+from frot.compiler.mechanics.liaisons.motion import Motion, Seen, counted
 from frot.compiler.mechanics.liaisons.moves import Column, Moved, along_way, turned
 from frot.compiler.mechanics.spatial import Moving, Pose, Z, beside, cross, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
@@ -112,14 +112,16 @@ class Turn(Motion):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Screw(Motion):
-    """By an angle about an axis and a length along it, `pitch` for each turn."""
+    """By an angle about an axis and a length along it, `pitch` for each turn.
+
+    Where it closes a loop its way tells which turn it is in.
+    """
 
     axis: Axis
     pitch: Expression
     sign: int = 1
     coordinates = ("angle",)
     turns = True
-    comes_round = True
     keeps_axis = True
 
     def reversed(self) -> Self:
@@ -136,8 +138,16 @@ class Screw(Motion):
         return Moved(moving, (Column(self.sign * base.pose.direction(local), way),), far)
 
     def see(self, a: Moving, b: Moving, lower: Lower) -> Seen:
-        """By its angle."""
-        return _seen_about(self.axis, a, b, lower)
+        """By its angle, and its way."""
+        _, rate = _seen_about(self.axis, a, b, lower)
+        return self._angle(a.pose, b.pose, lower), rate
+
+    def _angle(self, a: Pose, b: Pose, lower: Lower) -> ca.SX:
+        """With whole turns; within half a turn without pitch."""
+        along, pitch = a.direction(self.axis.unit(lower)), lower(self.pitch)
+        angle = angle_about(self.axis, a, b, lower)
+        by_way = 2 * ca.pi * ca.dot(along, b.origin - a.origin) / ca.if_else(pitch, pitch, 1)
+        return counted(angle, ca.if_else(pitch, by_way, angle))
 
     def wrench(self, at: Between) -> tuple[ca.SX, ca.SX]:
         """A couple."""
@@ -146,7 +156,7 @@ class Screw(Motion):
     def hold(self, value: ca.SX, at: Between) -> Action:
         """A couple; the motion is that of the screw."""
         found = arc_about(self.axis, at.a, at.b, at.lower)
-        apart = found.beyond(value)
+        apart = self._angle(at.a, at.b, at.lower) - value
         turn = at.a.direction(self.axis.unit(at.lower))
         linear = at.lower(self.pitch) / (2 * ca.pi) * turn
         return Action(nowhere(), found.about, Column(turn, linear), apart)
