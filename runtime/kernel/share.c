@@ -243,6 +243,7 @@ static int take_load(program *p) {
 }
 
 /* The modes of a contact from its basic edges: a law of which one alone is basic is at its bound.
+ * There is as much of the edges of one law as of those of the other: of none, none.
  */
 static void read_contact(const program *p, int contact) {
   const frot_instant *in = p->in;
@@ -252,7 +253,7 @@ static void read_contact(const program *p, int contact) {
     int j = p->share->basic[r];
     if (p->share->contact[j] == contact) has[p->share->edge[j]] = 1;
   }
-  trial[contact].unloaded = !has[0] && !has[1];
+  trial[contact].unloaded = (!has[0] && !has[1]) || (laws == 2 && !has[2] && !has[3]);
   for (int i = 0; i < laws; i++)
     if (!trial[contact].unloaded && has[2 * i] != has[2 * i + 1])
       trial[in->m->n_contacts + e[i]].at_bound = has[2 * i] ? 1 : -1;

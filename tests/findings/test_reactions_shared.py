@@ -102,3 +102,36 @@ def test_rest_lasts_as_long_as_any_share_holds(seed: int) -> None:
     for k, x in (("x", np.sin(turn + 1)), ("y", -np.cos(turn + 1))):
         assert at[f"plate.position.{k}"] == pytest.approx(g * x * t**2 / 2, rel=1e-8)
     assert not [e for e in result.events if e.kind == "several"]
+
+
+def test_a_disc_rests_on_its_floor_after_the_wall_has_let_it_go() -> None:
+    """Pushed into a corner less and less, then out of it: rolling resistance of the floor holds it
+    until it is passed, delta W = R F, however little friction the wall has."""
+    model = frot.compile("""
+planar model Corner
+  world(gravity = 0 m/s^2);
+  parameter Angle tilt = 0 rad;
+  parameter Force weight = 100 N;
+  parameter Force push = 50 N;
+  parameter Real mu = 0.01;
+  Real left = 1 - time/(1 s);
+  body b: disc(mass = 2 kg, radius = 0.1 m);
+  curve wall on ground: line(through = (0, 0) m, direction = (-sin(tilt), cos(tilt)));
+  curve floor on ground: line(through = (0, 0) m, direction = (cos(tilt), sin(tilt)));
+  liaison A: contact_ponctuel(b.rim, wall) with coulomb(mu), rolling_resistance(0.5 mm);
+  liaison B: contact_ponctuel(b.rim, floor) with coulomb(0.4), rolling_resistance(2 mm);
+  force into: on(b, value = push*left*(cos(tilt), sin(tilt)));
+  force down: on(b, value = weight*(sin(tilt), -cos(tilt)));
+initial
+  b.angular_velocity = 0 rad/s;
+  A.gap = 0 m;
+  B.gap = 0 m;
+  guess(b.position.x = -0.1 m*(cos(tilt) + sin(tilt)));
+  guess(b.position.y = 0.1 m*(cos(tilt) - sin(tilt)));
+  experiment(stop = 1.2 s);
+end Corner;
+""")
+    for tilt, push, mu in ((0, 50, 0.01), (0.3, 50, 0.01), (-1.1, 120, 0.02), (2.5, 31, 0.004)):
+        result = model.simulate(parameters={"tilt": tilt, "push": push, "mu": mu})
+        rolls = [e.time for e in result.events if e.kind == "roll_start"]
+        assert rolls == pytest.approx([1 + 0.02 * 100 / push], rel=1e-9)
