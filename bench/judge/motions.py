@@ -334,10 +334,16 @@ def _bend(system: System, z: Floats, solve, rows: Floats, columns: Floats) -> Fl
 def _margin(
     system: System, z: Floats, free: Floats, modes: Mapping[str, Choice]
 ) -> tuple[float, Floats]:
-    """The smallest of all inequalities over their sizes, at best."""
-    lines = [
-        (line / size, constant / size) for line, constant, size in system.inequalities if size > 0
-    ]
+    """The smallest of all inequalities over their sizes, at best.
+
+    One of which loads say no size (a turn about pins that forces alone bring about) has that of
+    its own terms.
+    """
+    lines = []
+    for line, constant, given in system.inequalities:
+        size = given if given > 0 else float(np.abs(line) @ np.abs(z)) + abs(constant)
+        if size > 0:
+            lines.append((line / size, constant / size))
     curved = [
         (name, joint)
         for name, joint in system.now.joints.items()

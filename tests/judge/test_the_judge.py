@@ -11,10 +11,10 @@ from judge.check import Judge
 from judge.family import Setting, Structure
 from judge.mechanics import Floats
 from judge.motions import distinct, motions
-from judge.scene import Contact, Force, Scene
+from judge.scene import Contact, Force, Pin, Scene
 from judge.trial import try_setting
 from judge.values import name
-from judge.verdict import CONFIRMED, EXACT, judge_stop, still_of
+from judge.verdict import CONFIRMED, EXACT, Start, judge_stop, still_of
 from judge.write import END, write
 
 import frot
@@ -117,6 +117,21 @@ def test_what_is_apart_may_accelerate_as_it_likes(run: frot.Result) -> None:
     found = [m for m in motions(now, still_of(judge, now, 1e-6)) if m.margin > 1e-6]
     assert len(found) == 1
     assert found[0].acceleration[1] == pytest.approx(-9.81, abs=1e-12)
+
+
+def test_a_level_rod_on_a_dry_pin_falls_and_does_not_rise() -> None:
+    """No load is a couple: what it may turn like is still looked at."""
+    s = Scene("Pendulum")
+    rod = s.body("rod", "rod")
+    mu, radius = s.parameter("mu", "Real"), s.parameter("pin", "Length")
+    s.pins.append(Pin("joint", s.frame("eye", None), s.end(rod, "start"), mu, mu, radius))
+    at = {f"{c}0_rod": 0.0 for c in "yauvw"}
+    values = {"m_rod": 1.0, "l_rod": 1.0, "mu": 0.3, "pin": 0.05, "x_eye": 0.0, "y_eye": 0.0}
+    values |= {"x0_rod": 0.5, **at}
+    judge = Judge(s, values, Start(s, values, 1.0), 1e-9)
+    now = judge.mechanics(0.0)
+    found = [m for m in motions(now, still_of(judge, now, 1e-6)) if m.margin > 1e-6]
+    assert [m.modes["joint"].slip for m in found] == [-1]
 
 
 ROD = """
