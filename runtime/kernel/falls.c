@@ -125,7 +125,7 @@ int frot_seems_to_dip(const frot_model *m, frot_state *s, frot_work *w, int k, d
 
 void frot_fire_at_start(frot_state *s, const frot_work *w, int guard) {
   const frot_layout *l = &w->layout;
-  s->data[l->fired + w->guards.list[guard]] = 1;
+  s->data[l->fired + w->guards.list[guard]] = FROT_AT_START;
   frot_unpack(w, w->step.k, s->data + l->slope);
   s->pending = 1;
 }

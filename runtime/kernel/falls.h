@@ -26,7 +26,7 @@ double frot_close_to_fall(const frot_model *m, const frot_state *s, const frot_w
  */
 void frot_fire_guards(const frot_model *m, frot_state *s, const frot_work *w, int first, double t,
                       double h);
-/* Fire a listed guard at the start, where no step is possible. */
+/* Fire a listed guard at the start (FROT_AT_START), where no step is possible. */
 void frot_fire_at_start(frot_state *s, const frot_work *w, int guard);
 
 /* After a stage that gave no number (its argument in w->step.z1): a located condition may have

@@ -33,6 +33,8 @@ static inline const frot_contact_mode *frot_element_mode(const frot_model *m,
 
 /* Guards: one of each contact, two of each element, then those of the conditions. */
 static inline int frot_element_guard(const frot_model *m, int e) { return m->n_contacts + 2 * e; }
+/* Of a guard that fired: at the start of a step, before time could move on. */
+enum { FROT_AT_START = 2 };
 static inline int frot_condition_guard(const frot_model *m) {
   return m->n_contacts + 2 * m->n_elements;
 }

@@ -22,13 +22,15 @@ static double speed_to_come(const frot_instant *in, int row) {
 
 /* Whether the motion of element e is zero: its guard fired at zero, as near as events are located
  * (what a landing next to a dead centre leaves of it is a motion: to hold it would stop the
- * mechanism), or it is zero to rounding
+ * mechanism), or before time can move on, or it is zero to rounding
  * against its terms, the sizes it had, the motion as a whole and the motion to come. */
-static int is_zero_rate(const frot_instant *in, int e, const double *v, int slipped) {
+static int is_zero_rate(const frot_instant *in, int e, const double *v, int friction) {
   int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
+  int slipped = friction > FROT_STICK, way = friction == FROT_SLIP_FORWARD ? 1 : -1;
   double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
   double located = FROT_LOCATED * size;
   if (slipped && in->fired[guard] != 0 && fabs(in->w->core.rate[row]) <= located) return 1;
+  if (slipped && in->fired[guard] == FROT_AT_START && way * in->w->core.rate[row] >= 0) return 1;
   if (in->m->elements[e].prescribed && fabs(in->w->core.rate[row]) <= FROT_PRESCRIBED_REST)
     return 1;
   size = fmax(size, speed_to_come(in, row));
@@ -137,9 +139,9 @@ static int settle_speeds(frot_instant *in, double t, double *q, double *v) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   for (int e = 0; e < m->n_elements; e++) {
-    int slipped = frot_element_mode(m, w->search.before, e)->friction > FROT_STICK;
+    int friction = frot_element_mode(m, w->search.before, e)->friction;
     in->zero[e] = w->search.best[m->elements[e].contact].closed && frot_bounds_something(m, w, e) &&
-                  is_zero_rate(in, e, v, slipped);
+                  is_zero_rate(in, e, v, friction);
     in->at_rest[e] = in->zero[e];
   }
   size_t modes = (size_t)(m->n_contacts + m->n_elements);

@@ -105,3 +105,23 @@ def test_legs_that_share_the_weight_slip_together(
     assert result.at(stop)[f"{first}.velocity.x"] == pytest.approx(
         speed, rel=10 * tolerance + 1e-12
     )
+
+
+def test_a_slip_that_ends_before_time_can_move_on_has_ended() -> None:
+    """Late in a run time is resolved to 1e-13 of itself: a slip may stop in less."""
+    model = frot.compile("""
+planar model Late
+  parameter Velocity u = 1 m/s;
+  body b: particle(mass = 2 kg);
+  liaison floor: contact_ponctuel(b, ground.line) with coulomb(0.3);
+initial
+  b.position = (0, 0) m;
+  b.velocity = (u, 0 m/s);
+  experiment(stop = 1 s);
+end Late;
+""")
+    for start, u in ((1e3, 1e-11), (1e3, -1e-14), (1e6, 1e-8), (1e6, -1e-12), (1e3, 1e-4)):
+        result = model.simulate(start=start, stop=start + 0.01, parameters={"u": u})
+        [stick] = [e.time for e in result.events if e.kind == "stick"]
+        assert stick == pytest.approx(start + abs(u) / (0.3 * 9.81), rel=4e-15)
+        assert result["b.velocity.x"][-1] == 0
