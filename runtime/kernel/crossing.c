@@ -8,6 +8,7 @@
 #include "inertia.h"
 #include "linear.h"
 #include "reactions.h"
+#include "spare.h"
 #include "stages.h"
 
 /* Stages at different instants, in their order. */
@@ -29,6 +30,8 @@ static const int in_order[COUNT] = {1, 2, 3, 6, 4, 7, 5, 9, 8, 10, 12};
 #define SOON 0.5
 /* In steps, how near one makes the next step weak. */
 #define FOLLOWS 2
+/* Part of the longest left of a row from which on it is measured beside all others. */
+#define SHORT 0.25
 /* Part of what is left of a row elsewhere below which a stage shows no more than rounding. */
 #define LITTLE 0.1
 /* Passes over a step that has stages too near. */
@@ -60,7 +63,79 @@ int frot_has_loops(const frot_model *m, const frot_state *s, const frot_work *w)
   return 0;
 }
 
+/* The rows of loops of a group that are not left to others, in the order in which the others leave
+ * most of them at the first stage: what is weak comes last, and what is left of it is its distance
+ * from all others. */
+static void order_rows(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
+                       int *order, int *count) {
+  int ns = g->n_speeds, n = 0;
+  double *rest = w->span.basis;
+  for (int i = 0; i < g->n_contacts; i++) {
+    if (!frot_is_loop(m, s, w, g->contacts[i])) continue;
+    int row = m->contacts[g->contacts[i]].row_n;
+    if (frot_is_spare(w, row)) continue;
+    memcpy(rest + ns * n, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
+    order[n++] = row;
+  }
+  *count = n;
+  for (int k = 0; k < n; k++) {
+    int best = k;
+    double most = -1;
+    for (int i = k; i < n; i++) {
+      double length = frot_dot(rest + ns * i, rest + ns * i, ns);
+      if (length > most) most = length, best = i;
+    }
+    int row = order[best];
+    order[best] = order[k], order[k] = row;
+    double *x = rest + ns * k, *by = rest + ns * best, length = sqrt(most);
+    for (int j = 0; j < ns; j++) {
+      double own = by[j];
+      by[j] = x[j], x[j] = length > 0 ? own / length : 0;
+    }
+    for (int i = k + 1; i < n; i++) {
+      double part = frot_dot(rest + ns * i, x, ns);
+      for (int j = 0; j < ns; j++) rest[ns * i + j] -= part * x[j];
+    }
+  }
+}
+
+/* What those before each row in this order leave of it, and in which direction. */
+static void measure_rows(const frot_model *m, frot_work *w, const frot_group *g, const int *order,
+                         int n) {
+  int ns = g->n_speeds, rank = 0;
+  for (int i = 0; i < n; i++) {
+    double *x = w->span.basis + ns * rank;
+    memcpy(x, frot_entries(m, w->core.half, order[i]), sizeof(double) * (size_t)ns);
+    double rest = frot_reject(x, w->span.basis, rank, ns, w->span.parts);
+    w->span.left[order[i]] = rest;
+    if (!(rest > 0)) continue;
+    for (int k = 0; k < ns; k++) x[k] /= rest;
+    memcpy(frot_entries(m, w->span.direction, order[i]), x, sizeof(double) * (size_t)ns);
+    rank++;
+  }
+}
+
+/* Whether little is left of a row, beside the longest: then how much is measured in order. In that
+ * of the reactions one may vanish before others, and turn as it does. */
+static int shows_little(const frot_model *m, const frot_state *s, const frot_work *w, double part) {
+  double least = INFINITY, longest = 0;
+  for (int k = 0; k < w->awake.now->n_contacts; k++) {
+    int i = w->awake.now->contacts[k];
+    if (!frot_is_loop(m, s, w, i) || frot_is_spare(w, m->contacts[i].row_n)) continue;
+    double left = w->span.left[m->contacts[i].row_n];
+    least = fmin(least, left), longest = fmax(longest, left);
+  }
+  return least < part * longest;
+}
+
 void frot_note_rows(const frot_model *m, const frot_state *s, frot_work *w, int stage) {
+  int *order = w->step.order, *count = w->step.ordered;
+  for (int k = 0; s->measured && k < w->awake.now->n_groups; k++, order += *count++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
+    if (stage == 1) order_rows(m, s, w, g, order, count);
+    measure_rows(m, w, g, order, *count);
+  }
+  w->step.little |= shows_little(m, s, w, s->measured ? 2 * SHORT : SHORT);
   for (int k = 0; k < w->awake.now->n_contacts; k++) {
     int i = w->awake.now->contacts[k];
     if (!frot_is_loop(m, s, w, i)) continue;
@@ -173,6 +248,7 @@ int frot_find_crossings(const frot_model *m, frot_state *s, frot_work *w, double
     w->step.near[k] = near[k];
   }
   again |= weak && s->tied <= 0;
+  if (w->step.little && !s->measured) s->measured = again = 1;
   s->weak |= weak;
   if (weak) s->tied = 1;
   return pass < PASSES && (again || (any && pass < PASSES - 1));
@@ -268,11 +344,12 @@ void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w,
   int passed = frot_passes(m, s, w, t, h), near = fabs(s->foreseen - (t + h)) <= FAR * s->h;
   const frot_awake_lists *now = w->awake.now;
   s->weak = s->from_posture = 0;
+  s->measured &= w->step.little;
   for (int k = 0; k < now->n_contacts; k++) {
     int row = m->contacts[now->contacts[k]].row_n;
     s->weak |= row >= 0 && fabs(posture[row] - (t + h)) <= FOLLOWS * s->h;
   }
   s->tied = s->weak || (s->tied > 0 && near) ? 1 : s->tied < 0 ? s->tied + 1 : 0;
   s->statistics.crossings += passed;
-  if (passed) s->across = INFINITY;
+  if (passed) s->across = INFINITY, s->no_better = 0;
 }

@@ -17,14 +17,18 @@
 /* Power of the length with which an error falls that is none of rounding. */
 #define LEAST_ORDER 2
 #define LESS 0.95 /* of the length of a step that was rejected, most that it may be then */
-#define LAYS 8    /* times that a step is laid anew */
+/* Times in a row that no step across a posture is better, until no other is tried: one that is long
+ * may find the posture in another place than the next. */
+#define PATIENCE 4
+#define LAYS 8 /* times that a step is laid anew */
 
 int frot_passage_is_laid(const frot_model *m, const frot_state *s, const frot_work *w,
                          frot_attempt *a) {
   if (!s->weak || a->laid == LAYS || a->to_due) return 1;
   if (frot_is_laid(m, s, w, a->t, a->h, a->want)) return 1;
+  double h = a->h;
   a->h = frot_lay_step(m, s, w, a->t, a->want, a->most), a->laid++;
-  return 0;
+  return a->h == h; /* no other is better laid */
 }
 
 void frot_shorten_passage(const frot_model *m, frot_state *s, const frot_work *w, frot_attempt *a,
@@ -54,10 +58,11 @@ void frot_judge_passage(const frot_model *m, frot_state *s, const frot_work *w, 
   if (!(a->ratio > 1) || !frot_passes(m, s, w, a->t, a->h)) return;
   int no_better = a->ratio >= s->across, enough = a->ratio * frot_step_tolerance(s) <= MOST_BLUR;
   s->across = a->ratio;
+  s->no_better = no_better ? s->no_better + 1 : 0;
   if (!no_better) return;
   if (enough)
     take_blurred(s, a);
-  else
+  else if (s->no_better > PATIENCE)
     a->h = a->to_due = 0;
 }
 

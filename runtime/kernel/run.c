@@ -84,7 +84,8 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->pending = s->has_slope = s->changed = s->crowded = s->several = s->untold = 0;
   for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
   s->crowded_since = s->left_at = t, s->told = s->statistics.events;
-  s->weak = s->tied = s->from_posture = s->unmeasured = s->noise_measured = 0;
+  s->measured = s->weak = s->tied = s->no_better = s->from_posture = s->unmeasured =
+      s->noise_measured = 0;
   s->across = s->foreseen = INFINITY;
   for (int i = 0; i < m->n_rows; i++) s->data[l.posture + i] = NAN;
   frot_choose_first(m, s);

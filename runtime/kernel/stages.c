@@ -114,8 +114,11 @@ int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, 
   w->reactions.follow = 1, w->reactions.warm = 0;
   memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)frot_width(w));
   for (int pass = 0;; pass++) {
+    int measured = s->measured;
+    w->step.little = 0;
     status = run_once(m, s, w, t, h, loops, &reached);
     if (!loops || !frot_find_crossings(m, s, w, t, h, reached, pass)) return status;
+    if (s->measured != measured) pass = -1;
     memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)frot_width(w));
   }
 }

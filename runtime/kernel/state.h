@@ -54,10 +54,12 @@ struct frot_state {
   int kept_naps;   /* the same when the whole segment was kept, and not what is awake alone */
   double foreseen; /* the nearest singular posture, as the last step shows it, or INFINITY */
   int spare_loops; /* rows of loops are left out, others may be at the next start: spare.h */
+  int measured;    /* rows of loops are measured beside all others: crossing.c */
   int weak;        /* rows of loops are weak: crossing.h */
   int tied; /* stages are put onto the relations of loops: crossing.h; < 0: not for some steps */
   int from_posture; /* the first step begins in one, on a way that its speeds say: ways.h */
   double across;    /* error, to its bound, of the last step that tried to pass a posture ahead */
+  int no_better;    /* times in a row that the next was none, passage.c */
   int implicit;     /* the next step is made by the implicit method */
   int was_implicit; /* the current segment was */
   int unmeasured;   /* steps since rounding was measured: see step.c */

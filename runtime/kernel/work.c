@@ -170,6 +170,7 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   TAKE(w->step.motion, m->n_entries);
   TAKE(w->step.left, n * (DP_STAGES + 1));
   TAKE(w->step.near, DP_STAGES + 1);
+  TAKE(w->step.order, m->n_contacts), TAKE(w->step.ordered, m->n_groups);
 }
 
 static void bind_relations(const frot_model *m, const frot_layout *l, const extent *e, frot_work *w,

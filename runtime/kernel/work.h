@@ -154,6 +154,9 @@ typedef struct {
 typedef struct {
   double *left, *direction, *first, *doubt, *excused, *motion, *parameters;
   unsigned char *near;
+  int little; /* little is left of one in a stage, crossing.c */
+  int *order,
+      *ordered; /* crossing.h: rows of loops as they are measured, and how many a group has */
   double *k, *z0, *z1, *z, *y_end, *f;
   int worst;
   double noisy, turning;
