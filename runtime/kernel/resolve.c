@@ -303,6 +303,15 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
   return FROT_OK;
 }
 
+/* The pins' reactions go on from those of the modes found: friction that follows their size may
+ * have solutions in other directions. What passes through zero is turned by its own rule. */
+static void pass_directions(const frot_instant *in) {
+  double *along = in->s->data + in->l.along;
+  for (int e = 0; e < in->m->n_elements; e++)
+    if (in->m->elements[e].bound == FROT_BY_PIN && in->fired[frot_element_guard(in->m, e) + 1] == 0)
+      memcpy(along + 2 * e, in->w->search.along + 2 * e, 2 * sizeof(double));
+}
+
 int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  int first, frot_recorder *recorder) {
   frot_layout l = frot_layout_of(m);
@@ -327,6 +336,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   memcpy(w->search.before, modes, sizeof *modes * count);
   memcpy(w->search.best, modes, sizeof *modes * count);
   memset(w->search.zero, 0, (size_t)m->n_elements);
+  memcpy(w->search.along, s->data + l.along, sizeof(double) * 2 * (size_t)m->n_elements);
 
   int status = frot_kinematics(m, s, w, t, q, v, d);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
@@ -349,6 +359,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   status = choose_modes(&in, t, first, recorder);
   if (status != FROT_OK) return status;
   memcpy(modes, w->search.best, sizeof *modes * count);
+  pass_directions(&in);
   if (!first) frot_note_changes(m, s, t, w->search.before, modes, recorder);
   frot_find_frozen(m, s, w, modes, frozen);
   for (int k = 0; k < m->nv; k++)

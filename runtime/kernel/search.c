@@ -70,8 +70,11 @@ static void remember(const frot_instant *in, const int *chosen, int count) {
   for (int c = 0; c < count; c++) {
     int laws = frot_laws_of(m, chosen[c], own);
     in->w->search.best[chosen[c]] = in->w->search.trial[chosen[c]];
-    for (int k = 0; k < laws; k++)
+    for (int k = 0; k < laws; k++) {
       in->w->search.best[m->n_contacts + own[k]] = in->w->search.trial[m->n_contacts + own[k]];
+      memcpy(in->w->search.along + 2 * own[k], in->w->reactions.along + 2 * own[k],
+             2 * sizeof(double));
+    }
   }
 }
 

@@ -191,6 +191,7 @@ typedef struct {
   unsigned char *certain, *zero, *at_rest, *departs;
   signed char *ahead;
   double *motions, *pivot_bound, *nothing_frozen, *margin, *rates;
+  double *along; /* directions of pins' reactions in `best`: there may be solutions in others */
   int *choice, *component, *chosen;
   int exact;   /* whether `best` needs no slack: frot_is_exact */
   int lasts;   /* and whether it lasts: frot_lasts */

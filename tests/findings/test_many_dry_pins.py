@@ -158,3 +158,41 @@ def test_a_motion_that_ceases_does_so_at_one_instant_whatever_the_tolerance() ->
             model.simulate(stop=0.5, tolerance=tolerance)
         ends.append(stop.value.result.time[-1])
     assert ends == pytest.approx([ends[-1]] * 4, rel=3e-8)
+
+
+def test_a_bar_on_three_dry_legs_rests_where_it_is_found_to_rest() -> None:
+    """Legs that strain each other rest under any load; each pin at the bound of its own strain.
+    The rest was found, and its reactions looked for in other directions a moment later."""
+    model = frot.compile("""
+planar model ThreeLegs
+  parameter Length r = 80 mm, pin = 5 mm, far = 300 mm;
+  parameter Real mu = 0.1;
+  body one: rod(mass = 0.6 kg, length = r);
+  body two: rod(mass = 0.5 kg, length = r);
+  body three: rod(mass = 0.7 kg, length = r);
+  body bar: rod(mass = 1.1 kg, length = far);
+  frame middle on bar at (far/6, 0 m);
+  frame eye2 on ground at (far, 0 m);
+  frame eye3 on ground at (2*far/3, 0 m);
+  liaison O1: rotoide(ground, one.start) with coulomb(mu, radius = pin);
+  liaison O2: rotoide(eye2, two.start) with coulomb(mu, radius = pin);
+  liaison O3: rotoide(eye3, three.start) with coulomb(mu, radius = pin);
+  liaison A1: rotoide(one.tip, bar.start) with coulomb(mu, radius = pin);
+  liaison A2: rotoide(two.tip, bar.tip) with coulomb(mu, radius = pin);
+  liaison A3: rotoide(three.tip, middle) with coulomb(mu, radius = pin);
+  force motor: couple(O1, value = 4 N.m);
+initial
+  O1.angle = 30 deg;
+  O1.speed = 0 rad/s;
+  guess(bar.angle = 0 rad);
+  experiment(stop = 0.5 s);
+end ThreeLegs;
+""")
+    for mu in (3e-4, 1e-3, 0.1):
+        result = model.simulate(parameters={"mu": mu})
+        assert result["one.angle"][-1] == pytest.approx(np.pi / 6, rel=1e-15)
+        assert [e.kind for e in result.events] == ["several"]
+        now = result.at(0.25)
+        for name in ("O1", "O2", "O3", "A1", "A2", "A3"):
+            bound = 0.005 * np.hypot(now[f"{name}.force.x"], now[f"{name}.force.y"])
+            assert abs(now[f"{name}.torque"]) <= mu * bound * (1 + 1e-9)
