@@ -140,6 +140,12 @@ def is_slender(body: Body, model: Model) -> bool:
     return all(x.kind.of_points for x in own)
 
 
+def spins_in_vain(body: Body, model: Model) -> bool:
+    """Whether it may turn about itself, in space, and has no inertia of its own in doing so."""
+    bare = body.shape is not None and body.shape.freedoms_space == _SLENDER
+    return bare and not (model.planar or "inertia" in body.arguments or is_slender(body, model))
+
+
 def freedoms_of(body: Body, model: Model) -> int:
     """The number of speeds of the body alone: 3, 5 or 6 in space, 2 or 3 in the plane.
 

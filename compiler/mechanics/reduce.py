@@ -39,6 +39,7 @@ from frot.compiler.mechanics.dynamics import (
     write_out,
 )
 from frot.compiler.mechanics.geometry.contacts import gravity
+from frot.compiler.mechanics.idle import refuse_idle_spins
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.link import Geometry, Link
 from frot.compiler.mechanics.loads import applied_loads, sum_loads
@@ -177,6 +178,8 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     loads = sum_loads(mechanism, variables, applied, large)
     steps, potential = _masses(mechanism, variables, loads.pushes)
     motion = write_out(steps, symbols.v.numel(), speeds.numel(), large)
+    if not large:
+        refuse_idle_spins(mechanism, variables, motion.mass, log)
     settled = variables.settled
     rows = rows_without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry)
     biases = settled(_biases(mechanism.contacts, geometry, rates, variables))

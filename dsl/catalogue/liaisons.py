@@ -243,6 +243,7 @@ _ROWS = (
         POINT,
         (0, 0),
         {"x": LENGTH, "y": LENGTH, "z": LENGTH, "angle": REAL, **ANY_TURN},
+        of_points=True,
         doc="No relation.",
     ),
 )
