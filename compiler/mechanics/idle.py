@@ -76,8 +76,8 @@ def _tell(rod: Body, model: Model, log: Log) -> None:
     leaves = next(x for x in model.liaisons if _is_on(x, rod) and not x.kind.of_points)
     log.report(
         "E0401",
-        f"liaison '{leaves.name}' leaves the slender rod '{rod.name}' a turn about itself, in which "
-        "nothing has inertia",
+        f"liaison '{leaves.name}' leaves the slender rod '{rod.name}' a turn about itself, in "
+        "which nothing has inertia",
         leaves.span,
         help=f"give '{rod.name}' an `inertia = (..., ..., ...)`, or take a liaison of points, as "
         "`spherique` and `tige`, for which it does not turn about itself",

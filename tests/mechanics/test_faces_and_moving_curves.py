@@ -93,3 +93,23 @@ def test_faces_shapes_and_curves_that_move() -> None:
     # a circle that grows on a moving body
     across = [result[f"mote.position.{x}"] - result[f"big.position.{x}"] for x in "xy"]
     assert np.abs(np.hypot(*across) - 0.5 - 0.1 * result.time).max() < 1e-12
+
+
+def test_a_face_follows_a_variable_by_the_corners_that_tell_where_it_is() -> None:
+    """A box on a plane that is lifted as x tells; all of its weight, and m x'', is on the plane."""
+    result = frot.compile("""
+model Lifted "A box held over a plane"
+  body s: box(mass = 1 kg, size = (0.1, 0.2, 0.3) m);
+  Length x;
+  liaison j: appui_faces(ground.plane, s.bottom, unilateral = false) driven(gap = x);
+  output Force f = j.force;
+initial
+  guess(s.velocity = (0.3, 0.1, 0) m/s);
+equation
+  x = 0.1 m*sin(time/(1 s));
+  experiment(stop = 1 s, tolerance = 1e-10);
+end Lifted;
+""").simulate()
+    wave = 0.1 * np.sin(result.time)
+    assert np.abs(result["s.position.z"] - 0.15 - wave).max() < 1e-10
+    assert np.abs(result["f.z"] - 9.81 + wave).max() < 1e-8

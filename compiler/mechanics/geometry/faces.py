@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from frot.compiler.lowering.walk import follows_time
 from frot.compiler.mechanics.geometry.figures import figure_of
 from frot.compiler.mechanics.refuse import refuse_places
 from frot.compiler.mechanics.shapes import shape_of
@@ -11,6 +12,10 @@ from frot.dsl import Log
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import BodyGeometry, BodyPoint, Liaison, Model, Place
 from frot.dsl.data.classes import dataclass, replace
+
+
+# Corners that tell where a face is: an effort along each of more could not be told apart.
+_DETERMINE = 3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,6 +39,8 @@ def part_faces(model: Model, log: Log) -> Faced:
             refuse_places(liaison, log)
             continue
         first, ends = found
+        if not all(follows_time(x) for x in liaison.driven.values()):
+            ends = ends[:_DETERMINE]
         corners[liaison] = tuple(_contacts(liaison, first, ends))
         liaisons += corners[liaison]
     return Faced(replace(model, liaisons=tuple(liaisons)), corners) if corners else Faced(model, {})
