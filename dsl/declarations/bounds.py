@@ -6,13 +6,14 @@ from collections.abc import Mapping, Sequence
 
 from frot.dsl import checked
 from frot.dsl.catalogue import Argument
+from frot.dsl.catalogue.types import LENGTH
 from frot.dsl.checked.arrays import component_names, scalars
 from frot.dsl.checked.evaluation import constant
 from frot.dsl.expressions.known import known
 from frot.dsl.names.flanges import parameter_type
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.types import Kind
-from frot.dsl.quantities.dimensions import BOOLEAN
+from frot.dsl.quantities.dimensions import BOOLEAN, REAL
 
 Bounds = tuple[tuple[str, checked.Expression], ...]
 _ORDER = {"min": ">=", "max": "<="}
@@ -47,20 +48,23 @@ def keep_positive(
 def keep_on_curve(made: checked.Liaison, scope: Scope) -> None:
     """Assert that a point stays between the ends of a curve that has ends."""
     place = made.b
-    if not made.kind.along_curve or not isinstance(place, checked.CurvePlace):
+    if not made.kind.along_curve:
         return
-    curve = place.curve
-    if curve.kind != "parametric" or known(curve.arguments["periodic"], scope) is True:
-        return
-    ends, kind = curve.arguments["u"], parameter_type(curve)
-    u = checked.Quantity(made, "u", kind, made.span)
-    for k, order in enumerate((">=", "<=")):
-        end = checked.Element(ends, k, kind, ends.span)
-        inside = checked.Binary(order, u, end, BOOLEAN, made.span)
-        written = f"u = {_written(ends)}"
-        _assert(
-            inside, f"liaison '{made.name}' leaves '{curve.name}', which ends: {written}", scope
-        )
+    span, name = made.span, ""
+    ends: tuple[checked.Expression, ...] = ()
+    if isinstance(place, checked.BodyGeometry) and place.name == "axis":
+        length = place.body.arguments["length"]
+        half = checked.Binary("/", length, checked.Literal(2.0, REAL, span), LENGTH, span)
+        ends, name = (checked.Unary("-", half, LENGTH, span), half), f"{place.body.name}.axis"
+    if isinstance(place, checked.CurvePlace) and place.curve.kind == "parametric":
+        given, kind = place.curve.arguments, parameter_type(place.curve)
+        if known(given["periodic"], scope) is not True:
+            ends = tuple(checked.Element(given["u"], k, kind, span) for k in range(2))
+        name = place.curve.name
+    for order, end in zip((">=", "<="), ends, strict=False):
+        u = checked.Quantity(made, "u", end.type, span)
+        inside = checked.Binary(order, u, end, BOOLEAN, span)
+        _assert(inside, f"liaison '{made.name}' leaves '{name}', which ends there", scope)
 
 
 def _written(value: checked.Expression) -> str:

@@ -19,7 +19,7 @@ end Slope;
 
 def test_a_point_ends_where_its_curve_does() -> None:
     """It falls from the middle with 0.6 g along the wire, whose half is 1.25 m long."""
-    with pytest.raises(frot.FrotError, match=r"'guide' leaves 'wire', which ends") as raised:
+    with pytest.raises(frot.FrotError, match=r"'guide' leaves 'wire', which ends there") as raised:
         frot.compile(SLOPE.format(periodic="")).simulate()
     result = raised.value.result  # type: ignore[attr-defined]
     assert result.time[-1] == pytest.approx(np.sqrt(2 * 1.25 / (0.6 * 9.81)), rel=1e-9)
@@ -28,6 +28,26 @@ def test_a_point_ends_where_its_curve_does() -> None:
 def test_a_closed_curve_has_no_end() -> None:
     result = frot.compile(SLOPE.format(periodic=", periodic = true")).simulate()
     assert result["guide.u"][-1] > 2
+
+
+def test_a_bead_ends_where_its_rod_does() -> None:
+    """The rod turns as told: with x = |u| + 1/2 from its pin, x'' = w^2 x, so x = cosh(w t)/2."""
+    with pytest.raises(frot.FrotError, match=r"'slide' leaves 'arm.axis', which ends") as raised:
+        frot.compile("""
+planar model Thrown "A bead from the middle of a turning rod"
+  world(gravity = 0 m/s^2);
+  body arm: rod(mass = 1 kg, length = 1 m);
+  body bead: particle(mass = 1 kg);
+  liaison hinge: rotoide(ground, arm.start) driven(angle = 2*time/(1 s));
+  liaison slide: point_courbe(bead, arm.axis);
+initial
+  slide.u = 0 m;
+  bead.velocity = (0, 1) m/s;
+  experiment(stop = 2 s);
+end Thrown;
+""").simulate()
+    result = raised.value.result  # type: ignore[attr-defined]
+    assert result.time[-1] == pytest.approx(np.arccosh(2) / 2, rel=1e-9)
 
 
 @pytest.mark.parametrize(

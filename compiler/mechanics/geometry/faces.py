@@ -13,7 +13,6 @@ from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import BodyGeometry, BodyPoint, Liaison, Model, Place
 from frot.dsl.data.classes import dataclass, replace
 
-
 # Corners that tell where a face is: an effort along each of more could not be told apart.
 _DETERMINE = 3
 
