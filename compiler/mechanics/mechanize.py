@@ -185,9 +185,7 @@ def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
         if is_row(relation):
             locks.append(Stated(relation.left, relation.right, relation.kinematic))
     a, b = figure_of(liaison.a, planar), figure_of(liaison.b, planar)
-    if a is None or b is None:
-        refuse(log, "a curve or surface as a place of a liaison of one's own", liaison.span)
-        return None
+    assert a is not None and b is not None  # points, as the text's check has seen to
     return make_joint(liaison, a.point, b.point, Pairing((), tuple(locks), carries=False), {})
 
 

@@ -69,7 +69,7 @@ def argument_value(
     return found
 
 
-def _nature(found: checked.Place | checked.SurfacePlace) -> str:
+def nature_of(found: checked.Place | checked.SurfacePlace) -> str:
     """`point`, `curve` or `surface`, or a plural of them."""
     match found:
         case checked.CurvePlace():
@@ -90,11 +90,11 @@ def _place(
     found = place(node, scope)
     if found is None:
         return None
-    nature = _nature(found)
+    nature = nature_of(found)
     allowed = argument.places
     if isinstance(found, checked.BodyGeometry) and nature not in allowed and "point" in allowed:
         found = found.centre or found
-        nature = _nature(found)
+        nature = nature_of(found)
     if nature not in allowed and nature.removesuffix("s") not in allowed:
         scope.log.report(
             "E0205",

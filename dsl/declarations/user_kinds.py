@@ -12,6 +12,7 @@ from frot.dsl import checked
 from frot.dsl.catalogue import SHAPES, LawKind, LiaisonKind
 from frot.dsl.catalogue.types import FORCE, VELOCITY
 from frot.dsl.checked.describe import written_unit
+from frot.dsl.declarations.argument_values import nature_of
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.expressions.expression import expect, expression, fitting
 from frot.dsl.expressions.names import place
@@ -20,6 +21,7 @@ from frot.dsl.names.classes import Class, enter
 from frot.dsl.names.entities import Entity, Instance
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import Scope
+from frot.dsl.names.things import kind_of
 from frot.dsl.names.types import Kind, find_type
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree
@@ -61,7 +63,7 @@ def stated_liaison(
     places = [p for p in map(_place_of, local.values()) if p is not None]
     count = len(relations)
     if len(places) < 2 or count == 0:
-        lacks = "two places" if len(places) < 2 else "a relation"
+        lacks = "two places that are frames, points or bodies" if len(places) < 2 else "a relation"
         scope.log.report("E0501", f"the liaison {of.name!r} needs {lacks}", of.definition.span)
         return None
     return LiaisonKind(of.name, (), count, count), places, tuple(relations)
@@ -231,9 +233,14 @@ def _formal(
         message = f"{of.name!r} needs {formal.name.text!r}"
         scope.log.report("E0204", message, span)
         return None
-    if formal.type.span.text in _PLACES:
+    told = formal.type.span.text
+    if told in _PLACES:
         found = place(node, there)
-        if isinstance(found, checked.BodyPoint) and formal.type.span.text in ("body", "corps"):
+        if isinstance(found, checked.BodyGeometry) and told not in ("curve", "surface"):
+            found = found.centre or found
+        if found is None or not _is_a(found, formal.name.text, told, of, node, scope):
+            return None
+        if isinstance(found, checked.BodyPoint) and told in ("body", "corps"):
             return found.body
         if isinstance(found, checked.CurvePlace):
             return found.curve
@@ -256,6 +263,23 @@ def _formal(
     if value is None:
         return None
     return checked.Parameter(formal.name.text, kind.type, value, formal.span, constant=True)
+
+
+def _is_a(
+    found: checked.Place | checked.SurfacePlace,
+    name: str,
+    told: str,
+    of: Class,
+    node: tree.Expression,
+    scope: Scope,
+) -> bool:
+    """Whether a place is what the argument is declared as; told where it is not."""
+    wanted = told if told in ("curve", "surface") else "point"
+    if nature_of(found) == wanted:
+        return True
+    message = f"{name!r} of {of.name!r} is a {told}, found {kind_of(found)}"
+    scope.log.report("E0205", message, node.span, caret=f"a {nature_of(found)}")
+    return False
 
 
 __all__ = ["stated_law", "stated_liaison", "stated_shape"]

@@ -123,3 +123,27 @@ def test_relations_without_a_meaning_are_told():
     ):
         with pytest.raises(frot.FrotError, match=r"E0205.*does not hold '" + word):
             frot.compile(liaison.format(relation) + model).simulate()
+
+
+@pytest.mark.parametrize(
+    ("kind", "given", "told"),
+    [
+        ("curve", "ground", "'c' of 'On' is a curve, found point 'ground.origin'"),
+        ("frame", "wire", "'c' of 'On' is a frame, found curve 'wire'"),
+        ("curve", "wire", "needs two places that are frames, points or bodies"),
+    ],
+)
+def test_places_of_another_kind_are_told(kind: str, given: str, told: str) -> None:
+    """Relations hold variables, and a curve has none."""
+    with pytest.raises(frot.FrotError) as raised:
+        frot.compile(f"""
+liaison On(a: frame, c: {kind})
+  geometric a.position.x = 0 m;
+end On;
+model Wire "A box and a wire"
+  body s: box(mass = 1 kg, size = (1, 1, 1) m);
+  curve wire on ground: circle(radius = 1 m);
+  liaison e: On(s, {given});
+end Wire;
+""").report()
+    assert told in str(raised.value)
