@@ -46,7 +46,7 @@ def halve(model: Model, links: Sequence[Link]) -> Halved:
         halves[half] = body
         place = _on(joint.b if at_b else joint.a, half)
         moved[joint.liaison] = replace(joint, b=place) if at_b else replace(joint, a=place)
-        welds.append(_weld(body, half, model.planar))
+        welds.append(_weld(body, half, joint.liaison, model.planar))
     own = tuple(moved.get(x.liaison, x) for x in links)
     return Halved((*own, *welds), halves)
 
@@ -61,11 +61,11 @@ def _frame_on(frame: Frame, half: Body) -> Frame:
     return replace(frame, owner=_frame_on(owner, half) if isinstance(owner, Frame) else half)
 
 
-def _weld(body: Body, half: Body, planar: bool) -> Joint:
-    span = body.span
-    assert span is not None
+def _weld(body: Body, half: Body, closing: Liaison, planar: bool) -> Joint:
+    """What cannot hold here is told of the liaison that closes the loop."""
+    span = closing.span
     kind = LIAISONS["encastrement"]
     a, b = (BodyPoint(one, "G", span) for one in (body, half))
     options = {"unilateral": Literal(False, BOOLEAN, span)}
-    weld = Liaison(half.name, kind, a, b, options, (), span)
+    weld = Liaison(closing.name, kind, a, b, options, (), span)
     return make_joint(weld, a, b, JOINTS[kind.name](options, planar), {})
