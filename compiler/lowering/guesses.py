@@ -12,6 +12,7 @@ from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import is_fixed
+from frot.dsl.checked import Element
 from frot.dsl.data.classes import dataclass
 from frot.dsl.quantities.dimensions import Dimension
 
@@ -24,7 +25,7 @@ class Guess:
     """A scalar, what it is guessed to be equal to and the dimension of both.
 
     `start`: it is no statement of `initial`, but the `start` of a variable. `whole` is the vector
-    of which the scalar is an item: an item that is a rounding beside the others guesses nothing.
+    of which the scalar is an item: an item that hardly moves beside the others guesses nothing.
     """
 
     left: ca.SX
@@ -62,6 +63,8 @@ def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
             )
             of = equation.left.type.dimension
             whole = column(left) - column(right)
+            if isinstance(equation.left, Element):
+                whole = system.resolve(settled(looking.lower(equation.left.operand)))
             guesses += [Guess(a, b, of, False, whole) for a, b in zip(left, right, strict=True)]
     ordered = [sorted(each, key=lambda g: g.left.is_symbolic()) for each in (starts, guesses)]
     return [*ordered[0], *ordered[1]][::-1]
@@ -90,15 +93,27 @@ def guessed_places(
 def guessed_speeds(
     system: Assembled, guesses: Sequence[Guess], known: Mapping[int, ca.SX]
 ) -> list[ca.SX]:
-    """By how much each guess of `initial` of speeds that are not `known` is missed.
+    """The guesses of `initial` of what follows from the speeds that are not `known`.
 
-    And what that is measured by, as for places. Nothing without guesses, or where no loop asks.
+    By how much each is missed, what that is measured by, as for places; the slopes (nv x n), those
+    of all items of the vector that it is an item of (nv x 3 n), both zero but for speeds that
+    nothing but these guesses speaks of; 1 for each of these speeds. Nothing where nothing asks.
     """
-    if not system.reduced.mechanism.contacts:
+    alone = {g.left.element_hash() for g in guesses if g.left.is_symbolic() and not g.start}
+    speeds = [(s, s.element_hash()) for s in scalars_of(system.v)]
+    free = column(s for s, key in speeds if key not in known)
+    found = _guesses_of(guesses, free, ca.vertcat(system.y[system.early :], system.z, system.lam))
+    moves = column(ca.SX(key not in known and key not in alone) for _, key in speeds)
+    vectors = (g.whole if g.whole.numel() <= 3 else g.left for g in found)
+    wholes = [scalars(ca.vertcat(x, ca.SX.zeros(3 - x.numel()))) for x in vectors]
+    missed, sizes = _measured(found)
+    slopes, all_slopes = (
+        ca.sparsify(ca.jacobian(x, system.v) @ ca.diag(moves)).T
+        for x in (missed, column(x for w in wholes for x in w))
+    )
+    if not found or not (slopes.nnz() or system.reduced.mechanism.contacts):
         return []
-    free = column(s for s in scalars_of(system.v) if s.element_hash() not in known)
-    found = _guesses_of(guesses, free, ca.vertcat(system.y, system.z, system.lam))
-    return list(_measured(found)) if found else []
+    return [missed, sizes, slopes, all_slopes, moves]
 
 
 def _guesses_of(guesses: Sequence[Guess], free: ca.SX, others: ca.SX) -> list[Guess]:

@@ -87,7 +87,7 @@ def lower_initial(
     q = move_by(system, guesses, system.q, natural, direct)
     known = direct | values_of(system.q, q)
     v = _with(system.v, ca.SX.zeros(system.v.shape), direct)
-    v = move_by(system, guesses, system.v, v, known)
+    v = move_by(system, [g for g in guesses if g.left.is_symbolic()], system.v, v, known)
     guessed = guessed_places(system, guesses, natural, direct)
     turns = system.reduced.symbols.turns
     relations = turns or system.reduced.mechanism.contacts or system.invariants.origins

@@ -95,7 +95,8 @@ static int is_carried(const frot_instant *in, int row) {
     for (int j = 0; j < held; j++)
       w->linear.matrix[j * held + i] = frot_effect(m, w, rows[i], rows[j]);
   }
-  frot_least_norm(w->linear.matrix, b, held, held, x, w->linear.scratch, w->linear.pivot);
+  frot_least_norm(w->linear.matrix, b, held, held, FROT_RANK, x, w->linear.scratch,
+                  w->linear.pivot);
   for (int i = 0; i < held; i++) {
     left -= frot_effect(m, w, row, rows[i]) * x[i];
     size += fabs(frot_effect(m, w, row, rows[i]) * x[i]);

@@ -56,7 +56,7 @@ static int newton_step(const problem *p) {
   memcpy(w->blocks.lu, w->blocks.j, sizeof(double) * (size_t)(n * n));
   double *right = step + n;
   memcpy(right, step, sizeof(double) * (size_t)n);
-  frot_least_norm(w->blocks.lu, right, n, n, step, w->blocks.scale, w->blocks.pivot);
+  frot_least_norm(w->blocks.lu, right, n, n, FROT_RANK, step, w->blocks.scale, w->blocks.pivot);
   return 1;
 }
 

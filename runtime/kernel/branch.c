@@ -28,6 +28,7 @@ static double guesses_missed(const frot_opening *p) {
   if (n == 0) return 1;
   frot_inputs(p->m, p->s, p->w, &p->t, p->q, p->v, p->d);
   p->w->call.res[0] = missed, p->w->call.res[1] = size;
+  p->w->call.res[2] = p->w->call.res[3] = p->w->call.res[4] = NULL;
   frot_call(p->w, &p->m->guessed_speeds);
   for (int i = 0; i < n; i++) {
     double part = size[i] > 0 ? missed[i] / size[i] : 0;

@@ -8,12 +8,16 @@
 #include "core.h"
 #include "damped.h"
 #include "elsewhere.h"
+#include "linear.h"
 #include "nearest.h"
 #include "tolerances.h"
 
 #define BEGINNINGS 10 /* of the search for a place near the guesses */
 /* A place is what the guesses mean if what they are missed by is this square of their sizes. */
 #define MEANT 1e-4
+/* Part of the length of a slope that is its own, beside the vector it is an item of and the other
+ * guesses, for its guess to say more. */
+#define SAYS_MORE 0.1
 
 /* Mean square of what the equations from `first` on are missed by, in parts of their sizes. */
 static double missed_from(const frot_opening *p, int first) {
@@ -71,4 +75,56 @@ double frot_guesses_missed(frot_opening *p) {
   double missed = missed_from(p, p->n - p->m->n_guessed);
   p->n -= p->m->n_guessed;
   return isfinite(missed) ? missed : INFINITY;
+}
+
+/* The factor of the metric of the speeds marked in `moves`, which come first; returns how many. */
+static int factor_moving(frot_opening *p, const double *moves, int *list) {
+  int n = 0;
+  for (int k = 0; k < p->m->nv; k++)
+    if (moves[k] != 0) list[n++] = k;
+  double *factor = p->w->opening.factor;
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++) factor[n * j + i] = frot_metric_entry(p->m, p->w, list[i], list[j]);
+  return frot_cholesky(factor, n) ? 0 : n;
+}
+
+/* y <- L^-1 of the slope of a guess in the speeds that move; returns its square. */
+static double half_of_slope(const frot_work *w, const double *slope, const int *list, int count,
+                            double *y) {
+  for (int k = 0; k < count; k++) y[k] = slope[list[k]];
+  frot_forward(w->opening.factor, count, count, y);
+  return frot_dot(y, y, count);
+}
+
+int frot_follow_guessed_speeds(frot_opening *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int n = m->n_guessed_speeds, *list = w->linear.pivot + m->nv;
+  if (n == 0) return FROT_OK;
+  int status = frot_opening_metric(p);
+  if (status != FROT_OK) return frot_no_number(p, status);
+  double *missed = w->relations.residual, *slopes = w->relations.jacobian;
+  double *items = slopes + n * m->nv, *moves = w->opening.scratch;
+  frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
+  w->call.res[0] = missed, w->call.res[1] = w->relations.size, w->call.res[2] = slopes;
+  w->call.res[3] = items, w->call.res[4] = moves;
+  frot_call(w, &m->guessed_speeds);
+  if (!frot_all_finite(missed, n) || !frot_all_finite(slopes, 4 * n * m->nv)) return FROT_OK;
+  int count = factor_moving(p, moves, list);
+  double *a = w->linear.matrix, *b = w->linear.right, *y = w->relations.step, most = 0;
+  for (int i = 0; i < n; i++) {
+    double whole = 0;
+    for (int c = 3 * i; c < 3 * i + 3; c++)
+      whole += half_of_slope(w, items + c * m->nv, list, count, y);
+    double own = half_of_slope(w, slopes + i * m->nv, list, count, y);
+    double weight = whole > 0 ? 1 / sqrt(whole) : 0;
+    most = fmax(most, own * weight * weight);
+    for (int k = 0; k < count; k++) a[k * n + i] = weight * y[k];
+    b[i] = -weight * missed[i];
+  }
+  if (most < SAYS_MORE * SAYS_MORE) return FROT_OK;
+  frot_least_norm(a, b, n, count, SAYS_MORE, y, w->linear.scratch, w->linear.pivot);
+  frot_backward(w->opening.factor, count, count, y);
+  for (int k = 0; k < count; k++) p->v[list[k]] += y[k];
+  return FROT_OK;
 }

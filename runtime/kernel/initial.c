@@ -142,8 +142,9 @@ static int solve_speeds(frot_opening *p, frot_contact_mode *modes) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   p->velocity = 1;
-  for (;;) {
-    int status = frot_solve_nearest(p);
+  int status = frot_follow_guessed_speeds(p);
+  for (; status == FROT_OK;) {
+    status = frot_solve_nearest(p);
     if (status != FROT_OK) return status;
     int added = 0;
     for (int i = 0; i < m->n_contacts; i++) {

@@ -105,8 +105,8 @@ int frot_project_jointly(const frot_model *m, frot_state *s, frot_work *w, doubl
         w->linear.matrix[j * n + i] = w->linear.matrix[i * n + j] =
             frot_dot(w->relations.jacobian + nx * i, w->relations.jacobian + nx * j, nx);
     double *lam = w->relations.step;
-    frot_least_norm(w->linear.matrix, w->relations.residual, n, n, lam, w->linear.scratch,
-                    w->linear.pivot);
+    frot_least_norm(w->linear.matrix, w->relations.residual, n, n, FROT_RANK, lam,
+                    w->linear.scratch, w->linear.pivot);
     for (int i = 0; i < n; i++)
       for (int k = 0; k < nx; k++) {
         double change = lam[i] * w->relations.unit[k] * w->relations.jacobian[nx * i + k];

@@ -49,7 +49,7 @@ void frot_solve_least(const frot_problem *p, double *x) {
       for (int c = 0; c < n; c++) copy[c * rows + r] *= scale;
       b[r] = rest * scale;
     }
-    frot_least_norm(copy, b, rows, n, step, scratch, w->linear.pivot);
+    frot_least_norm(copy, b, rows, n, FROT_RANK, step, scratch, w->linear.pivot);
     for (int c = 0; c < n; c++) x[c] += step[c] * w->reactions.weight[c] / w->reactions.unit_of[c];
   }
 }

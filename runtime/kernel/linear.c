@@ -286,7 +286,8 @@ static double reflect(double *x, int n, double *scale) {
   return beta;
 }
 
-int frot_least_norm(double *a, double *b, int m, int n, double *x, double *work, int *pivot) {
+int frot_least_norm(double *a, double *b, int m, int n, double least, double *x, double *work,
+                    int *pivot) {
   double *scale = work, *diagonal = work + n, *row_scale = work + 2 * n, *y = work + 3 * n;
   double *kept = work + 4 * n; /* b rotated */
   int steps = m < n ? m : n, rank = 0;
@@ -301,7 +302,7 @@ int frot_least_norm(double *a, double *b, int m, int n, double *x, double *work,
       if (norm > best_norm) best_norm = norm, best = j;
     }
     if (k == 0) first = sqrt(best_norm);
-    if (!(sqrt(best_norm) > FROT_RANK * first) || first == 0) break;
+    if (!(sqrt(best_norm) > least * first) || first == 0) break;
     if (best != k) {
       for (int i = 0; i < m; i++) {
         double t = AT(a, m, i, k);

@@ -36,9 +36,11 @@ void frot_lu_apply(const double *a, int n, const int *pivot, const double *scale
 
 /* Least squares of least norm: x (n) for a x = b, a (m x n) by columns, overwritten with b.
  * Rank by Householder QR with column pivoting, then a triangle from the right (G. Golub, C. Van
- * Loan, Matrix Computations, 4th ed., sect. 5.5). `work` takes m + 4*n + min(m, n)*n doubles and
+ * Loan, Matrix Computations, 4th ed., sect. 5.5); columns below the part `least` of the longest are
+ * none. `work` takes m + 4*n + min(m, n)*n doubles and
  * `pivot` n integers. Returns the rank; a and b are lost. */
-int frot_least_norm(double *a, double *b, int m, int n, double *x, double *work, int *pivot);
+int frot_least_norm(double *a, double *b, int m, int n, double least, double *x, double *work,
+                    int *pivot);
 
 /* The items of x (n) that are not zero lie in first .. end. */
 void frot_support(const double *x, int n, int *first, int *end);

@@ -9,6 +9,7 @@
 #include "mechanics.h"
 #include "reactions.h"
 #include "spare.h"
+#include "tolerances.h"
 
 /* Sizes: columns (q, v, y), lines and entries of the generated function; most that a group has of
  * equations, unknowns, columns and lines. */
@@ -240,7 +241,7 @@ static void solve(problem *p) {
   for (int c = 0; c < p->n_columns; c++) {
     for (int k = 0; k < n; k++)
       memcpy(scratch->lu + rows * k, entry(p, 0, k), sizeof(double) * (size_t)rows);
-    frot_least_norm(scratch->lu, right_of(p, c), rows, n, x, work, scratch->pivot);
+    frot_least_norm(scratch->lu, right_of(p, c), rows, n, FROT_RANK, x, work, scratch->pivot);
     memcpy(right_of(p, c), x, sizeof(double) * (size_t)n);
   }
 }

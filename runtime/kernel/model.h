@@ -67,7 +67,9 @@ typedef struct {
    * guesses that are no linear functions of q */
   frot_callable guessed;
   /* guessed_speeds -> by how much each guess of a speed is missed (n_guessed_speeds), the size that
-   * it is measured by */
+   * it is measured by, its slopes in the speeds that may follow it (nv x n_guessed_speeds), those
+   * of all items of the vector that it is an item of (three for each); 1 for each speed that may
+   * (nv) */
   frot_callable guessed_speeds;
   /* initial_velocity -> the same in v: (nv x n_velocity), (ny x n_velocity) */
   frot_callable initial_velocity;

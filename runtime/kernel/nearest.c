@@ -141,7 +141,7 @@ void frot_least_change(const frot_opening *p, const double *from) {
       b[i] += w->relations.jacobian[nx * i + k] * (frot_opening_unknown(p)[k] - from[k]);
     b[i] *= *weight;
   }
-  frot_least_norm(a, b, p->n, nx, y, w->linear.scratch, w->linear.pivot);
+  frot_least_norm(a, b, p->n, nx, FROT_RANK, y, w->linear.scratch, w->linear.pivot);
   frot_backward(p->factor, p->order, p->attached, y);
 }
 

@@ -120,7 +120,7 @@ static double step_inside(const box *b) {
                                        sqrt(own_effect(b, rows[j])) * (i == j ? 1 + SOFT : 1);
     w->linear.right[i] = -scale * frot_acceleration(b->m, w, rows[i], &size);
   }
-  frot_least_norm(w->linear.matrix, w->linear.right, free, free, step, w->linear.scratch,
+  frot_least_norm(w->linear.matrix, w->linear.right, free, free, FROT_RANK, step, w->linear.scratch,
                   w->linear.pivot);
   for (int i = 0; i < free; i++) {
     int r = rows[i];

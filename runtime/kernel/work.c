@@ -36,7 +36,7 @@ static int larger(int a, int b) { return a > b ? a : b; }
 static extent extent_of(const frot_model *m, const frot_layout *l) {
   extent e = {0, m->n_invariants > 0 ? m->nq + m->nv : m->nq, 0, 0, 0};
   e.equations = larger(m->n_position, m->n_velocity) + m->n_rows + m->n_contacts + m->n_invariants +
-                larger(m->n_guessed, m->n_guessed_speeds);
+                larger(m->n_guessed, 4 * m->n_guessed_speeds);
   e.states = larger(e.states, l->nw);
   e.square = larger(e.equations, l->nw);
   for (int k = 0; k < m->n_groups; k++) e.widest = larger(e.widest, m->groups[k].n);
@@ -179,7 +179,7 @@ static void bind_relations(const frot_model *m, const frot_layout *l, const exte
   int big = e->square, wide = e->states, least = big < wide ? big : wide;
   TAKE(w->linear.matrix, big * larger(big, wide)), TAKE(w->linear.right, 2 * big);
   TAKE(w->linear.scratch, 2 * big * big + 6 * big + 4 * wide + least * wide);
-  TAKE(w->linear.pivot, larger(big, wide));
+  TAKE(w->linear.pivot, 2 * larger(big, wide));
   TAKE(r->jacobian, wide * e->equations), TAKE(r->residual, e->equations + l->nw);
   TAKE(r->size, e->equations), TAKE(r->step, wide + l->nw + e->equations);
   TAKE(r->unit, wide), TAKE(r->rows, m->n_rows + m->n_contacts + m->n_elements);

@@ -23,6 +23,7 @@ def least_norm(kernel: ct.CDLL, a: np.ndarray, b: np.ndarray) -> tuple[int, np.n
         address(right),
         m,
         n,
+        ct.c_double(1e-11),
         address(x),
         address(work),
         pivot.ctypes.data_as(ct.POINTER(ct.c_int)),
