@@ -167,7 +167,7 @@ typedef struct {
   const frot_held *held;            /* n_held */
   const frot_vanishing *vanishings; /* n_vanishing */
   const frot_load *equations;       /* n_watched: their words and places */
-  const int *position_statement;    /* n_position: statement of each scalar equation */
+  const int *position_statement;    /* n_position: statement of each scalar equation, < 0: none */
   const int *velocity_statement;    /* n_velocity */
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;      /* np: frot_type */

@@ -213,11 +213,14 @@ int frot_statement_agrees(const frot_opening *p, int i, double before) {
 int frot_contradiction(const frot_opening *p) {
   const frot_model *m = p->m;
   const int *statement = p->velocity ? m->velocity_statement : m->position_statement;
-  int own = p->velocity ? m->n_velocity : m->n_position, worst = 0, other = -1, contact = -1;
-  for (int i = 1; i < p->n; i++)
-    if (fabs(p->w->relations.residual[i]) > fabs(p->w->relations.residual[worst])) worst = i;
+  int own = p->velocity ? m->n_velocity : m->n_position, worst = -1, other = -1, contact = -1;
   for (int i = 0; i < p->n; i++) {
-    if (i == worst || frot_statement_agrees(p, i, 0)) continue;
+    if (i < own && statement[i] < 0) continue;
+    if (worst < 0 || fabs(p->w->relations.residual[i]) > fabs(p->w->relations.residual[worst]))
+      worst = i;
+  }
+  for (int i = 0; i < p->n && worst >= 0; i++) {
+    if (i == worst || (i < own && statement[i] < 0) || frot_statement_agrees(p, i, 0)) continue;
     if (i < own && worst < own && statement[i] == statement[worst]) continue;
     if (other < 0 || fabs(p->w->relations.residual[i]) > fabs(p->w->relations.residual[other]))
       other = i;
@@ -236,7 +239,7 @@ int frot_contradiction(const frot_opening *p) {
   if (items[0] < 0) items[0] = items[1], items[1] = -1;
   if (items[0] < 0 && p->velocity) items[1] = -2;
   /* the least-squares solution shares the contradiction out among the equations */
-  double apart = fabs(p->w->relations.residual[worst]) +
+  double apart = (worst < 0 ? 0 : fabs(p->w->relations.residual[worst])) +
                  (other < 0 ? 0 : fabs(p->w->relations.residual[other]));
   return frot_fail(p->s, FROT_INITIAL, p->t, contact, items[0], items[1], apart);
 }
@@ -246,7 +249,7 @@ int frot_no_number(const frot_opening *p, int status) {
   const int *statement = p->velocity ? m->velocity_statement : m->position_statement;
   int own = p->velocity ? m->n_velocity : m->n_position;
   for (int i = 0; i < own && p->n > 0 && status == FROT_NAN; i++)
-    if (!isfinite(p->w->relations.residual[i]))
+    if (statement[i] >= 0 && !isfinite(p->w->relations.residual[i]))
       return frot_fail(p->s, FROT_INITIAL, p->t, -1, statement[i], -1, NAN);
   return frot_fail_evaluation(p->m, p->s, p->w, status, p->t);
 }
