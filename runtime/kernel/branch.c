@@ -24,12 +24,9 @@ typedef struct {
 
 static double guesses_missed(const frot_opening *p) {
   int n = p->m->n_guessed_speeds;
-  double *missed = p->w->relations.residual, *size = p->w->relations.size, sum = 0;
-  if (n == 0) return 1;
-  frot_inputs(p->m, p->s, p->w, &p->t, p->q, p->v, p->d);
-  p->w->call.res[0] = missed, p->w->call.res[1] = size;
-  p->w->call.res[2] = p->w->call.res[3] = p->w->call.res[4] = NULL;
-  frot_call(p->w, &p->m->guessed_speeds);
+  const double *missed = p->w->relations.residual, *size = p->w->relations.size;
+  double sum = 0;
+  if (n == 0 || !frot_look_at_guessed_speeds(p)) return 1;
   for (int i = 0; i < n; i++) {
     double part = size[i] > 0 ? missed[i] / size[i] : 0;
     sum += part * part;

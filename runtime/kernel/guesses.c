@@ -88,6 +88,18 @@ static int factor_moving(frot_opening *p, const double *moves, int *list) {
   return frot_cholesky(factor, n) ? 0 : n;
 }
 
+int frot_look_at_guessed_speeds(frot_opening *p) {
+  frot_work *w = p->w;
+  int n = p->m->n_guessed_speeds, nv = p->m->nv;
+  frot_inputs(p->m, p->s, w, &p->t, p->q, p->v, p->d);
+  w->call.res[0] = w->relations.residual, w->call.res[1] = w->relations.size;
+  w->call.res[2] = w->relations.jacobian, w->call.res[3] = w->relations.jacobian + n * nv;
+  w->call.res[4] = w->opening.scratch;
+  frot_call(w, &p->m->guessed_speeds);
+  return frot_all_finite(w->relations.residual, n) &&
+         frot_all_finite(w->relations.jacobian, 4 * n * nv);
+}
+
 /* y <- L^-1 of the slope of a guess in the speeds that move; returns its square. */
 static double half_of_slope(const frot_work *w, const double *slope, const int *list, int count,
                             double *y) {
@@ -103,14 +115,10 @@ int frot_follow_guessed_speeds(frot_opening *p) {
   if (n == 0) return FROT_OK;
   int status = frot_opening_metric(p);
   if (status != FROT_OK) return frot_no_number(p, status);
+  if (!frot_look_at_guessed_speeds(p)) return FROT_OK;
   double *missed = w->relations.residual, *slopes = w->relations.jacobian;
-  double *items = slopes + n * m->nv, *moves = w->opening.scratch;
-  frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
-  w->call.res[0] = missed, w->call.res[1] = w->relations.size, w->call.res[2] = slopes;
-  w->call.res[3] = items, w->call.res[4] = moves;
-  frot_call(w, &m->guessed_speeds);
-  if (!frot_all_finite(missed, n) || !frot_all_finite(slopes, 4 * n * m->nv)) return FROT_OK;
-  int count = factor_moving(p, moves, list);
+  double *items = slopes + n * m->nv;
+  int count = factor_moving(p, w->opening.scratch, list);
   double *a = w->linear.matrix, *b = w->linear.right, *y = w->relations.step, most = 0;
   for (int i = 0; i < n; i++) {
     double whole = 0;
