@@ -12,9 +12,10 @@
 
 /* Speeds that differ by less than this part of them are the same. */
 #define SAME 1e-6
-/* Speeds from which ways are looked for, along each of the conditions, in sizes of the motion. */
-#define PLACES 4
-static const double place[PLACES] = {1, -1, 4, -4};
+/* Speeds from which ways are looked for, along each of the conditions, in sizes of the motion: from
+ * beyond its two solutions Newton's method goes to the nearer one. */
+#define PLACES 6
+static const double place[PLACES] = {1, -1, 8, -8, 64, -64};
 
 /* Two ways, w->opening.nearest and w->opening.second: the square of what they miss the guesses of
  * speeds by, in parts (1 where there are none), INFINITY where there is no way. */
@@ -111,10 +112,11 @@ static int tell(frot_opening *p, int contact, const two_ways *found) {
   double most = 0;
   for (int k = 0; k < p->m->nv && isfinite(found->missed[1]); k++) {
     double apart = fabs(first[k] - second[k]);
-    if (apart > most && frot_angle_of(p->m, k) >= 0) most = apart, differs = k;
+    if (apart > (1 + SAME) * most && frot_angle_of(p->m, k) >= 0) most = apart, differs = k;
   }
   for (int k = 0; k < p->m->nv && isfinite(found->missed[1]) && differs < 0; k++)
-    if (fabs(first[k] - second[k]) > most) most = fabs(first[k] - second[k]), differs = k;
+    if (fabs(first[k] - second[k]) > (1 + SAME) * most)
+      most = fabs(first[k] - second[k]), differs = k;
   int status = frot_fail(p->s, FROT_POSTURE, p->t, contact, 0, differs, 0);
   if (differs >= 0) p->s->fault.where[0] = first[differs], p->s->fault.where[1] = second[differs];
   return status;

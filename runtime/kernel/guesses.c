@@ -88,7 +88,7 @@ static int factor_moving(frot_opening *p, const double *moves, int *list) {
   return frot_cholesky(factor, n) ? 0 : n;
 }
 
-int frot_look_at_guessed_speeds(frot_opening *p) {
+int frot_look_at_guessed_speeds(const frot_opening *p) {
   frot_work *w = p->w;
   int n = p->m->n_guessed_speeds, nv = p->m->nv;
   frot_inputs(p->m, p->s, w, &p->t, p->q, p->v, p->d);

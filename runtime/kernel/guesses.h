@@ -26,7 +26,7 @@ int frot_near_guesses(frot_opening *p);
 /* The guesses of speeds at p->v: what they are missed by (w->relations.residual), the sizes of that
  * (w->relations.size); slopes and those of all items (w->relations.jacobian), which speeds may
  * follow (w->opening.scratch). Returns whether all are finite. */
-int frot_look_at_guessed_speeds(frot_opening *p);
+int frot_look_at_guessed_speeds(const frot_opening *p);
 
 /* Move speeds, all at p->velocity, so that they miss the guesses of what follows from them least,
  * with the least kinetic energy; what they would have to be far larger for says nothing. FROT_OK or
