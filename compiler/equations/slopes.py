@@ -70,19 +70,19 @@ def collect(terms: Sequence[tuple[ca.SX, float]]) -> ca.SX:
 
 
 def without_what_cancels(value: ca.SX) -> ca.SX:
-    """The value; as a sum of other terms alone where symbols cancel out of it.
+    """The value; as a sum of other terms alone where symbols or numbers cancel out of it.
 
     Potentials do that were drops of voltage are added up: `(a - p) + (p - b)`. In a product with
     others such a symbol stays.
     """
     if not _summands(value):
         return value
-    gone = any(weight == 0 and x.is_symbolic() for x, weight in _weigh([(value, 1.0)]))
+    gone = any(weight == 0 and x.is_leaf() for x, weight in _weigh([(value, 1.0)]))
     return collect([(value, 1.0)]) if gone else value
 
 
 def _weigh(terms: Sequence[tuple[ca.SX, float]]) -> list[tuple[ca.SX, float]]:
-    """What a weighted sum is made of in the end, each with its weight."""
+    """What a weighted sum is made of in the end, each with its weight; several numbers as one."""
     weights: dict[int, float] = {}
     for x, weight in terms:
         weights[x.element_hash()] = weights.get(x.element_hash(), 0.0) + weight
@@ -95,7 +95,11 @@ def _weigh(terms: Sequence[tuple[ca.SX, float]]) -> list[tuple[ca.SX, float]]:
             weights[key] = weights.get(key, 0.0) + weight * sign
         if not parts:
             found.append((x, weight))
-    return found
+    numbers = [weight * float(x) for x, weight in found if x.is_constant()]
+    if len(numbers) < 2:
+        return found
+    rest = [(x, weight) for x, weight in found if not x.is_constant()]
+    return [*rest, (ca.SX(sum(numbers)), 1.0 if sum(numbers) else 0.0)]
 
 
 def _summands(x: ca.SX) -> list[tuple[ca.SX, float]]:

@@ -13,7 +13,7 @@ from collections import defaultdict
 import casadi as ca
 from frot.compiler.equations.chains import replace_known
 from frot.compiler.equations.given import Given
-from frot.compiler.equations.slopes import slopes
+from frot.compiler.equations.slopes import slopes, without_what_cancels
 from frot.compiler.lowering.symbols import column
 from frot.dsl.data.classes import dataclass
 
@@ -52,6 +52,8 @@ def tear_linear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> T
     own = column(unknowns[j] for _, j in pairs)
     factors = column(table[i, j].factor for i, j in pairs)
     rest = ca.substitute(column(residual[i] for i, _ in pairs), own, ca.SX.zeros(own.shape))
+    if pairs:
+        rest = column(without_what_cancels(value) for value in ca.vertsplit(rest))
     formulas = ca.vertsplit(-rest / factors) if pairs else []
     explicit = list(zip(ca.vertsplit(own) if pairs else [], formulas, strict=True))
     taken, given_by = {i for i, _ in pairs}, {j for _, j in pairs}

@@ -106,3 +106,48 @@ def test_what_cancels_in_a_sum_stays_in_a_product() -> None:
     value = ca.Function("left", [a, b, p, y], [left])
     assert float(value(5, 3, 7, 2)) == 16
     assert not ca.depends_on(without_what_cancels((a - p) + (p - b)), p)
+
+
+def test_numbers_that_cancel_in_a_sum_are_gone() -> None:
+    """0 = (a - 27.2) - b + 27.2 + a b: sums lose the number, products what they are made of not."""
+    a, b = (ca.SX.sym(name) for name in "ab")
+    left = without_what_cancels((a - 27.2) - b + 27.2 + a * b)
+    assert float(ca.Function("left", [a, b], [left])(1e-14, 3e-14)) == 1e-14 - 3e-14 + 3e-28
+    left = without_what_cancels((a - 5) - (b - 7))
+    assert float(ca.Function("left", [a, b], [left])(1, 2)) == 1
+
+
+LEAK = """model Leak "A blocking diode fills a capacitor whose ends are both at 27.2 V"
+  import Electrical.*;
+  Ground g;
+  VoltageSource e0;
+  Resistor e1(R = 12.7 Ohm), e2(R = 0.125 Ohm), e3(R = 497 Ohm), e4(R = 561 Ohm);
+  Diode e5(forward = 0.726 V, on_resistance = 0.0463 Ohm, off_resistance = 1.8e+08 Ohm);
+  Switch e6;
+  Resistor r7(R = 1.46 Ohm), e8(R = 665 Ohm), e9(R = 0.646 Ohm);
+  Capacitor e7(C = 3.64e-05 F);
+initial
+  e7.v = 0 V;
+equation
+  e0.voltage = 27.2 V;
+  e6.closed = sin(147.6 1/s*time + 4.27) > -0.347;
+  connect(r7.n, e7.p); connect(g.p, e0.n); connect(g.p, e8.p); connect(e0.p, e1.p);
+  connect(e0.p, e2.p); connect(e0.p, e3.p); connect(e1.n, e4.p); connect(e1.n, e7.n);
+  connect(e1.n, e9.n); connect(e2.n, r7.p); connect(e2.n, e9.p); connect(e3.n, e5.p);
+  connect(e0.p, e6.n); connect(e3.n, e6.p); connect(e3.n, e8.n); connect(e4.n, e5.n);
+  experiment(stop = 0.05 s);
+end Leak;
+"""
+
+
+@pytest.mark.parametrize("volts", ["27.2 V", "volts"])
+def test_a_trace_beside_a_potential_keeps_its_digits(volts: str) -> None:
+    """e7.v is 1e-10 of the source's voltage, which cancels: as a number as by its name."""
+    text = LEAK.replace("27.2 V;", f"{volts};").replace(
+        "  Ground g;", "  Ground g;\n  parameter Voltage volts = 27.2 V;"
+    )
+    exact = model(text).simulate(tolerance=1e-12)
+    for tolerance in (1e-4, 1e-8):
+        result = model(text).simulate(tolerance=tolerance)
+        assert result["e7.v"][-1] == pytest.approx(exact["e7.v"][-1], rel=30 * tolerance)
+        assert result.figures.steps < 300
