@@ -46,7 +46,7 @@ class TreeTable:
 
 def make_tree(steps: Sequence[Step], unknowns: Sequence[int], nv: int, planar: bool) -> TreeTable:
     """Of the steps whose speeds are among the unknowns of a group, and of what leads to them."""
-    width = PLANE if planar else SPACE
+    width, triangle = (PLANE, 6) if planar else (SPACE, 21)
     local = {z: k for k, z in enumerate(unknowns)}
     number: dict[int, int] = {}
     table: list[TreeStep] = []
@@ -75,7 +75,8 @@ def make_tree(steps: Sequence[Step], unknowns: Sequence[int], nv: int, planar: b
         parts += [_inertia(step.inertia, planar), _twist(step.couple, step.force, planar)]
         data += parts
         at += sum(int(p.numel()) for p in parts)
-        factor += count * (width + 1) + count * count
+        kept = width + triangle  # of what an auxiliary step reads (tree.h)
+        factor += kept if table[-1].auxiliary else count * (width + 1) + count * count
     return TreeTable(width, tuple(table), factor, ca.vertcat(*map(ca.densify, data)))
 
 

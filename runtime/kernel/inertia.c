@@ -38,19 +38,34 @@ void frot_outwards(const frot_work *w, const frot_group *g, double *x) {
     frot_backward(factor, g->n_speeds, g->n_speeds, x);
 }
 
+/* Behind the speeds x what auxiliary unknowns make of their momenta. */
+static void read_momenta(const frot_work *w, const frot_group *g, double *x) {
+  int ns = g->n_speeds, n = g->n;
+  const double *column = w->core.mass + g->matrix;
+  int k = 0;
+  memset(x + ns, 0, sizeof(double) * (size_t)(n - ns));
+  for (; k + 2 <= ns; k += 2, column += 2 * n) {
+    const double first = x[k], second = x[k + 1], *next = column + n;
+    for (int i = ns; i < n; i++) x[i] += first * column[i] + second * next[i];
+  }
+  for (; k < ns; k++, column += n) {
+    const double own = x[k];
+    for (int i = ns; i < n; i++) x[i] += own * column[i];
+  }
+}
+
 void frot_respond(const frot_work *w, const frot_group *g, double *x) {
   int ns = g->n_speeds;
   const double *factor = w->core.factor + g->metric, *force = w->core.force + g->vector;
   if (g->n_links > 0) {
-    frot_inwards(w, g, x);
-    for (int k = 0; k < ns; k++) x[k] += force[k];
-    frot_outwards(w, g, x);
+    frot_tree_respond(g, w->core.mass + g->matrix, factor, w->core.twist, w->core.motion, force, x);
     return;
   }
   const double *share = w->core.share + g->vector;
   frot_forward_by(factor, share, ns, x);
   for (int k = 0; k < ns; k++) x[k] += force[k];
   frot_backward_by(factor, share, ns, x);
+  read_momenta(w, g, x);
 }
 
 /* Column k of a large tree's matrix (n). */
@@ -92,25 +107,6 @@ void frot_momenta(const frot_work *w, const frot_group *g, const double *x, doub
   const double *column = w->core.mass + g->matrix;
   for (int k = 0; k < ns; k++, column += g->n)
     for (int i = 0; i < ns; i++) y[i] += x[k] * column[i];
-}
-
-void frot_read_momenta(const frot_work *w, const frot_group *g, double *x) {
-  int ns = g->n_speeds, n = g->n;
-  const double *column = w->core.mass + g->matrix;
-  memset(x + ns, 0, sizeof(double) * (size_t)(n - ns));
-  if (g->n_links > 0) {
-    frot_tree_times(g, column, w->core.twist, x);
-    return;
-  }
-  int k = 0;
-  for (; k + 2 <= ns; k += 2, column += 2 * n) {
-    const double first = x[k], second = x[k + 1], *next = column + n;
-    for (int i = ns; i < n; i++) x[i] += first * column[i] + second * next[i];
-  }
-  for (; k < ns; k++, column += n) {
-    const double own = x[k];
-    for (int i = ns; i < n; i++) x[i] += own * column[i];
-  }
 }
 
 void frot_own_inertias(const frot_work *w, const frot_group *g, double *own) {

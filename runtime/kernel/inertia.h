@@ -12,7 +12,8 @@ int frot_factor(frot_work *w, const frot_group *g);
 void frot_inwards(const frot_work *w, const frot_group *g, double *x);
 void frot_outwards(const frot_work *w, const frot_group *g, double *x);
 
-/* x <- A^-1 (h + x) (n_speeds), of a group that is not general. */
+/* x <- A^-1 (h + x) (n_speeds), of a group that is not general, and behind them what auxiliary
+ * unknowns make of their momenta. */
 void frot_respond(const frot_work *w, const frot_group *g, double *x);
 
 /* column (n_speeds) <- entries of the speeds in the column of the unknown k; returns that of k. */
@@ -26,10 +27,6 @@ void frot_whole_column(const frot_work *w, const frot_group *g, int k, double *c
  * not general. */
 void frot_momenta(const frot_work *w, const frot_group *g, const double *x, double *y);
 void frot_own_inertias(const frot_work *w, const frot_group *g, double *own);
-
-/* x[n_speeds .. n) <- what auxiliary unknowns make of the momenta of speeds x (n_speeds), of such a
- * group; of the rest of x nothing is left. */
-void frot_read_momenta(const frot_work *w, const frot_group *g, double *x);
 
 /* Entry of the metric for two unknowns of a group. */
 double frot_group_metric(frot_work *w, const frot_group *g, int i, int k);

@@ -120,7 +120,6 @@ int frot_follow_in_turn(const frot_problem *p) {
     memcpy(whole, load, sizeof(double) * (size_t)g->n_speeds);
     frot_respond(w, g, whole);
     for (int k = 0; k < g->n_speeds; k++) w->core.a[g->unknowns[k]] = whole[k];
-    frot_read_momenta(w, g, whole);
     double changed = follow(p, whole, load);
     if (isnan(changed)) return 0;
     int far = pass == 1 && before == 1 && changed > FASTER; /* from none at all: only a beginning */

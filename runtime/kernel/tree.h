@@ -32,6 +32,11 @@ void frot_tree_forward(const frot_group *g, const double *data, const double *fa
 void frot_tree_backward(const frot_group *g, const double *data, const double *factor,
                         double *twist, double *x);
 
+/* x (n) <- the accelerations that the factor's `force` and forces x make together, and of auxiliary
+ * unknowns what they make of these. `wrench` and `motion`: scratch, as `twist`. */
+void frot_tree_respond(const frot_group *g, const double *data, const double *factor,
+                       double *wrench, double *motion, const double *force, double *x);
+
 /* x <- M x (n): what unknowns, auxiliary ones among them, make of momenta. */
 void frot_tree_times(const frot_group *g, const double *data, double *twist, double *x);
 

@@ -146,6 +146,7 @@ static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work 
   TAKE(w->abreast, abreast);
   for (int k = 0; k < m->n_groups; k++) steps = larger(steps, m->groups[k].n_links);
   TAKE(w->inertia, FROT_STEP_INERTIA * steps), TAKE(w->twist, FROT_STEP_TWIST * steps);
+  TAKE(w->motion, FROT_STEP_TWIST * steps);
   TAKE(w->momenta, steps > 0 ? l->nw : 0);
 }
 

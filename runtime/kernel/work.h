@@ -62,7 +62,7 @@ typedef struct {
  * reactions lam (n_rows) and the solution a (nw). Of each row where it is not zero in every posture
  * (reach, 2 n_rows: from, to). Scratch: what the functions give of the rows (given), rest and
  * column (nw), the rows of a group that are looked at (listed), four of them abreast and where
- * these are not zero; of large trees inertia, twist and momenta (inertia.h). */
+ * these are not zero; of large trees inertia, twist, motion and momenta (inertia.h). */
 typedef struct {
   double t;
   double *qd, *mass, *h, *given, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
@@ -75,7 +75,7 @@ typedef struct {
   double *load, *load_size, *row_load, *bias_size;
   double *lam, *a;
   double *rest, *column, *abreast;
-  double *inertia, *twist, *momenta;
+  double *inertia, *twist, *motion, *momenta;
 } frot_core_work;
 
 /* reactions.h: the unknowns and what goes with them; whether reactions are not unique; held rows

@@ -1,6 +1,7 @@
 """Large trees of bodies: the recursion along them, and the mass matrix written out, agree."""
 
 import random
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -166,7 +167,13 @@ def plane_with_equations(rng: random.Random, count: int) -> str:
     return plane(rng, count).replace("initial\n", whole)
 
 
-@pytest.mark.parametrize("make", [plane_with_equations, space])
+def dry_plane(rng: random.Random, count: int) -> str:
+    """The same with friction in every pin, and no equations: reactions and friction in turn."""
+    law = " with coulomb(mu = 0.2, radius = 1 cm);"
+    return re.sub(r"(: rotoide\(.*?\))(?: with .*)?;", rf"\1{law}", plane(rng, count))
+
+
+@pytest.mark.parametrize("make", [plane_with_equations, dry_plane, space])
 def test_recursion_and_mass_matrix_agree(
     make: Callable[[random.Random, int], str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
