@@ -59,34 +59,93 @@ static void load_by_friction(const frot_problem *p, double *load) {
   }
 }
 
-/* What is read off the unknown `at`, where the motion makes the momenta `whole`. */
-static double read(const frot_problem *p, const double *whole, const double *load, int at) {
-  return whole[at] - p->w->core.h[p->g->unknowns[at]] - load[at];
-}
-
-/* Let the friction of each follower follow the readings. Returns the largest part of one that
- * changes. */
-static double follow(const frot_problem *p, const double *whole, const double *load) {
+/* What is known of the followers before the first pass. */
+static void list_followers(const frot_problem *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
+  for (int f = 0; f < p->unknowns; f++) {
+    int e = w->reactions.owner[f], pin = m->elements[e].bound == FROT_BY_PIN;
+    frot_follower *own = &w->reactions.followers[f];
+    own->friction = &w->core.lam[m->elements[e].row], own->ratio = w->reactions.ratio[e];
+    for (int k = 0; k < 2; k++) {
+      int at = k <= pin ? m->row_reads[m->elements[e].bounded_by[k]] : -1;
+      own->at[k] = at, own->force[k] = at < 0 ? 0 : w->core.h[p->g->unknowns[at]];
+    }
+  }
+}
+
+/* One over the size of the terms that the friction of a follower is made of; 0 where it has none.
+ */
+static double per_size(const frot_follower *own, const double *whole, const double *load) {
+  double size = 0;
+  for (int k = 0; k < 2 && own->at[k] >= 0; k++)
+    size += fabs(whole[own->at[k]]) + fabs(own->force[k]) + fabs(load[own->at[k]]);
+  size *= fabs(own->ratio);
+  return size > 0 ? 1 / size : 0;
+}
+
+/* What the readings make of the friction of each follower. Returns the largest change, as a part of
+ * the terms that one is made of. */
+static double follow(const frot_problem *p, const double *whole, const double *load, int pass) {
   double most = 0;
   for (int f = 0; f < p->unknowns; f++) {
-    int e = w->reactions.owner[f];
-    const frot_element *element = &m->elements[e];
-    double size = read(p, whole, load, m->row_reads[element->bounded_by[0]]);
-    if (element->bound == FROT_BY_PIN) {
-      double first = size, second = read(p, whole, load, m->row_reads[element->bounded_by[1]]);
-      size = sqrt(first * first + second * second);
-      if (size > 0)
-        w->reactions.along[2 * e] = first / size, w->reactions.along[2 * e + 1] = second / size;
+    frot_follower *own = &p->w->reactions.followers[f];
+    double first = whole[own->at[0]] - own->force[0] - load[own->at[0]], reaction = first;
+    own->reaction[0] = first;
+    if (own->at[1] >= 0) {
+      double second = whole[own->at[1]] - own->force[1] - load[own->at[1]];
+      own->reaction[1] = second, reaction = sqrt(first * first + second * second);
     }
-    double friction = w->reactions.ratio[e] * size, *lam = &w->core.lam[element->row];
-    double change = fabs(friction - *lam);
-    if (change > 0) most = fmax(most, change / fabs(friction));
-    if (isnan(change)) return change;
-    *lam = friction;
+    if (pass == 0) own->per_size = per_size(own, whole, load);
+    own->next = own->ratio * reaction;
+    double change = fabs(own->next - *own->friction) * own->per_size;
+    if (!(change <= most)) most = change;
+    if (isnan(most)) break;
   }
   return most;
+}
+
+/* Take what the readings made of friction, and beyond that what the pass before foretells of the
+ * next ones: most of what passes leave is of one kind (D. Anderson, J. ACM 12, 1965, p. 547). */
+static void take(const frot_problem *p, int pass) {
+  double part = 0, whole = 0;
+  for (int f = 0; f < p->unknowns; f++) {
+    frot_follower *own = &p->w->reactions.followers[f];
+    double missed = (own->next - *own->friction) * own->per_size, change = missed - own->missed;
+    part += missed * change, whole += change * change;
+    own->missed = missed;
+  }
+  double back = pass > 0 && whole > 0 ? part / whole : 0;
+  for (int f = 0; f < p->unknowns; f++) {
+    frot_follower *own = &p->w->reactions.followers[f];
+    *own->friction = pass > 0 ? own->next - back * (own->next - own->last) : own->next;
+    own->last = own->next;
+  }
+}
+
+/* The directions of the pins' reactions as the last pass found them, also for who goes on. */
+static void turn(const frot_problem *p) {
+  const frot_reaction_work *r = &p->w->reactions;
+  for (int f = 0; f < p->unknowns; f++) {
+    const frot_follower *own = &r->followers[f];
+    double *along = r->along + 2 * r->owner[f];
+    double size = own->at[1] < 0 ? 0 : hypot(own->reaction[0], own->reaction[1]);
+    for (int k = 0; k < 2 && size > 0; k++) along[k] = own->reaction[k] / size;
+  }
+}
+
+/* The friction and the readings at the end. */
+static void finish(const frot_problem *p, const double *whole, const double *load) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  turn(p);
+  for (int f = 0; f < p->unknowns; f++)
+    *w->reactions.followers[f].friction = w->reactions.followers[f].next;
+  for (int i = 0; i < p->g->n_rows; i++) {
+    int r = p->g->rows[i], at = m->row_reads[r];
+    if (at >= 0 && w->core.wanted[r])
+      w->core.lam[r] = whole[at] - w->core.h[p->g->unknowns[at]] - load[at];
+  }
 }
 
 /* The friction that values bound; of those that follow what it was in the stage before, or none.
@@ -114,26 +173,24 @@ int frot_follow_in_turn(const frot_problem *p) {
   frot_work *w = p->w;
   double *load = w->core.column, *whole = w->core.rest, before = 0;
   double *rate = &w->reactions.rate[g - p->m->groups];
-  if (begin(p) && *rate > FASTER) return 0;
+  int warm = begin(p);
+  if (warm && *rate > FASTER) return 0;
+  list_followers(p);
   for (int pass = 0; pass < PASSES; pass++) {
     load_by_friction(p, load);
     memcpy(whole, load, sizeof(double) * (size_t)g->n_speeds);
     frot_respond(w, g, whole);
     for (int k = 0; k < g->n_speeds; k++) w->core.a[g->unknowns[k]] = whole[k];
-    double changed = follow(p, whole, load);
+    double changed = follow(p, whole, load, pass);
     if (isnan(changed)) return 0;
-    int far = pass == 1 && before == 1 && changed > FASTER; /* from none at all: only a beginning */
+    int far = pass == 1 && !warm; /* from none at all: only a beginning */
     if (before > SHOWN && !far) *rate = fmax(*rate, changed / before);
-    if (*rate > FASTER) return 0;
+    if (*rate > FASTER) return turn(p), 0;
     int known = *rate > 0 || changed == 0, stays = changed > FASTER * before;
     int done = known && (changed * *rate <= ENOUGH || (changed <= ROUNDED && before > 0 && stays));
     before = changed;
-    if (!done) continue;
-    for (int i = 0; i < g->n_rows; i++) {
-      int r = g->rows[i], reads = p->m->row_reads[r];
-      if (reads >= 0 && w->core.wanted[r]) w->core.lam[r] = read(p, whole, load, reads);
-    }
-    return 1;
+    if (done) return finish(p, whole, load), 1;
+    take(p, pass);
   }
   return 0;
 }

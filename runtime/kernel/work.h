@@ -78,6 +78,16 @@ typedef struct {
   double *inertia, *twist, *motion, *momenta;
 } frot_core_work;
 
+/* pins.c: a friction that follows readings, where these stand among the unknowns of the group (at:
+ * a pin's two, else one and -1) and what loads make of them; what a pass makes of them and of the
+ * friction, what the pass before made, and by how much that missed what it began with, in sizes of
+ * its terms. */
+typedef struct {
+  double *friction;
+  int at[2];
+  double force[2], reaction[2], ratio, per_size, next, last, missed;
+} frot_follower;
+
 /* reactions.h: the unknowns and what goes with them; whether reactions are not unique; held rows
  * that depend on those before them; where to begin to look for the pins' directions. Of each
  * unknown friction, twice: what is known of the readings that bound it, and what each unknown does
@@ -88,6 +98,7 @@ typedef struct {
   unsigned char *friction, *carried;
   double *fold_ratio, *ratio, *along, *unit_of, *weight, *solution;
   double *known, *effects;
+  frot_follower *followers;
   double *rate;         /* n_groups: what a pass of pins.c leaves of a change, in the step */
   int dependent, *sign; /* sign (n_groups): of the determinant, 0 where there is none */
   int follow;           /* 1: pins' directions are looked for from the last stage's on */
