@@ -143,7 +143,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   if (a->ratio <= 1) {
     a->stiff = frot_is_stiff(m, s, w, h);
     a->stable = frot_stable_step(m, s, w, h);
-    memcpy(w->step.z, w->step.z1, sizeof(double) * (size_t)(m->nq + m->nv));
+    frot_copy_awake(w, w->step.z1, w->step.z);
     if (!frot_spare_rows_hold(m, s, w, t + h, w->step.z)) {
       frot_spare_nothing(m, s, w);
       s->statistics.rejected++;

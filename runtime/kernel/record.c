@@ -67,6 +67,7 @@ void frot_note_changes(const frot_model *m, frot_state *s, double t,
 }
 
 void frot_tell(const frot_model *m, frot_state *s, frot_recorder *recorder) {
+  if (!s->several && (!s->untold || !recorder)) return;
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   for (int i = 0; i < m->n_contacts && s->several; i++) {

@@ -53,14 +53,21 @@ void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, doub
                     double end) {
   frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
   *g.t0 = t, *g.t1 = end, *g.h = h;
+  const double *spare = s->data + w->layout.spare;
   if (s->asleep == 0 || s->naps != s->kept_naps) { /* what wakes changes modes */
     copy_modes(m, s, &w->layout, &g);
-    memcpy(g.x0, s->data + w->layout.x, sizeof(double) * (size_t)w->layout.nx);
-    memset(g.f, 0, sizeof(double) * DP_DENSE * (size_t)w->layout.nx);
+    memcpy(g.spare, spare, sizeof(double) * (size_t)m->n_rows);
+    if (s->asleep > 0) {
+      memcpy(g.x0, s->data + w->layout.x, sizeof(double) * (size_t)w->layout.nx);
+      memset(g.f, 0, sizeof(double) * DP_DENSE * (size_t)w->layout.nx);
+    }
     s->kept_naps = s->naps;
   }
-  memcpy(g.spare, s->data + w->layout.spare, sizeof(double) * (size_t)m->n_rows);
   const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_groups; k++) {
+    const frot_group *group = &m->groups[now->groups[k]];
+    for (int i = 0; i < group->n_rows; i++) g.spare[group->rows[i]] = spare[group->rows[i]];
+  }
   for (int i = 0; i < now->n_elements; i++)
     memcpy(g.along + 2 * now->elements[i], s->data + w->layout.along + 2 * now->elements[i],
            2 * sizeof(double));

@@ -8,9 +8,9 @@
 /* Instants t0, t1 and length h of a segment. */
 #define TIMES 3
 
-int frot_has_room(const frot_model *m, const frot_recorder *recorder) {
-  return !recorder->segments ||
-         recorder->segment_used + frot_segment_size(m) <= recorder->segment_capacity;
+int frot_has_room(const frot_model *m, const frot_work *w, const frot_recorder *recorder) {
+  long long size = FROT_RECORD_HEAD + w->layout.ns + m->n_islands;
+  return !recorder->segments || recorder->segment_used + size <= recorder->segment_capacity;
 }
 
 /* Doubles to or from the end of the tape. */
@@ -40,7 +40,10 @@ static void write_awake(const frot_model *m, frot_state *s, frot_work *w, tape *
   const frot_awake_lists *now = w->awake.now;
   write(to, s->data + w->layout.segment, TIMES);
   for (int k = 0; k < now->n_elements; k++) write(to, g.along + 2 * now->elements[k], 2);
-  write(to, g.spare, m->n_rows);
+  for (int k = 0; k < now->n_groups; k++) {
+    const frot_group *group = &m->groups[now->groups[k]];
+    for (int i = 0; i < group->n_rows; i++) write(to, g.spare + group->rows[i], 1);
+  }
   write(to, g.y0, 2 * m->ny);
   for (int i = -1; i < DP_DENSE; i++) {
     frot_pack(w, i < 0 ? g.x0 : g.f + i * w->layout.nx, to->at);
@@ -75,7 +78,10 @@ frot_segment frot_read_record(const frot_model *m, frot_work *w, const double *r
   const frot_awake_lists *some = &w->awake.some;
   read(&from, w->tape, TIMES);
   for (int k = 0; k < some->n_elements; k++) read(&from, g.along + 2 * some->elements[k], 2);
-  read(&from, g.spare, m->n_rows);
+  for (int k = 0; k < some->n_groups; k++) {
+    const frot_group *group = &m->groups[some->groups[k]];
+    for (int i = 0; i < group->n_rows; i++) read(&from, g.spare + group->rows[i], 1);
+  }
   read(&from, g.y0, 2 * m->ny);
   for (int i = -1; i < DP_DENSE; i++) {
     double *all = i < 0 ? g.x0 : g.f + i * w->layout.nx;

@@ -5,7 +5,7 @@
 #include "work.h"
 
 /* Whether the recorder takes one more segment; one without room for segments takes any. */
-int frot_has_room(const frot_model *m, const frot_recorder *recorder);
+int frot_has_room(const frot_model *m, const frot_work *w, const frot_recorder *recorder);
 
 /* Append the current segment; there is room. */
 void frot_record(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder);
