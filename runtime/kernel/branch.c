@@ -38,6 +38,7 @@ static double guesses_missed(const frot_opening *p) {
 /* The inertia and the conditions of a group at p->v. */
 static int look(frot_opening *p, const frot_group *g) {
   const frot_contact_mode *modes = (const void *)(p->s->data + p->w->layout.modes);
+  if (!frot_has_loops_alone(p->m, p->s, p->w, g)) return 0;
   int status = frot_dynamics(p->m, p->s, p->w, p->t, p->q, p->v, p->d, modes, FROT_INERTIA);
   return status == FROT_OK ? frot_find_ways(p->m, p->s, p->w, g, p->t, p->q, p->v, p->d) : 0;
 }

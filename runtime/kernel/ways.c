@@ -169,6 +169,11 @@ static int turning(const frot_model *m, frot_state *s, frot_work *w, const frot_
   return keep_own(w, g, *n);
 }
 
+int frot_has_loops_alone(const frot_model *m, const frot_state *s, const frot_work *w,
+                         const frot_group *g) {
+  return list_rows(m, s, w, g) > 0;
+}
+
 int frot_find_ways(const frot_model *m, frot_state *s, frot_work *w, const frot_group *g, double t,
                    const double *q, const double *v, const double *d) {
   int n, count = turning(m, s, w, g, t, q, v, d, &n);

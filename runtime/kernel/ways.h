@@ -11,6 +11,10 @@
 
 #include "work.h"
 
+/* Whether rows of loops act in a group, and nothing else: others have no ways to find. */
+int frot_has_loops_alone(const frot_model *m, const frot_state *s, const frot_work *w,
+                         const frot_group *g);
+
 /* The conditions k'c = 0 that speeds v meet beside the rows of the loops of a group, as equations
  * for a change of v: their number. Of each an orthonormal row, times L^-1, in w->linear.scratch
  * (n_speeds each), what it is missed by in w->linear.right, one of its rows in w->span.way. After
