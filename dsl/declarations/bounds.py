@@ -50,7 +50,7 @@ def keep_on_curve(made: checked.Liaison, scope: Scope) -> None:
     place = made.b
     if not made.kind.along_curve:
         return
-    span, name = made.span, ""
+    span, name, closed = made.span, "", ""
     ends: tuple[checked.Expression, ...] = ()
     if isinstance(place, checked.BodyGeometry) and place.name == "axis":
         length = place.body.arguments["length"]
@@ -59,12 +59,15 @@ def keep_on_curve(made: checked.Liaison, scope: Scope) -> None:
     if isinstance(place, checked.CurvePlace) and place.curve.kind == "parametric":
         given, kind = place.curve.arguments, parameter_type(place.curve)
         if known(given["periodic"], scope) is not True:
-            ends = tuple(checked.Element(given["u"], k, kind, span) for k in range(2))
-        name = place.curve.name
+            at = known(given["u"], scope)
+            back = isinstance(at, tuple) and float(at[0]) > float(at[1])
+            both = (1, 0) if back else (0, 1)
+            ends = tuple(checked.Element(given["u"], k, kind, span) for k in both)
+        name, closed = place.curve.name, " (unless it says `periodic = true`)"
     for order, end in zip((">=", "<="), ends, strict=False):
         u = checked.Quantity(made, "u", end.type, span)
         inside = checked.Binary(order, u, end, BOOLEAN, span)
-        _assert(inside, f"liaison '{made.name}' leaves '{name}', which ends there", scope)
+        _assert(inside, f"liaison '{made.name}' leaves '{name}', which ends there{closed}", scope)
 
 
 def _written(value: checked.Expression) -> str:

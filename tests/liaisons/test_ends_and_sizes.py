@@ -30,6 +30,15 @@ def test_a_closed_curve_has_no_end() -> None:
     assert result["guide.u"][-1] > 2
 
 
+@pytest.mark.parametrize(("ends", "begins"), [("(1 m, 3 m)", 1), ("(-1 m, -4 m)", -1)])
+def test_a_point_begins_between_the_ends(ends: str, begins: float) -> None:
+    """Where nothing is said, and in whichever order they stand."""
+    text = SLOPE.format(periodic="").replace("(-1 m, 1 m)", ends).replace("-0.75*u", "0 m")
+    result = frot.compile(text).simulate()
+    assert result["guide.u"][0] == begins
+    assert result["bead.position.x"][-1] == pytest.approx(begins)
+
+
 def test_a_bead_ends_where_its_rod_does() -> None:
     """The rod turns as told: with x = |u| + 1/2 from its pin, x'' = w^2 x, so x = cosh(w t)/2."""
     with pytest.raises(frot.FrotError, match=r"'slide' leaves 'arm.axis', which ends") as raised:

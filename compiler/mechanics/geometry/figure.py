@@ -112,6 +112,10 @@ class Figure:
         """Lengths and directions of those of a circle or an ellipse."""
         raise NotImplementedError
 
+    def ends(self, lower: Lower) -> ca.SX | None:
+        """The two values between which the parameter of a curve is, where it has ends."""
+        return None
+
     def beginnings(self, lower: Lower) -> list[ca.SX]:
         """Parameters from which a search begins; none where a formula gives the nearest."""
         return []

@@ -66,6 +66,10 @@ class Path(Figure):
         """As the text says."""
         return _put(self.points, (self.u,), u, lower)
 
+    def ends(self, lower: Lower) -> ca.SX:
+        """As the text says, in either order."""
+        return ca.vec(lower(self.bounds))
+
     def beginnings(self, lower: Lower) -> list[ca.SX]:
         """From end to end."""
         return _between(lower(self.bounds), LONG)

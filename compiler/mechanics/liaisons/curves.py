@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Self
+import itertools
+from typing import TYPE_CHECKING, Self
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
@@ -17,6 +18,10 @@ from frot.compiler.mechanics.spatial import Moving, Pose, beside_moving, nowhere
 from frot.compiler.mechanics.values import Lower, rate_by_time
 from frot.dsl.data.classes import dataclass, replace
 
+if TYPE_CHECKING:
+    from frot.compiler.mechanics.kinematics import Kinematics
+    from frot.compiler.mechanics.mechanism import Hanging
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Follow(Motion):
@@ -30,6 +35,18 @@ class Follow(Motion):
     def reversed(self) -> Self:
         """Of the base along the curve."""
         return replace(self, sign=-self.sign)
+
+    def carry(
+        self, kinematics: Kinematics, hanging: Hanging, base: Moving, q: ca.SX, v: ca.SX
+    ) -> Moved:
+        """Without a guess it begins at 0, or at the end of the curve that is nearest to that."""
+        lower = kinematics.fixed.lower
+        ends = self.curve.ends(lower)
+        if ends is not None:
+            before = itertools.takewhile(lambda m: m.bare is not self, hanging.motions)
+            at = kinematics.places[hanging.body][0] + sum(len(m.coordinates) for m in before)
+            kinematics.starts[at] = ca.fmin(ca.fmax(0, ca.mmin(ends)), ca.mmax(ends))
+        return self.move(base, q, v, lower)
 
     def move(self, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
         """The material element of the curve may move too: its parameter stays with it."""
