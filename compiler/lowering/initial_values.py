@@ -261,7 +261,8 @@ def _direct(found: list[_Residual], system: Assembled) -> tuple[dict[int, ca.SX]
         inside = [s for s in ca.symvar(residual.value) if s.element_hash() in moving]
         slope = ca.jacobian(residual.value, inside[0]) if len(inside) == 1 else ca.SX.sym("no")
         key = inside[0].element_hash() if inside else 0
-        if not slope.is_constant() or key in values or key not in states:
+        # What coordinates keep says nothing of them, though its terms are still there.
+        if not slope.is_constant() or slope.is_zero() or key in values or key not in states:
             complete = False
             continue
         value = -ca.substitute(residual.value, inside[0], ca.SX(0)) / slope

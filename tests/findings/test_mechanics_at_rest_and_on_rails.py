@@ -125,3 +125,23 @@ end Late;
         [stick] = [e.time for e in result.events if e.kind == "stick"]
         assert stick == pytest.approx(start + abs(u) / (0.3 * 9.81), rel=4e-15)
         assert result["b.velocity.x"][-1] == 0
+
+
+def test_a_gap_that_coordinates_keep_may_be_stated() -> None:
+    """A point at a parameter's distance on a slope: its gap is zero wherever it is."""
+    result = frot.compile("""
+planar model Rail
+  parameter Length wide = 0.1 m;
+  curve rail on ground: line(through = (0, 0) m, direction = (1, 0.5));
+  body rod: rod(mass = 2 kg, length = 0.5 m);
+  frame p on rod at (-wide/2, 0 m);
+  liaison one: point_courbe(p, rail, unilateral = false);
+initial
+  rod.position.x = 0 m;
+  rod.angle = 0.3 rad;
+  one.gap = 0 m;
+  experiment(stop = 0.1 s);
+end Rail;
+""").simulate()
+    assert result["rod.position.x"][0] == pytest.approx(0, abs=1e-15)
+    assert result["rod.position.y"][0] == pytest.approx(0.05 * (np.sin(0.3) - np.cos(0.3) / 2))
