@@ -23,8 +23,47 @@ double frot_missed_square(const frot_opening *p) {
   return sum;
 }
 
+/* What the angles do to an equation, whatever the masses; of what they do nothing to, its size. */
+static double arm_of(const frot_opening *p, int i) {
+  const double *row = p->w->relations.jacobian + p->m->nq * i;
+  double square = 0;
+  for (int j = 0; j < p->m->nv; j++) {
+    int k = frot_angle_of(p->m, j);
+    if (k >= 0) square += row[k] * row[k];
+  }
+  return square > 0 ? sqrt(square) : frot_statement_size(p, i);
+}
+
+/* By their arms, and those between lengths, or between directions (of reach 1), of one liaison by
+ * the mean of theirs: so that it does not matter where the scene stands, nor along which axes it is
+ * seen. */
+static void weigh_alike(const frot_opening *p) {
+  const frot_model *m = p->m;
+  const double *reach = p->w->opening.reach;
+  double *weight = p->w->opening.row_weight, *arm = p->w->opening.off_at_first;
+  int n = m->n_position;
+  for (int i = 0; i < p->n; i++) arm[i] = weight[i] = arm_of(p, i);
+  for (int i = 0; i < m->n_contacts; i++) {
+    double square = 0, count = 0;
+    if (!p->use[i] || m->contacts[i].kinematic) continue;
+    for (int k = 0, at = m->n_position; k < m->n_contacts; k++) {
+      if (!p->use[k] || m->contacts[k].kinematic) continue;
+      if (strcmp(m->contacts[k].name, m->contacts[i].name) == 0 &&
+          (reach[k] == 1) == (reach[i] == 1))
+        square += arm[at] * arm[at], count++;
+      at++;
+    }
+    weight[n++] = sqrt(square / count);
+  }
+  for (int i = 0; i < p->n; i++) weight[i] = weight[i] > 0 ? 1 / weight[i] : 0;
+}
+
 void frot_weigh_equations(const frot_opening *p) {
   const frot_relation_work *r = &p->w->relations;
+  if (p->alike && p->m->n_turns == 0) {
+    weigh_alike(p);
+    return;
+  }
   for (int i = 0; i < p->n; i++) {
     int guess = p->guessed && i >= p->n - p->m->n_guessed;
     double size = guess ? r->size[i] : fmax(frot_statement_size(p, i), fabs(r->residual[i]));

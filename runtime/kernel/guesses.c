@@ -31,20 +31,12 @@ static double missed_from(const frot_opening *p, int first) {
   return p->n > first ? sum / (p->n - first) : 0;
 }
 
-/* The bilateral liaisons, with the sides of the place as it is. */
-static void take_liaisons(const frot_opening *p) {
-  const frot_model *m = p->m;
-  const double *unilateral = p->s->data + frot_layout_of(m).unilateral;
-  for (int i = 0; i < m->n_contacts; i++)
-    p->use[i] = frot_has_normal(&m->contacts[i]) && !m->contacts[i].reduced && unilateral[i] == 0;
-}
-
 int frot_near_guesses(frot_opening *p) {
   frot_opening_work *w = &p->w->opening;
   double least = INFINITY, *y = p->w->blocks.y, *best = w->near, *best_y = best + p->m->nq;
   double *first_y = w->first + p->m->nq;
   size_t bytes = sizeof(double) * (size_t)p->m->nq, y_bytes = sizeof(double) * (size_t)p->m->ny;
-  take_liaisons(p);
+  frot_take_liaisons(p);
   p->guessed = 1;
   if (frot_evaluate_statements(p) == FROT_OK) memcpy(w->begin, w->natural, bytes);
   for (int k = 0; k < BEGINNINGS && least > MEANT; k++) {

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "apart.h"
 #include "branch.h"
 #include "changes.h"
 #include "core.h"
@@ -190,6 +191,7 @@ static int solve_once(frot_opening *p, double *q, double *v) {
     p->wide = 1;
     status = solve_positions(p, side);
     p->wide = 0;
+    if (status == FROT_INITIAL && s->fault.item < 0) frot_tell_apart(p);
   }
   if (status != FROT_OK) return status;
   set_conditions(m, w, d);
@@ -211,7 +213,7 @@ static int solve_once(frot_opening *p, double *q, double *v) {
 int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v) {
   frot_layout l = frot_layout_of(m);
-  frot_opening p = {m, s, w, t, q, v, s->data + l.d, w->opening.use, 0, 0, NULL, NULL, 0,
+  frot_opening p = {m, s, w, t, q, v, s->data + l.d, w->opening.use, 0, 0, NULL, NULL, 0, 0,
                     0, 0, 0, 0, 0, 0};
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
   size_t size = sizeof(double) * (size_t)m->n_conditions;

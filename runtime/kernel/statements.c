@@ -183,6 +183,13 @@ int frot_evaluate_statements(frot_opening *p) {
   return finite ? FROT_OK : FROT_NAN;
 }
 
+void frot_take_liaisons(const frot_opening *p) {
+  const frot_model *m = p->m;
+  const double *unilateral = p->s->data + frot_layout_of(m).unilateral;
+  for (int i = 0; i < m->n_contacts; i++)
+    p->use[i] = frot_has_normal(&m->contacts[i]) && !m->contacts[i].reduced && unilateral[i] == 0;
+}
+
 double frot_statement_size(const frot_opening *p, int i) {
   double sum = p->w->relations.size[i];
   const int *bounds = p->w->relations.bounds + 2 * i;
@@ -237,6 +244,9 @@ int frot_contradiction(const frot_opening *p) {
       if (p->use[i] && !(m->contacts[i].kinematic && !p->velocity) && at++ == rows[k]) contact = i;
   }
   if (items[0] < 0) items[0] = items[1], items[1] = -1;
+  /* without statements bodies could rest, but for what time moves */
+  for (int i = 0; i < own && items[0] < 0 && p->velocity; i++)
+    if (!frot_statement_agrees(p, i, 0)) items[0] = statement[i];
   if (items[0] < 0 && p->velocity) items[1] = -2;
   /* the least-squares solution shares the contradiction out among the equations */
   double apart = (worst < 0 ? 0 : fabs(p->w->relations.residual[worst])) +

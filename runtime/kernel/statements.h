@@ -20,6 +20,7 @@ typedef struct {
   double scene; /* largest value, term and residual where the search begins */
   int wide;     /* the search may begin elsewhere too */
   int guessed;  /* the guesses of places are equations too, after the others */
+  int alike;    /* what holds by one liaison counts alike, by the arms of the angles (damped.h) */
   double left;  /* the part of w->opening.left that may still be missed (gradual.h) */
   int ways;     /* speeds are to begin a motion in singular postures too (ways.h) */
 } frot_opening;
@@ -45,6 +46,9 @@ static inline int frot_is_attached(const frot_opening *p, int k) {
 /* Residuals (w->relations.residual), the rows of the Jacobian (w->relations.jacobian) and the sizes
  * of the terms (w->relations.size); sets p->n. FROT_OK or the status of a failed evaluation. */
 int frot_evaluate_statements(frot_opening *p);
+
+/* Take the liaisons that cannot part for equations, with the sides of the place as it is. */
+void frot_take_liaisons(const frot_opening *p);
 
 /* Whether equation i, which no unknown moves, holds: to rounding of lengths `reach`. */
 int frot_is_still(const frot_opening *p, int i, double reach);

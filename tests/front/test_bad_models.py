@@ -257,7 +257,7 @@ def test_options_of_the_run_out_of_range_are_told(
             "  body b: rod(mass = 1 kg, length = 1 m);\n  frame far on ground at (0, 5) m;\n"
             "  liaison A: rotoide(ground, a.start);\n  liaison B: rotoide(a.tip, b.start);\n"
             "  liaison C: rotoide(b.tip, far);\n",
-            ("E0601", "positions were found at which liaison 'C' holds", "in SI are left"),
+            ("E0601", "positions were found at which liaison 'C' holds", "stay 3 m apart"),
             "7:3",
         ),
     ],

@@ -118,8 +118,8 @@ DRIVEN = "liaison p: rotoide(ground, a.start) driven(angle = {}); "
         (
             DRIVEN.format("0*time/(1 s)") + "frame f on ground at (2, 0) m; "
             "liaison t: tige(a.tip, f, length = 1.5 m);",
-            "no positions were found at which liaison 't' holds together with the others: in the "
-            "last ones that were tried 0.5 in SI are left",
+            "no positions were found at which liaison 't' holds together with the others: at "
+            "best its places stay 0.5 m apart",
         ),
     ],
 )
@@ -148,3 +148,61 @@ def test_a_plane_that_loses_its_normal_in_a_run_is_named() -> None:
         frot.compile(SPACE.format(text)).simulate()
     assert "E0911" in str(raised.value)
     assert "liaison 'j': 's' has no direction at t = 0.1" in str(raised.value)
+
+
+CLOSED = """
+{model} Closed
+  body a: rod(mass = 1 kg, length = 0.3 m);
+  body b: rod(mass = 1 kg, length = {b} m);
+  body c: rod(mass = 1 kg, length = {c} m);
+  frame far on ground at {far};
+  liaison A: rotoide(ground, a.start{axis});
+  liaison B: {joint}(a.tip, b.start{turn});
+  liaison C: {joint}(b.tip, c.tip{turn});
+  liaison D: rotoide(far, c.start{axis});
+{initial}
+end Closed;
+"""
+IN_SPACE = {"model": "model", "axis": ", axis = y"}
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"model": "planar model", "far": "(0.9, 0) m"}, "'D'.* its places stay 0.2 m apart"),
+        (IN_SPACE | {"far": "(0.9, 0, 0) m", "joint": "spherique"}, "its places stay 0.2 m apart"),
+        (
+            IN_SPACE
+            | {"turn": ", axis = y", "b": 1, "c": 0.7}
+            | {"far": "(0.9, 0, 0) m rotated(axis = x, angle = 3 deg)"},
+            "'D'.* its directions stay 0.0523 rad apart",
+        ),
+    ],
+    ids=["plane", "space", "axes"],
+)
+def test_how_far_a_loop_that_cannot_close_stays_open_is_told(
+    given: dict[str, object], told: str
+) -> None:
+    """0.9 m with rods of 0.3, 0.2 and 0.2 m; axes that are 3 degrees off each other."""
+    usual = {"b": 0.2, "c": 0.2, "axis": "", "turn": "", "joint": "rotoide", "initial": ""}
+    with pytest.raises(frot.FrotError, match=told) as raised:
+        frot.compile(CLOSED.format(**usual | given)).simulate()
+    assert raised.value.diagnostics[0].code == "E0601"
+
+
+def test_a_speed_that_no_freedom_allows_is_told_with_the_statement() -> None:
+    text = """
+planar model Triangle
+  body a: rod(mass = 1 kg, length = 1 m);
+  body b: rod(mass = 1 kg, length = 1 m);
+  frame far on ground at (1, 0) m;
+  liaison A: rotoide(ground, a.start);
+  liaison B: rotoide(a.tip, b.start);
+  liaison C: rotoide(b.tip, far);
+initial
+  A.speed = 1 rad/s;
+end Triangle;
+"""
+    with pytest.raises(frot.FrotError, match="contradict liaison 'C'") as told:
+        frot.compile(text).simulate()
+    assert "`A.speed = 1 rad/s`" in str(told.value)

@@ -1,0 +1,13 @@
+/* How far apart the places of a liaison stay at best where a mechanism cannot be put together. */
+#ifndef FROT_APART_H
+#define FROT_APART_H
+
+#include "statements.h"
+
+/* After a search for positions that found none and blamed a liaison alone: blame the one that is
+ * left farthest open in the best place that is found, and tell how far: the fault's value, a length
+ * in m, or with where[0] = 1 between directions, in rad. Leaves the fault where there is no such
+ * place. */
+void frot_tell_apart(frot_opening *p);
+
+#endif
