@@ -11,7 +11,9 @@
  * Twists and wrenches are about the origin of their step, along ground axes: what turns, then what
  * moves; three components in the plane (g->width = 3: about z, x, y), six in space. Data of a step:
  * columns (width each), the vector from the step before (2 or 3), mass, moment (2 or 3), inertia
- * (1, or xx xy xz yy yz zz), the wrench that keeps its motion (width). */
+ * (1, or xx xy xz yy yz zz), the wrench that keeps its motion (width). Of the factor a step has,
+ * for each speed, Y (width) and 1 / sqrt(D); an auxiliary one, which reads what passes there, P and
+ * the wrench (width) of the forces of the speeds beyond. */
 #ifndef FROT_TREE_H
 #define FROT_TREE_H
 
