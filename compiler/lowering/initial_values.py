@@ -20,6 +20,7 @@ from frot.compiler.lowering.guesses import (
 )
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.mechanics.link import Link
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation
 from frot.dsl.data.classes import dataclass, replace
@@ -53,7 +54,7 @@ class Initial:
 class _Residual:
     """A statement that something is zero; `only`: the one unknown that is to make it so.
 
-    `solved`: it is on an acceleration or a reaction. `statement` < 0, another for each: it is none
+    `solved`: it is on an acceleration or a reaction. `statement` s < 0 is that of ~s, which is none
     of the text, but keeps a quaternion's length or an angle within half a turn of its count.
     """
 
@@ -95,10 +96,17 @@ def lower_initial(
         found = []
     for turn in turns:
         unit = system.q[turn.coordinate : turn.coordinate + 4]
-        found.append(_Residual(ca.sumsqr(unit) - 1, ca.sumsqr(unit) + 1, -1 - len(found)))
-    for counter, angle in _counted(system):
+        found.append(_Residual(ca.sumsqr(unit) - 1, ca.sumsqr(unit) + 1, ~len(statements)))
+        name = unit[0].name().removesuffix("[1]")
+        bodies = (b.span for b in model.bodies if name == f"{b.name}.orientation")
+        span = next(bodies, None) or model.span
+        text = f"{name} is a unit quaternion (cos(f/2), sin(f/2)*n)"
+        statements.append(Statement(text, span, "1"))
+    for counter, angle, link in _counted(system):
         own = ca.atan2(ca.sin(angle - counter), ca.cos(angle - counter))
-        found.append(_Residual(own, ca.SX(1), -1 - len(found), counter))
+        found.append(_Residual(own, ca.SX(1), ~len(statements), counter))
+        text = f"the turns of {link.liaison.name}"
+        statements.append(Statement(text, link.liaison.span, "1"))
     for value, origin in zip(
         ca.vertsplit(system.invariants.values) if system.invariants.origins else (),
         system.invariants.origins,
@@ -156,13 +164,13 @@ def _placed(
     return placed
 
 
-def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX]]:
+def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Link]]:
     """Each counter with the angle it counts, which is within half a turn of it."""
     reduced = system.reduced
     mechanism, kinematics = reduced.mechanism, reduced.variables.kinematics
     for (link, k), counter in zip(mechanism.counters, kinematics.counters.values(), strict=True):
         angle, _ = reduced.variables.coordinate(link.liaison, k)
-        yield counter, reduced.variables.settled(angle)
+        yield counter, reduced.variables.settled(angle), link
 
 
 def _natural(system: Assembled) -> ca.SX:

@@ -22,7 +22,9 @@ from frot.compiler.lowering.lower_parameters import lower_parameters, parameters
 from frot.compiler.lowering.pace import make_pace
 from frot.compiler.lowering.symbols import column
 from frot.compiler.lowering.timing import sort_conditions
+from frot.compiler.mechanics.geometry.tracking import NO_END
 from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
+from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.mechanics.supports import Carried, carried_bodies
 from frot.dsl import Log
@@ -40,6 +42,7 @@ class Lowered:
     `position_statement` and `velocity_statement` give, for each scalar initial equation, the index
     of its statement in `statements`. `n_guessed`: scalars whose places are guessed,
     `n_guessed_speeds`: and speeds.
+    `n_followed`: unknowns of places that are followed, if one may be of an open contact.
     `blocks` are the functions of the blocks of `system`.
     Where there are `islands`, each is of one of the `kinds`. `conditions`: the values of all.
     """
@@ -61,6 +64,7 @@ class Lowered:
     velocity_statement: tuple[int, ...]
     n_guessed: int
     n_guessed_speeds: int
+    n_followed: int
     row_depends: tuple[tuple[bool, ...], ...]
     dependent: tuple[bool, ...]
     jacobian: Jacobian | None
@@ -137,6 +141,9 @@ def lower(
     if reduced.conditions.sensed:
         first = reduced.conditions.located - reduced.conditions.sensed
         outputs["sensed"] = (solution, [conditions[first : reduced.conditions.located]])
+    beginnings = _beginnings_of_open(system)
+    if beginnings:
+        outputs["beginnings"] = (state, beginnings)
     carried = carried_bodies(system)
     if carried:
         outputs["places"] = (state, [column(body.value for body in carried)])
@@ -202,6 +209,7 @@ def lower(
         velocity_statement=initial.velocity_statement,
         n_guessed=initial.guessed[0].numel() if initial.guessed else 0,
         n_guessed_speeds=initial.guessed_speeds[0].numel() if initial.guessed_speeds else 0,
+        n_followed=beginnings[0].numel() if beginnings else 0,
         row_depends=_row_depends(system),
         dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
         jacobian=jacobian,
@@ -319,6 +327,24 @@ def _block(index: int, block: Block, system: Assembled) -> ca.Function:
     if block.late:
         arguments += [system.z, system.lam]
     return ca.Function(f"frot_block_{index}", arguments, _clean([block.residual, slope, size]))
+
+
+def _beginnings_of_open(system: Assembled) -> list[ca.SX]:
+    """Where the search for each place that is followed begins, if one may be of an open contact.
+
+    And the ends of its parameters. Nothing where no such contact may be open.
+    """
+    tracks = system.reduced.variables.kinematics.tracks
+    if not any(is_unilateral(liaison) for liaison in tracks):
+        return []
+    endless = ca.SX([[-NO_END, NO_END]])
+    ends = ca.vertcat(
+        *(
+            ca.repmat(endless, x.unknowns.numel(), 1) if x.ends is None else x.ends
+            for x in tracks.values()
+        )
+    )
+    return [column(x.start for x in tracks.values()), ends[:, 0], ends[:, 1]]
 
 
 def _block_slopes(system: Assembled) -> list[ca.SX]:

@@ -56,21 +56,23 @@ def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
     sliding = {e.contact: k for k, e in enumerate(lowered.grouping.elements) if not e.rolling}
 
     def one(name: str, span: Span | None, *fields: int) -> str:
-        row, kept, slides, mode, kinematic = fields
-        return _record(
-            *(_text(name), _text(_place(span)), row, kept, slides),
-            *(places.get(f"{name}.power", -1), places[f"{name}.mode"] if mode else -1, kinematic),
-        )
+        row, kept, slides, mode, kinematic, followed = fields
+        told = places.get(f"{name}.power", -1), places[f"{name}.mode"] if mode else -1
+        what = row, kept, slides, *told, kinematic, followed
+        return _record(_text(name), _text(_place(span)), *what)
 
     links = reduced.mechanism.contacts
+    blocks = {x: k for k, x in enumerate(reduced.variables.kinematics.tracks)}
     for k, (link, rows) in enumerate(zip(links, reduced.contact_rows, strict=True)):
         never = link.rolls and not link.reduced
         slides = _NEVER_SLIPS if never else sliding.get(k, -1)
         row = rows.reaction[0] if link.has_normal else -1
-        told = (row, int(link.reduced), slides, int(link.first), int(link.kinematic))
+        follows = blocks.get(link.liaison, -1)
+        told = (row, int(link.reduced), slides, int(link.first), int(link.kinematic), follows)
         yield one(link.liaison.name, link.liaison.span, *told)
     for k, element in enumerate(lowered.system.elements, len(links)):
-        yield one(element.name, element.span, -1, 1, sliding.get(k, -1), 1, 0)
+        told = (-1, 1, sliding.get(k, -1), 1, 0, -1)
+        yield one(element.name, element.span, *told)
 
 
 def _elements(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:

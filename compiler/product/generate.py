@@ -114,6 +114,7 @@ def _counts(lowered: Lowered) -> dict[str, float | str]:
         "n_velocity": len(lowered.velocity_statement),
         "n_guessed": lowered.n_guessed,
         "n_guessed_speeds": lowered.n_guessed_speeds,
+        "n_followed": lowered.n_followed,
         "n_statements": len(lowered.statements),
         "n_variables": len(lowered.variables),
         "n_loads": len(reduced.mechanism.forces),

@@ -46,7 +46,7 @@ def keep_positive(
 
 
 def keep_on_curve(made: checked.Liaison, scope: Scope) -> None:
-    """Assert that a point stays between the ends of a curve that has ends."""
+    """Assert that a point stays between the ends of a curve that has ends, while it is on it."""
     place = made.b
     if not made.kind.along_curve:
         return
@@ -67,6 +67,11 @@ def keep_on_curve(made: checked.Liaison, scope: Scope) -> None:
     for order, end in zip((">=", "<="), ends, strict=False):
         u = checked.Quantity(made, "u", end.type, span)
         inside = checked.Binary(order, u, end, BOOLEAN, span)
+        option = made.options["unilateral"]
+        if not (isinstance(option, checked.Literal) and option.value is False):
+            gap = checked.Quantity(made, "gap", LENGTH, span)
+            apart = checked.Binary(">", gap, checked.Literal(0.0, LENGTH, span), BOOLEAN, span)
+            inside = checked.Binary("or", inside, apart, BOOLEAN, span)
         _assert(inside, f"liaison '{made.name}' leaves '{name}', which ends there{closed}", scope)
 
 

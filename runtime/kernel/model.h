@@ -49,6 +49,7 @@ typedef struct {
   int has_jacobian;   /* 1: the implicit method can run: q' not late */
   double implicit_price;           /* explicit steps that cost what an implicit one does */
   int n_guessed, n_guessed_speeds; /* guesses of places, and of speeds */
+  int n_followed; /* unknowns of places that are followed, where a contact of them may be open */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
   /* the first variables are the modes of the contacts that have one, the others are real */
 
@@ -83,6 +84,10 @@ typedef struct {
    * that is against gravity, and the height of the body's G. A side chosen once is kept.
    * -> sizes of the lengths that each gap is made of beside the coordinates (n_contacts) */
   frot_callable sides;
+  /* beginnings -> where the search for each place that is followed begins (n_followed, the first of
+   * y): at the nearest of some places all along the figures; its least and its largest values.
+   * Called where n_followed > 0. */
+  frot_callable beginnings;
   /* places -> FROT_PLACE values of each carried body. Called where n_carried > 0. */
   frot_callable places;
   /* vanishing -> distance from where each has no tangent or normal (n_vanishing), no number where
@@ -167,8 +172,10 @@ typedef struct {
   const frot_held *held;            /* n_held */
   const frot_vanishing *vanishings; /* n_vanishing */
   const frot_load *equations;       /* n_watched: their words and places */
-  const int *position_statement;    /* n_position: statement of each scalar equation, < 0: none */
-  const int *velocity_statement;    /* n_velocity */
+  /* n_position, n_velocity: statement of each scalar equation; ~s of one that is none of the text
+   */
+  const int *position_statement;
+  const int *velocity_statement;
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;      /* np: frot_type */
   /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t,

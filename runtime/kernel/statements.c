@@ -217,26 +217,35 @@ int frot_statement_agrees(const frot_opening *p, int i, double before) {
          (p->velocity && off <= FROT_AGREES * speed_along(p, i));
 }
 
+/* The equation that is missed by most, beside equation `beside` (-1: none) and what says the same
+ * statement; of the text and of contacts, or of neither. -1 where there is none. */
+static int most_missed(const frot_opening *p, int beside, int of_text) {
+  const int *statement = p->velocity ? p->m->velocity_statement : p->m->position_statement;
+  int own = p->velocity ? p->m->n_velocity : p->m->n_position, most = -1;
+  const double *residual = p->w->relations.residual;
+  for (int i = 0; i < p->n; i++) {
+    if (i == beside || (i >= own || statement[i] >= 0) != of_text) continue;
+    if (beside >= 0 && frot_statement_agrees(p, i, 0)) continue;
+    if (beside >= 0 && i < own && beside < own && statement[i] == statement[beside]) continue;
+    if (most < 0 || fabs(residual[i]) > fabs(residual[most])) most = i;
+  }
+  return most;
+}
+
 int frot_contradiction(const frot_opening *p) {
   const frot_model *m = p->m;
   const int *statement = p->velocity ? m->velocity_statement : m->position_statement;
-  int own = p->velocity ? m->n_velocity : m->n_position, worst = -1, other = -1, contact = -1;
-  for (int i = 0; i < p->n; i++) {
-    if (i < own && statement[i] < 0) continue;
-    if (worst < 0 || fabs(p->w->relations.residual[i]) > fabs(p->w->relations.residual[worst]))
-      worst = i;
-  }
-  for (int i = 0; i < p->n && worst >= 0; i++) {
-    if (i == worst || (i < own && statement[i] < 0) || frot_statement_agrees(p, i, 0)) continue;
-    if (i < own && worst < own && statement[i] == statement[worst]) continue;
-    if (other < 0 || fabs(p->w->relations.residual[i]) > fabs(p->w->relations.residual[other]))
-      other = i;
-  }
+  int own = p->velocity ? m->n_velocity : m->n_position, contact = -1;
+  int worst = most_missed(p, -1, 1), other = most_missed(p, worst, 1);
+  if (worst < 0) worst = most_missed(p, -1, 0);
+  /* what keeps a quaternion a turn is told beside a statement alone, not beside a liaison */
+  if (other < 0 && worst < own) other = most_missed(p, worst, 0);
   int rows[2] = {worst, other}, items[2] = {-1, -1};
   for (int k = 0; k < 2; k++) {
     if (rows[k] < 0) continue;
     if (rows[k] < own) {
-      items[k] = statement[rows[k]];
+      int s = statement[rows[k]];
+      items[k] = s < 0 ? ~s : s;
       continue;
     }
     int at = own;
@@ -244,12 +253,9 @@ int frot_contradiction(const frot_opening *p) {
       if (p->use[i] && !(m->contacts[i].kinematic && !p->velocity) && at++ == rows[k]) contact = i;
   }
   if (items[0] < 0) items[0] = items[1], items[1] = -1;
-  /* without statements bodies could rest, but for what time moves */
-  for (int i = 0; i < own && items[0] < 0 && p->velocity; i++)
-    if (!frot_statement_agrees(p, i, 0)) items[0] = statement[i];
   if (items[0] < 0 && p->velocity) items[1] = -2;
   /* the least-squares solution shares the contradiction out among the equations */
-  double apart = (worst < 0 ? 0 : fabs(p->w->relations.residual[worst])) +
+  double apart = fabs(p->w->relations.residual[worst]) +
                  (other < 0 ? 0 : fabs(p->w->relations.residual[other]));
   return frot_fail(p->s, FROT_INITIAL, p->t, contact, items[0], items[1], apart);
 }

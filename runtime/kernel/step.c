@@ -15,6 +15,7 @@
 #include "jacobian.h"
 #include "length.h"
 #include "locate.h"
+#include "nearer.h"
 #include "lost.h"
 #include "passage.h"
 #include "projection.h"
@@ -127,7 +128,8 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   lost = moved ? frot_speed_lost(m, s, w, end, a->h) : -1;
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
-  s->has_slope = !moved && !s->pending && !s->spare_loops;
+  frot_take_nearer(m, w, s->data + l->y);
+  s->has_slope = !moved && !s->pending && !s->spare_loops && w->nearer.count == 0;
   if (s->has_slope) frot_turn_at_end(m, s, w, slope);
   if (!s->implicit) frot_keep_crossings(m, s, w, a->t, a->h);
   if (!s->pending && !s->implicit && frot_note_still(m, s, w, x))
@@ -149,9 +151,24 @@ static int go_explicitly(const frot_model *m, frot_state *s) {
   return 1;
 }
 
+/* End the step before an open contact passes through a figure where nobody followed it. */
+static int cut_where_nearer(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
+                            int *guard) {
+  while (!s->pending && *guard < 0 && frot_look_nearer(m, s, w, a->t, a->t + a->h) < 0) {
+    if (frot_is_too_short(s, a)) return FROT_DIVERGE;
+    int status = run_again(m, s, w, a, 0.5 * a->h);
+    if (status != FROT_OK) return status;
+    a->dense = 1, a->guard = frot_falling_guard(m, s, w, a->t, a->h, &a->theta);
+    status = cut_at_event(m, s, w, a, guard);
+    if (status != FROT_OK) return status;
+  }
+  return FROT_OK;
+}
+
 /* Find the step's length and its end, and take it. */
 static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   int guard, status = frot_find_length(m, s, w, a);
+  w->nearer.count = 0;
   if (status != FROT_OK || s->pending) return status;
   status = cut_at_event(m, s, w, a, &guard);
   if (status == FROT_DIVERGE && go_explicitly(m, s)) { /* no stages of a step that ends there */
@@ -160,6 +177,7 @@ static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
     if (status != FROT_OK || s->pending) return status;
     status = cut_at_event(m, s, w, a, &guard);
   }
+  if (status == FROT_OK) status = cut_where_nearer(m, s, w, a, &guard);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, a->t, a->h);
   return s->pending ? FROT_OK : keep(m, s, w, a, guard);
 }

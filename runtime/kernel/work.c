@@ -46,31 +46,15 @@ static extent extent_of(const frot_model *m, const frot_layout *l) {
 
 /* The scratch that any of the generated functions needs. */
 static frot_callable scratch_of_all(const frot_model *m) {
-  const frot_callable *calls[] = {&m->parameters,
-                                  &m->start,
-                                  &m->initial_position,
-                                  &m->initial_velocity,
-                                  &m->guessed,
-                                  &m->guessed_speeds,
-                                  &m->kinematics,
-                                  &m->sides,
-                                  &m->places,
-                                  &m->pace,
-                                  &m->dynamics,
-                                  &m->drives,
-                                  &m->spread,
-                                  &m->rates,
-                                  &m->jacobian,
-                                  &m->invariants,
-                                  &m->block_slopes,
-                                  &m->update,
-                                  &m->sizes,
-                                  &m->variables,
-                                  &m->energy,
-                                  &m->timers,
-                                  &m->sensed,
-                                  &m->watched,
-                                  &m->vanishing};
+  const frot_callable *calls[] = {&m->parameters,       &m->start,      &m->initial_position,
+                                  &m->initial_velocity, &m->guessed,    &m->guessed_speeds,
+                                  &m->kinematics,       &m->sides,      &m->beginnings,
+                                  &m->places,           &m->pace,       &m->dynamics,
+                                  &m->drives,           &m->spread,     &m->rates,
+                                  &m->jacobian,         &m->invariants, &m->block_slopes,
+                                  &m->update,           &m->sizes,      &m->variables,
+                                  &m->energy,           &m->timers,     &m->sensed,
+                                  &m->watched,          &m->vanishing};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
   for (int i = 0; i < count + m->n_blocks; i++) {
@@ -268,6 +252,9 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   bind_events(m, &w->events, a);
   bind_search(m, &w->search, a);
   bind_share(m, &l, &e, &w->share, a);
+  TAKE(w->nearer.begin, m->n_followed), TAKE(w->nearer.least, m->n_followed);
+  TAKE(w->nearer.largest, m->n_followed), TAKE(w->nearer.y, m->n_followed > 0 ? m->ny : 0);
+  TAKE(w->nearer.changed, m->n_contacts);
   TAKE(w->pace, 4 * m->n_paced);
   TAKE(w->tape, m->n_islands > 0 ? l.ns : 0);
   TAKE(w->stood, m->n_contacts + m->n_rows + 2 * (FROT_PLACE * m->n_carried + m->n_invariants));

@@ -149,6 +149,13 @@ typedef struct {
   unsigned char *first_use;
 } frot_opening_work;
 
+/* nearer.h: where searches begin, the ends of places, those found, of which contacts, how many. */
+typedef struct {
+  double *begin, *least, *largest, *y;
+  unsigned char *changed;
+  int count;
+} frot_nearer_work;
+
 /* guards.h: those that can fall in the modes, the sizes of their terms, of all that moves each
  * group; pins' reactions (2 n_elements) and the kinetic energy at the end of a step (ends.h). */
 typedef struct {
@@ -233,6 +240,7 @@ struct frot_work {
   frot_linear_work linear;
   frot_relation_work relations;
   frot_opening_work opening;
+  frot_nearer_work nearer;
   frot_guard_work guards;
   frot_step_work step;
   frot_size_work sizes;

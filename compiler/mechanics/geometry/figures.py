@@ -15,6 +15,7 @@ from frot.dsl.checked import (
     CurvePlace,
     Expression,
     Frame,
+    Literal,
     Place,
     Reference,
     Surface,
@@ -62,8 +63,12 @@ def _curve(curve: Curve, span: Span, planar: bool) -> Placed | None:
         return Placed(centre, Oval(normal, given["a"], given["b"]))
     if curve.kind == "parametric":
         (u,) = _unknowns(given["point"], "u")
-        return Placed(centre, Path(given["point"], u, given["u"]))
+        return Placed(centre, Path(given["point"], u, given["u"], _is_true(given["periodic"])))
     return None
+
+
+def _is_true(given: Expression) -> bool:
+    return isinstance(given, Literal) and given.value is True
 
 
 def _unknowns(value: Expression, names: str) -> tuple[Expression | None, ...]:

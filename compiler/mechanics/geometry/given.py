@@ -50,12 +50,13 @@ class Implicit(Figure):
 class Path(Figure):
     """A curve of points that depend on the parameter `u`, None where it does not occur.
 
-    `bounds` are the two ends of the parameter.
+    `bounds` are the two ends of the parameter, of one that is `periodic` of a period.
     """
 
     points: Expression
     u: Expression | None
     bounds: Expression
+    periodic: bool
 
     @property
     def parameters(self) -> int:
@@ -66,9 +67,9 @@ class Path(Figure):
         """As the text says."""
         return _put(self.points, (self.u,), u, lower)
 
-    def ends(self, lower: Lower) -> ca.SX:
+    def ends(self, lower: Lower) -> ca.SX | None:
         """As the text says, in either order."""
-        return ca.vec(lower(self.bounds))
+        return None if self.periodic else ca.vec(lower(self.bounds))
 
     def beginnings(self, lower: Lower) -> list[ca.SX]:
         """From end to end."""

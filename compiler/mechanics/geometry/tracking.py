@@ -18,8 +18,9 @@ from frot.compiler.mechanics.geometry.paths import Trace, trace
 from frot.compiler.mechanics.geometry.touches import Touch, is_closed
 from frot.compiler.mechanics.spatial import Pose, Z, beside_moving, cross
 from frot.compiler.mechanics.values import Lower
-from frot.dsl.data.classes import dataclass
+from frot.dsl.data.classes import dataclass, replace
 
+NO_END = 1e300  # of the parameter of a figure that has no ends
 ROUNDS = 2  # of the nearest point on one figure to that on the other
 
 
@@ -29,7 +30,8 @@ class Track:
 
     `start` is where the search begins, `names` those of the parameters; `touch` is how the figures
     stand there, with the side +1. Of a curve that a point stays on there is `trace`, of tangent
-    curves `meeting`, by the parts of the lock.
+    curves `meeting`, by the parts of the lock. `ends` (n x 2): the least and the largest value of
+    each, None where no figure has ends.
     """
 
     unknowns: ca.SX
@@ -40,6 +42,7 @@ class Track:
     touch: Touch
     trace: Trace | None = None
     meeting: tuple[Meeting, ...] = ()
+    ends: ca.SX | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,10 +98,22 @@ def is_tracked(a: Figure, b: Figure, planar: bool) -> bool:
 def track(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
     """The nearest places of two figures, in the order of `is_tracked`."""
     if a.rank < 0:
-        return _of_points(a, b, at, lower, planar)
+        return replace(_of_points(a, b, at, lower, planar), ends=_ends((a, b), lower))
     if b.rank >= 0:
         return _of_levels(a, b, at, lower)
-    return _of_level(a, b, at, lower)
+    return replace(_of_level(a, b, at, lower), ends=_ends((b,), lower))
+
+
+def _ends(figures: tuple[Figure, ...], lower: Lower) -> ca.SX:
+    """The least and the largest value of each parameter."""
+    found = [(x.parameters, x.ends(lower)) for x in figures]
+    none = ca.SX([[-NO_END, NO_END]])
+    return ca.vertcat(
+        *(
+            ca.repmat(none, n, 1) if x is None else ca.horzcat(ca.mmin(x), ca.mmax(x))
+            for n, x in found
+        )
+    )
 
 
 def _names(figure: Figure, of_b: bool) -> tuple[str, ...]:
