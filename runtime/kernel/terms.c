@@ -155,6 +155,41 @@ static void load_reactions(const frot_model *m, const frot_state *s, const frot_
   }
 }
 
+/* Add to sizes of accelerations (n_speeds) what the reaction in a row that holds makes of them:
+ * they are such that J a + c = 0 to their rounding, also where no reaction is needed. A wheel's
+ * rounding about its axis is that of its way. */
+static void hold_sizes(const frot_model *m, const frot_work *w, const frot_group *g, int row,
+                       const double *before, double *sizes) {
+  const double *entries = frot_entries(m, w->core.rows, row);
+  double *response = w->core.rest, sum = fabs(w->core.c[row]);
+  memcpy(response, entries, sizeof(double) * (size_t)g->n_speeds);
+  for (int k = 0; k < g->n_speeds; k++) sum += fabs(entries[k]) * before[k];
+  frot_inwards(w, g, response);
+  double own = frot_dot(response, response, g->n_speeds);
+  if (!(own > 0)) return;
+  frot_outwards(w, g, response);
+  for (int k = 0; k < g->n_speeds; k++) sizes[k] += fabs(response[k]) * sum / own;
+}
+
+/* The same of all rows of a group that hold. */
+static void hold_all_sizes(const frot_model *m, const frot_state *s, const frot_work *w,
+                           const frot_group *g, double *sizes) {
+  double *before = w->relations.step;
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  memcpy(before, sizes, sizeof(double) * (size_t)g->n_speeds);
+  for (int i = 0; i < g->n_contacts && !g->general; i++) {
+    const frot_contact *contact = &m->contacts[g->contacts[i]];
+    if (contact->row_n >= 0 && !contact->reduced && modes[g->contacts[i]].closed)
+      hold_sizes(m, w, g, contact->row_n, before, sizes);
+  }
+  for (int i = 0; i < g->n_elements && !g->general; i++) {
+    int e = g->elements[i];
+    if (modes[m->elements[e].contact].closed &&
+        frot_element_mode(m, modes, e)->friction == FROT_STICK)
+      hold_sizes(m, w, g, m->elements[e].row, before, sizes);
+  }
+}
+
 void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
                              const double *q, const double *v, const double *d, double *size) {
   memset(size, 0, sizeof(double) * (size_t)m->nv);
@@ -165,6 +200,7 @@ void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, d
     double *sum = w->core.load_size;
     load_reactions(m, s, w, g, q, w->core.load);
     spread_in_inverse(w, g, w->core.load, sum);
+    hold_all_sizes(m, s, w, g, sum);
     for (int j = 0; j < g->n_speeds; j++) size[g->unknowns[j]] = sum[j];
   }
 }
