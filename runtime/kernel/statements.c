@@ -253,6 +253,9 @@ int frot_contradiction(const frot_opening *p) {
       if (p->use[i] && !(m->contacts[i].kinematic && !p->velocity) && at++ == rows[k]) contact = i;
   }
   if (items[0] < 0) items[0] = items[1], items[1] = -1;
+  /* without statements bodies could rest, but for what time moves */
+  for (int i = 0; i < own && items[0] < 0 && p->velocity; i++)
+    if (!frot_statement_agrees(p, i, 0)) items[0] = statement[i];
   if (items[0] < 0 && p->velocity) items[1] = -2;
   /* the least-squares solution shares the contradiction out among the equations */
   double apart = fabs(p->w->relations.residual[worst]) +
