@@ -108,7 +108,7 @@ def make_core(
     sizes = replace_known(resolve_all(reduced.force_size, chains, left.resolver), known)
     sizes = ca.substitute(sizes, both, zero) if both.numel() else sizes
     own = ca.fabs(force)
-    size = ca.vertcat(sizes[:count], own[count:nv], sizes[count:], own[nv + na :])
+    size = ca.vertcat(sizes[:count], own[count:nv], sizes[count : count + na], own[nv + na :])
     return Core(
         q=ca.vertcat(s.q, column(states.q)),
         v=column(states.v),

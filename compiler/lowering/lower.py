@@ -40,8 +40,8 @@ class Lowered:
     """The functions by their names in the contract, and their tables.
 
     `position_statement` and `velocity_statement` give, for each scalar initial equation, the index
-    of its statement in `statements`. `n_guessed`: scalars whose places are guessed,
-    `n_guessed_speeds`: and speeds.
+    of its statement in `statements`, ~index of one that is none of the text. `n_guessed`: scalars
+    whose places are guessed, `n_guessed_speeds`: and speeds.
     `n_followed`: unknowns of places that are followed, if one may be of an open contact.
     `blocks` are the functions of the blocks of `system`.
     Where there are `islands`, each is of one of the `kinds`. `conditions`: the values of all.

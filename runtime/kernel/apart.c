@@ -59,11 +59,13 @@ void frot_tell_apart(frot_opening *p) {
     }
     if (!isfinite(before) || frot_evaluate_statements(p) != FROT_OK) continue;
     left_open found = find_open(p);
-    if (found.contact >= 0 && found.part < (1 - FROT_NEARER) * best.part) best = found;
+    /* what closes after all tells nothing */
+    if (found.contact >= 0 && found.part > FROT_TOUCH && found.part < (1 - FROT_NEARER) * best.part)
+      best = found;
   }
   p->alike = 0;
   p->s->fault = fault, p->s->phase = FROT_FAULTED;
   if (best.contact < 0) return;
-  p->s->fault.contact = best.contact, p->s->fault.value = best.by;
+  p->s->fault.contact = best.contact, p->s->fault.value = best.by, p->s->fault.other = -3;
   p->s->fault.where[0] = best.turned;
 }

@@ -106,6 +106,14 @@ static void look_around(frot_opening *p, const frot_group *g, two_ways *found) {
   }
 }
 
+/* The liaison of a loop of a group that has ways on at p->v, or -1. */
+static int contact_with_ways(frot_opening *p, const frot_group *g) {
+  if (look(p, g) == 0) return -1;
+  for (int i = 0; i < g->n_contacts; i++)
+    if (p->m->contacts[g->contacts[i]].row_n == p->w->span.way[0]) return g->contacts[i];
+  return -1;
+}
+
 /* That no motion begins, or two that are about as near. */
 static int tell(frot_opening *p, int contact, const two_ways *found) {
   const double *first = p->w->opening.nearest, *second = p->w->opening.second;
@@ -118,6 +126,11 @@ static int tell(frot_opening *p, int contact, const two_ways *found) {
   for (int k = 0; k < p->m->nv && isfinite(found->missed[1]) && differs < 0; k++)
     if (fabs(first[k] - second[k]) > (1 + SAME) * most)
       most = fabs(first[k] - second[k]), differs = k;
+  if (differs >= 0) {
+    memcpy(p->v, p->w->opening.start, sizeof(double) * (size_t)p->m->nv);
+    int own = contact_with_ways(p, &p->m->groups[p->m->speed_group[differs]]);
+    contact = own >= 0 ? own : contact;
+  }
   int status = frot_fail(p->s, FROT_POSTURE, p->t, contact, 0, differs, 0);
   if (differs >= 0) p->s->fault.where[0] = first[differs], p->s->fault.where[1] = second[differs];
   return status;
@@ -129,11 +142,8 @@ int frot_choose_ways(frot_opening *p) {
   size_t bytes = sizeof(double) * (size_t)m->nv;
   two_ways found = {{INFINITY, INFINITY}};
   int contact = -1;
-  for (int k = 0; k < m->n_groups; k++) {
-    if (look(p, &m->groups[k]) == 0) continue;
-    for (int i = 0; i < m->n_contacts && contact < 0; i++)
-      if (m->contacts[i].row_n == w->span.way[0]) contact = i;
-  }
+  for (int k = 0; k < m->n_groups && contact < 0; k++)
+    contact = contact_with_ways(p, &m->groups[k]);
   if (contact < 0) return FROT_OK;
   memcpy(w->opening.start, p->v, bytes);
   find(p, &found);

@@ -29,8 +29,8 @@ int frot_near_guesses(frot_opening *p);
 int frot_look_at_guessed_speeds(const frot_opening *p);
 
 /* Move speeds, all at p->velocity, so that they miss the guesses of what follows from them least,
- * with the least kinetic energy; what they would have to be far larger for says nothing. FROT_OK or
- * a status with a fault. */
+ * with the least kinetic energy; what they would have to be far larger for says nothing, and so
+ * does what is no number. FROT_OK or a status with a fault. */
 int frot_follow_guessed_speeds(frot_opening *p);
 
 #endif

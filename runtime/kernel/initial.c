@@ -70,13 +70,9 @@ static int put_together(frot_opening *p, double *side) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   int nc = m->n_contacts;
-  const double *unilateral = p->s->data + frot_layout_of(m).unilateral;
   int status;
   frot_choose_sides(p, side, 0);
-  for (int i = 0; i < nc; i++) {
-    const frot_contact *contact = &m->contacts[i];
-    p->use[i] = frot_has_normal(contact) && !contact->reduced && unilateral[i] == 0;
-  }
+  frot_take_liaisons(p);
   /* what cannot part may move a point over a line: its side is the one where it comes to be */
   status = frot_solve_widely(p);
   if (status != FROT_OK) return status;

@@ -37,8 +37,8 @@ void frot_lu_apply(const double *a, int n, const int *pivot, const double *scale
 /* Least squares of least norm: x (n) for a x = b, a (m x n) by columns, overwritten with b.
  * Rank by Householder QR with column pivoting, then a triangle from the right (G. Golub, C. Van
  * Loan, Matrix Computations, 4th ed., sect. 5.5); columns below the part `least` of the longest are
- * none. `work` takes m + 4*n + min(m, n)*n doubles and
- * `pivot` n integers. Returns the rank; a and b are lost. */
+ * none. `work` takes m + 4*n + min(m, n)*n doubles and `pivot` n integers. Returns the rank; a and
+ * b are lost. */
 int frot_least_norm(double *a, double *b, int m, int n, double least, double *x, double *work,
                     int *pivot);
 

@@ -30,13 +30,11 @@ static int is_within(const frot_model *m, const frot_work *w, int contact) {
   return 1;
 }
 
-/* Whether the figures of an open contact are nearer at another place, which is then kept; -1 where
- * they have passed through each other there. */
-static int look(const frot_model *m, frot_state *s, frot_work *w, int contact, double t,
-                double end) {
+/* Whether the figures of an open contact are nearer than `far` at another place, which is then
+ * kept; -1 where they have passed through each other there. */
+static int look(const frot_model *m, frot_state *s, frot_work *w, int contact, double t, double end,
+                double far) {
   double *y = w->blocks.y, *kept = w->nearer.y;
-  memcpy(y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-  double far = gap_at(m, s, w, contact, end, w->step.z1);
   set_place(m, w->step.y_end, w->nearer.begin, contact, y);
   double other = gap_at(m, s, w, contact, end, w->step.z1);
   if (!(fabs(other) < (1 - FROT_NEARER) * far) || !is_within(m, w, contact)) return 0;
@@ -46,6 +44,19 @@ static int look(const frot_model *m, frot_state *s, frot_work *w, int contact, d
   return 1;
 }
 
+/* Kinematics of the end, and where searches begin there. */
+static void look_at_end(const frot_model *m, frot_state *s, frot_work *w, double end) {
+  const double *x = w->step.z1, *d = s->data + w->layout.d;
+  memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
+  memcpy(w->nearer.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
+  frot_kinematics(m, s, w, end, x, x + m->nq, d);
+  memcpy(w->nearer.far, w->core.gap, sizeof(double) * (size_t)m->n_contacts);
+  frot_inputs(m, s, w, &end, x, x + m->nq, d);
+  w->call.res[0] = w->nearer.begin, w->call.res[1] = w->nearer.least;
+  w->call.res[2] = w->nearer.largest;
+  frot_call(w, &m->beginnings);
+}
+
 int frot_look_nearer(const frot_model *m, frot_state *s, frot_work *w, double t, double end) {
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   const double *unilateral = s->data + w->layout.unilateral;
@@ -53,21 +64,12 @@ int frot_look_nearer(const frot_model *m, frot_state *s, frot_work *w, double t,
   int found = 0, listed = 0;
   w->nearer.count = 0;
   if (m->n_followed == 0) return 0;
+  memset(w->nearer.changed, 0, (size_t)m->n_contacts);
   for (int k = 0; k < now->n_contacts; k++) {
     int i = now->contacts[k];
-    w->nearer.changed[i] = 0;
     if (m->contacts[i].followed < 0 || modes[i].closed || unilateral[i] == 0) continue;
-    if (!listed) {
-      const double *x = w->step.z1;
-      memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-      frot_inputs(m, s, w, &end, x, x + m->nq, s->data + w->layout.d);
-      w->call.res[0] = w->nearer.begin, w->call.res[1] = w->nearer.least;
-      w->call.res[2] = w->nearer.largest;
-      frot_call(w, &m->beginnings);
-      memcpy(w->nearer.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-      listed = 1;
-    }
-    int nearer = look(m, s, w, i, t, end);
+    if (!listed) look_at_end(m, s, w, end), listed = 1;
+    int nearer = look(m, s, w, i, t, end, w->nearer.far[i]);
     if (nearer < 0) return -1;
     found += nearer;
   }

@@ -96,7 +96,7 @@ static double follow(const frot_problem *p, const double *whole, const double *l
       double second = whole[own->at[1]] - own->force[1] - load[own->at[1]];
       own->reaction[1] = second, reaction = sqrt(first * first + second * second);
     }
-    if (pass == 0) own->per_size = per_size(own, whole, load);
+    if (pass == 0 || own->per_size == 0) own->per_size = per_size(own, whole, load);
     own->next = own->ratio * reaction;
     double change = fabs(own->next - *own->friction) * own->per_size;
     if (!(change <= most)) most = change;

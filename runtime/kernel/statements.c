@@ -114,6 +114,7 @@ static int append_ways(const frot_opening *p, int n) {
       for (int j = 0; j < g->n_speeds; j++) equation[g->unknowns[j]] = whole[j];
       w->relations.residual[n] = w->linear.right[i];
       w->relations.size[n] = fabs(w->linear.right[i]);
+      bound(p, n);
     }
   }
   return n;
@@ -255,7 +256,7 @@ int frot_contradiction(const frot_opening *p) {
   if (items[0] < 0) items[0] = items[1], items[1] = -1;
   /* without statements bodies could rest, but for what time moves */
   for (int i = 0; i < own && items[0] < 0 && p->velocity; i++)
-    if (!frot_statement_agrees(p, i, 0)) items[0] = statement[i];
+    if (statement[i] >= 0 && !frot_statement_agrees(p, i, 0)) items[0] = statement[i];
   if (items[0] < 0 && p->velocity) items[1] = -2;
   /* the least-squares solution shares the contradiction out among the equations */
   double apart = fabs(p->w->relations.residual[worst]) +

@@ -69,11 +69,11 @@ static void initial_text(const frot_model *m, const frot_fault *f, char *text, s
   snprintf(by, sizeof by, strcmp(unit, "1") == 0 ? "by %.3g" : "by %.3g %s", f->value, unit);
   if (f->value != f->value)
     snprintf(text, size, "the initial statement `%s` gives no finite number", one);
-  else if (f->contact >= 0 && f->item < 0 && f->other == -2)
+  else if (f->contact >= 0 && f->item < 0 && f->other != -3)
     snprintf(text, size,
-             "no speeds were found at which liaison '%s' holds together with the others: in the "
-             "last ones that were tried %.3g %s are left",
-             contact_name(m, f->contact), f->value, unit);
+             "no %s were found at which liaison '%s' holds together with the others: in the last "
+             "ones that were tried %.3g %s are left",
+             f->other == -2 ? "speeds" : "positions", contact_name(m, f->contact), f->value, unit);
   else if (f->contact >= 0 && f->item < 0)
     snprintf(text, size,
              "no positions were found at which liaison '%s' holds together with the others: at "

@@ -254,6 +254,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   bind_share(m, &l, &e, &w->share, a);
   TAKE(w->nearer.begin, m->n_followed), TAKE(w->nearer.least, m->n_followed);
   TAKE(w->nearer.largest, m->n_followed), TAKE(w->nearer.y, m->n_followed > 0 ? m->ny : 0);
+  TAKE(w->nearer.far, m->n_followed > 0 ? m->n_contacts : 0);
   TAKE(w->nearer.changed, m->n_contacts);
   TAKE(w->pace, 4 * m->n_paced);
   TAKE(w->tape, m->n_islands > 0 ? l.ns : 0);

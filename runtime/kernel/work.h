@@ -149,9 +149,10 @@ typedef struct {
   unsigned char *first_use;
 } frot_opening_work;
 
-/* nearer.h: where searches begin, the ends of places, those found, of which contacts, how many. */
+/* nearer.h: where searches begin, the ends of places, those found; gaps at the end of the step;
+ * which contacts are nearer elsewhere, how many. */
 typedef struct {
-  double *begin, *least, *largest, *y;
+  double *begin, *least, *largest, *y, *far;
   unsigned char *changed;
   int count;
 } frot_nearer_work;
