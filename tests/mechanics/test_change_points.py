@@ -9,11 +9,11 @@ from functools import partial
 import casadi as ca
 import numpy as np
 import pytest
+from four_bars import one_line
 from scipy.integrate import quad
 
 import frot
 
-G = 9.81
 TEXT = """
 planar model ChangePoint
   parameter Length a = 1 m;
@@ -39,26 +39,11 @@ end ChangePoint;
 
 
 def energies(a: float, b: float, c: float, g: float) -> ca.Function:
-    """Twice the kinetic energy at unit crank speed, and the potential, by the crank's angle x.
-
-    With r from D to the crank's tip and a + c = b + g, half of the angle at D between r and the
-    follower has the cosine sin(x/2) sqrt(a g (b + r + c)/(b r (r + g - a))): with its sign it is
-    smooth where all links lie on one line, at x = 0.
-    """
+    """Twice the kinetic energy at unit crank speed, the potential and the coupler's end, by the
+    crank's angle."""
     x, side = ca.SX.sym("x"), ca.SX.sym("side")
-    tip = a * ca.vertcat(ca.cos(x), ca.sin(x))
-    way = tip - ca.vertcat(g, 0)
-    r = ca.norm_2(way)
-    half = ca.sin(x / 2) * ca.sqrt(a * g * (b + r + c) / (b * r * (r + g - a)))
-    turn = 2 * side * ca.acos(half)
-    along = ca.vertcat(
-        ca.cos(turn) * way[0] - ca.sin(turn) * way[1], ca.sin(turn) * way[0] + ca.cos(turn) * way[1]
-    )
-    end = ca.vertcat(g, 0) + b / r * along
-    tip_rate, end_rate = ca.jacobian(tip, x), ca.jacobian(end, x)
-    kinetic = (ca.sumsqr(tip_rate) + ca.sumsqr(end_rate)) / 3
-    kinetic += ca.sumsqr(tip_rate + end_rate) / 4 + ca.sumsqr(end_rate - tip_rate) / 12
-    return ca.Function("energies", [x, side], [kinetic, G * (tip[1] + end[1]), end])
+    kinetic, potential, end = one_line(a, b, c, g, x, side)
+    return ca.Function("energies", [x, side], [kinetic, potential, end])
 
 
 def tip(b: float, g: float, angle: float) -> ca.DM:

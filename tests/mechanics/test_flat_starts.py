@@ -7,11 +7,11 @@ import math
 
 import casadi as ca
 import pytest
+from four_bars import G, one_line
 from scipy.integrate import quad
 
 import frot
 
-G = 9.81
 FLAT = """
 planar model Flat "A four-bar whose links all lie on one line, which may lean"
   parameter Length a = 1 m;
@@ -63,21 +63,10 @@ def ways(a: float, b: float, c: float, g: float) -> list[float]:
 
 def energies(a: float, b: float, c: float, g: float, side: int) -> ca.Function:
     """Twice the kinetic energy at unit crank speed and the potential, by the crank's angle x, with
-    their slopes: as in test_change_points.py."""
+    their slopes; the follower's speed."""
     x = ca.SX.sym("x")
-    tip = a * ca.vertcat(ca.cos(x), ca.sin(x))
-    way = tip - ca.vertcat(g, 0)
-    r = ca.norm_2(way)
-    half = ca.sin(x / 2) * ca.sqrt(a * g * (b + r + c) / (b * r * (r + g - a)))
-    turn = 2 * side * ca.acos(half)
-    along = ca.vertcat(
-        ca.cos(turn) * way[0] - ca.sin(turn) * way[1], ca.sin(turn) * way[0] + ca.cos(turn) * way[1]
-    )
-    end = ca.vertcat(g, 0) + b / r * along
-    tip_rate, end_rate = ca.jacobian(tip, x), ca.jacobian(end, x)
-    kinetic = (ca.sumsqr(tip_rate) + ca.sumsqr(end_rate)) / 3
-    kinetic += ca.sumsqr(tip_rate + end_rate) / 4 + ca.sumsqr(end_rate - tip_rate) / 12
-    both = ca.vertcat(kinetic, G * (tip[1] + end[1]))
+    kinetic, potential, end = one_line(a, b, c, g, x, side)
+    both, end_rate = ca.vertcat(kinetic, potential), ca.jacobian(end, x)
     return ca.Function("energies", [x], [both, ca.jacobian(both, x), end_rate[1] / b])
 
 
