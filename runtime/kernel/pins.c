@@ -105,22 +105,11 @@ static double follow(const frot_problem *p, const double *whole, const double *l
   return most;
 }
 
-/* Take what the readings made of friction, and beyond that what the pass before foretells of the
- * next ones: most of what passes leave is of one kind (D. Anderson, J. ACM 12, 1965, p. 547). */
-static void take(const frot_problem *p, int pass) {
-  double part = 0, whole = 0;
-  for (int f = 0; f < p->unknowns; f++) {
-    frot_follower *own = &p->w->reactions.followers[f];
-    double missed = (own->next - *own->friction) * own->per_size, change = missed - own->missed;
-    part += missed * change, whole += change * change;
-    own->missed = missed;
-  }
-  double back = pass > 0 && whole > 0 ? part / whole : 0;
-  for (int f = 0; f < p->unknowns; f++) {
-    frot_follower *own = &p->w->reactions.followers[f];
-    *own->friction = pass > 0 ? own->next - back * (own->next - own->last) : own->next;
-    own->last = own->next;
-  }
+/* Take what the readings made of friction. What passes leave foretells no more: an extrapolation
+ * (D. Anderson, J. ACM 12, 1965, p. 547) ends in another rounding in each stage. */
+static void take(const frot_problem *p) {
+  for (int f = 0; f < p->unknowns; f++)
+    *p->w->reactions.followers[f].friction = p->w->reactions.followers[f].next;
 }
 
 /* The directions of the pins' reactions as the last pass found them, also for who goes on. */
@@ -190,7 +179,7 @@ int frot_follow_in_turn(const frot_problem *p) {
     int done = known && (changed * *rate <= ENOUGH || (changed <= ROUNDED && before > 0 && stays));
     before = changed;
     if (done) return finish(p, whole, load), 1;
-    take(p, pass);
+    take(p);
   }
   return 0;
 }

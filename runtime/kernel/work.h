@@ -80,12 +80,11 @@ typedef struct {
 
 /* pins.c: a friction that follows readings, where these stand among the unknowns of the group (at:
  * a pin's two, else one and -1) and what loads make of them; what a pass makes of them and of the
- * friction, what the pass before made, and by how much that missed what it began with, in sizes of
- * its terms. */
+ * friction; one over the size of its terms. */
 typedef struct {
   double *friction;
   int at[2];
-  double force[2], reaction[2], ratio, per_size, next, last, missed;
+  double force[2], reaction[2], ratio, per_size, next;
 } frot_follower;
 
 /* reactions.h: the unknowns and what goes with them; whether reactions are not unique; held rows
