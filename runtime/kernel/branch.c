@@ -119,13 +119,14 @@ static int tell(frot_opening *p, int contact, const two_ways *found) {
   const double *first = p->w->opening.nearest, *second = p->w->opening.second;
   int differs = -1;
   double most = 0;
-  for (int k = 0; k < p->m->nv && isfinite(found->missed[1]); k++) {
-    double apart = fabs(first[k] - second[k]);
-    if (apart > (1 + SAME) * most && frot_angle_of(p->m, k) >= 0) most = apart, differs = k;
+  /* the rate of an angle says most to the reader, if one differs */
+  for (int turning = 1; turning >= 0 && differs < 0 && isfinite(found->missed[1]); turning--) {
+    for (int k = 0; k < p->m->nv; k++) {
+      double apart = fabs(first[k] - second[k]);
+      if (turning && frot_angle_of(p->m, k) < 0) continue;
+      if (apart > (1 + SAME) * most) most = apart, differs = k;
+    }
   }
-  for (int k = 0; k < p->m->nv && isfinite(found->missed[1]) && differs < 0; k++)
-    if (fabs(first[k] - second[k]) > (1 + SAME) * most)
-      most = fabs(first[k] - second[k]), differs = k;
   if (differs >= 0) {
     memcpy(p->v, p->w->opening.start, sizeof(double) * (size_t)p->m->nv);
     int own = contact_with_ways(p, &p->m->groups[p->m->speed_group[differs]]);

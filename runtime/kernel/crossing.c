@@ -87,15 +87,7 @@ static void order_rows(const frot_model *m, const frot_state *s, frot_work *w, c
     }
     int row = order[best];
     order[best] = order[k], order[k] = row;
-    double *x = rest + ns * k, *by = rest + ns * best, length = sqrt(most);
-    for (int j = 0; j < ns; j++) {
-      double own = by[j];
-      by[j] = x[j], x[j] = length > 0 ? own / length : 0;
-    }
-    for (int i = k + 1; i < n; i++) {
-      double part = frot_dot(rest + ns * i, x, ns);
-      for (int j = 0; j < ns; j++) rest[ns * i + j] -= part * x[j];
-    }
+    frot_take_row(rest, n, ns, k, best);
   }
 }
 

@@ -286,6 +286,18 @@ static double reflect(double *x, int n, double *scale) {
   return beta;
 }
 
+void frot_take_row(double *rows, int n, int size, int k, int best) {
+  double *x = rows + size * k, *by = rows + size * best, length = sqrt(frot_dot(by, by, size));
+  for (int j = 0; j < size; j++) {
+    double own = by[j];
+    by[j] = x[j], x[j] = length > 0 ? own / length : 0;
+  }
+  for (int i = k + 1; i < n; i++) {
+    double *other = rows + size * i, part = frot_dot(other, x, size);
+    for (int j = 0; j < size; j++) other[j] -= part * x[j];
+  }
+}
+
 int frot_least_norm(double *a, double *b, int m, int n, double least, double *x, double *work,
                     int *pivot) {
   double *scale = work, *diagonal = work + n, *row_scale = work + 2 * n, *y = work + 3 * n;

@@ -34,6 +34,11 @@ void frot_lu_again(const double *a, double *b, int n, const int *pivot);
 int frot_lu(double *a, int n, int *pivot, double *scale);
 void frot_lu_apply(const double *a, int n, const int *pivot, const double *scale, double *x);
 
+/* Take row `best` of n rows (each of `size`), which is not before k, for the next of an orthonormal
+ * basis: it changes places with row k, has the length 1 there, and nothing of it is left in the
+ * rows after. */
+void frot_take_row(double *rows, int n, int size, int k, int best);
+
 /* Least squares of least norm: x (n) for a x = b, a (m x n) by columns, overwritten with b.
  * Rank by Householder QR with column pivoting, then a triangle from the right (G. Golub, C. Van
  * Loan, Matrix Computations, 4th ed., sect. 5.5); columns below the part `least` of the longest are

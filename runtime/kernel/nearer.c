@@ -14,11 +14,9 @@ static double gap_at(const frot_model *m, frot_state *s, frot_work *w, int conta
   return w->core.gap[contact];
 }
 
-/* y <- `from`, and the place of a contact from `place`. */
-static void set_place(const frot_model *m, const double *from, const double *place, int contact,
-                      double *y) {
+/* The place of a contact in y (ny) <- that in `place`. */
+static void set_place(const frot_model *m, const double *place, int contact, double *y) {
   const frot_block *block = &m->blocks[m->contacts[contact].followed];
-  memmove(y, from, sizeof(double) * (size_t)m->ny);
   memcpy(y + block->first, place + block->first, sizeof(double) * (size_t)block->count);
 }
 
@@ -34,12 +32,13 @@ static int is_within(const frot_model *m, const frot_work *w, int contact) {
  * kept; -1 where they have passed through each other there. */
 static int look(const frot_model *m, frot_state *s, frot_work *w, int contact, double t, double end,
                 double far) {
-  double *y = w->blocks.y, *kept = w->nearer.y;
-  set_place(m, w->step.y_end, w->nearer.begin, contact, y);
+  double *y = w->blocks.y;
+  memcpy(y, w->step.y_end, sizeof(double) * (size_t)m->ny);
+  set_place(m, w->nearer.begin, contact, y);
   double other = gap_at(m, s, w, contact, end, w->step.z1);
   if (!(fabs(other) < (1 - FROT_NEARER) * far) || !is_within(m, w, contact)) return 0;
   if (other < 0) return gap_at(m, s, w, contact, t, w->step.z0) > 0 ? -1 : 0;
-  set_place(m, kept, y, contact, kept);
+  set_place(m, y, contact, w->nearer.y);
   w->nearer.changed[contact] = 1;
   return 1;
 }
@@ -48,7 +47,6 @@ static int look(const frot_model *m, frot_state *s, frot_work *w, int contact, d
 static void look_at_end(const frot_model *m, frot_state *s, frot_work *w, double end) {
   const double *x = w->step.z1, *d = s->data + w->layout.d;
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-  memcpy(w->nearer.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   frot_kinematics(m, s, w, end, x, x + m->nq, d);
   memcpy(w->nearer.far, w->core.gap, sizeof(double) * (size_t)m->n_contacts);
   frot_inputs(m, s, w, &end, x, x + m->nq, d);
@@ -80,5 +78,5 @@ int frot_look_nearer(const frot_model *m, frot_state *s, frot_work *w, double t,
 
 void frot_take_nearer(const frot_model *m, const frot_work *w, double *y) {
   for (int i = 0; i < m->n_contacts && w->nearer.count > 0; i++)
-    if (m->contacts[i].followed >= 0 && w->nearer.changed[i]) set_place(m, y, w->nearer.y, i, y);
+    if (m->contacts[i].followed >= 0 && w->nearer.changed[i]) set_place(m, w->nearer.y, i, y);
 }

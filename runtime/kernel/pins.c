@@ -128,8 +128,7 @@ static void finish(const frot_problem *p, const double *whole, const double *loa
   const frot_model *m = p->m;
   frot_work *w = p->w;
   turn(p);
-  for (int f = 0; f < p->unknowns; f++)
-    *w->reactions.followers[f].friction = w->reactions.followers[f].next;
+  take(p);
   for (int i = 0; i < p->g->n_rows; i++) {
     int r = p->g->rows[i], at = m->row_reads[r];
     if (at >= 0 && w->core.wanted[r])

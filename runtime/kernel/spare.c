@@ -45,18 +45,9 @@ static int sort_spare(const frot_model *m, const frot_state *s, const frot_work 
       if (left > most) most = left, best = i;
     }
     if (best < 0) return 0;
-    double *x = w->span.basis + ns * kept, *by = w->span.basis + ns * best;
-    double length = sqrt(frot_dot(by, by, ns));
-    for (int k = 0; k < ns; k++) {
-      double own = by[k] / length;
-      by[k] = x[k], x[k] = own;
-    }
     int row = list[best];
     list[best] = list[kept], list[kept] = row;
-    for (int i = kept + 1; i < n; i++) {
-      double *other = w->span.basis + ns * i, part = frot_dot(other, x, ns);
-      for (int k = 0; k < ns; k++) other[k] -= part * x[k];
-    }
+    frot_take_row(w->span.basis, n, ns, kept, best);
   }
   for (int i = n - count; i < n; i++) {
     const double *own = frot_entries(m, w->core.half, list[i]), *left = w->span.basis + ns * i;
