@@ -363,17 +363,21 @@ def _invariants(system: Assembled) -> list[ca.SX]:
 def _row_depends(system: Assembled) -> tuple[tuple[bool, ...], ...]:
     """For each row: on which coordinates, and last whether on anything else, its Jacobian depends.
 
+    A row that is driven, were it at a constant rate, depends on what drives it.
+
     Of the coordinates those count whose rates are speeds; any other state counts as anything else.
     """
     s = system.reduced.symbols
     others = ca.vertcat(s.t, s.u, system.discrete, system.y)
+    driven = ca.substitute(system.rate, system.v, ca.SX.zeros(*system.v.shape))
     table: list[tuple[bool, ...]] = []
     for r in range(system.rows.size1()):
         row = system.rows[r, :]
         table.append(
             (
                 *(bool(ca.depends_on(row, system.q[k])) for k in range(system.q.numel())),
-                bool(ca.depends_on(ca.horzcat(row, system.rate[r]), others)),
+                bool(ca.depends_on(ca.horzcat(row, system.rate[r]), others))
+                or not driven[r].is_zero(),
             )
         )
     return tuple(table)

@@ -213,3 +213,28 @@ def test_a_law_of_what_is_kept_apart_is_named() -> None:
     text = KEPT_APART.replace("(2 + sin(3*time/(1 s))));", "2) with coulomb(0.1);")
     with pytest.raises(frot.FrotError, match=r"law 'coulomb' of 'A', whose gap is driven"):
         frot.compile(text).report()
+
+
+GLIDING = """
+model Gliding "A sphere on a plane that a drive carries at a constant speed"
+  body base: solid(mass = 1 kg, inertia = (1, 1, 1) kg.m^2);
+  liaison glide: prismatique(ground, base, axis = (-0.6, 0.8, 0)) driven(displacement = 2 m/s*time);
+  body ball: sphere(mass = 3 kg, radius = 0.3 m);
+  surface wall on base: plane(through = (0.2 m, 0.1 m, 0 m), normal = NORMAL);
+  liaison kept: contact_ponctuel(wall, ball.surface, unilateral = false);
+  experiment(stop = 1 s, tolerance = 1e-9);
+end Gliding;
+"""
+
+
+@pytest.mark.parametrize("normal", [(1, 0, 0), (0, -1, 0), (0, 0, 1), (0.6, 0, 0.8)])
+def test_a_speed_that_a_constant_drive_gives_is_none_that_is_held_at_zero(
+    normal: tuple[float, float, float],
+) -> None:
+    """The row of a wall that moves by itself is constant and has no acceleration, but a rate."""
+    n = np.array(normal)
+    result = frot.compile(GLIDING.replace("NORMAL", str(normal))).simulate()
+    base, weight = np.array([-1.2, 1.6, 0]), np.array([0, 0, -9.81])
+    want = n * (n @ base) + (weight - n * (n @ weight))
+    assert vector(result.at(1.0), "ball.velocity") == pytest.approx(want, abs=1e-12)
+    assert vector(result.at(1.0), "kept.force") == pytest.approx(-3 * n * (n @ weight), abs=1e-12)
