@@ -15,11 +15,12 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 from frot.dsl.data.classes import dataclass
 
-# Statements of a function from which on it is worth looking, the longest period looked for, and the
-# fewest turns of a loop.
-LEAST, PERIOD, TURNS = 1000, 700, 6
+# Statements of a function from which on it is worth looking: straight lines run faster than loops
+# over tables, and a C compiler takes so many in half a second. The longest period looked for, and
+# the fewest turns of a loop.
+LEAST, PERIOD, TURNS = 4000, 700, 6
 # Statements of all functions from which on shorter ones are looked at too, and what repeats less.
-MANY = 20_000
+MANY, SHORT, FEW = 20_000, 250, 2
 # Statements of a stretch that is worth a function, and of what is looked for at other places.
 _WORTH = 8
 
@@ -63,7 +64,7 @@ def roll(functions: Iterable[tuple[str, Sequence[str]]], longest: int) -> dict[s
     """
     texts = dict(functions)
     many = sum(map(len, texts.values())) >= MANY
-    least, turns = (LEAST // 4, 2) if many else (LEAST, TURNS)
+    least, turns = (SHORT, FEW) if many else (LEAST, TURNS)
     rolled: dict[str, tuple[list[Statement], list[Part]]] = {}
     for name, lines in texts.items():
         if len(lines) < least:

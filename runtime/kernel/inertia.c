@@ -38,20 +38,21 @@ void frot_outwards(const frot_work *w, const frot_group *g, double *x) {
     frot_backward(factor, g->n_speeds, g->n_speeds, x);
 }
 
-/* Behind the speeds x what auxiliary unknowns make of their momenta. */
+/* Behind the speeds x what auxiliary unknowns make of their momenta, four speeds at a time. */
 static void read_momenta(const frot_work *w, const frot_group *g, double *x) {
-  int ns = g->n_speeds, n = g->n;
-  const double *column = w->core.mass + g->matrix;
-  int k = 0;
-  memset(x + ns, 0, sizeof(double) * (size_t)(n - ns));
-  for (; k + 2 <= ns; k += 2, column += 2 * n) {
-    const double first = x[k], second = x[k + 1], *next = column + n;
-    for (int i = ns; i < n; i++) x[i] += first * column[i] + second * next[i];
+  int ns = g->n_speeds, n = g->n, k = 0;
+  const double *column = w->core.mass + g->matrix + ns;
+  double *read = x + ns;
+  memset(read, 0, sizeof(double) * (size_t)(n - ns));
+  for (; k + FROT_ABREAST <= ns; k += FROT_ABREAST)
+    frot_add_four(column + k * n, n, x + k, n - ns, read);
+  if (k < ns && ns >= FROT_ABREAST) { /* the last four, those before of no weight */
+    double last[FROT_ABREAST] = {0, 0, 0, 0};
+    for (int from = ns - FROT_ABREAST; k < ns; k++) last[k - from] = x[k];
+    frot_add_four(column + (ns - FROT_ABREAST) * n, n, last, n - ns, read);
   }
-  for (; k < ns; k++, column += n) {
-    const double own = x[k];
-    for (int i = ns; i < n; i++) x[i] += own * column[i];
-  }
+  for (; k < ns; k++)
+    for (int i = 0; i < n - ns; i++) read[i] += x[k] * column[k * n + i];
 }
 
 void frot_respond(const frot_work *w, const frot_group *g, double *x) {

@@ -91,6 +91,18 @@ void frot_dot_fours(const double *a, const double *b, int n,
   }
 }
 
+void frot_add_four(const double *columns, int ld, const double factor[FROT_ABREAST], int n,
+                   double *restrict y) {
+  const double a = factor[0], b = factor[1], c = factor[2], d = factor[3];
+  const double *second = columns + ld, *third = second + ld, *fourth = third + ld;
+  int i = 0;
+  for (; i + 2 <= n; i += 2) { /* as much as there is room for in a register */
+    y[i] += (a * columns[i] + b * second[i]) + (c * third[i] + d * fourth[i]);
+    y[i + 1] += (a * columns[i + 1] + b * second[i + 1]) + (c * third[i + 1] + d * fourth[i + 1]);
+  }
+  if (i < n) y[i] += (a * columns[i] + b * second[i]) + (c * third[i] + d * fourth[i]);
+}
+
 void frot_backward(const double *l, int n, int m, double *x) {
   for (int i = m - 1; i >= 0; i--) {
     double sum = x[i];

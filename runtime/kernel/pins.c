@@ -10,21 +10,23 @@
 
 #include "inertia.h"
 #include "linear.h"
+#include "past.h"
 #include "problem.h"
 #include "reactions.h"
 
 /* Followers from which on it costs less than a system for all of them. */
 #define MANY 3
-/* What a pass must leave at most of what the one before it changed: else Newton's method, which
- * depends on no such thing, is sooner there. Passes that shrink so need no more than these. */
-#define FASTER 0.1
-#define PASSES 20
+/* What so many passes must leave at most of what the first of them changed, and how many there may
+ * be: else Newton's method, which depends on no such thing, is sooner there. */
+#define SOME 10
+#define LEFT 0.5
+#define PASSES 100
 /* Part of a friction that the next pass would change, which is none. */
 #define ENOUGH (8 * DBL_EPSILON)
-/* Part of a friction within which it is what rounding of its terms leaves that a pass changes. */
+/* Part of a friction within which it is what rounding of its terms leaves that a pass changes, and
+ * what shows that: of a change it leaves nearly as much. */
 #define ROUNDED 1e-12
-/* The same from which on what the next pass changes shows what passes leave, and no rounding. */
-#define SHOWN 1e-6
+#define STAYS 0.9
 
 int frot_only_follows(const frot_model *m, const frot_group *g, const frot_contact_mode *modes) {
   int followers = 0;
@@ -45,33 +47,46 @@ int frot_only_follows(const frot_model *m, const frot_group *g, const frot_conta
   return followers >= MANY;
 }
 
-/* load (n) <- what the reactions w->core.lam of the elements do to the unknowns of the group. */
-static void load_by_friction(const frot_problem *p, double *load) {
-  const frot_group *g = p->g;
-  const frot_work *w = p->w;
-  memset(load, 0, sizeof(double) * (size_t)g->n);
-  for (int i = 0; i < g->n_elements; i++) {
-    int row = p->m->elements[g->elements[i]].row;
-    const int *reach = w->core.reach + 2 * row;
-    const double lam = w->core.lam[row], *entries = frot_entries(p->m, w->core.rows, row);
-    if (lam == 0) continue;
-    for (int k = reach[0]; k < reach[1]; k++) load[k] += lam * entries[k];
+/* load (n) <- what the friction of `acting` elements does to the unknowns of the group. */
+static void load_by_friction(const frot_problem *p, int acting, double *load) {
+  memset(load, 0, sizeof(double) * (size_t)p->g->n);
+  for (int f = 0; f < acting; f++) {
+    const frot_follower *own = &p->w->reactions.followers[f];
+    const double friction = *own->friction, *entries = own->entries;
+    for (int k = own->from; k < own->to; k++) load[k] += friction * entries[k];
   }
 }
 
-/* What is known of the followers before the first pass. */
-static void list_followers(const frot_problem *p) {
+static void list_friction(const frot_problem *p, int element, frot_follower *own) {
+  const frot_work *w = p->w;
+  int row = p->m->elements[element].row;
+  own->friction = &p->w->core.lam[row], own->ratio = w->reactions.ratio[element];
+  own->entries = frot_entries(p->m, w->core.rows, row);
+  own->from = w->core.reach[2 * row], own->to = w->core.reach[2 * row + 1];
+}
+
+/* What is known of the followers before the first pass, and behind them of friction that values
+ * bound. Returns how many act. */
+static int list_followers(const frot_problem *p) {
   const frot_model *m = p->m;
+  const frot_group *g = p->g;
   frot_work *w = p->w;
+  int acting = p->unknowns;
   for (int f = 0; f < p->unknowns; f++) {
     int e = w->reactions.owner[f], pin = m->elements[e].bound == FROT_BY_PIN;
     frot_follower *own = &w->reactions.followers[f];
-    own->friction = &w->core.lam[m->elements[e].row], own->ratio = w->reactions.ratio[e];
+    list_friction(p, e, own);
     for (int k = 0; k < 2; k++) {
       int at = k <= pin ? m->row_reads[m->elements[e].bounded_by[k]] : -1;
-      own->at[k] = at, own->force[k] = at < 0 ? 0 : w->core.h[p->g->unknowns[at]];
+      own->at[k] = at, own->force[k] = at < 0 ? 0 : w->core.h[g->unknowns[at]];
     }
   }
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i];
+    if (m->elements[e].bound != FROT_BY_VALUE || w->reactions.ratio[e] == 0) continue;
+    list_friction(p, e, &w->reactions.followers[acting++]);
+  }
+  return acting;
 }
 
 /* One over the size of the terms that the friction of a follower is made of; 0 where it has none.
@@ -90,14 +105,14 @@ static double follow(const frot_problem *p, const double *whole, const double *l
   double most = 0;
   for (int f = 0; f < p->unknowns; f++) {
     frot_follower *own = &p->w->reactions.followers[f];
-    double first = whole[own->at[0]] - own->force[0] - load[own->at[0]], reaction = first;
-    own->reaction[0] = first;
+    double first = whole[own->at[0]] - own->force[0] - load[own->at[0]];
+    own->reaction[0] = own->size = first;
     if (own->at[1] >= 0) {
       double second = whole[own->at[1]] - own->force[1] - load[own->at[1]];
-      own->reaction[1] = second, reaction = sqrt(first * first + second * second);
+      own->reaction[1] = second, own->size = sqrt(first * first + second * second);
     }
     if (pass == 0 || own->per_size == 0) own->per_size = per_size(own, whole, load);
-    own->next = own->ratio * reaction;
+    own->next = own->ratio * own->size;
     double change = fabs(own->next - *own->friction) * own->per_size;
     if (!(change <= most)) most = change;
     if (isnan(most)) break;
@@ -118,8 +133,8 @@ static void turn(const frot_problem *p) {
   for (int f = 0; f < p->unknowns; f++) {
     const frot_follower *own = &r->followers[f];
     double *along = r->along + 2 * r->owner[f];
-    double size = own->at[1] < 0 ? 0 : hypot(own->reaction[0], own->reaction[1]);
-    for (int k = 0; k < 2 && size > 0; k++) along[k] = own->reaction[k] / size;
+    if (own->at[1] < 0 || !(own->size > 0)) continue;
+    along[0] = own->reaction[0] / own->size, along[1] = own->reaction[1] / own->size;
   }
 }
 
@@ -129,6 +144,8 @@ static void finish(const frot_problem *p, const double *whole, const double *loa
   frot_work *w = p->w;
   turn(p);
   take(p);
+  frot_note_friction(p);
+  for (int k = 0; k < p->g->n_speeds; k++) w->core.a[p->g->unknowns[k]] = whole[k];
   for (int i = 0; i < p->g->n_rows; i++) {
     int r = p->g->rows[i], at = m->row_reads[r];
     if (at >= 0 && w->core.wanted[r])
@@ -143,7 +160,7 @@ static int begin(const frot_problem *p) {
   const frot_group *g = p->g;
   frot_work *w = p->w;
   int warm = w->reactions.follow && w->reactions.warm;
-  if (!warm) w->reactions.rate[g - m->groups] = 0;
+  if (!warm) w->reactions.rate[g - m->groups] = 0, w->reactions.instants[g - m->groups] = 0;
   for (int i = 0; i < g->n_rows && !warm; i++) w->core.lam[g->rows[i]] = 0;
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
@@ -154,31 +171,36 @@ static int begin(const frot_problem *p) {
 }
 
 /* What a pass leaves of a change is only seen by one more: a first pass that changes little, from
- * the friction of the stage before, may leave it nearly whole (near a jam). So the rate is that of
- * the slowest pass seen in the step. */
+ * the friction that stages before foretell, may leave it nearly whole (near a jam). So the rate is
+ * that of the last two passes, and where there is but one, what it was in the stage before. */
 int frot_follow_in_turn(const frot_problem *p) {
   const frot_group *g = p->g;
   frot_work *w = p->w;
-  double *load = w->core.column, *whole = w->core.rest, before = 0;
+  double *load = w->core.column, *whole = w->core.rest, before = 0, some = INFINITY;
   double *rate = &w->reactions.rate[g - p->m->groups];
   int warm = begin(p);
-  if (warm && *rate > FASTER) return 0;
-  list_followers(p);
+  if (*rate >= 1) return 0; /* they have not settled in a stage before */
+  int acting = list_followers(p);
+  frot_foretell_friction(p);
   for (int pass = 0; pass < PASSES; pass++) {
-    load_by_friction(p, load);
+    load_by_friction(p, acting, load);
     memcpy(whole, load, sizeof(double) * (size_t)g->n_speeds);
     frot_respond(w, g, whole);
-    for (int k = 0; k < g->n_speeds; k++) w->core.a[g->unknowns[k]] = whole[k];
     double changed = follow(p, whole, load, pass);
     if (isnan(changed)) return 0;
     int far = pass == 1 && !warm; /* from none at all: only a beginning */
-    if (before > SHOWN && !far) *rate = fmax(*rate, changed / before);
-    if (*rate > FASTER) return turn(p), 0;
-    int known = *rate > 0 || changed == 0, stays = changed > FASTER * before;
-    int done = known && (changed * *rate <= ENOUGH || (changed <= ROUNDED && before > 0 && stays));
+    if (before > 0 && !far) *rate = changed / before;
+    int known = *rate > 0 || changed == 0, stays = before > 0 && changed > STAYS * before;
+    int done = known && changed * *rate <= ENOUGH * (1 - *rate);
+    if (done || (known && changed <= ROUNDED && stays)) {
+      *rate = fmin(*rate, STAYS);
+      return finish(p, whole, load), 1;
+    }
+    if (pass % SOME == 0 && !(changed <= LEFT * some)) break;
+    if (pass % SOME == 0) some = changed;
     before = changed;
-    if (done) return finish(p, whole, load), 1;
     take(p);
   }
-  return 0;
+  *rate = 1;
+  return turn(p), 0;
 }

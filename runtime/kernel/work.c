@@ -148,7 +148,8 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
     followed = larger(followed, m->groups[k].n_elements * m->groups[k].n_rows);
   }
   TAKE(r->known, 2 * followers), TAKE(r->effects, 2 * followed), TAKE(r->rate, m->n_groups);
-  TAKE(r->followers, followers);
+  TAKE(r->followers, followers), TAKE(r->noted, FROT_INSTANTS * elements);
+  TAKE(r->instant, FROT_INSTANTS * m->n_groups), TAKE(r->instants, m->n_groups);
   TAKE(w->span.basis, (n + 1) * e->widest), TAKE(w->span.parts, n + e->widest);
   TAKE(w->span.along, n), TAKE(w->span.way, n);
   TAKE(w->span.bias, n), TAKE(w->span.bias_size, n), TAKE(w->span.left, n);

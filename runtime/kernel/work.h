@@ -78,14 +78,19 @@ typedef struct {
   double *inertia, *twist, *motion, *momenta;
 } frot_core_work;
 
-/* pins.c: a friction that follows readings, where these stand among the unknowns of the group (at:
- * a pin's two, else one and -1) and what loads make of them; what a pass makes of them and of the
- * friction; one over the size of its terms. */
+/* pins.c: a friction, the entries of its row and where these are not zero (from, to), its ratio to
+ * what bounds it. Of one that follows readings, where these stand among the unknowns of the group
+ * (at: a pin's two, else one and -1) and what loads make of them; what a pass makes of them, of the
+ * size of the reaction and of the friction; one over the size of its terms. */
 typedef struct {
   double *friction;
-  int at[2];
-  double force[2], reaction[2], ratio, per_size, next;
+  const double *entries;
+  int from, to, at[2];
+  double force[2], reaction[2], ratio, size, per_size, next;
 } frot_follower;
+
+/* Instants of a step at which friction is noted: its stages, and where an event is looked for. */
+enum { FROT_INSTANTS = 16 };
 
 /* reactions.h: the unknowns and what goes with them; whether reactions are not unique; held rows
  * that depend on those before them; where to begin to look for the pins' directions. Of each
@@ -98,10 +103,12 @@ typedef struct {
   double *fold_ratio, *ratio, *along, *unit_of, *weight, *solution;
   double *known, *effects;
   frot_follower *followers;
-  double *rate;         /* n_groups: what a pass of pins.c leaves of a change, in the step */
-  int dependent, *sign; /* sign (n_groups): of the determinant, 0 where there is none */
-  int follow;           /* 1: pins' directions are looked for from the last stage's on */
-  int warm;             /* the reactions are those of a stage before: pins.c */
+  double *rate;            /* n_groups: what a pass of pins.c leaves of a change, in the step */
+  double *noted, *instant; /* past.c: n_elements and n_groups times FROT_INSTANTS */
+  int *instants;           /* of each group, how many of them */
+  int dependent, *sign;    /* sign (n_groups): of the determinant, 0 where there is none */
+  int follow;              /* 1: pins' directions are looked for from the last stage's on */
+  int warm;                /* the reactions are those of a stage before: pins.c */
 } frot_reaction_work;
 
 /* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:
