@@ -192,12 +192,18 @@ class _Gatherer:
         fired = self.fire(broken, True, words(assertion.condition), assertion.span)
         self._ask(Outcome(kind, assertion.message, assertion.span), fired)
 
+    def fault(self, value: ca.SX, told: str, span: Span) -> None:
+        """A value that must not become positive."""
+        broken = self.conditions.add(value, True, told, span, NEVER)
+        self._ask(Outcome(FAIL, told, span), self.fire(broken, True, told, span))
+
 
 def gather_events(
     model: Model,
     text: TextSymbols,
     modes: Iterable[ca.SX],
     conditions: Conditions,
+    faults: Iterable[tuple[ca.SX, str, Span]],
     *,
     moving: Lowering,
     looking: Lowering,
@@ -205,7 +211,8 @@ def gather_events(
 ) -> Events:
     """Lower every `when` and `assert`. `looking` is given the discrete values after the event.
 
-    `modes` are discrete values that no `when` sets.
+    `modes` are discrete values that no `when` sets; `faults` are values that fail once they are
+    positive, each with what is told and where.
     """
     gatherer = _Gatherer(text, conditions, moving, looking)
     after: dict[Variable, ca.SX] = {}
@@ -230,6 +237,8 @@ def gather_events(
         gatherer.when(when)
     for assertion in model.assertions:
         gatherer.assertion(assertion)
+    for value, told, span in faults:
+        gatherer.fault(value, told, span)
     _settle(gatherer, log, model)
     return gatherer.events
 

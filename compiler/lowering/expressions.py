@@ -47,7 +47,8 @@ class Conditions:
     """Conditions on time and motion that switch something: `value` > 0 while true.
 
     `strict`: whether the condition is false where its value is zero. `texts` are as the author
-    wrote them, at `spans`; `told` says when a change is an event to him (frot_told). In their last
+    wrote them, at `spans`; `told` says when a change is an event to him (frot_told). `contacts`:
+    of one that is no switch of the text, the contact a figure of which ends there. In their last
     order the first `located` change by the motion, the last `sensed` of these by what it is solved
     for, the `timed` after them by time alone.
     """
@@ -58,12 +59,19 @@ class Conditions:
     texts: list[str] = field(default_factory=list)
     spans: list[Span | None] = field(default_factory=list)
     told: list[int] = field(default_factory=list)
+    contacts: list[int] = field(default_factory=list)
     located: int = 0
     sensed: int = 0
     timed: int = 0
 
     def add(
-        self, value: ca.SX, strict: bool, text: str, span: Span | None, told: int = ALWAYS
+        self,
+        value: ca.SX,
+        strict: bool,
+        text: str,
+        span: Span | None,
+        told: int = ALWAYS,
+        contact: int = -1,
     ) -> ca.SX:
         """A flag, 0 or 1, that follows the sign of `value` by located events."""
         found = self.find(value, strict)
@@ -76,6 +84,7 @@ class Conditions:
         self.texts.append(text)
         self.spans.append(span)
         self.told.append(told)
+        self.contacts.append(contact)
         return flag
 
     def find(self, value: ca.SX, strict: bool) -> ca.SX | None:
@@ -89,7 +98,7 @@ class Conditions:
         """Put the conditions into another order."""
         columns: tuple[list[Any], ...] = (
             *(self.flags, self.values, self.strict),
-            *(self.texts, self.spans, self.told),
+            *(self.texts, self.spans, self.told, self.contacts),
         )
         for items in columns:
             items[:] = [items[k] for k in order]

@@ -22,7 +22,6 @@ from frot.compiler.lowering.lower_parameters import lower_parameters, parameters
 from frot.compiler.lowering.pace import make_pace
 from frot.compiler.lowering.symbols import column
 from frot.compiler.lowering.timing import sort_conditions
-from frot.compiler.mechanics.geometry.tracking import NO_END
 from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.reduce import Reduced
@@ -330,21 +329,11 @@ def _block(index: int, block: Block, system: Assembled) -> ca.Function:
 
 
 def _beginnings_of_open(system: Assembled) -> list[ca.SX]:
-    """Where the search for each place that is followed begins, if one may be of an open contact.
-
-    And the ends of its parameters. Nothing where no such contact may be open.
-    """
+    """Where the search for each place that is followed begins, if one may be of an open contact."""
     tracks = system.reduced.variables.kinematics.tracks
     if not any(is_unilateral(liaison) for liaison in tracks):
         return []
-    endless = ca.SX([[-NO_END, NO_END]])
-    ends = ca.vertcat(
-        *(
-            ca.repmat(endless, x.unknowns.numel(), 1) if x.ends is None else x.ends
-            for x in tracks.values()
-        )
-    )
-    return [column(x.start for x in tracks.values()), ends[:, 0], ends[:, 1]]
+    return [column(x.start for x in tracks.values())]
 
 
 def _block_slopes(system: Assembled) -> list[ca.SX]:

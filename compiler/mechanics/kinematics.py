@@ -12,6 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import casadi as ca
+from frot.compiler.lowering.expressions import NEVER, Conditions
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.geometry.figure import Placed
@@ -69,8 +70,16 @@ class Kinematics:
     the vectors from the body before to its own G.
     """
 
-    def __init__(self, mechanism: Mechanism, symbols: Symbols, fixed: Constants) -> None:
-        """`fixed` gives what no motion changes."""
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        symbols: Symbols,
+        fixed: Constants,
+        conditions: Conditions | None = None,
+    ) -> None:
+        """`fixed` gives what no motion changes; into `conditions` go the ends of figures."""
+        self._conditions = conditions
+        self._numbers = {link.liaison: k for k, link in enumerate(mechanism.contacts)}
         self.symbols = symbols
         self.fixed = fixed
         self.planar = mechanism.model.planar
@@ -242,6 +251,16 @@ class Kinematics:
                 self.track_rates[liaison] = -ca.densify(ca.solve(ca.densify(slope), known))
             return made
         return self.tracks[liaison]
+
+    def passing(self, liaison: Liaison) -> Callable[[ca.SX], ca.SX]:
+        """What makes flags that are 1 while a value, by which a figure ends there, is positive."""
+        if self._conditions is None:
+            return lambda value: value > 0
+        number, text = self._numbers[liaison], f"{liaison.name}: beyond an end"
+        return partial(
+            self._conditions.add,
+            strict=True, text=text, span=liaison.span, told=NEVER, contact=number,
+        )  # fmt: skip
 
     def track_of(self, joint: Joint) -> Track | None:
         """What is followed where the figures of a joint touch, or where a point is on its curve."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 
 import casadi as ca
 from frot.compiler.equations.apart import moved_by_forces
@@ -39,6 +39,7 @@ from frot.compiler.mechanics.dynamics import (
     write_out,
 )
 from frot.compiler.mechanics.geometry.contacts import gravity
+from frot.compiler.mechanics.geometry.leaving import find_leaving
 from frot.compiler.mechanics.idle import refuse_idle_spins
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.link import Geometry, Link
@@ -55,6 +56,7 @@ from frot.compiler.mechanics.variables import Variables
 from frot.dsl import Log
 from frot.dsl.checked import Liaison
 from frot.dsl.data.classes import dataclass, replace
+from frot.dsl.messages.source import Span
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -122,13 +124,13 @@ class Reduced:
 def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     """Form the equations; what cannot be lowered is reported."""
     symbols = make_symbols(mechanism)
-    kinematics = Kinematics(mechanism, symbols, Constants(symbols))
+    conditions = Conditions()
+    kinematics = Kinematics(mechanism, symbols, Constants(symbols), conditions)
     symbols = kinematics.symbols
     text = chains_of_motion(mechanism, symbols)
     geometry = _geometry(mechanism, kinematics)
     variables = _variables(mechanism, kinematics, text, geometry)
     give_rates_of_tracks(kinematics, text)
-    conditions = Conditions()
     moving, looking = (
         Lowering(
             symbols,
@@ -162,6 +164,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         text,
         [symbol for _, symbol in variables.modes.values()],
         conditions,
+        _faults(variables, moving),
         moving=moving,
         looking=looking,
         log=log,
@@ -214,6 +217,14 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         ),
         potential=settled(potential + loads.potential),
     )
+
+
+def _faults(variables: Variables, moving: Lowering) -> Iterator[tuple[ca.SX, str, Span]]:
+    """That what cannot part comes to the end of a curve."""
+    for one in find_leaving(variables):
+        kept = ca.SX(1) if one.parts is None else 1 - moving.lower(one.parts)
+        value = variables.settled(one.value)
+        yield ca.if_else(kept, value, -1), one.text, one.liaison.span
 
 
 def _biases(

@@ -21,7 +21,9 @@ def tables_of(
     """By the names of the fields of `frot_model` that point at them."""
     reduced, system = lowered.reduced, lowered.system
     conditions, events = reduced.conditions, reduced.events
-    told = zip(conditions.texts, conditions.told, conditions.spans, strict=True)
+    told = zip(
+        *(conditions.texts, conditions.told, conditions.spans, conditions.contacts), strict=True
+    )
     return {
         "p_default": ("double", [number(x) for x in defaults]),
         "u_default": ("double", [number(x) for x in inputs]),
@@ -50,7 +52,10 @@ def tables_of(
         "p_dependent": ("int", _whole(lowered.dependent)),
         "p_type": ("int", [str(_TYPES[p.type.base]) for p in reduced.symbols.parameters]),
         "row_depends": ("unsigned char", _whole(x for row in lowered.row_depends for x in row)),
-        "conditions": ("frot_condition", [record(text(a), b, text(place(c))) for a, b, c in told]),
+        "conditions": (
+            "frot_condition",
+            [record(text(a), b, text(place(c)), d) for a, b, c, d in told],
+        ),
         "condition_strict": ("unsigned char", _whole(conditions.strict)),
         "q_speed": ("int", _whole(system.q_speed)),
         "q_alike": ("int", _whole(alike(system))),

@@ -8,7 +8,7 @@ from frot.dsl import checked
 from frot.dsl.catalogue import FORCES, LAWS, LIAISONS, find, spellings
 from frot.dsl.checked.describe import quantity
 from frot.dsl.declarations.arguments import bind
-from frot.dsl.declarations.bounds import keep_on_curve, keep_positive
+from frot.dsl.declarations.bounds import keep_positive
 from frot.dsl.declarations.geometry import called
 from frot.dsl.declarations.user_kinds import stated_law, stated_liaison
 from frot.dsl.expressions.expression import expect
@@ -53,9 +53,7 @@ def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison
         return None
     options = cast("dict[str, checked.Expression]", found.values)
     keep_positive(options, kind.arguments, f"liaison '{full_name}'", scope)
-    made = checked.Liaison(full_name, kind, a, b, options, (), node.span, node.doc)
-    keep_on_curve(made, scope)
-    return made
+    return checked.Liaison(full_name, kind, a, b, options, (), node.span, node.doc)
 
 
 def _stated(

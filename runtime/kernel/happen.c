@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "blocks.h"
+#include "edges.h"
 #include "groups.h"
 #include "conditions.h"
 #include "mechanics.h"
@@ -241,11 +242,15 @@ static int change_conditions(const instant *in, int first) {
   if (kept) status = frot_note_supports(m, s, in->w, in->t, in->q, in->v);
   if (status != FROT_OK) return status;
   memcpy(in->w->events.before, d, sizeof(double) * (size_t)m->n_conditions);
+  int edges = !first && frot_has_edges(m);
+  if (edges) frot_note_normals(m, in->w);
   s->jumped = 0;
   status = frot_change_conditions(m, s, in->w, in->t, in->q, in->v);
   if (status != FROT_OK) return status;
   memset(s->data + in->l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   if (!first) status = frot_settle_conditions(m, s, in->w, in->t, in->q, in->v);
+  if (status == FROT_OK && edges)
+    status = frot_pass_edges(m, s, in->w, in->t, in->q, in->v, in->recorder);
   if (status == FROT_OK) tell_conditions(in);
   if (status == FROT_OK && kept) status = frot_check_switch(m, s, in->w, in->t, in->q, in->v);
   return status;

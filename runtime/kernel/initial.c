@@ -164,8 +164,9 @@ static void look_at_conditions(const frot_opening *p) {
   set_conditions(p->m, p->w, p->s->data + frot_layout_of(p->m).d);
 }
 
-/* All values from the guesses, with the conditions as they are; then sets these. */
-static int solve_once(frot_opening *p, double *q, double *v) {
+/* All values from the guesses, or from those found before, with the conditions as they are; then
+ * sets these. */
+static int solve_once(frot_opening *p, double *q, double *v, int stay) {
   const frot_model *m = p->m;
   frot_state *s = p->s;
   frot_work *w = p->w;
@@ -179,7 +180,7 @@ static int solve_once(frot_opening *p, double *q, double *v) {
     side[i] = modes[i].side = 1;
     modes[i].closed = (signed char)!frot_has_normal(&m->contacts[i]);
   }
-  guess(p, q, v);
+  if (!stay) guess(p, q, v);
   int status = solve_positions(p, side);
   if (status == FROT_INITIAL) {
     frot_clear_opening(p);
@@ -206,6 +207,17 @@ static int solve_once(frot_opening *p, double *q, double *v) {
   return FROT_OK;
 }
 
+/* Whether all that has changed are ends that a figure is beyond; with `there`, all of them ends at
+ * which the places found are to rounding, and so on both sides. */
+static int only_ends(const frot_model *m, const frot_work *w, const double *d, int there) {
+  for (int j = 0; j < m->n_conditions; j++) {
+    if (d[j] == w->events.before[j]) continue;
+    int at_end = fabs(w->core.condition[j]) <= FROT_TOUCH;
+    if (m->conditions[j].contact < 0 || (there && !at_end)) return 0;
+  }
+  return 1;
+}
+
 int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v) {
   frot_layout l = frot_layout_of(m);
@@ -216,12 +228,14 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
   frot_name_changes(&p);
   guess(&p, q, v);
   look_at_conditions(&p);
-  for (int round = 0; round < ROUNDS; round++) {
+  for (int round = 0, stay = 0; round < ROUNDS; round++) {
     memcpy(w->events.before, p.d, size);
-    int status = solve_once(&p, q, v);
+    int status = solve_once(&p, q, v, stay);
     /* what has no solution under these conditions may have one under those found there */
     if (status != FROT_OK) look_at_conditions(&p);
     if (memcmp(w->events.before, p.d, size) == 0) return status;
+    stay = status == FROT_OK && only_ends(m, w, p.d, 0);
+    if (stay && only_ends(m, w, p.d, 1)) return status;
     frot_clear_opening(&p);
   }
   return frot_fail(s, FROT_CHATTER, t, -1, -1, -1, ROUNDS);

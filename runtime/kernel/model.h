@@ -85,8 +85,7 @@ typedef struct {
    * -> sizes of the lengths that each gap is made of beside the coordinates (n_contacts) */
   frot_callable sides;
   /* beginnings -> where the search for each place that is followed begins (n_followed, the first of
-   * y): at the nearest of some places all along the figures; its least and its largest values.
-   * Called where n_followed > 0. */
+   * y): at the nearest of some places all along the figures. Called where n_followed > 0. */
   frot_callable beginnings;
   /* places -> FROT_PLACE values of each carried body. Called where n_carried > 0. */
   frot_callable places;

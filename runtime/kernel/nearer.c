@@ -4,42 +4,86 @@
 #include <string.h>
 
 #include "core.h"
+#include "edges.h"
+#include "stages.h"
 #include "tolerances.h"
 
-/* The gap of a contact at the values x, with the places found from those in w->blocks.y; NaN where
- * there is none. */
-static double gap_at(const frot_model *m, frot_state *s, frot_work *w, int contact, double t,
-                     const double *x) {
-  if (frot_kinematics(m, s, w, t, x, x + m->nq, s->data + w->layout.d) != FROT_OK) return NAN;
-  return w->core.gap[contact];
+#define HALVINGS 45
+/* Part of a step from which on its end is the instant. */
+#define AT_END (1 - 1e-6)
+
+/* The set of a contact's values among the unknowns of blocks and the flags. */
+static const frot_block *block_of(const frot_model *m, int contact) {
+  return &m->blocks[m->contacts[contact].followed];
 }
 
 /* The place of a contact in y (ny) <- that in `place`. */
 static void set_place(const frot_model *m, const double *place, int contact, double *y) {
-  const frot_block *block = &m->blocks[m->contacts[contact].followed];
+  const frot_block *block = block_of(m, contact);
   memcpy(y + block->first, place + block->first, sizeof(double) * (size_t)block->count);
 }
 
-/* Whether the place in w->blocks.y is on the figures, which may have ends. */
-static int is_within(const frot_model *m, const frot_work *w, int contact) {
-  const frot_block *block = &m->blocks[m->contacts[contact].followed];
-  for (int k = block->first; k < block->first + block->count; k++)
-    if (!(w->blocks.y[k] >= w->nearer.least[k] && w->blocks.y[k] <= w->nearer.largest[k])) return 0;
-  return 1;
+/* The gap of a contact at the values x, with the places found from those in w->blocks.y and beyond
+ * the ends where these lie, into w->nearer.flags; NaN where there is none. */
+static double gap_at(const frot_model *m, frot_state *s, frot_work *w, int contact, double t,
+                     const double *x) {
+  double *d = s->data + w->layout.d, *kept = w->nearer.kept, *flags = w->nearer.flags;
+  int changes = 0, status = frot_kinematics(m, s, w, t, x, x + m->nq, d);
+  if (status != FROT_OK) return NAN;
+  for (int j = 0; j < m->n_conditions; j++) {
+    if (m->conditions[j].contact != contact) continue;
+    flags[j] = w->core.condition[j] > 0;
+    changes |= flags[j] != d[j];
+  }
+  if (!changes) return w->core.gap[contact];
+  memcpy(kept, d, sizeof(double) * (size_t)m->n_conditions);
+  for (int j = 0; j < m->n_conditions; j++)
+    if (m->conditions[j].contact == contact) d[j] = flags[j];
+  status = frot_kinematics(m, s, w, t, x, x + m->nq, d);
+  memcpy(d, kept, sizeof(double) * (size_t)m->n_conditions);
+  return status == FROT_OK ? w->core.gap[contact] : NAN;
+}
+
+/* Values of the states after the part theta of the step, from its dense output. */
+static void values_inside(const frot_work *w, double theta, double *x) {
+  int nz = w->layout.nz;
+  memcpy(x, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
+  for (int k = 0; k < w->awake.n; k++) {
+    double sum = 0;
+    for (int i = DP_DENSE - 1; i >= 0; i--) {
+      sum += w->step.f[i * nz + k];
+      sum *= i % 2 == 0 ? theta : 1 - theta;
+    }
+    x[w->awake.now->states[k]] += sum;
+  }
+}
+
+/* Whether after the part theta of the step a contact is nearer at the place found for its end than
+ * at the one that is followed. */
+static int is_nearer(const frot_model *m, frot_state *s, frot_work *w, int contact, double t,
+                     double h, double theta) {
+  const double *y0 = s->data + w->layout.y;
+  double *x = w->step.z, *y = w->blocks.y;
+  values_inside(w, theta, x);
+  for (int k = 0; k < m->ny; k++) y[k] = y0[k] + theta * (w->step.y_end[k] - y0[k]);
+  double own = gap_at(m, s, w, contact, t + theta * h, x);
+  memcpy(y, w->step.y_end, sizeof(double) * (size_t)m->ny);
+  set_place(m, w->nearer.y, contact, y);
+  double other = gap_at(m, s, w, contact, t + theta * h, x);
+  return fabs(other) < (1 - 2 * FROT_NEARER) * fabs(own);
 }
 
 /* Whether the figures of an open contact are nearer than `far` at another place, which is then
- * kept; -1 where they have passed through each other there. */
-static int look(const frot_model *m, frot_state *s, frot_work *w, int contact, double t, double end,
+ * kept. */
+static int look(const frot_model *m, frot_state *s, frot_work *w, int contact, double end,
                 double far) {
   double *y = w->blocks.y;
   memcpy(y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   set_place(m, w->nearer.begin, contact, y);
   double other = gap_at(m, s, w, contact, end, w->step.z1);
-  if (!(fabs(other) < (1 - FROT_NEARER) * far) || !is_within(m, w, contact)) return 0;
-  if (other < 0) return gap_at(m, s, w, contact, t, w->step.z0) > 0 ? -1 : 0;
+  if (!(fabs(other) < (1 - FROT_NEARER) * fabs(far))) return 0;
   set_place(m, y, contact, w->nearer.y);
-  w->nearer.changed[contact] = 1;
+  w->nearer.changed[contact] = other < 0 ? -1 : 1;
   return 1;
 }
 
@@ -49,34 +93,60 @@ static void look_at_end(const frot_model *m, frot_state *s, frot_work *w, double
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   frot_kinematics(m, s, w, end, x, x + m->nq, d);
   memcpy(w->nearer.far, w->core.gap, sizeof(double) * (size_t)m->n_contacts);
+  memcpy(w->nearer.flags, d, sizeof(double) * (size_t)m->n_conditions);
   frot_inputs(m, s, w, &end, x, x + m->nq, d);
-  w->call.res[0] = w->nearer.begin, w->call.res[1] = w->nearer.least;
-  w->call.res[2] = w->nearer.largest;
+  w->call.res[0] = w->nearer.begin;
   frot_call(w, &m->beginnings);
 }
 
-int frot_look_nearer(const frot_model *m, frot_state *s, frot_work *w, double t, double end) {
+/* The part of the step after which one of the places found is nearer first. */
+static double first_nearer(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  double first = 1;
+  for (int i = 0; i < m->n_contacts; i++) {
+    double low = 0, high = first;
+    if (!w->nearer.changed[i] || !is_nearer(m, s, w, i, t, h, high)) continue;
+    for (int k = 0; k < HALVINGS; k++) {
+      double middle = 0.5 * (low + high);
+      if (is_nearer(m, s, w, i, t, h, middle))
+        high = middle;
+      else
+        low = middle;
+    }
+    first = high;
+  }
+  return first > AT_END ? 1 : first;
+}
+
+int frot_look_nearer(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
+                     double *part) {
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-  const double *unilateral = s->data + w->layout.unilateral;
+  const double *unilateral = s->data + w->layout.unilateral, end = t + h;
   const frot_awake_lists *now = w->awake.now;
-  int found = 0, listed = 0;
-  w->nearer.count = 0;
-  if (m->n_followed == 0) return 0;
+  int found = 0, listed = 0, status = FROT_OK;
+  w->nearer.count = 0, *part = 1;
+  if (m->n_followed == 0) return FROT_OK;
   memset(w->nearer.changed, 0, (size_t)m->n_contacts);
   for (int k = 0; k < now->n_contacts; k++) {
     int i = now->contacts[k];
     if (m->contacts[i].followed < 0 || modes[i].closed || unilateral[i] == 0) continue;
     if (!listed) look_at_end(m, s, w, end), listed = 1;
-    int nearer = look(m, s, w, i, t, end, w->nearer.far[i]);
-    if (nearer < 0) return -1;
-    found += nearer;
+    found += look(m, s, w, i, end, w->nearer.far[i]);
   }
+  w->nearer.count = found;
+  if (found) status = frot_make_dense(m, s, w, t, h);
+  if (found && status == FROT_OK) *part = first_nearer(m, s, w, t, h);
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   if (listed) frot_kinematics(m, s, w, end, w->step.z1, w->step.z1 + m->nq, s->data + w->layout.d);
-  return w->nearer.count = found;
+  return status;
 }
 
-void frot_take_nearer(const frot_model *m, const frot_work *w, double *y) {
-  for (int i = 0; i < m->n_contacts && w->nearer.count > 0; i++)
-    if (m->contacts[i].followed >= 0 && w->nearer.changed[i]) set_place(m, w->nearer.y, i, y);
+void frot_take_nearer(const frot_model *m, frot_state *s, frot_work *w) {
+  double *d = s->data + w->layout.d, *side = d + m->n_conditions;
+  for (int i = 0; i < m->n_contacts && w->nearer.count > 0; i++) {
+    if (!w->nearer.changed[i]) continue;
+    set_place(m, w->nearer.y, i, s->data + w->layout.y);
+    if (w->nearer.changed[i] < 0) side[i] = -side[i];
+    for (int j = 0; j < m->n_conditions; j++)
+      if (m->conditions[j].contact == i) d[j] = w->nearer.flags[j];
+  }
 }

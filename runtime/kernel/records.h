@@ -162,12 +162,15 @@ typedef struct {
   const char *name, *place; /* the unknowns, and the place of its first equation */
 } frot_block;
 
-/* A condition of the text: its words and place, and whether a change of it is told as an event. */
+/* A condition of the text: its words and place, and whether a change of it is told as an event; or
+ * that the place where a contact touches goes beyond the end of a figure, in parts of its length:
+ * the contact, else -1. */
 enum frot_told { FROT_TOLD_NEVER = 0, FROT_TOLD_RISING = 1, FROT_TOLD_ALWAYS = 2 };
 typedef struct {
   const char *text;
   int told; /* frot_told */
   const char *place;
+  int contact;
 } frot_condition;
 
 /* What `update` may ask for beside new values. */

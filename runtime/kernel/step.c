@@ -128,7 +128,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   lost = moved ? frot_speed_lost(m, s, w, end, a->h) : -1;
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
-  frot_take_nearer(m, w, s->data + l->y);
+  frot_take_nearer(m, s, w);
   s->has_slope = !moved && !s->pending && !s->spare_loops && w->nearer.count == 0;
   if (s->has_slope) frot_turn_at_end(m, s, w, slope);
   if (!s->implicit) frot_keep_crossings(m, s, w, a->t, a->h);
@@ -151,13 +151,17 @@ static int go_explicitly(const frot_model *m, frot_state *s) {
   return 1;
 }
 
-/* End the step before an open contact passes through a figure where nobody followed it. */
+/* End the step where another place of an open contact comes to be nearer. */
 static int cut_where_nearer(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
                             int *guard) {
-  while (!s->pending && *guard < 0 && frot_look_nearer(m, s, w, a->t, a->t + a->h) < 0) {
-    if (frot_is_too_short(s, a)) return FROT_DIVERGE;
-    int status = run_again(m, s, w, a, 0.5 * a->h);
-    if (status != FROT_OK) return status;
+  for (double part = 0; part < 1 && !s->pending && *guard < 0;) {
+    int status = frot_look_nearer(m, s, w, a->t, a->h, &part);
+    if (status == FROT_OK && part < 1 && !(part * a->h <= FROT_LEAST_STEP * fmax(fabs(a->t), a->h)))
+      status = run_again(m, s, w, a, part * a->h);
+    else
+      part = 1;
+    if (status != FROT_OK || part == 1) return status;
+    w->nearer.count = 0;
     a->dense = 1, a->guard = frot_falling_guard(m, s, w, a->t, a->h, &a->theta);
     status = cut_at_event(m, s, w, a, guard);
     if (status != FROT_OK) return status;

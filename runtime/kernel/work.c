@@ -2,6 +2,7 @@
 #include "work.h"
 
 #include "awake.h"
+#include "edges.h"
 #include "implicit.h"
 #include "islands.h"
 #include "linear.h"
@@ -212,6 +213,7 @@ static void bind_events(const frot_model *m, frot_event_work *w, arena *a) {
   TAKE(w->before, m->n_conditions), TAKE(w->known, m->n_conditions);
   TAKE(w->timer, 2 * m->n_timed), TAKE(w->discrete, m->n_discrete);
   TAKE(w->discrete_before, m->n_discrete), TAKE(w->held, m->n_held);
+  TAKE(w->normals, frot_has_edges(m) ? m->n_entries : 0);
 }
 
 static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
@@ -253,9 +255,9 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   bind_events(m, &w->events, a);
   bind_search(m, &w->search, a);
   bind_share(m, &l, &e, &w->share, a);
-  TAKE(w->nearer.begin, m->n_followed), TAKE(w->nearer.least, m->n_followed);
-  TAKE(w->nearer.largest, m->n_followed), TAKE(w->nearer.y, m->n_followed > 0 ? m->ny : 0);
+  TAKE(w->nearer.begin, m->n_followed), TAKE(w->nearer.y, m->n_followed > 0 ? m->ny : 0);
   TAKE(w->nearer.far, m->n_followed > 0 ? m->n_contacts : 0);
+  TAKE(w->nearer.flags, m->n_conditions), TAKE(w->nearer.kept, m->n_conditions);
   TAKE(w->nearer.changed, m->n_contacts);
   TAKE(w->pace, 4 * m->n_paced);
   TAKE(w->tape, m->n_islands > 0 ? l.ns : 0);

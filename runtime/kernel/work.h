@@ -155,11 +155,12 @@ typedef struct {
   unsigned char *first_use;
 } frot_opening_work;
 
-/* nearer.h: where searches begin, the ends of places, those found; gaps at the end of the step;
- * which contacts are nearer elsewhere, how many. */
+/* nearer.h: where searches begin, the places found; gaps at the end of the step; flags of the
+ * conditions with the places found, and as they were; which contacts are nearer elsewhere (-1: on
+ * the other side), how many. */
 typedef struct {
-  double *begin, *least, *largest, *y, *far;
-  unsigned char *changed;
+  double *begin, *y, *far, *flags, *kept;
+  signed char *changed;
   int count;
 } frot_nearer_work;
 
@@ -204,7 +205,7 @@ typedef struct {
 /* Events of the text: conditions.h and happen.c. */
 typedef struct {
   double *rose, *firing, *outcome, *before, *known, *timer;
-  double *discrete, *discrete_before, *held;
+  double *discrete, *discrete_before, *held, *normals;
 } frot_event_work;
 
 /* The search for modes (search.h, admissible.c, ahead.c, pivot.c, resolve.c): modes tried, found

@@ -337,7 +337,7 @@ def source(m: Small, folder: Path) -> str:
         ("int", "p_type"): [0] * len(m.parameters),
         ("unsigned char", "row_depends"): _row_depends(m),
         ("frot_condition", "conditions"): [
-            f'{{"condition {k + 1}", 2}}' for k in range(m.n_conditions)
+            f'{{"condition {k + 1}", 2, "", -1}}' for k in range(m.n_conditions)
         ],
         ("unsigned char", "condition_strict"): [int(x) for x in m.strict],
         ("int", "q_speed"): m.speeds,

@@ -63,6 +63,21 @@ def test_a_particle_meets_the_wall_wherever_it_is_thrown(
         assert end == pytest.approx(meets(x, y, u, v), abs=1e-13 + tolerance)
 
 
+def test_the_gap_is_that_to_the_nearest_place_at_every_time(thrown: frot.Model) -> None:
+    """Inside of a step too: the instant is found at which another place comes to be nearer."""
+    angles = np.linspace(-np.pi, np.pi, 200_001)
+    wall = np.array([A * np.cos(angles), B * np.sin(angles)])
+    for x, y, u, v in [(0.0, -0.55, 0.0, 6.0), (-0.8, 0.0, 8.0, 2.0)]:
+        given = {"x": x, "y": y, "vx": u, "vy": v, "lean": 0.0}
+        end = meets(x, y, u, v)
+        result = thrown.simulate(parameters=given, tolerance=1e-6, stop=0.99 * end)
+        places = np.array([result["p.position.x"], result["p.position.y"]]).T
+        apart = np.array([np.hypot(*(wall - p[:, None])).min() for p in places])
+        assert np.abs(np.abs(result["C.gap"]) - apart).max() < 1e-6
+        here = np.array([A * np.cos(result["C.u"]), B * np.sin(result["C.u"])])
+        assert np.abs(np.hypot(*(here - places.T)) - apart).max() < 1e-6
+
+
 def test_an_ellipse_falls_across_a_ring() -> None:
     """From touching the top, without a speed, onto the bottom: its lowest point falls freely."""
     text = """planar model Across

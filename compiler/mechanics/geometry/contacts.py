@@ -6,17 +6,24 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import casadi as ca
+from frot.compiler.mechanics.geometry.ended import (
+    AT_END,
+    Ending,
+    away,
+    bounded,
+    track_to_ends,
+)
 from frot.compiler.mechanics.geometry.paths import slope_at
 from frot.compiler.mechanics.geometry.touches import is_closed, touch
-from frot.compiler.mechanics.geometry.tracking import on_side, track
+from frot.compiler.mechanics.geometry.tracking import Track, on_side, track
 from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.link import Geometry, Reaction, point_body
-from frot.compiler.mechanics.mechanism import is_thread
-from frot.compiler.mechanics.spatial import X, Y, Z, cross, nowhere
+from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
+from frot.compiler.mechanics.spatial import Pose, X, Y, Z, cross, nowhere
 from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import World
-from frot.dsl.data.classes import dataclass, field
+from frot.dsl.data.classes import dataclass, field, replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.geometry.contact import Contact
@@ -134,15 +141,24 @@ def _witness(contact: Contact, line: Line, kinematics: Kinematics, world: World)
 
     |n . (c - o)| - r has a corner on the line, so the gap is s n . (c - o) - r, with the sign s
     that the product has where the run begins: s n points to the body, which never gets through. On
-    the line itself up is the side, then that of G. The ground is below its own line, whatever the
-    start says, and a point that cannot leave its line has its normal to the left.
+    the line itself the side is outside of a body with sides, else up, then that of G; of what rests
+    with its line on the ground down.
+    The ground is below its own line, whatever the start says, and a point that cannot leave its
+    line has its normal to the left.
     """
     if contact.floor or contact.keeps_left:
         return ca.SX.ones(3)
     centre = kinematics.position(contact.point)
     middle = kinematics.position(point_body(contact.point))
-    vectors = (centre - line.through, _upward(world, kinematics), middle - line.through)
-    return ca.vertcat(*(ca.dot(line.normal, vector) for vector in vectors))
+    up = ca.dot(line.normal, _natural(contact, world, kinematics))
+    if contact.track.figure.has_ends:  # of what is solid the outside comes first
+        inwards = ca.dot(
+            line.normal, kinematics.position(point_body(contact.track.point)) - line.through
+        )
+        least, largest = contact.track.figure.ends(kinematics.fixed.lower)
+        up = ca.if_else(ca.fabs(inwards) > AT_END * (largest - least), -ca.sign(inwards), up)
+    height, own = (ca.dot(line.normal, x - line.through) for x in (centre, middle))
+    return ca.vertcat(height, up, own)
 
 
 def _reach(contact: Contact, line: Line, kinematics: Kinematics) -> ca.SX:
@@ -173,6 +189,12 @@ def _upward(world: World, kinematics: Kinematics) -> ca.SX:
     return -fall / ca.if_else(size > 0, size, 1)
 
 
+def _natural(contact: Contact, world: World, kinematics: Kinematics) -> ca.SX:
+    """Where what touches a line is meant to be: above it, but what is fixed below what moves."""
+    up = _upward(world, kinematics)
+    return up if point_body(contact.point).shape is not None else -up
+
+
 def contact_geometry(
     contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
 ) -> ContactGeometry:
@@ -182,7 +204,8 @@ def contact_geometry(
     if contact.liaison in kinematics.tangents:
         return _carried(contact, kinematics)
     if contact.track.figure.plane is not None and is_closed(contact.track.figure, contact.figure):
-        return _on_line(contact, kinematics, side, world)
+        ends = contact.track.figure.has_ends and is_unilateral(contact.liaison)
+        return (_on_segment if ends else _on_line)(contact, kinematics, side, world)
     return _on_curve(contact, kinematics, side, world)
 
 
@@ -213,9 +236,10 @@ def _on_line(
     touching = centre - side * below
     at = centre if figure.is_round or figure.is_point else touching
     apart, nearing, turning = _apart(contact, kinematics, touching, at)
+    abscissa = ca.dot(line.direction, centre - line.through)
     return ContactGeometry(
         contact=contact,
-        line=line,
+        line=replace(line, through=line.through + abscissa * line.direction),
         side=side,
         gap=side * height - radius,
         approach=side * ca.dot(line.normal, nearing),
@@ -223,7 +247,41 @@ def _on_line(
         reach=radius + _reach(contact, line, kinematics),
         slip=ca.dot(line.direction, apart),
         roll=ca.dot(Z, turning),
-        abscissa=ca.dot(line.direction, centre - line.through),
+        abscissa=abscissa,
+    )
+
+
+def _on_segment(
+    contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
+) -> ContactGeometry:
+    """A point or a rim on a line with ends, or on one of these: its nearest point is known."""
+    line, lower = kinematics.line(contact.track), kinematics.fixed.lower
+    centre = kinematics.position(contact.point)
+    apart = centre - line.through
+    figure, ended = contact.track.figure, Ending(side, kinematics.passing(contact.liaison))
+    one = bounded(figure, ca.dot(line.direction, apart), lower, ended)
+    least, largest = figure.ends(lower)
+    at_end = ca.if_else(one.out > 0, largest, least)
+    place = line.through + at_end * line.direction
+    way, outwards = away(centre - place, AT_END * (largest - least), one.out * line.direction)
+    normal = ca.if_else(one.ended, outwards, side * line.normal)
+    radius = contact.figure.radius_in(lower)
+    touching = centre - radius * normal
+    body, base = kinematics.moving(contact.point), kinematics.moving(contact.track.point)
+    on_base = base.velocity_of(ca.if_else(one.ended, place, centre))
+    slip = body.velocity_of(touching) - base.velocity_of(touching)
+    here = Line(ca.if_else(one.ended, place, line.through), cross(side * normal, Z), side * normal)
+    return ContactGeometry(
+        contact=contact,
+        line=here,
+        side=side,
+        gap=ca.if_else(one.ended, way, side * ca.dot(line.normal, apart)) - radius,
+        approach=ca.dot(normal, body.velocity_of(centre) - on_base),
+        witness=_witness(contact, line, kinematics, world),
+        reach=radius + largest - least + _reach(contact, line, kinematics),
+        slip=ca.dot(here.direction, slip),
+        roll=ca.dot(Z, body.angular - base.angular),
+        abscissa=one.inside,
     )
 
 
@@ -265,16 +323,19 @@ def _on_curve(
         abscissa = kinematics.counted(contact, 0, angle)
     else:
         followed = kinematics.track(
-            contact.liaison, lambda: track(a, b, (base, own), lower, planar=True)
+            contact.liaison, lambda: _follow(contact, kinematics, (base, own), left * side)
         )
-        found = on_side(followed.touch, left * side)
+        found = followed.touch if followed.sided else on_side(followed.touch, left * side)
         by_place = a.parameters < 0
         apart = found.place - base.origin
         abscissa = a.parameter(apart, base, lower) if by_place else followed.unknowns[0]
+        if a.has_ends:
+            least, largest = a.ends(lower)
+            abscissa = ca.fmin(ca.fmax(abscissa, least), largest)
     normal, witness = side * found.normal, left * found.witness
     line = Line(found.place, cross(normal, Z), normal)
     apart, nearing, turning = _apart(contact, kinematics, found.place, found.place)
-    up = ca.dot(normal, _upward(world, kinematics))
+    up = ca.dot(normal, _natural(contact, world, kinematics))
     sizes = kinematics.lengths_between(
         (point_body(contact.track.point), kinematics.local_point(contact.track.point)),
         (point_body(contact.point), kinematics.local_point(contact.point)),
@@ -293,6 +354,14 @@ def _on_curve(
         abscissa=abscissa,
         lengths=_lengths(contact, own.origin - base.origin, lower),
     )
+
+
+def _follow(contact: Contact, kinematics: Kinematics, at: tuple[Pose, Pose], side: ca.SX) -> Track:
+    """Where figures are nearest; what can part from a curve with ends may be nearest to an end."""
+    a, b, lower = contact.track.figure, contact.figure, kinematics.fixed.lower
+    if (a.has_ends or b.has_ends) and is_unilateral(contact.liaison):
+        return track_to_ends(a, b, at, lower, Ending(side, kinematics.passing(contact.liaison)))
+    return track(a, b, at, lower, planar=True)
 
 
 def _lengths(contact: Contact, way: ca.SX, lower: Lower) -> Mapping[str, ca.SX]:

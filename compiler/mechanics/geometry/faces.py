@@ -1,4 +1,8 @@
-"""Faces on planes: each corner is a contact of its own, and what the liaison says is their sum."""
+"""Faces on planes: each corner is a contact of its own, and what the liaison says is their sum.
+
+In the plane a side on a side has the corners of both: one that reaches beyond the other rests on
+the other's corner.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +10,12 @@ from collections.abc import Iterator, Mapping
 
 from frot.compiler.lowering.walk import follows_time
 from frot.compiler.mechanics.geometry.figures import figure_of
+from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.refuse import refuse_places
 from frot.compiler.mechanics.shapes import shape_of
 from frot.dsl import Log
 from frot.dsl.catalogue import LIAISONS
-from frot.dsl.checked import BodyGeometry, BodyPoint, Liaison, Model, Place
+from frot.dsl.checked import BodyGeometry, Liaison, Model, Place
 from frot.dsl.data.classes import dataclass, replace
 
 # Corners that tell where a face is: an effort along each of more could not be told apart.
@@ -37,27 +42,28 @@ def part_faces(model: Model, log: Log) -> Faced:
         if found is None:
             refuse_places(liaison, log)
             continue
-        first, ends = found
         if not all(follows_time(x) for x in liaison.driven.values()):
-            ends = ends[:_DETERMINE]
-        corners[liaison] = tuple(_contacts(liaison, first, ends))
+            found = found[:_DETERMINE]
+        corners[liaison] = tuple(_contacts(liaison, found))
         liaisons += corners[liaison]
     return Faced(replace(model, liaisons=tuple(liaisons)), corners) if corners else Faced(model, {})
 
 
-def _corners(liaison: Liaison, planar: bool) -> tuple[bool, tuple[BodyPoint, ...]] | None:
-    """Whether the face is the first place, and its corners."""
-    for face, other in ((liaison.a, liaison.b), (liaison.b, liaison.a)):
+def _corners(liaison: Liaison, planar: bool) -> tuple[tuple[Place, Place], ...] | None:
+    """Each corner with what it rests on, in the order of the liaison."""
+    found: list[tuple[Place, Place]] = []
+    for first in (True, False):
+        face, other = (liaison.a, liaison.b) if first else (liaison.b, liaison.a)
         ends = shape_of(face.body).corners(face) if isinstance(face, BodyGeometry) else ()
         plane = figure_of(other, planar)
-        if ends and plane is not None and plane.figure.plane is not None:
-            return face is liaison.a, ends
-    return None
+        if not ends or plane is None or plane.figure.plane is None:
+            continue
+        if not found or (plane.figure.has_ends and is_unilateral(liaison)):
+            found += [(corner, other) if first else (other, corner) for corner in ends]
+    return tuple(found) or None
 
 
-def _contacts(liaison: Liaison, first: bool, ends: tuple[BodyPoint, ...]) -> Iterator[Liaison]:
+def _contacts(liaison: Liaison, pairs: tuple[tuple[Place, Place], ...]) -> Iterator[Liaison]:
     kind = LIAISONS["contact_ponctuel"]
-    for k, corner in enumerate(ends):
-        places: tuple[Place, Place] = (corner, liaison.b) if first else (liaison.a, corner)
-        name = f"{liaison.name}[{k + 1}]"
-        yield replace(liaison, name=name, kind=kind, a=places[0], b=places[1])
+    for k, (a, b) in enumerate(pairs):
+        yield replace(liaison, name=f"{liaison.name}[{k + 1}]", kind=kind, a=a, b=b)

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 import casadi as ca
 from frot.compiler.lowering.walk import is_fixed
-from frot.compiler.mechanics.spatial import GROUND, Pose, cross, whole
+from frot.compiler.mechanics.spatial import GROUND, Pose, cross, nowhere, whole
 from frot.compiler.mechanics.values import Axis, Lower
 from frot.dsl.checked import BodyPoint, Expression, Frame
 from frot.dsl.data.classes import dataclass
@@ -112,9 +112,21 @@ class Figure:
         """Lengths and directions of those of a circle or an ellipse."""
         raise NotImplementedError
 
-    def ends(self, lower: Lower) -> ca.SX | None:
-        """The two values between which the parameter of a curve is, where it has ends."""
-        return None
+    @property
+    def has_ends(self) -> bool:
+        """Whether the parameter of a curve ends somewhere."""
+        return False
+
+    def ends(self, lower: Lower) -> tuple[ca.SX, ca.SX]:
+        """The least and the largest parameter of a curve that has ends."""
+        raise NotImplementedError
+
+    def middle(self, lower: Lower) -> ca.SX:
+        """A point (3) amid its points, in its axes: between its ends, or its centre."""
+        if not self.has_ends:
+            return nowhere()
+        least, largest = self.ends(lower)
+        return self.point((least + largest) / 2, lower)
 
     def beginnings(self, lower: Lower) -> list[ca.SX]:
         """Parameters from which a search begins; none where a formula gives the nearest."""

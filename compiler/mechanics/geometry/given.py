@@ -67,9 +67,15 @@ class Path(Figure):
         """As the text says."""
         return _put(self.points, (self.u,), u, lower)
 
-    def ends(self, lower: Lower) -> ca.SX | None:
+    @property
+    def has_ends(self) -> bool:
+        """Where its function is not periodic."""
+        return not self.periodic
+
+    def ends(self, lower: Lower) -> tuple[ca.SX, ca.SX]:
         """As the text says, in either order."""
-        return None if self.periodic else ca.vec(lower(self.bounds))
+        bounds = lower(self.bounds)
+        return ca.mmin(bounds), ca.mmax(bounds)
 
     def beginnings(self, lower: Lower) -> list[ca.SX]:
         """From end to end."""

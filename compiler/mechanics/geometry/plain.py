@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure, Loss, lost_axis, lost_on_axis
-from frot.compiler.mechanics.spatial import Pose, Z, cross, nowhere
+from frot.compiler.mechanics.spatial import Pose, Z, cross, nowhere, whole
 from frot.compiler.mechanics.values import Axis, Lower
 from frot.dsl.checked import Expression
 from frot.dsl.data.classes import dataclass
@@ -86,11 +86,52 @@ class Flat(Figure):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Segment(Flat):
+    """A line of the plane with ends: the side of a polygon or a box, a rod.
+
+    As long as `long` on both sides of its point or, without it, as its direction from there on.
+    """
+
+    long: Expression | None = None
+
+    @property
+    def parameters(self) -> int:
+        """The length along it."""
+        return 1
+
+    @property
+    def rank(self) -> int:
+        """Beside it its height is not the distance."""
+        return -1
+
+    @property
+    def has_ends(self) -> bool:
+        """It does."""
+        return True
+
+    def ends(self, lower: Lower) -> tuple[ca.SX, ca.SX]:
+        """Half of its length on either side, or from zero on."""
+        if self.long is not None:
+            return _halves(self.long, lower)
+        assert isinstance(self.axis.given, Expression)
+        return ca.SX(0), ca.norm_2(whole(lower(self.axis.given)))
+
+
+def _halves(long: Expression, lower: Lower) -> tuple[ca.SX, ca.SX]:
+    half = lower(long) / 2
+    return -half, half
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Straight(Figure):
-    """A line in space, or with a radius a round cylinder about it."""
+    """A line in space, or with a radius a round cylinder about it.
+
+    What is `long` ends at half of that on both sides of its point.
+    """
 
     axis: Axis
     radius: Expression | None
+    long: Expression | None = None
 
     @property
     def parameters(self) -> int:
@@ -106,6 +147,16 @@ class Straight(Figure):
     def is_thin(self) -> bool:
         """A line is."""
         return self.radius is None
+
+    @property
+    def has_ends(self) -> bool:
+        """Where a length is given."""
+        return self.long is not None
+
+    def ends(self, lower: Lower) -> tuple[ca.SX, ca.SX]:
+        """Half of its length on either side."""
+        assert self.long is not None
+        return _halves(self.long, lower)
 
     @property
     def bends(self) -> bool:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.given import Implicit
-from frot.compiler.mechanics.geometry.plain import Dot, Flat, Straight, Tether
+from frot.compiler.mechanics.geometry.plain import Dot, Flat, Segment, Straight, Tether
 from frot.compiler.mechanics.geometry.round import Ball, Egg, Oval, Ring
 from frot.compiler.mechanics.spatial import Pose, cross, nowhere
 from frot.compiler.mechanics.values import Lower, Moments
@@ -193,6 +193,8 @@ _TOUCHES: Mapping[tuple[type, type], _Rule] = {
     (Flat, Ring): _flat_egg,
     (Flat, Oval): _flat_egg,
     (Flat, Egg): _flat_egg,
+    (Segment, Dot): _flat_ball,
+    (Segment, Ball): _flat_ball,
     (Ball, Dot): _ball_ball,
     (Ball, Ball): _ball_ball,
     (Tether, Dot): _tether_dot,

@@ -18,9 +18,8 @@ from frot.compiler.mechanics.geometry.paths import Trace, trace
 from frot.compiler.mechanics.geometry.touches import Touch, is_closed
 from frot.compiler.mechanics.spatial import Pose, Z, beside_moving, cross
 from frot.compiler.mechanics.values import Lower
-from frot.dsl.data.classes import dataclass, replace
+from frot.dsl.data.classes import dataclass
 
-NO_END = 1e300  # of the parameter of a figure that has no ends
 ROUNDS = 2  # of the nearest point on one figure to that on the other
 
 
@@ -30,8 +29,7 @@ class Track:
 
     `start` is where the search begins, `names` those of the parameters; `touch` is how the figures
     stand there, with the side +1. Of a curve that a point stays on there is `trace`, of tangent
-    curves `meeting`, by the parts of the lock. `ends` (n x 2): the least and the largest value of
-    each, None where no figure has ends.
+    curves `meeting`, by the parts of the lock. `sided`: the touch is seen from its side already.
     """
 
     unknowns: ca.SX
@@ -42,7 +40,7 @@ class Track:
     touch: Touch
     trace: Trace | None = None
     meeting: tuple[Meeting, ...] = ()
-    ends: ca.SX | None = None
+    sided: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,12 +78,14 @@ def can_touch(a: Figure, b: Figure, planar: bool) -> bool:
 def is_tracked(a: Figure, b: Figure, planar: bool) -> bool:
     """Whether the places where they are nearest are followed, in this order.
 
-    Between functions the first is the one that tells most. A point and a curve in space, and what
-    touches along a line, meet by more than one relation.
+    Between functions the first is the one that tells most; lines of the plane come first. A point
+    and a curve in space, and what touches along a line, meet by more than one relation.
     """
     if is_closed(b, a):
         return False
     first, second = a.parameters, b.parameters
+    if planar and a.rank < 0 and (b.plane or b.line) is not None:
+        return False
     if a.rank >= 0:
         if a.plane is not None and (b.plane or b.tube or b.line) is not None:
             return False
@@ -98,62 +98,49 @@ def is_tracked(a: Figure, b: Figure, planar: bool) -> bool:
 def track(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
     """The nearest places of two figures, in the order of `is_tracked`."""
     if a.rank < 0:
-        return replace(_of_points(a, b, at, lower, planar), ends=_ends((a, b), lower))
-    if b.rank >= 0:
-        return _of_levels(a, b, at, lower)
-    return replace(_of_level(a, b, at, lower), ends=_ends((b,), lower))
+        return _of_points(a, b, at, lower, planar)
+    return _of_levels(a, b, at, lower) if b.rank >= 0 else _of_level(a, b, at, lower)
 
 
-def _ends(figures: tuple[Figure, ...], lower: Lower) -> ca.SX:
-    """The least and the largest value of each parameter."""
-    found = [(x.parameters, x.ends(lower)) for x in figures]
-    none = ca.SX([[-NO_END, NO_END]])
-    return ca.vertcat(
-        *(
-            ca.repmat(none, n, 1) if x is None else ca.horzcat(ca.mmin(x), ca.mmax(x))
-            for n, x in found
-        )
-    )
-
-
-def _names(figure: Figure, of_b: bool) -> tuple[str, ...]:
+def parameter_names(figure: Figure, of_b: bool) -> tuple[str, ...]:
+    """Those of a figure, of the first or the second one."""
     end = "_b" if of_b else ""
     return tuple(f"{name}{end}" for name in "uv"[: figure.parameters])
 
 
-def _symbols(names: tuple[str, ...]) -> ca.SX:
+def symbols_of(names: tuple[str, ...]) -> ca.SX:
+    """A symbol for each."""
     return ca.vertcat(*(ca.SX.sym(name) for name in names)) if names else ca.SX.zeros(0)
 
 
-def _far(*vectors: ca.SX) -> ca.SX:
+def far_of(*vectors: ca.SX) -> ca.SX:
     """The size of the lengths that a difference of places is made of."""
     return sum((ca.norm_1(ca.densify(v)) for v in vectors), ca.SX(0))
 
 
-def _long(vector: ca.SX) -> ca.SX:
+def long_of(vector: ca.SX) -> ca.SX:
+    """Its length."""
     return ca.sqrt(ca.sumsqr(vector))
 
 
 def _of_level(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track:
     """Points p(s) of b, of which the one is wanted where F_a is extremal: grad F . p_s = 0."""
-    (pa, pb), names = at, _names(b, False)
-    s = _symbols(names)
+    (pa, pb), names = at, parameter_names(b, False)
+    s = symbols_of(names)
     point = trace(b, s, pb, lower)
     found = level(a, point.point, pa, lower)
-    steep, far = found.steep, _far(pa.origin, pb.origin, point.point - pb.origin)
+    steep, far = found.steep, far_of(pa.origin, pb.origin, point.point - pb.origin)
     own = (ca.dot(found.slope, point.drift) + found.rate) / steep
     normal = found.slope / steep
-    touch = Touch(
-        found.value / steep, normal, point.point, level(a, pb.origin, pa, lower).value, far, own,
-        point.drift,
-    )  # fmt: skip
+    witness = level(a, pb.point(b.middle(lower)), pa, lower).value
+    touch = Touch(found.value / steep, normal, point.point, witness, far, own, point.drift)
     residual = [ca.dot(found.slope, x) for x in point.slopes]
-    size = [steep * _long(x) for x in point.slopes]
+    size = [steep * long_of(x) for x in point.slopes]
 
     def value(x: ca.SX) -> ca.SX:
         return level(a, trace(b, x, pb, lower).point, pa, lower).value
 
-    start = _extremal(b, value, pa.origin, pb, lower)
+    start = extremal(b, value, pa.origin, pb, lower)
     return Track(s, names, _column(residual), _column(size), start, touch)
 
 
@@ -161,10 +148,10 @@ def _of_levels(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Tra
     """The place x with F_b = 0 where F_a is extremal: grad F_a + f grad F_b = 0."""
     pa, pb = at
     names = ("x", "y", "z", "factor")
-    s = _symbols(names)
+    s = symbols_of(names)
     place = pb.point(s[:3])
     first, second = level(a, place, pa, lower), level(b, place, pb, lower)
-    steep, far = first.steep, _far(pa.origin, pb.origin, s[:3])
+    steep, far = first.steep, far_of(pa.origin, pb.origin, s[:3])
     drift = -second.rate / ca.sumsqr(second.slope) * second.slope
     own = (first.rate + ca.dot(first.slope, drift)) / steep
     touch = Touch(
@@ -179,42 +166,43 @@ def _of_levels(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Tra
 
 def _of_points(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
     """The way from p_a to p_b is along the common normal of both figures."""
-    (pa, pb), names = at, (*_names(a, False), *_names(b, True))
-    s, n = _symbols(names), a.parameters
+    (pa, pb), names = at, (*parameter_names(a, False), *parameter_names(b, True))
+    s, n = symbols_of(names), a.parameters
     first, second = trace(a, s[:n], pa, lower), trace(b, s[n:], pb, lower)
     way = second.point - first.point
-    far = _far(pa.origin, pb.origin, first.point - pa.origin, second.point - pb.origin)
+    far = far_of(pa.origin, pb.origin, first.point - pa.origin, second.point - pb.origin)
     residual = [ca.dot(way, x) for x in first.slopes]
-    size = [far * _long(x) for x in first.slopes]
+    size = [far * long_of(x) for x in first.slopes]
     if n == 1 and not planar:
         normal = cross(first.slopes[0], second.slopes[0])
         residual += [ca.dot(way, x) for x in second.slopes]
-        size += [far * _long(x) for x in second.slopes]
+        size += [far * long_of(x) for x in second.slopes]
     else:
         normal = cross(Z, first.slopes[0]) if n == 1 else cross(*first.slopes)
         residual += [ca.dot(normal, x) for x in second.slopes]
-        size += [_long(normal) * _long(x) for x in second.slopes]
-    normal = normal / _long(normal)
+        size += [long_of(normal) * long_of(x) for x in second.slopes]
+    normal = normal / long_of(normal)
     drift = second.drift - first.drift
     touch = Touch(
-        ca.dot(normal, way), normal, second.point, ca.dot(normal, pb.origin - first.point), far,
+        ca.dot(normal, way), normal, second.point,
+        ca.dot(normal, pb.point(b.middle(lower)) - first.point), far,
         ca.dot(normal, drift), drift,
     )  # fmt: skip
-    start = _nearest_pair(a, b, at, lower)
+    start = nearest_pair(a, b, at, lower)
     return Track(s, names, _column(residual), _column(size), start, touch, first)
 
 
 def along(curve: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track:
     """The point of a curve that is nearest to a place: the way there is beside the tangent."""
     pa, pb = at
-    s = _symbols(("u",))
+    s = symbols_of(("u",))
     first = trace(curve, s, pa, lower)
     way = pb.origin - first.point
-    far = _far(pa.origin, pb.origin, first.point - pa.origin)
+    far = far_of(pa.origin, pb.origin, first.point - pa.origin)
     (slope,) = first.slopes
     touch = Touch(ca.SX(0), way, pb.origin, ca.SX(1), far, ca.SX(0), -first.drift)
     start = _nearest(curve, pb.origin, pa, lower)
-    return Track(s, ("u",), ca.dot(way, slope), far * _long(slope), start, touch, first)
+    return Track(s, ("u",), ca.dot(way, slope), far * long_of(slope), start, touch, first)
 
 
 def tangency(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track:
@@ -224,14 +212,14 @@ def tangency(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track
     which the place moves: value_d - value_s R_s^-1 R_d.
     """
     pa, pb = at
-    s, way, turn = _symbols(("u", "u_b")), ca.SX.sym("way", 3), ca.SX.sym("turn", 3)
+    s, way, turn = symbols_of(("u", "u_b")), ca.SX.sym("way", 3), ca.SX.sym("turn", 3)
     axes = pb.axes + ca.skew(turn) @ pb.axes
     moved = Pose(pb.origin + way, axes, pb.quaternion, pb.angle)
     first, second = trace(a, s[0], pa, lower), trace(b, s[1], moved, lower)
     one, bent = _bend(first.slopes[0], s[0])
     other, bent_other = _bend(second.slopes[0], s[1])
     apart, between = bent - bent_other, second.point - first.point
-    across = cross(one, apart) / _long(apart)
+    across = cross(one, apart) / long_of(apart)
     residual = ca.vertcat(ca.dot(between, first.slopes[0]), ca.dot(apart, other))
     angle = ca.dot(across, other)
     inside = ca.solve(ca.densify(ca.jacobian(residual, s)), ca.jacobian(residual, way))
@@ -251,10 +239,10 @@ def tangency(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track
         Meeting(ca.dot(e, between), e, ca.SX.zeros(3), place, ca.dot(e, drift)) for e in directions
     ]
     meeting.append(Meeting(angle, force, couple, place, ca.SX(0)))
-    far = _far(pa.origin, pb.origin)
-    size = ca.vertcat(far * _long(first.slopes[0]), _long(apart))
+    far = far_of(pa.origin, pb.origin)
+    size = ca.vertcat(far * long_of(first.slopes[0]), long_of(apart))
     touch = Touch(ca.SX(0), directions[0], place, ca.SX(1), far)
-    start = _nearest_pair(a, b, at, lower)
+    start = nearest_pair(a, b, at, lower)
     names = ("u", "u_b")
     return Track(s, names, residual, size, start, touch, meeting=tuple(meeting))
 
@@ -288,7 +276,7 @@ def _all_values(places: list[ca.SX], value: Callable[[ca.SX], ca.SX]) -> list[ca
     return [ca.substitute(own, s, place) for place in places]
 
 
-def _extremal(
+def extremal(
     b: Figure, value: Callable[[ca.SX], ca.SX], towards: ca.SX, pb: Pose, lower: Lower
 ) -> ca.SX:
     """Where a function is least on b, or largest where it is negative on most of it."""
@@ -314,7 +302,8 @@ def _nearest(figure: Figure, place: ca.SX, pose: Pose, lower: Lower) -> ca.SX:
     return ca.substitute(_least(places, far), local, there)
 
 
-def _nearest_pair(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> ca.SX:
+def nearest_pair(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> ca.SX:
+    """The parameters of the nearest points of two figures, of some all along them."""
     pa, pb = at
     place = pb.origin
     first = second = ca.SX.zeros(0)

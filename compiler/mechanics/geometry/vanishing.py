@@ -37,7 +37,7 @@ class Vanishing:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Figured:
+class Figured:
     """A figure of a liaison, at a pose, where it touches: at a place and by parameters."""
 
     name: str
@@ -61,7 +61,7 @@ def find_vanishing(
             yield Vanishing(
                 liaison, f"liaison '{liaison.name}': {what}", (), size, ca.SX.zeros(COUNT)
             )
-        for one in _figures(link, geometry[liaison], kinematics):
+        for one in figures_in(link, geometry[liaison], kinematics):
             losses = one.figure.losses(one.pose, one.place, one.parameters, lower)
             for what, names, distance, where in losses:
                 text = f"liaison '{liaison.name}': {what.format(one.name)}"
@@ -97,8 +97,8 @@ def _changing(liaison: Liaison, link: Link) -> Iterator[tuple[str, Expression]]:
                 yield f"the {name} of '{shaped.name}' vanishes", value
 
 
-def _figures(link: Link, geometry: Geometry, kinematics: Kinematics) -> Iterator[_Figured]:
-    """The figures of a liaison, that which coordinates follow alone."""
+def figures_in(link: Link, geometry: Geometry, kinematics: Kinematics) -> Iterator[Figured]:
+    """The figures of a liaison, each where it touches, that which coordinates follow alone."""
     track, liaison = kinematics.tracks.get(link.liaison), link.liaison
     unknowns = ca.SX.zeros(0) if track is None else track.unknowns
     place, pairs = geometry.place(kinematics), link.pairs
@@ -119,8 +119,8 @@ def _figures(link: Link, geometry: Geometry, kinematics: Kinematics) -> Iterator
 
 def _figured(
     name: str, figure: Figure, pose: Pose, own: ca.SX, place: ca.SX, kinematics: Kinematics
-) -> _Figured:
+) -> Figured:
     """Where its parameters tell the place of its own, it is that."""
     if own.numel() and own.numel() == figure.parameters:
         place = pose.point(figure.point(own, kinematics.fixed.lower))
-    return _Figured(name, figure, pose, own, place)
+    return Figured(name, figure, pose, own, place)

@@ -41,11 +41,11 @@ class Follow(Motion):
     ) -> Moved:
         """Without a guess it begins at 0, or at the end of the curve that is nearest to that."""
         lower = kinematics.fixed.lower
-        ends = self.curve.ends(lower)
-        if ends is not None:
+        if self.curve.has_ends:
+            least, largest = self.curve.ends(lower)
             before = itertools.takewhile(lambda m: m.bare is not self, hanging.motions)
             at = kinematics.places[hanging.body][0] + sum(len(m.coordinates) for m in before)
-            kinematics.starts[at] = ca.fmin(ca.fmax(0, ca.mmin(ends)), ca.mmax(ends))
+            kinematics.starts[at] = ca.fmin(ca.fmax(0, least), largest)
         return self.move(base, q, v, lower)
 
     def move(self, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Placed
-from frot.compiler.mechanics.geometry.plain import Flat, Straight
+from frot.compiler.mechanics.geometry.plain import Flat, Segment, Straight
 from frot.compiler.mechanics.geometry.round import Ring
 from frot.compiler.mechanics.shapes.shape import Shape, at_centre, item_of, principal
 from frot.compiler.mechanics.spatial import X, Y, Z, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
 from frot.dsl.checked import Body, BodyGeometry, BodyPoint
+from frot.dsl.checked.arrays import element
 
 
 class Cylinder(Shape):
@@ -83,8 +84,12 @@ class Box(Shape):
         """A face, with its normal; in the plane an edge, with the direction whose left that is."""
         if part.name not in _FACES:
             return None
-        axis = Axis((_SIDES if planar else _FACES)[part.name])
-        return Placed(BodyPoint(part.body, part.name, part.span), Flat(axis, planar))
+        centre = BodyPoint(part.body, part.name, part.span)
+        if not planar:
+            return Placed(centre, Flat(Axis(_FACES[part.name]), False))
+        axis = _SIDES[part.name]
+        long = element(part.body.arguments["size"], "xy".index(axis[-1]), part.span)
+        return Placed(centre, Segment(Axis(axis), True, long))
 
     def corners(self, face: BodyGeometry) -> tuple[BodyPoint, ...]:
         """Four of a face, two of an edge."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 import casadi as ca
 from frot.compiler.mechanics.geometry import round as curves
 from frot.compiler.mechanics.geometry.figure import Placed
-from frot.compiler.mechanics.geometry.plain import Flat
+from frot.compiler.mechanics.geometry.plain import Segment
 from frot.compiler.mechanics.shapes.shape import Shape, at_centre, item_of, principal
 from frot.compiler.mechanics.spatial import nowhere
 from frot.compiler.mechanics.values import Axis, Lower
@@ -93,7 +93,7 @@ class Polygon(Shape):
         vertices, span = part.body.arguments["vertices"], part.span
         ends = [element(vertices, item_of(x.name, "corners") - 1, span) for x in (second, first)]
         along = Binary("-", ends[0], ends[1], ends[0].type, span)
-        return Placed(first, Flat(Axis(along), True))
+        return Placed(first, Segment(Axis(along), True))
 
     def corners(self, face: BodyGeometry) -> tuple[BodyPoint, ...]:
         """The two ends of `sides[k]`."""

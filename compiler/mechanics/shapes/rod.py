@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Placed
-from frot.compiler.mechanics.geometry.plain import Straight
+from frot.compiler.mechanics.geometry.plain import Segment, Straight
 from frot.compiler.mechanics.shapes.shape import Shape, at_centre, principal
 from frot.compiler.mechanics.spatial import X, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
@@ -28,4 +28,8 @@ class Rod(Shape):
 
     def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
         """Its `axis`."""
-        return at_centre(part, Straight(Axis("x"), None)) if part.name == "axis" else None
+        if part.name != "axis":
+            return None
+        long = part.body.arguments["length"]
+        axis = Segment(Axis("x"), True, long) if planar else Straight(Axis("x"), None, long)
+        return at_centre(part, axis)

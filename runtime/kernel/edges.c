@@ -1,0 +1,70 @@
+#include "edges.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "blocks.h"
+#include "core.h"
+#include "groups.h"
+#include "mechanics.h"
+#include "record.h"
+#include "terms.h"
+#include "tolerances.h"
+
+int frot_has_edges(const frot_model *m) {
+  for (int j = 0; j < m->n_conditions; j++)
+    if (m->conditions[j].contact >= 0) return 1;
+  return 0;
+}
+
+void frot_note_normals(const frot_model *m, frot_work *w) {
+  memcpy(w->events.normals, w->core.rows, sizeof(double) * (size_t)m->n_entries);
+}
+
+/* Whether the normal of a contact has turned about since it was noted. */
+static int turned_about(const frot_model *m, const frot_work *w, int row) {
+  const double *now = frot_entries(m, w->core.rows, row),
+               *before = frot_entries(m, w->events.normals, row);
+  double product = 0;
+  for (int k = 0; k < frot_group_of(m, row)->n; k++) product += now[k] * before[k];
+  return product < 0;
+}
+
+/* Mark the contacts whose place has passed an end. */
+static int mark(const frot_model *m, const frot_state *s, frot_work *w) {
+  const double *d = s->data + w->layout.d;
+  int any = 0;
+  memset(w->nearer.changed, 0, (size_t)m->n_contacts);
+  for (int j = 0; j < m->n_conditions; j++) {
+    int i = m->conditions[j].contact;
+    if (i < 0 || d[j] == w->events.before[j]) continue;
+    w->nearer.changed[i] = 1, any = 1;
+  }
+  return any;
+}
+
+int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                    const double *v, frot_recorder *recorder) {
+  const frot_layout *l = &w->layout;
+  double *side = s->data + l->d + m->n_conditions;
+  frot_contact_mode *modes = (void *)(s->data + l->modes);
+  int changes = 0;
+  if (!mark(m, s, w)) return FROT_OK;
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!w->nearer.changed[i]) continue;
+    int row = m->contacts[i].row_n;
+    double near = FROT_TOUCH * (fabs(w->core.gap[i]) + frot_gap_size(m, w, row, q));
+    int inside = w->core.gap[i] < -near;
+    if (modes[i].closed ? turned_about(m, w, row) : inside) side[i] = -side[i], changes = 1;
+  }
+  int status = changes ? frot_kinematics(m, s, w, t, q, v, s->data + l->d) : FROT_OK;
+  for (int i = 0; i < m->n_contacts && status == FROT_OK; i++) {
+    int row = m->contacts[i].row_n;
+    if (!w->nearer.changed[i] || !modes[i].closed || s->data[l->unilateral + i] == 0) continue;
+    if (!(w->core.rate[row] > FROT_TOUCH * frot_row_speed(m, w, row, v))) continue;
+    frot_note(recorder, s, t, FROT_EVENT_SEPARATION, i, frot_mode_value(m, modes, i),
+              FROT_MODE_OPEN, 1);
+    frot_open(m, modes, i);
+  }
+  return status == FROT_OK ? status : frot_fail_evaluation(m, s, w, status, t);
+}
