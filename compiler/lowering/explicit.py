@@ -15,6 +15,7 @@ from collections.abc import Callable
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.lowering.solve import solve_in_units
 from frot.compiler.mechanics.link import Link
 from frot.dsl.checked import Literal
 
@@ -54,7 +55,7 @@ def _solution(system: Assembled) -> ca.SX:
     matrix, right = ca.sparsify(matrix), ca.vertcat(force, -system.bias)
     solution = ca.SX.zeros(right.shape)
     for part in _apart(matrix.sparsity()):
-        solution[part] = ca.solve(matrix[part, part], right[part])
+        solution[part] = solve_in_units(matrix[part, part], right[part])
     return solution
 
 

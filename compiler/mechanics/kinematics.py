@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import casadi as ca
 from frot.compiler.lowering.expressions import NEVER, Conditions
+from frot.compiler.lowering.solve import solve_in_units
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.geometry.figure import Placed
@@ -248,7 +249,7 @@ class Kinematics:
                 known = self.rate(made.residual)
                 slope = ca.jacobian(made.residual, made.unknowns)
                 self.tracks[liaison] = made
-                self.track_rates[liaison] = -ca.densify(ca.solve(ca.densify(slope), known))
+                self.track_rates[liaison] = -ca.densify(solve_in_units(slope, known))
             return made
         return self.tracks[liaison]
 

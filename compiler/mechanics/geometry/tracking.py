@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import casadi as ca
+from frot.compiler.lowering.solve import solve_in_units
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.levels import level
 from frot.compiler.mechanics.geometry.paths import Trace, trace
@@ -222,8 +223,9 @@ def tangency(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track
     across = cross(one, apart) / long_of(apart)
     residual = ca.vertcat(ca.dot(between, first.slopes[0]), ca.dot(apart, other))
     angle = ca.dot(across, other)
-    inside = ca.solve(ca.densify(ca.jacobian(residual, s)), ca.jacobian(residual, way))
-    inside_turn = ca.solve(ca.densify(ca.jacobian(residual, s)), ca.jacobian(residual, turn))
+    by_unknowns = ca.jacobian(residual, s)
+    inside = solve_in_units(by_unknowns, ca.jacobian(residual, way))
+    inside_turn = solve_in_units(by_unknowns, ca.jacobian(residual, turn))
     by_place = ca.jacobian(angle, s)
     force = (ca.jacobian(angle, way) - by_place @ inside).T
     couple = (ca.jacobian(angle, turn) - by_place @ inside_turn).T
