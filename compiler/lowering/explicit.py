@@ -15,8 +15,8 @@ from collections.abc import Callable
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.solve import solve_in_units
 from frot.compiler.mechanics.link import Link
+from frot.compiler.mechanics.solve import solve_in_units
 from frot.dsl.checked import Literal
 
 # Unknowns of the core and rows together; elimination takes their third power in operations.

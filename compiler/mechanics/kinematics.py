@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 import casadi as ca
 from frot.compiler.lowering.expressions import NEVER, Conditions
-from frot.compiler.lowering.solve import solve_in_units
 from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.geometry.figure import Placed
@@ -30,6 +29,7 @@ from frot.compiler.mechanics.mechanism import (
     turns,
 )
 from frot.compiler.mechanics.shapes import shape_of
+from frot.compiler.mechanics.solve import solve_in_units
 from frot.compiler.mechanics.spatial import (
     AT_REST,
     Moving,

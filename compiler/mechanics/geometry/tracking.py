@@ -12,11 +12,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import casadi as ca
-from frot.compiler.lowering.solve import solve_in_units
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.levels import level
 from frot.compiler.mechanics.geometry.paths import Trace, trace
 from frot.compiler.mechanics.geometry.touches import Touch, is_closed
+from frot.compiler.mechanics.solve import solve_in_units
 from frot.compiler.mechanics.spatial import Pose, Z, beside_moving, cross
 from frot.compiler.mechanics.values import Lower
 from frot.dsl.data.classes import dataclass
