@@ -110,8 +110,7 @@ def analyse(system: Assembled) -> Analysis:
     found = _Found()
     for part in _parts(mechanism):
         _look(part, system, start, found)
-    followed = bool(reduced.variables.kinematics.tracks)
-    integrals = find_first_integrals(reduced, None if followed else start.posture)
+    integrals = find_first_integrals(reduced, start.posture)
     speeds = int(reduced.symbols.v.numel())
     return Analysis(
         missing="",
@@ -122,9 +121,9 @@ def analyse(system: Assembled) -> Analysis:
         loops=tuple(found.loops),
         holonomic=tuple(found.holonomic),
         integrals=tuple(IntegralLine(x.text, x.always) for x in integrals),
-        paradoxes=() if followed else tuple(_paradoxes(reduced, start)),
+        paradoxes=tuple(_paradoxes(reduced, start)),
         uncounted=tuple(found.uncounted),
-        energy_alone=speeds if speeds > MOST_SPEEDS or followed else 0,
+        energy_alone=speeds if speeds > MOST_SPEEDS else 0,
     )
 
 

@@ -8,6 +8,7 @@ import casadi as ca
 import numpy as np
 from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.report.followed import Followed
 from frot.compiler.report.numbers import Floats, Numbers
 from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
@@ -24,7 +25,10 @@ _STEPS = 30
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """Numbers in the order of the functions' arguments; `other` is what nobody knows here."""
+    """Numbers in the order of the functions' arguments.
+
+    `other` is what nobody knows here, with zeros where figures touch: that is solved for.
+    """
 
     t: float
     q: Floats
@@ -33,11 +37,6 @@ class State:
     p: Floats
     sides: Floats
     other: Floats
-
-    @property
-    def arguments(self) -> tuple[float | Floats, ...]:
-        """In the order of the functions' arguments."""
-        return self.t, self.q, self.v, self.u, self.p, self.sides, self.other
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +59,9 @@ class Dynamics:
     """The equations of a reduced mechanism as a function of numbers.
 
     `reaction` are the rows of what closes loops and of contacts, each with the link it is of;
-    `friction` those along which laws act. `others` are the symbols of the text, of conditions and
-    of solutions that forces hang on.
+    `friction` those along which laws act. `others` are the symbols of the text, of conditions, of
+    solutions that forces hang on and, at `places`, of where figures touch, which `followed` solves
+    for.
     """
 
     reduced: Reduced
@@ -69,6 +69,8 @@ class Dynamics:
     relations: Numbers
     matrices: Numbers
     others: ca.SX
+    followed: Followed
+    places: tuple[int, ...]
     reaction: tuple[tuple[int, int], ...]
     friction: tuple[tuple[int, int], ...]
     rates: Numbers
@@ -79,19 +81,27 @@ class Dynamics:
         s = self.reduced.symbols
         return [s.t, s.q, s.v, s.u, s.p, s.sides, self.others]
 
+    def numbers(self, state: State) -> tuple[float | Floats, ...]:
+        """The values of the arguments, no numbers where the figures touch nowhere."""
+        other = state.other
+        if self.places:
+            other = other.copy()
+            other[list(self.places)] = self.followed.at(state.t, state.q, state.u, state.p)
+        return state.t, state.q, state.v, state.u, state.p, state.sides, other
+
     def at(self, state: State) -> Terms:
         """Evaluate the terms."""
-        mass, force, rows, bias, rate, gap = self.function(*state.arguments)
+        mass, force, rows, bias, rate, gap = self.function(*self.numbers(state))
         return Terms(mass, force.ravel(), rows, bias.ravel(), rate.ravel(), gap.ravel())
 
     def masses(self, state: State) -> tuple[Floats, Floats]:
         """The mass matrix and the rows, with the columns of auxiliary speeds."""
-        mass, rows = self.matrices(*state.arguments)
+        mass, rows = self.matrices(*self.numbers(state))
         return mass, rows
 
     def moved(self, state: State, way: Floats) -> State:
         """After a small motion, quaternions of size one."""
-        [moves] = self.rates(*state.arguments)
+        [moves] = self.rates(*self.numbers(state))
         q = state.q + moves @ way
         for turn in self.reduced.symbols.turns:
             part = slice(turn.coordinate, turn.coordinate + 4)
@@ -112,7 +122,7 @@ class Dynamics:
         places = [x for x in self.reaction if used[x[1]] and not links[x[1]].kinematic]
         still = replace(state, v=0 * state.v)
         for _ in range(_STEPS):
-            rows, rate, gap = self.relations(*still.arguments)
+            rows, rate, gap = self.relations(*self.numbers(still))
             held_rows, own = rows[held, :nv], rate.ravel()[held]
             rows = rows[[r for r, _ in places], :nv]
             short = gap.ravel()[[k for _, k in places]]
@@ -150,7 +160,7 @@ class Dynamics:
         for (row, _), push in zip(self.friction, pushes, strict=True):
             load += now.rows[row, :nv] * (push * strength)
         rows = now.rows[held, :nv]
-        if not all(np.all(np.isfinite(x)) for x in (load, now.mass, rows)):
+        if not all(np.all(np.isfinite(x)) for x in (load, now.mass, rows, now.bias[held])):
             return None
         return solve(now.mass[:nv, :nv], rows, load, -now.bias[held])
 
@@ -194,8 +204,12 @@ def make_dynamics(reduced: Reduced) -> Dynamics:
     outputs = [mass, force, reduced.rows, reduced.bias, reduced.rate, reduced.gap]
     looked = ca.veccat(*outputs, reduced.kinetic, reduced.potential, reduced.coefficients)
     known = {x.element_hash() for part in (s.t, s.q, s.v, s.u, s.p, s.sides) for x in _items(part)}
+    tracks = reduced.variables.kinematics.tracks.values()
+    looked = ca.veccat(looked, *(x.unknowns for x in tracks))
     others = column(x for x in ca.symvar(looked) if x.element_hash() not in known)
     arguments = [s.t, s.q, s.v, s.u, s.p, s.sides, others]
+    followed = Followed(tracks, [s.t, s.q, s.u, s.p])
+    at = {x.element_hash(): k for k, x in enumerate(scalars_of(others))}
     reaction: list[tuple[int, int]] = []
     friction: list[tuple[int, int]] = []
     for k, (link, rows) in enumerate(zip(links, reduced.contact_rows, strict=True)):
@@ -208,6 +222,8 @@ def make_dynamics(reduced: Reduced) -> Dynamics:
         matrices=Numbers("matrices", arguments, (mass, reduced.rows)),
         relations=Numbers("relations", arguments, (reduced.rows, reduced.rate, reduced.gap)),
         others=others,
+        followed=followed,
+        places=tuple(at[x.element_hash()] for x in scalars_of(followed.unknowns)),
         reaction=tuple(reaction),
         friction=tuple(friction),
         rates=Numbers("rates", arguments, [ca.jacobian(s.rates, s.v)]),

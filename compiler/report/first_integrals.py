@@ -55,7 +55,7 @@ class FirstIntegral:
 def first_integrals_of(system: Assembled) -> tuple[FirstIntegral, ...]:
     """Those of a system whose start is found; of more than `MOST_SPEEDS` the energy at most."""
     reduced = system.reduced
-    if not reduced.mechanism.model.bodies or reduced.variables.kinematics.tracks:
+    if not reduced.mechanism.model.bodies:
         return ()
     if reduced.symbols.v.numel() > MOST_SPEEDS:
         return find_first_integrals(reduced, None)

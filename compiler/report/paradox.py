@@ -108,7 +108,7 @@ class _Watched:
 
     def coefficient(self, state: State) -> float:
         """That of the text."""
-        value, radius = (float(x) for x in self._numbers(*state.arguments))
+        value, radius = (float(x) for x in self._numbers(*self.dynamics.numbers(state)))
         return value / radius if radius else float("nan")
 
     def coupling(self, state: State) -> float | None:
@@ -120,7 +120,7 @@ class _Watched:
         if solved is None:
             return None
         acceleration, reactions = solved
-        _, radius = (float(x) for x in self._numbers(*state.arguments))
+        _, radius = (float(x) for x in self._numbers(*self.dynamics.numbers(state)))
         if not self.link.reduced:
             return abs(float(reactions[held.index(self.rows.reaction[0])])) * radius
         read = mass[nv:, :nv] @ acceleration - rows[held, nv:].T @ reactions - push[nv:]

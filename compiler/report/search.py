@@ -91,8 +91,8 @@ class Search:
         if solved is None:
             return None
         acceleration, terms = solved
-        values, slope = self._function(*state.arguments)
-        [moves] = self.dynamics.rates(*state.arguments)
+        values, slope = self._function(*self.dynamics.numbers(state))
+        [moves] = self.dynamics.rates(*self.dynamics.numbers(state))
         rate = np.concatenate([[1.0], moves @ state.v, acceleration])
         size = np.concatenate([[1.0], np.abs(moves) @ np.abs(state.v), self._sizes(state, terms)])
         if not (np.all(np.isfinite(values)) and np.all(np.isfinite(slope))):

@@ -54,7 +54,7 @@ static int solve_statements(frot_opening *p, double *side) {
   if (status != FROT_OK) return frot_no_number(p, status);
   if (!hold_already(p, side)) frot_choose_sides(p, side, 1);
   status = frot_solve_widely(p);
-  if (status != FROT_INITIAL) return status;
+  if (status != FROT_INITIAL && status != FROT_ALGEBRAIC) return status;
   frot_fault first = s->fault;
   guess(p, p->q, p->v);
   int again = frot_kinematics(m, s, p->w, p->t, p->q, p->v, p->d) == FROT_OK &&

@@ -154,3 +154,27 @@ end Channel;
     drift = model.simulate().first_integrals[name]
     assert drift.relative < 1e-10
     assert model.simulate(parameters={"w": 3}).first_integrals == {}
+
+
+def test_where_figures_touch_without_a_closed_form() -> None:
+    """Two smooth eggs that cannot part push each other: nothing acts from outside."""
+    model = frot.compile("""
+planar model Eggs
+  world(gravity = 0 m/s^2);
+  body a: ellipse(mass = 1 kg, a = 30 cm, b = 20 cm);
+  body b: ellipse(mass = 2 kg, a = 40 cm, b = 20 cm);
+  liaison C: contact_ponctuel(a.rim, b.rim, unilateral = false);
+initial
+  a.position = (0, 0) m;
+  b.position.x = 0 m;
+  guess(b.position.y = 0.4 m);
+  a.angle = 0.3;
+  a.angular_velocity = 1 rad/s;
+  b.velocity.x = 1 m/s;
+  experiment(stop = 1 s, tolerance = 1e-10);
+end Eggs;""")
+    told = [x.text for x in model.report().analysis.integrals]
+    assert told[:3] == ["energy", "momentum along x", "momentum along y"]
+    kept = model.simulate().first_integrals
+    assert list(kept)[:2] == told[1:3]
+    assert all(x.drift < 1e-9 for x in kept.values())

@@ -66,3 +66,33 @@ initial
 end Hoop;
 """
     assert frot.compile(text).report().analysis.paradoxes == ()
+
+
+def test_where_the_place_is_followed_too() -> None:
+    """An elliptic disc on a curve is, in each posture, one on the tangent there."""
+    text = """
+planar model Discs "The same on a line and on an ellipse"
+  body p: ellipse(mass = 1 kg, a = 50 cm, b = 10 cm);
+  body q: ellipse(mass = 1 kg, a = 50 cm, b = 10 cm);
+  curve hill on ground: ellipse(a = 5 m, b = 3 m, centre = (20, -3) m);
+  liaison C: contact_ponctuel(hill, p.rim) with coulomb(0.3);
+  liaison D: contact_ponctuel(ground.line, q.rim) with coulomb(0.3);
+initial
+  p.position.x = 20 m;
+  guess(p.position.y = 0.4 m);
+  p.angle = 0;
+  C.gap = 0 m;
+  q.position.x = 0 m;
+  q.angle = 0.9;
+  D.gap = 0 m;
+end Discs;
+"""
+    hill, line = frot.compile(text).report().analysis.paradoxes
+    # N = N0 + c f with c = x y m/(I + m x^2), where the place of touch is (x, -y) from G
+    s, c = np.sin(0.9), np.cos(0.9)
+    y = np.sqrt(0.25 * s * s + 0.01 * c * c)
+    x = 0.24 * s * c / y
+    inertia = (0.25 + 0.01) / 4
+    assert line.at_start == pytest.approx((inertia + x * x) / (x * y), rel=1e-9)
+    assert hill.at_start is None
+    assert hill.least == pytest.approx(line.least, rel=1e-5)
