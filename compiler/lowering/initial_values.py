@@ -91,7 +91,8 @@ def lower_initial(
     v = move_by(system, [g for g in guesses if g.left.is_symbolic()], system.v, v, known)
     guessed = guessed_places(system, guesses, natural, direct)
     turns = system.reduced.symbols.turns
-    relations = turns or system.reduced.mechanism.contacts or system.invariants.origins
+    kept = all(link.reduced for link in system.reduced.mechanism.contacts)
+    relations = turns or not kept or system.invariants.origins
     if complete and not relations:
         found = []
     for turn in turns:
@@ -258,28 +259,47 @@ def _residuals(
 
 
 def _direct(found: list[_Residual], system: Assembled) -> tuple[dict[int, ca.SX], bool]:
-    """The values of states that statements give one by one, and whether all statements do that."""
+    """The values of states that statements give one by one, and whether all statements do that.
+
+    One may speak of states that others give (the angle of a body at the end of a chain): each is
+    taken when one state of it is left, so that large trees need no system for all of them.
+    """
     states = {s.element_hash() for s in (*scalars_of(system.q), *scalars_of(system.v))}
     moving = states | {s.element_hash() for s in scalars_of(system.y)}
     known = system.reduced.symbols
     given = {s.element_hash() for part in (known.t, known.u, known.p) for s in scalars_of(part)}
+    symbols = [{s.element_hash(): s for s in ca.symvar(r.value)} for r in found]
+    left = [own.keys() & moving for own in symbols]
+    behind: dict[int, list[int]] = {}
+    for i, own in enumerate(left):
+        for key in own:
+            behind.setdefault(key, []).append(i)
     values: dict[int, ca.SX] = {}
-    complete = True
-    for residual in found:
-        inside = [s for s in ca.symvar(residual.value) if s.element_hash() in moving]
-        slope = ca.jacobian(residual.value, inside[0]) if len(inside) == 1 else ca.SX.sym("no")
-        key = inside[0].element_hash() if inside else 0
-        # What coordinates keep says nothing of them, though its terms are still there.
-        if not slope.is_constant() or slope.is_zero() or key in values or key not in states:
-            complete = False
+    named: list[ca.SX] = []
+    ready = [i for i, own in enumerate(left) if len(own) == 1]
+    for i in ready:  # grows
+        if len(left[i]) != 1:
             continue
-        value = -ca.substitute(residual.value, inside[0], ca.SX(0)) / slope
+        key = next(iter(left[i]))
+        symbol = symbols[i][key]
+        slope = ca.jacobian(found[i].value, symbol)
+        # What coordinates keep says nothing of them, though its terms are still there.
+        if not slope.is_constant() or slope.is_zero() or key not in states:
+            continue
+        value = -ca.substitute(found[i].value, symbol, ca.SX(0)) / slope
         # What conditions switch is known only with the values that they look at.
-        if all(s.element_hash() in given for s in ca.symvar(value)):
-            values[key] = value
-        else:
-            complete = False
-    return values, complete
+        if not all(s in given or s in values for s in symbols[i].keys() - {key}):
+            continue
+        values[key] = value
+        named.append(symbol)
+        for k in behind[key]:
+            left[k] = left[k] - {key}
+            if len(left[k]) == 1:
+                ready.append(k)
+    if named:
+        written, _ = ca.substitute_inplace(named, list(values.values()), [], False)
+        values = dict(zip(values, written, strict=True))
+    return values, len(values) == len(found)
 
 
 def _with(symbols: ca.SX, guess: ca.SX, direct: dict[int, ca.SX]) -> ca.SX:

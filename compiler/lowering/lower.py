@@ -359,14 +359,14 @@ def _row_depends(system: Assembled) -> tuple[tuple[bool, ...], ...]:
     s = system.reduced.symbols
     others = ca.vertcat(s.t, s.u, system.discrete, system.y)
     driven = ca.substitute(system.rate, system.v, ca.SX.zeros(*system.v.shape))
-    table: list[tuple[bool, ...]] = []
-    for r in range(system.rows.size1()):
-        row = system.rows[r, :]
-        table.append(
-            (
-                *(bool(ca.depends_on(row, system.q[k])) for k in range(system.q.numel())),
-                bool(ca.depends_on(ca.horzcat(row, system.rate[r]), others))
-                or not driven[r].is_zero(),
-            )
-        )
-    return tuple(table)
+    rows, coordinates = system.rows.size1(), system.q.numel()
+    table = [[False] * coordinates + [not driven[r].is_zero()] for r in range(rows)]
+    places = [*system.rows.sparsity().get_triplet()[0], *range(rows)]
+    # The rates of rows are asked for all else alone: on coordinates their entries depend.
+    values = ca.vertcat(ca.vec(system.rows.nz[:]), system.rate)
+    entries = len(places) - rows
+    depends = ca.jacobian_sparsity(values, ca.vertcat(system.q, others))
+    for k, x in zip(*depends.get_triplet(), strict=True):
+        if x >= coordinates or k < entries:
+            table[places[k]][min(x, coordinates)] = True
+    return tuple(map(tuple, table))

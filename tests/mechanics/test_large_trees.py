@@ -55,6 +55,46 @@ def test_accelerations_of_a_chain(n: int) -> None:
     assert found == pytest.approx(exact, abs=1e-12 * np.abs(exact).max())
 
 
+BY_BODIES = """
+planar model ByBodies "The same chain, stated by its bodies from the tip on"
+  parameter Integer n = {n};
+  parameter Angle lean = 0.2 rad;
+  body b[n]: rod(mass = 1 kg, length = 1 m);
+  liaison o: rotoide(ground, b[1].start){law};
+  liaison j[n - 1]: rotoide(b[1:n - 1].tip, b[2:n].start){law};
+initial
+  for i in 1:n loop
+    b[n + 1 - i].angle = lean*(n + 1 - i) + 1 rad;
+    b[n + 1 - i].angular_velocity = (n + 1 - i)*(0.3 rad/s);
+  end for;
+  experiment(stop = 1 s, tolerance = 1e-9);
+end ByBodies;
+"""
+
+
+@pytest.mark.parametrize("law", ["", " with coulomb(0.1, radius = 1 mm)"])
+def test_what_is_stated_of_bodies_is_solved_one_by_one(law: str) -> None:
+    n, log = 12, Log()
+    text = BY_BODIES.format(n=n, law=law)
+    model = compile_text(text, log)
+    assert model is not None
+    lowered = driver.lowered_of(model, log)
+    assert lowered is not None
+    for name in ("initial_position", "initial_velocity"):
+        assert lowered.functions[name].numel_out(0) == 0, "no system is left for the kernel"
+    start = frot.compile(text).simulate(stop=1e-3, parameters={"lean": -0.1})
+    for k in range(1, n + 1):
+        assert start[f"b[{k}].angle"][0] == pytest.approx(1 - 0.1 * k, abs=1e-14)
+        assert start[f"b[{k}].angular_velocity"][0] == pytest.approx(0.3 * k, rel=1e-14)
+
+
+def test_one_statement_too_many_is_told_where_others_are_solved_one_by_one() -> None:
+    more = "  j[2].angle = 0.3 rad;\n  experiment("
+    text = BY_BODIES.format(n=4, law="").replace("  experiment(", more)
+    with pytest.raises(frot.FrotError, match=r"j\[2\].angle = 0.3 rad|b\[[23]\].angle"):
+        frot.compile(text).simulate()
+
+
 def test_rolled_code_gives_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:
     text = CHAIN.format(n=25, first=0.3, tolerance=1e-9)
     rolled, straight = [], []
