@@ -40,12 +40,15 @@ frot_attempt frot_attempt_from(double t) {
   return (frot_attempt){.t = t, .passed = -1, .guard = -1, .best_ratio = INFINITY};
 }
 
-/* Whether nothing moves, nor starts to. */
-static int is_still(const frot_work *w) {
+/* Whether nothing moves, nor starts to, at a stage. */
+static int is_still(const frot_work *w, int stage) {
   for (int j = 0; j < w->awake.n - FROT_QUADRATURES; j++)
-    if (w->step.k[j] != 0) return 0;
+    if (frot_stage(w, stage)[j] != 0) return 0;
   return 1;
 }
+
+/* The same of a whole step. */
+static int rests(const frot_work *w) { return is_still(w, 0) && is_still(w, DP_STAGES); }
 
 int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   a->longest = frot_longest_step(m, s, w, a->t, 0);
@@ -56,7 +59,7 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
     frot_let_sleep(m, s, w);
     status = frot_start_slope(m, s, w, a->t);
   }
-  if (status == FROT_OK && is_still(w)) {
+  if (status == FROT_OK && is_still(w, 0)) {
     a->longest = frot_longest_step(m, s, w, a->t, 1);
     a->h = m->time_dependent ? fmin(s->h, a->longest) : a->longest;
   }
@@ -111,7 +114,7 @@ static void see_noise(frot_state *s, frot_attempt *a) {
 /* Whether the step is followed inside, though nobody looks: where a guard may fall, or what is
  * evaluated there depends on more than the step. */
 static int needs_dense(const frot_model *m, const frot_state *s, const frot_work *w) {
-  return s->implicit || s->tied > 0 || s->weak || m->ny > 0 || frot_may_fall(s, w);
+  return s->implicit || s->tied > 0 || s->weak || m->ny > 0 || frot_may_fall(s, w, rests(w));
 }
 
 /* Try the step once: FROT_OK if it is good, with its dense output if it needs that; then s->h is
@@ -153,8 +156,9 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
     a->dense = needs_dense(m, s, w);
     if (!a->dense) return frot_make_cubic(w, h), a->guard = -1, FROT_OK;
     status = frot_make_dense(m, s, w, t, h);
-    if (status == FROT_OK && s->implicit && !frot_implicit_follows_guards(m, s, w))
-      status = FROT_DIVERGE;
+    int followed = s->implicit ? frot_implicit_follows_guards(m, s, w)
+                               : !rests(w) || frot_meets_stages(s, w, h);
+    if (status == FROT_OK && !followed) status = FROT_DIVERGE;
     if (status == FROT_OK) {
       a->guard = frot_falling_guard(m, s, w, t, h, &a->theta);
       if (a->looks == LOOKS || !frot_seems_to_dip(m, s, w, a->guard, a->theta, t, h))

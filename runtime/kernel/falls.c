@@ -56,7 +56,7 @@ static int lost_at_once(const frot_state *s, const frot_work *w, int j, const do
   return rise < (s->jumped ? FROT_FLAT : -2 * FROT_ROUNDING) * inside;
 }
 
-int frot_may_fall(const frot_state *s, const frot_work *w) {
+int frot_may_fall(const frot_state *s, const frot_work *w, int rests) {
   for (int k = 0; k < w->guards.count; k++) {
     const double *value = w->step.k + w->awake.n + k;
     double least = *value, most = *value;
@@ -66,8 +66,23 @@ int frot_may_fall(const frot_state *s, const frot_work *w) {
     }
     double size = s->data[w->layout.scale_g + w->guards.list[k]];
     if (!(least > most - least && least > FROT_LOCATED * size)) return 1;
+    if (rests && most - least > FROT_GUARD_LOOSEST * most) return 1;
   }
   return 0;
+}
+
+int frot_meets_stages(const frot_state *s, const frot_work *w, double h) {
+  for (int k = 0; k < w->guards.count; k++) {
+    double g[7], largest = s->data[w->layout.scale_g + w->guards.list[k]], off = 0;
+    frot_guard_polynomial(s, w, k, h, g);
+    for (int i = 1; i < DP_STAGES; i++) {
+      double value = frot_stage(w, i)[w->awake.n + k];
+      off = fmax(off, fabs(value - frot_bernstein(g, dp_c[i])));
+      largest = fmax(largest, fabs(value));
+    }
+    if (!(off <= FROT_GUARD_LOOSEST * largest)) return 0;
+  }
+  return 1;
 }
 
 int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work *w, double t,
@@ -117,7 +132,8 @@ int frot_seems_to_dip(const frot_model *m, frot_state *s, frot_work *w, int k, d
   int condition = w->guards.list[k] - frot_condition_guard(m);
   if (condition >= 0 && s->data[w->layout.fresh + condition] != 0) return 0;
   frot_guard_polynomial(s, w, k, h, g);
-  if (fabs(g[0]) > FROT_ZERO * s->data[w->layout.scale_g + w->guards.list[k]]) return 0;
+  double zero = condition >= 0 ? FROT_ZERO : FROT_LOCATED;
+  if (fabs(g[0]) > zero * s->data[w->layout.scale_g + w->guards.list[k]]) return 0;
   for (int i = 1; i <= SAMPLES; i++)
     if (frot_bernstein(g, theta + (1 - theta) * i / SAMPLES) > 0) return 1;
   return condition >= 0 && theta == 0 && rises(m, s, w, k, t, h);

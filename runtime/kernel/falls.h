@@ -8,9 +8,16 @@
 /* Bernstein coefficients of the listed guard k over the step h, after frot_make_dense. */
 void frot_guard_polynomial(const frot_state *s, const frot_work *w, int k, double h, double g[7]);
 
+/* Whether the polynomials of the guards meet their values at the stages of a step in which nothing
+ * moves. There these are what time makes of the loads, exactly, and nothing else shows whether the
+ * step has followed them: an estimate of its error is none where it passes over most of a load that
+ * is much shorter. */
+int frot_meets_stages(const frot_state *s, const frot_work *w, double h);
+
 /* Whether a listed guard may fall inside the step whose stages have run: not one that is far from
- * zero in all of them, beside what it changes there. */
-int frot_may_fall(const frot_state *s, const frot_work *w);
+ * zero in all of them, beside what it changes there; where nothing moves in it (`rests`), not one
+ * that time leaves alone. */
+int frot_may_fall(const frot_state *s, const frot_work *w, int rests);
 
 /* The first listed guard to fall inside the step h from t, the part of the step after which it does
  * in *theta; -1 when none does. A guard that was zero at an event is known no better than its slope

@@ -73,6 +73,20 @@ def test_a_load_of_a_ten_thousandth_of_the_run_is_found_wherever_it_lies(
         assert result.figures.evaluations < 5000
 
 
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4, 1e-5])
+def test_a_short_load_that_barely_reaches_the_bound_is_followed_at_any_tolerance(
+    tolerance: float,
+) -> None:
+    """The stages of one step may all lie beside its top, where their errors seem to be none."""
+    for k in range(80, 170):
+        at, width = 0.1 + 0.8 * (k * 0.6180339887 % 1), 10 ** (-3 + 2 * (k * 0.7548776662 % 1))
+        peak = BOUND * (1.02, 1.15)[k % 2]
+        result = loaded("bell").simulate(
+            parameters={"T": 1, "centre": at, "width": width, "peak": peak}, tolerance=tolerance
+        )
+        assert abs(first_slip(result) - breakaway("bell", at, width, peak)) < 1e-2 * width
+
+
 def test_a_bell_of_10_ms_in_100_s_that_barely_reaches_the_bound() -> None:
     peak = BOUND * (1 + 1e-6)
     result = loaded("bell").simulate(
