@@ -34,7 +34,11 @@ class Choice:
 
 @dataclass(slots=True)
 class Motion:
-    """An admissible (margin > 0), borderline or excluded combination."""
+    """An admissible (margin > 0), borderline or excluded combination.
+
+    `sign` is that of the determinant of its equations, 0 where reactions are not unique: a motion
+    that jams ends where it changes, though its reactions may be small.
+    """
 
     modes: dict[str, Choice]
     acceleration: Floats
@@ -42,6 +46,7 @@ class Motion:
     margin: float
     rank_gap: float
     size: float
+    sign: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -277,10 +282,12 @@ def motion(
         return z
 
     z = solve(right)
+    sign = float(np.linalg.slogdet(matrix)[0]) if rank == len(s) else 0.0
     if system.bends:
-        z = _bend(system, z, solve, rows, columns)
-        if z is None:
+        bent = _bend(system, z, solve, rows, columns)
+        if bent is None:
             return None
+        z, sign = bent[0], sign * bent[1]
         right = matrix @ z if rank == len(s) else right
 
     def holds(z: Floats) -> bool:
@@ -298,11 +305,21 @@ def motion(
         margin, best = _margin(system, z / columns, free[:, :0], modes)
     z = best
     n = now.n
-    return Motion(dict(modes), z[:n], z[n:], margin, gap, float(np.max(np.abs(z[n:]), initial=0.0)))
+    size = float(np.max(np.abs(z[n:]), initial=0.0))
+    return Motion(dict(modes), z[:n], z[n:], margin, gap, size, sign)
 
 
-def _bend(system: System, z: Floats, solve, rows: Floats, columns: Floats) -> Floats | None:  # type: ignore[no-untyped-def]
-    """Pins in motion: c + way * mu * radius * norm(R) = 0, by Newton's method."""
+def _bend(
+    system: System,
+    z: Floats,
+    solve,  # type: ignore[no-untyped-def]
+    rows: Floats,
+    columns: Floats,
+) -> tuple[Floats, float] | None:
+    """Pins in motion: c + way * mu * radius * norm(R) = 0, by Newton's method.
+
+    With the sign of its last determinant.
+    """
     base = z
     units = []
     for at, _, _ in system.bends:
@@ -328,7 +345,7 @@ def _bend(system: System, z: Floats, solve, rows: Floats, columns: Floats) -> Fl
     else:
         if not np.max(np.abs(step)) <= 1e-9 * np.max(np.abs(c)):
             return None
-    return base + units_matrix @ c
+    return base + units_matrix @ c, float(np.linalg.slogdet(jacobian)[0])
 
 
 def _margin(

@@ -162,7 +162,7 @@ def later(
             return -1.0
         moved[name] = replace(before, slip=slip, roll=roll)
     again = motion(then, found.modes, moved)
-    return -1.0 if again is None else again.margin
+    return -1.0 if again is None or again.sign * found.sign < 0 else again.margin
 
 
 # Part of its size within which a slip is none where a run stopped. Whatever the tolerance of the
@@ -193,7 +193,9 @@ def judge_stop(judge: Judge, code: str, text: str, t: float) -> Verdict:
     good: list[Motion] = []
     deadline = time.process_time() + BUDGET
     for m in motions(now, still):
-        if m.margin > CLEAR or (m.margin > -CLEAR and lasts(judge, now, m, still, t)):
+        # a motion that ends is there at its end, as where pins' friction folds it: not beyond
+        clear = m.margin > CLEAR and code != "E0901"
+        if clear or (m.margin > -CLEAR and lasts(judge, now, m, still, t)):
             good.append(m)
             if len(good) > 3:
                 break
