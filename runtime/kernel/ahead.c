@@ -18,11 +18,12 @@
 #define WAY 1e-3  /* how far the mechanism moves, in radians or parts of its length */
 #define SEEN 1e-6 /* part of the motion in the row above which it slips */
 
-/* Whether the group is at rest and the accelerations are what rounding leaves of loads that cancel.
- */
+/* Whether the group is at rest, but for what loads bring in a rounding of time, and the
+ * accelerations are what rounding leaves of loads that cancel. */
 static int rests(const frot_instant *in, const frot_group *g) {
-  double limit = FROT_AGREES * frot_size_of_motion(in->m, in->w, g);
-  double energy = FROT_ZERO * FROT_ZERO * in->s->energy_scale;
+  double size = frot_size_of_motion(in->m, in->w, g), limit = FROT_AGREES * size;
+  double unresolved = DBL_EPSILON * frot_size_of_time(in->t, in->s->h_max) * size;
+  double energy = FROT_ZERO * FROT_ZERO * in->s->energy_scale + 0.5 * unresolved * unresolved;
   return 0.5 * frot_square_of(in->w, g, in->v) <= energy &&
          frot_square_of(in->w, g, in->w->core.a) <= limit * limit;
 }

@@ -114,7 +114,7 @@ int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, doub
   }
   if (!located) return FROT_OK;
   later i = {*t, q, v, 0, timed};
-  double step = DBL_EPSILON * fmax(fabs(*t), 1e-3 * s->h_max), crossed = -1;
+  double step = DBL_EPSILON * frot_size_of_time(*t, s->h_max), crossed = -1;
   for (int k = 0; k < LONGEST; k++, i.moved += step, step *= 2) {
     int status = look_later(m, s, w, &i);
     if (status != FROT_OK && k == 0) return frot_fail_evaluation(m, s, w, status, *t);

@@ -146,9 +146,9 @@ int frot_guards_read_loads(const frot_model *m, const frot_work *w,
   return 0;
 }
 
-/* Whether the reaction of a pin, of this size, is more than zero in the terms it had. */
-static int has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e,
-                         double size) {
+int frot_has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e) {
+  const int *rows = m->elements[e].bounded_by;
+  double size = hypot(w->core.lam[rows[0]], w->core.lam[rows[1]]);
   return size > FROT_NO_DIRECTION * s->data[w->layout.scale_g + frot_element_guard(m, e) + 1];
 }
 
@@ -163,8 +163,7 @@ void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w
            second = w->core.lam[element->bounded_by[1]];
     double size = hypot(first, second);
     int agrees = along[0] * first + along[1] * second > AGREES * size;
-    if (agrees || has_direction(m, s, w, e, size))
-      along[0] = first / size, along[1] = second / size;
+    if (agrees || frot_has_direction(m, s, w, e)) along[0] = first / size, along[1] = second / size;
   }
 }
 
@@ -176,11 +175,8 @@ void frot_pass_references(const frot_model *m, frot_state *s, frot_work *w,
     if (element->bound != FROT_BY_PIN || fired[1] == 0) continue;
     if (frot_element_mode(m, modes, e)->friction <= FROT_STICK) continue;
     if (frot_group_reactions(m, w, frot_group_of(m, element->row), modes, NULL)) continue;
-    double first = w->core.lam[element->bounded_by[0]],
-           second = w->core.lam[element->bounded_by[1]];
     double *along = s->data + w->layout.along + 2 * e;
-    if (!has_direction(m, s, w, e, hypot(first, second)))
-      along[0] = -along[0], along[1] = -along[1];
+    if (!frot_has_direction(m, s, w, e)) along[0] = -along[0], along[1] = -along[1];
   }
 }
 

@@ -29,6 +29,9 @@ int frot_guards_read_loads(const frot_model *m, const frot_work *w, const frot_c
 /* Size of the terms of a row's reaction by all loads, from w->row_load. */
 double frot_reaction_size(const frot_model *m, const frot_work *w, int row);
 
+/* Whether the reaction of the pin of element e in w->lam is more than zero in the terms it had. */
+int frot_has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e);
+
 /* Turn the reference directions of the pins' reactions to what they are in w->lam. The size of a
  * reaction has a corner where it passes through zero: while a pin slips, its second guard is its
  * reaction along the reference, so that no step goes over the corner. */

@@ -90,11 +90,12 @@ static int orthonormalize(frot_problem *p) {
       bias -= parts[i] * w->span.bias[i];
       size += fabs(parts[i]) * w->span.bias_size[i];
     }
-    if (!(rest > frot_least_length(m, w, row, length))) {
+    double measure = frot_length_beside(m, w, row, length);
+    if (!(rest > FROT_DEPENDENT * measure)) {
       w->reactions.dependent = w->reactions.carried[row] = 1;
       w->span.left[row] = 0;
       double agrees = FROT_AGREES * (size + frot_free_size(m, w, row));
-      if (!(fabs(bias) <= agrees + frot_free_rounding(m, w, row))) return 1;
+      if (!(fabs(bias) <= agrees + frot_free_rounding(w, p->g, measure))) return 1;
       continue;
     }
     w->span.left[row] = rest;

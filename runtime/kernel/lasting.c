@@ -63,6 +63,30 @@ double frot_margin_of_element(const frot_instant *in, int e) {
   return size > 0 ? value / size : 0;
 }
 
+/* Whether a reaction has come to zero and goes on with the other sign: its guard says so more
+ * clearly than what rounding leaves of loads that begin. */
+static int has_turned(const frot_instant *in, int i) {
+  return in->fired[i] != 0 && in->w->search.trial[i].side != in->w->search.before[i].side;
+}
+
+/* Whether a slip that begins is none: it does not grow, its margin a little later is rounding. */
+static int fades(const frot_instant *in, int e, double now) {
+  return in->at_rest[e] && now <= FROT_ROUNDING &&
+         frot_element_mode(in->m, in->w->search.trial, e)->friction > FROT_STICK;
+}
+
+/* 1 + what begins to slip first, for which there are no reactions a little later: where others are
+ * at rest it moves by rounding alone. 0 where nothing begins. */
+static int first_begun(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  for (int c = 0; c < count; c++)
+    for (int e = 0; e < m->n_elements; e++)
+      if (m->elements[e].contact == chosen[c] && in->at_rest[e] &&
+          frot_element_mode(m, in->w->search.trial, e)->friction > FROT_STICK)
+        return m->n_contacts + e + 1;
+  return 0;
+}
+
 /* Whether a guard of element e has fired. */
 static int fired(const frot_instant *in, int e) {
   int guard = frot_element_guard(in->m, e);
@@ -147,7 +171,7 @@ static int still_holds(const frot_instant *in, const int *chosen, int count, int
     if (margin[i] < 1) {
       double now = frot_margin_of_contact(in, i);
       if (now < 0 && mode->closed && in->unilateral[i] == 0 && frot_all_held(in, i)) {
-        if (margin[i] <= FROT_ZERO) frot_turn_side(in, i);
+        if (margin[i] <= FROT_ZERO && !has_turned(in, i)) frot_turn_side(in, i);
       } else if (now < 0 && now < margin[i] - CLEARLY) {
         return 0;
       } else if (now < least) {
@@ -159,6 +183,7 @@ static int still_holds(const frot_instant *in, const int *chosen, int count, int
       double now = frot_margin_of_element(in, e);
       if (now < 0 && now < margin[m->n_contacts + e] - CLEARLY) return 0;
       if (now < least) *slow = m->n_contacts + e + 1, least = now;
+      if (*slow == 0 && fades(in, e, now)) *slow = m->n_contacts + e + 1;
     }
   }
   return 1;
@@ -182,8 +207,10 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count) {
   for (double part = LATER; lasts && slow && part <= LATEST; part *= 10) {
     double dt = way > 0 ? fmin(part * step, way) : part * step;
     slow = 0;
-    if (move_on(in, g, dt, q, v) == FROT_OK && evaluate(in, in->t + dt, q, v) == FROT_OK &&
-        !frot_group_reactions(m, w, g, w->search.trial, in->resists))
+    if (move_on(in, g, dt, q, v) != FROT_OK || evaluate(in, in->t + dt, q, v) != FROT_OK) break;
+    if (frot_group_reactions(m, w, g, w->search.trial, in->resists))
+      slow = first_begun(in, chosen, count);
+    else
       lasts = still_holds(in, chosen, count, &slow);
   }
   memcpy(q, in->q, sizeof(double) * (size_t)m->nq);

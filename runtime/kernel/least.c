@@ -30,13 +30,20 @@ static void weigh(const frot_problem *p) {
   }
 }
 
+/* Passes: what friction the weights leave in the place of normal reactions, 1e-10 of them, is more
+ * than a pin can bear whose reaction comes to zero. So it begins anew with what the normal
+ * reactions of the pass before leave to it; the last pass takes away rounding. */
+#define PASSES 3
+
 void frot_solve_least(const frot_problem *p, double *x) {
   frot_work *w = p->w;
   int n = p->unknowns, rows = p->equations;
   double *copy = w->linear.scratch, *b = copy + n * n, *step = b + n, *scratch = step + n;
   weigh(p);
   memset(x, 0, sizeof(double) * (size_t)n);
-  for (int pass = 0; pass < 2; pass++) {
+  for (int pass = 0; pass < PASSES; pass++) {
+    for (int c = 0; c < p->held && pass < PASSES - 1; c++)
+      if (w->reactions.friction[c] != 0) x[c] = 0;
     for (int r = 0; r < rows; r++) {
       double largest = 0, rest = w->linear.right[r];
       for (int c = 0; c < n; c++) {

@@ -48,9 +48,9 @@ static int element_options(const frot_instant *in, int e, int forced, frot_conta
   }
   if (left != 0 && forced)
     return list[0].friction = left > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD, 1;
+  for (int k = 0; k < 3; k++) list[n] = still, list[n++].friction = ways[k];
   if (left != 0 && !in->m->elements[e].prescribed) /* others may hold what it cannot */
     list[n] = still, list[n++].at_bound = (signed char)-left;
-  for (int k = 0; k < 3; k++) list[n] = still, list[n++].friction = ways[k];
   return n;
 }
 

@@ -20,6 +20,8 @@
 #define NEAR 0.02
 #define FASTER 0.05
 #define PIN_ROUNDING (8 * DBL_EPSILON)
+#define EAGER 8   /* passes of Newton's method before it is damped */
+#define HALVES 20 /* of one of its steps */
 
 double frot_bounding(const frot_model *m, const frot_work *w, int element,
                      const frot_contact_mode *modes) {
@@ -94,11 +96,15 @@ double frot_row_rounding(const frot_model *m, const frot_work *w, int row) {
   return frot_rounding_of_motion(m, w, row, frot_size_of_motion(m, w, frot_group_of(m, row)));
 }
 
-double frot_free_rounding(const frot_model *m, const frot_work *w, int row) {
-  const frot_group *g = frot_group_of(m, row);
+double frot_free_rounding(const frot_work *w, const frot_group *g, double length) {
   const double *force = w->core.force + g->vector;
   int count = g->general ? g->n : g->n_speeds;
-  return frot_rounding_of_motion(m, w, row, sqrt(frot_dot(force, force, count)));
+  return 4 * FROT_ROUNDING * length * sqrt(frot_dot(force, force, count));
+}
+
+/* Whether a held row follows from others, with which it was found to agree. */
+static int is_left_to_others(const frot_problem *p, int row) {
+  return frot_is_spare(p->w, row) || (!p->g->general && p->w->reactions.carried[row]);
 }
 
 /* Whether the held rows do not accelerate and friction follows its reaction. */
@@ -107,7 +113,7 @@ static int is_solution(const frot_problem *p) {
   frot_work *w = p->w;
   for (int k = 0; k < p->unknowns; k++) {
     double size, value, rounding = 0;
-    if (k < p->held && frot_is_spare(w, w->reactions.unknown[k])) continue;
+    if (k < p->held && is_left_to_others(p, w->reactions.unknown[k])) continue;
     if (k < p->held) {
       value = frot_acceleration(m, w, w->reactions.unknown[k], &size);
       size += frot_free_size(m, w, w->reactions.unknown[k]);
@@ -217,6 +223,28 @@ static double mend(const frot_problem *p, double *rest, double missed) {
   return 0;
 }
 
+/* What is missing in the equations of the friction that follows, `rest` of frot_turn_pins. */
+static double missing(const frot_problem *p, const double *rest) {
+  double sum = 0;
+  for (int k = p->holding; k < p->unknowns; k++) sum += fabs(rest[k]);
+  return sum;
+}
+
+/* Go back half the way to the unknowns `before`, in which *least was missing, while no less is now:
+ * where reactions come near zero their directions change so much in a whole step of Newton's that
+ * it goes to and fro. Each half step holds the rows that both hold. Returns what is missed. */
+static double damp(const frot_problem *p, double *before, double *least, double *rest,
+                   double missed) {
+  double *x = p->w->reactions.solution, now = missing(p, rest);
+  for (int k = 0; k < HALVES && now > *least; k++) {
+    for (int c = 0; c < p->unknowns; c++) x[c] = 0.5 * (x[c] + before[c]);
+    missed = frot_turn_pins(p, rest), now = missing(p, rest);
+  }
+  memcpy(before, x, sizeof(double) * (size_t)p->unknowns);
+  *least = now;
+  return missed;
+}
+
 /* Find what frot_dynamics has left to pins.c; else see that what the rest asks for is there. */
 static int left_to_pins(const frot_problem *p) {
   frot_work *w = p->w;
@@ -245,10 +273,14 @@ int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
   if (p.equations > p.unknowns) return 1; /* no reaction is left for a row that is to be kept */
   p.holding = p.equations;
   frot_read_bounds(&p);
-  double *rest = w->linear.scratch + p.unknowns * p.unknowns;
+  double *rest = w->linear.scratch + p.unknowns * p.unknowns, least = INFINITY;
   for (int pass = 0, last = 0; pass < FROT_PIN_PASSES; pass++) {
     if (solve(&p, &regular)) return 1;
     double missed = pins ? frot_turn_pins(&p, rest) : 0;
+    if (!regular)
+      least = INFINITY;
+    else if (pass >= EAGER)
+      missed = damp(&p, rest + p.unknowns, &least, rest, missed);
     if (regular && missed < NEAR) missed = mend(&p, rest, missed);
     if (last || missed <= 2 * DBL_EPSILON) {
       if (!regular) return 0;

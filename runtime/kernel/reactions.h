@@ -37,8 +37,8 @@ double frot_size_of_motion(const frot_model *m, const frot_work *w, const frot_g
 double frot_row_rounding(const frot_model *m, const frot_work *w, int row);
 /* The same where all that moves the group is known to have that length. */
 double frot_rounding_of_motion(const frot_model *m, const frot_work *w, int row, double motion);
-/* The same without reactions. */
-double frot_free_rounding(const frot_model *m, const frot_work *w, int row);
+/* The same without reactions, of a row of that length. */
+double frot_free_rounding(const frot_work *w, const frot_group *g, double length);
 
 /* Size of the terms of a row's acceleration without reactions. */
 double frot_free_size(const frot_model *m, const frot_work *w, int row);

@@ -20,10 +20,17 @@ static double speed_to_come(const frot_instant *in, int row) {
   return fabs(in->s->h) * in->w->core.row_load[row];
 }
 
+/* The speed that they bring it in a rounding of time: no instant is known better, and at a start
+ * there is no step yet. */
+static double speed_unresolved(const frot_instant *in, int row) {
+  return DBL_EPSILON * frot_size_of_time(in->t, in->s->h_max) * in->w->core.row_load[row];
+}
+
 /* Whether the motion of element e is zero: its guard fired at zero, as near as events are located
  * (what a landing next to a dead centre leaves of it is a motion: to hold it would stop the
  * mechanism), or before time can move on, or it is zero to rounding
- * against its terms, the sizes it had, the motion as a whole and the motion to come. */
+ * against its terms, the sizes it had, the motion as a whole and the motion to come, or what no
+ * instant resolves. */
 static int is_zero_rate(const frot_instant *in, int e, const double *v, int friction) {
   int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
   int slipped = friction > FROT_STICK, way = friction == FROT_SLIP_FORWARD ? 1 : -1;
@@ -35,7 +42,8 @@ static int is_zero_rate(const frot_instant *in, int e, const double *v, int fric
     return 1;
   size = fmax(size, speed_to_come(in, row));
   return fabs(in->w->core.rate[row]) <=
-         FROT_ZERO * size + FROT_ZERO_OF_MOTION * frot_row_speed(in->m, in->w, row, v);
+         FROT_ZERO * size + FROT_ZERO_OF_MOTION * frot_row_speed(in->m, in->w, row, v) +
+             speed_unresolved(in, row);
 }
 
 /* A reaction that reached its upper bound (first guard) lets the body go backward. */
@@ -120,7 +128,7 @@ static void note_ends(const frot_model *m, frot_state *s, double t) {
   frot_layout l = frot_layout_of(m);
   double *left = s->data + l.left, *vanished = s->data + l.vanished;
   const frot_contact_mode *modes = (const void *)(s->data + l.modes);
-  if (!(fabs(t - s->left_at) <= FROT_ONE_INSTANT * fmax(fabs(t), 1e-3 * s->h_max)))
+  if (!(fabs(t - s->left_at) <= FROT_ONE_INSTANT * frot_size_of_time(t, s->h_max)))
     memset(left, 0, sizeof(double) * (size_t)m->n_elements),
         memset(vanished, 0, sizeof(double) * (size_t)m->n_contacts);
   for (int e = 0; e < m->n_elements; e++) {
@@ -180,8 +188,8 @@ static void put_back(const frot_instant *in, const frot_contact_mode *aside) {
 }
 
 /* Motions in which what fired changes, or else any; those that last before those that do not.
- * Slack admits changes that are taken back at once: of those that last, what needs it comes last.
- */
+ * Slack admits changes that are taken back at once, and a slip that does not grow is rest: of those
+ * that last, such come last. */
 static int search(const frot_instant *in, const int *chosen, int count, int *unsearched) {
   frot_search_work *found = &in->w->search;
   int slack = 0;
@@ -189,7 +197,7 @@ static int search(const frot_instant *in, const int *chosen, int count, int *uns
     for (int forced = 1; forced >= 0; forced--) {
       int motions = frot_search(in, chosen, count, forced, lasting, unsearched);
       found->lasts = lasting;
-      if (motions > 0 && (found->exact || !lasting)) return motions;
+      if (motions > 0 && ((found->exact && !found->fades) || !lasting)) return motions;
       if (motions > 0 && !slack) slack = motions, put_aside(in, found->slack);
     }
   if (slack) put_back(in, found->slack);
@@ -307,9 +315,12 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
  * have solutions in other directions. What passes through zero is turned by its own rule. */
 static void pass_directions(const frot_instant *in) {
   double *along = in->s->data + in->l.along;
-  for (int e = 0; e < in->m->n_elements; e++)
-    if (in->m->elements[e].bound == FROT_BY_PIN && in->fired[frot_element_guard(in->m, e) + 1] == 0)
+  for (int e = 0; e < in->m->n_elements; e++) {
+    int slips = frot_element_mode(in->m, in->w->search.before, e)->friction > FROT_STICK;
+    int passes = slips && in->fired[frot_element_guard(in->m, e) + 1] != 0;
+    if (in->m->elements[e].bound == FROT_BY_PIN && !passes)
       memcpy(along + 2 * e, in->w->search.along + 2 * e, 2 * sizeof(double));
+  }
 }
 
 int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
@@ -366,8 +377,9 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     if (frozen[k] != 0) v[k] = 0;
   frot_pass_references(m, s, w, modes);
   memset(fired, 0, sizeof(double) * (size_t)l.nf);
+  /* a reaction that has turned is the same: it was located by what it was */
   for (int i = 0; i < m->n_contacts; i++)
-    if (memcmp(&modes[i], &w->search.before[i], sizeof *modes) != 0) frot_forget_guards(m, s, i, 1);
+    if (modes[i].closed != w->search.before[i].closed) frot_forget_guards(m, s, i, 1);
   for (int e = 0; e < m->n_elements; e++)
     if (memcmp(&modes[m->n_contacts + e], &w->search.before[m->n_contacts + e], sizeof *modes) != 0)
       frot_forget_guards(m, s, frot_element_guard(m, e), 2);

@@ -5,27 +5,36 @@
 #include <string.h>
 
 #include "core.h"
+#include "guards.h"
 #include "options.h"
 #include "reactions.h"
 #include "tolerances.h"
 
-static int same(const frot_contact_mode *a, const frot_contact_mode *b) {
-  return a->closed == b->closed && a->friction == b->friction && (!a->closed || a->side == b->side);
+/* Whether a contact, or an element, goes on as before. Of one that is held all round the side
+ * follows from the reaction: it is no choice. */
+static int same_contact(const frot_instant *in, int i) {
+  const frot_contact_mode *a = &in->w->search.trial[i], *b = &in->w->search.before[i];
+  int follows = in->unilateral[i] == 0 && frot_all_held(in, i);
+  return a->closed == b->closed && (!a->closed || follows || a->side == b->side);
+}
+static int same_element(const frot_instant *in, int e) {
+  return frot_element_mode(in->m, in->w->search.trial, e)->friction ==
+         frot_element_mode(in->m, in->w->search.before, e)->friction;
 }
 
 /* How much a combination is preferred: what needs no slack first; what will need none, if it was
- * looked for; then rest, then continuity, or the other way round. */
+ * looked for; then rest by itself, then continuity, or the other way round. */
 static long long preference(const frot_instant *in, const int *chosen, int count, int lasting) {
   const frot_model *m = in->m;
   long long rest = 0, kept = 0;
   int own[FROT_LAWS_OF_CONTACT];
   for (int c = 0; c < count; c++) {
     int laws = frot_laws_of(m, chosen[c], own);
-    kept += same(&in->w->search.trial[chosen[c]], &in->w->search.before[chosen[c]]);
+    kept += same_contact(in, chosen[c]);
     for (int k = 0; k < laws; k++) {
       const frot_contact_mode *mode = frot_element_mode(m, in->w->search.trial, own[k]);
-      rest += mode->friction == FROT_STICK;
-      kept += same(mode, frot_element_mode(m, in->w->search.before, own[k]));
+      rest += mode->friction == FROT_STICK && mode->at_bound == 0;
+      kept += same_element(in, own[k]);
     }
   }
   long long big = (1 + FROT_LAWS_OF_CONTACT) * m->n_contacts + 1;
@@ -33,6 +42,18 @@ static long long preference(const frot_instant *in, const int *chosen, int count
   if (lasting && !in->w->search.falls) exact += big * big;
   int continues = in->s->options.on_indeterminate == FROT_CONTINUE;
   return exact + (continues ? kept * big + rest : rest * big + kept);
+}
+
+/* What the reactions that came to zero at the instant, which is known no better than they are zero
+ * in the terms they had, could do to a row. */
+static double unresolved(const frot_instant *in, const frot_group *g, int row) {
+  double sum = 0;
+  for (int i = 0; i < g->n_contacts; i++) {
+    int c = g->contacts[i], normal = in->m->contacts[c].row_n;
+    if (in->vanished[c] > 0 && in->w->core.wanted[normal])
+      sum += in->vanished[c] * fabs(frot_effect(in->m, in->w, row, normal));
+  }
+  return FROT_LOCATED * sum;
 }
 
 /* The motion of w->search.trial as the accelerations of its rows, into place `at` of
@@ -53,7 +74,7 @@ static int count_motion(const frot_instant *in, const int *chosen, int motions) 
       double size, a = frot_acceleration(m, in->w, r, &size);
       own[r] = a;
       differs |= fabs(a - other[r]) > FROT_DIFFERENT * (size + in->w->core.row_load[r]) +
-                                          2 * frot_row_rounding(m, in->w, r);
+                                          2 * frot_row_rounding(m, in->w, r) + unresolved(in, g, r);
     }
     if (at == motions) break;
     if (!differs) return motions;
@@ -63,17 +84,26 @@ static int count_motion(const frot_instant *in, const int *chosen, int motions) 
   return motions + 1;
 }
 
+/* Whether a pin has a reaction to go on from; one that slips on may have come to zero. */
+static int has_new_direction(const frot_instant *in, int e) {
+  int slips = frot_element_mode(in->m, in->w->search.before, e)->friction > FROT_STICK;
+  return in->m->elements[e].bound == FROT_BY_PIN &&
+         (!slips || frot_has_direction(in->m, in->s, in->w, e));
+}
+
 static void remember(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   in->w->search.exact = frot_is_exact(in, chosen, count);
+  in->w->search.fades = in->w->search.falls;
   int own[FROT_LAWS_OF_CONTACT];
   for (int c = 0; c < count; c++) {
     int laws = frot_laws_of(m, chosen[c], own);
     in->w->search.best[chosen[c]] = in->w->search.trial[chosen[c]];
     for (int k = 0; k < laws; k++) {
       in->w->search.best[m->n_contacts + own[k]] = in->w->search.trial[m->n_contacts + own[k]];
-      memcpy(in->w->search.along + 2 * own[k], in->w->reactions.along + 2 * own[k],
-             2 * sizeof(double));
+      if (has_new_direction(in, own[k]))
+        memcpy(in->w->search.along + 2 * own[k], in->w->reactions.along + 2 * own[k],
+               2 * sizeof(double));
     }
   }
 }

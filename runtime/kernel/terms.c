@@ -42,9 +42,9 @@ double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *
   return sqrt(frot_square_of(w, g, v) * frot_dot(half, half, ns));
 }
 
-double frot_least_length(const frot_model *m, frot_work *w, int row, double own) {
+double frot_length_beside(const frot_model *m, frot_work *w, int row, double own) {
   int normal = m->row_beside[row];
-  if (normal < 0) return FROT_DEPENDENT * own;
+  if (normal < 0) return own;
   const frot_group *g = frot_group_of(m, normal);
   int ns = g->n_speeds, at = m->row_reads[normal];
   double *half = w->core.rest, beside;
@@ -60,7 +60,11 @@ double frot_least_length(const frot_model *m, frot_work *w, int row, double own)
   } else {
     beside = own;
   }
-  return FROT_DEPENDENT * fmax(own, beside);
+  return fmax(own, beside);
+}
+
+double frot_least_length(const frot_model *m, frot_work *w, int row, double own) {
+  return FROT_DEPENDENT * frot_length_beside(m, w, row, own);
 }
 
 /* column (n) <- the loads of every MOST_ALONE-th unknown from `first` on. What sums of them cancel

@@ -14,9 +14,11 @@ double frot_gap_size(const frot_model *m, const frot_work *w, int row, const dou
  * Uses w->core.rows and the metric of the last frot_dynamics, factored. */
 double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v);
 
-/* Length of the row L^-1 J' (whose own length is `own`) outside the rows before it below which it
- * depends on them. A slip is measured beside the motion along its normal: in a dead centre nothing
- * moves it, and its row is rounding. Uses the mass and the metric of the last frot_dynamics. */
+/* Length of the row L^-1 J', whose own length is `own`, that it is measured by: a slip beside the
+ * motion along its normal, for in a dead centre nothing moves it, and its row is rounding. Uses the
+ * mass and the metric of the last frot_dynamics. */
+double frot_length_beside(const frot_model *m, frot_work *w, int row, double own);
+/* Length of it outside the rows before it below which it depends on them. */
 double frot_least_length(const frot_model *m, frot_work *w, int row, double own);
 
 /* What all loads could do to the rows that frot_dynamics has looked at, into w->core.row_load:

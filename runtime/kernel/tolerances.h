@@ -84,6 +84,11 @@ static inline double frot_guard_tolerance(double tolerance) {
 #define FROT_PRESCRIBED_REST 1e-12
 /* Events closer than this part of the time are at one instant. */
 #define FROT_ONE_INSTANT 1e-13
+/* What of an instant rounding and that part are parts of: near the start a part of the longest
+ * step. */
+static inline double frot_size_of_time(double t, double h_max) {
+  return fmax(fabs(t), 1e-3 * h_max);
+}
 
 /* -- systems ----------------------------------------------------------------------------------- */
 /* Sine of the angle between a row and the rows before it below which it depends on them. */

@@ -221,7 +221,9 @@ typedef struct {
   int *choice, *component, *chosen;
   int exact;   /* whether `best` needs no slack: frot_is_exact */
   int lasts;   /* and whether it lasts: frot_lasts */
-  int falls;   /* 1 + what was zero and falls in it by no more than slack admits, 0: lasting.c */
+  int falls;   /* 1 + what falls later by no more than slack admits, or what begins and does not
+                  grow, in the motion looked at last, 0: lasting.c */
+  int fades;   /* the same of `best` */
   int against; /* elements that a little later go against what was last found good: ahead.c */
   int corners; /* that may still be looked at in this search: others.c */
 } frot_search_work;
