@@ -208,7 +208,7 @@ def make_dynamics(reduced: Reduced) -> Dynamics:
     looked = ca.veccat(looked, *(x.unknowns for x in tracks))
     others = column(x for x in ca.symvar(looked) if x.element_hash() not in known)
     arguments = [s.t, s.q, s.v, s.u, s.p, s.sides, others]
-    followed = Followed(tracks, [s.t, s.q, s.u, s.p])
+    followed = Followed(tracks, [s.t, s.q, s.u, s.p], conditions=reduced.conditions)
     at = {x.element_hash(): k for k, x in enumerate(scalars_of(others))}
     reaction: list[tuple[int, int]] = []
     friction: list[tuple[int, int]] = []

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 import casadi as ca
 import numpy as np
+from frot.compiler.lowering.expressions import Conditions
 from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.geometry.tracking import Track
 from frot.compiler.report.numbers import Floats, Numbers
@@ -16,6 +17,13 @@ _STEPS = 50
 _MET = 1e-13
 
 
+def _seen(value: ca.SX, conditions: Conditions | None) -> ca.SX:
+    if conditions is None or not conditions.flags:
+        return value
+    flags, values = column(conditions.flags), column(conditions.values)
+    return ca.substitute(value, flags, values > 0)
+
+
 class Followed:
     """The unknowns of tracks as functions of a state."""
 
@@ -24,12 +32,18 @@ class Followed:
         tracks: Iterable[Track],
         symbols: Sequence[ca.SX],
         resolve: Callable[[ca.SX], ca.SX] = lambda value: value,
+        conditions: Conditions | None = None,
     ) -> None:
-        """`symbols` are the arguments of the state; `resolve` writes expressions in them."""
+        """`symbols` are the arguments of the state; `resolve` writes expressions in them.
+
+        The flags of `conditions` are taken as their values say.
+        """
         tracks = tuple(tracks)
         self.unknowns = column(x.unknowns for x in tracks)
-        residual = resolve(column(x.residual for x in tracks))
-        size = resolve(column(x.size for x in tracks))
+        residual, size = (
+            resolve(_seen(column(x), conditions))
+            for x in ([x.residual for x in tracks], [x.size for x in tracks])
+        )
         slope = ca.jacobian(residual, self.unknowns)
         start = resolve(column(x.start for x in tracks))
         self._begin = Numbers("begin", symbols, [start])

@@ -84,7 +84,7 @@ def find_start(system: Assembled) -> Start | None:
 
     tracks = reduced.variables.kinematics.tracks.values()
     known = [system.reduced.symbols.t, system.q, system.reduced.symbols.u, symbols.p]
-    followed = Followed(tracks, known, system.resolve)
+    followed = Followed(tracks, known, system.resolve, reduced.conditions)
 
     def arguments() -> list[float | Floats]:
         y[: followed.unknowns.numel()] = followed.at(t, q, u, p)
@@ -156,7 +156,7 @@ def posture_of(relations: Relations, system: Assembled, start: Start) -> Posture
         values.append(variables.coordinate(link.liaison, k)[0])
     there = start.posture
     tracks = variables.kinematics.tracks.values()
-    followed = Followed(tracks, [own.t, own.q, own.u, own.p])
+    followed = Followed(tracks, [own.t, own.q, own.u, own.p], conditions=system.reduced.conditions)
     now = [own.t, own.q, own.u, own.p, own.sides, followed.unknowns]
     function = Numbers("free", now, [column(values)])
     places = followed.at(there.t, there.q, there.u, there.p)

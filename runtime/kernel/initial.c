@@ -228,15 +228,19 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
   frot_name_changes(&p);
   guess(&p, q, v);
   look_at_conditions(&p);
+  int failed = FROT_OK;
+  frot_fault told = s->fault;
   for (int round = 0, stay = 0; round < ROUNDS; round++) {
     memcpy(w->events.before, p.d, size);
     int status = solve_once(&p, q, v, stay);
     /* what has no solution under these conditions may have one under those found there */
-    if (status != FROT_OK) look_at_conditions(&p);
+    if (status != FROT_OK) failed = status, told = s->fault, look_at_conditions(&p);
     if (memcmp(w->events.before, p.d, size) == 0) return status;
     stay = status == FROT_OK && only_ends(m, w, p.d, 0);
     if (stay && only_ends(m, w, p.d, 1)) return status;
     frot_clear_opening(&p);
   }
-  return frot_fail(s, FROT_CHATTER, t, -1, -1, -1, ROUNDS);
+  if (failed == FROT_OK) return frot_fail(s, FROT_CHATTER, t, -1, -1, -1, ROUNDS);
+  s->fault = told, s->phase = FROT_FAULTED;
+  return failed;
 }

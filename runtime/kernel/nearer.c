@@ -23,23 +23,23 @@ static void set_place(const frot_model *m, const double *place, int contact, dou
   memcpy(y + block->first, place + block->first, sizeof(double) * (size_t)block->count);
 }
 
-/* The gap of a contact at the values x, with the places found from those in w->blocks.y and beyond
- * the ends where these lie, into w->nearer.flags; NaN where there is none. */
+/* The gap of a contact at the values x, with the places found from those in w->blocks.y: `anew`
+ * from between the ends of its figures, and beyond these where that is found to lie, into
+ * w->nearer.flags. NaN where there is none. */
 static double gap_at(const frot_model *m, frot_state *s, frot_work *w, int contact, double t,
-                     const double *x) {
+                     const double *x, int anew) {
   double *d = s->data + w->layout.d, *kept = w->nearer.kept, *flags = w->nearer.flags;
+  memcpy(kept, d, sizeof(double) * (size_t)m->n_conditions);
+  for (int j = 0; j < m->n_conditions && anew; j++)
+    if (m->conditions[j].contact == contact) d[j] = 0;
   int changes = 0, status = frot_kinematics(m, s, w, t, x, x + m->nq, d);
-  if (status != FROT_OK) return NAN;
-  for (int j = 0; j < m->n_conditions; j++) {
+  for (int j = 0; j < m->n_conditions && status == FROT_OK; j++) {
     if (m->conditions[j].contact != contact) continue;
     flags[j] = w->core.condition[j] > 0;
     changes |= flags[j] != d[j];
+    d[j] = flags[j];
   }
-  if (!changes) return w->core.gap[contact];
-  memcpy(kept, d, sizeof(double) * (size_t)m->n_conditions);
-  for (int j = 0; j < m->n_conditions; j++)
-    if (m->conditions[j].contact == contact) d[j] = flags[j];
-  status = frot_kinematics(m, s, w, t, x, x + m->nq, d);
+  if (changes) status = frot_kinematics(m, s, w, t, x, x + m->nq, d);
   memcpy(d, kept, sizeof(double) * (size_t)m->n_conditions);
   return status == FROT_OK ? w->core.gap[contact] : NAN;
 }
@@ -66,10 +66,10 @@ static int is_nearer(const frot_model *m, frot_state *s, frot_work *w, int conta
   double *x = w->step.z, *y = w->blocks.y;
   values_inside(w, theta, x);
   for (int k = 0; k < m->ny; k++) y[k] = y0[k] + theta * (w->step.y_end[k] - y0[k]);
-  double own = gap_at(m, s, w, contact, t + theta * h, x);
+  double own = gap_at(m, s, w, contact, t + theta * h, x, 0);
   memcpy(y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   set_place(m, w->nearer.y, contact, y);
-  double other = gap_at(m, s, w, contact, t + theta * h, x);
+  double other = gap_at(m, s, w, contact, t + theta * h, x, 1);
   return fabs(other) < (1 - 2 * FROT_NEARER) * fabs(own);
 }
 
@@ -80,7 +80,7 @@ static int look(const frot_model *m, frot_state *s, frot_work *w, int contact, d
   double *y = w->blocks.y;
   memcpy(y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   set_place(m, w->nearer.begin, contact, y);
-  double other = gap_at(m, s, w, contact, end, w->step.z1);
+  double other = gap_at(m, s, w, contact, end, w->step.z1, 1);
   if (!(fabs(other) < (1 - FROT_NEARER) * fabs(far))) return 0;
   set_place(m, y, contact, w->nearer.y);
   w->nearer.changed[contact] = other < 0 ? -1 : 1;

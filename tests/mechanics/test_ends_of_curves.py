@@ -242,3 +242,31 @@ initial
 end Begins;"""
     result = frot.compile(text).simulate()
     assert np.abs(result["C.gap"]).max() < 1e-12
+
+
+@pytest.mark.parametrize("of", ["egg on a box", "disc on a hump"])
+def test_rolling_over_an_end_is_one_motion_at_every_tolerance(of: str) -> None:
+    """The reaction jumps there, as the curvature does: from then on it is that of the end."""
+    egg = of == "egg on a box"
+    text = f"""planar model Over
+  body s: box(mass = 1 kg, size = (1.2, 0.5) m);
+  liaison f: encastrement(ground, s);
+  curve hump on ground: parametric((0.6 m*u, -0.2 m*u^2), u = (-1, 1));
+  body p: {"ellipse(mass = 1 kg, a = 20 cm, b = 12 cm)" if egg else DISC};
+  liaison C: contact_ponctuel({"s.top" if egg else "hump"}, p.rim) with coulomb(0.8);
+initial
+  p.position.x = {0.00655 if egg else -0.402} m;
+  p.velocity.x = {1.859 if egg else 0.964} m/s;
+  C.gap = 0 m;
+  guess(p.position.y = {0.68 if egg else 0.45} m);
+  p.angle = 0.0551;
+  experiment(stop = 1.1 s);
+end Over;"""
+    model = frot.compile(text)
+    results = [model.simulate(tolerance=t) for t in (1e-8, 1e-10, 1e-12, 1e-13)]
+    for result in results[:-1]:
+        assert len(result.events) == len(results[-1].events) > 0
+        for a, b in zip(result.events, results[-1].events, strict=True):
+            assert (a.kind, a.after) == (b.kind, b.after)
+            assert a.time == pytest.approx(b.time, abs=1e-9)
+        assert np.min(result["C.normal_force"]) > -1e-9

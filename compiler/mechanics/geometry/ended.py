@@ -5,7 +5,7 @@ Its parameter s goes on beyond the end then, while the curve stays there: what i
 connection's being along the normal is the parameter's excess, so that s goes through the end
 without a jump and turns back as soon as a place inside is nearer. Distance and normal are
 continuous there, but for a point that slides over the end: it falls off. That s passes an end is an
-event, at which contacts are looked at anew; until then the curve goes on as its tangent does.
+event, at which contacts are looked at anew; until then the curve goes on as it bends at its end.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from collections.abc import Callable
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.levels import level
-from frot.compiler.mechanics.geometry.paths import trace
+from frot.compiler.mechanics.geometry.paths import Trace, trace
 from frot.compiler.mechanics.geometry.touches import Touch
 from frot.compiler.mechanics.geometry.tracking import (
     Track,
@@ -33,6 +33,8 @@ from frot.dsl.data.classes import dataclass
 
 # Part of a curve's length within which what is at its end is still on it, but for rounding.
 AT_END = 1e-13
+# Angle by which what goes round an end is turned beyond it where only rounding tells.
+TILT = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,14 +52,14 @@ class Ending:
 class Bounded:
     """A parameter and how it stands to the ends of its curve.
 
-    `inside` is the one between these, `excess` how far it is beyond in parts of their distance, 0
-    between them; `is_beyond` whether it is; `ended` the same since the last event, and `out` -1, 0
-    or 1, on which side then.
+    `inside` is the one between these; `ended`: it is beyond since the last event, `out` -1, 0 or 1,
+    on which side. `excess` is how far it is then, in parts of the way between the ends, `over` how
+    far it is where it only goes to be.
     """
 
     inside: ca.SX
     excess: ca.SX
-    is_beyond: ca.SX
+    over: ca.SX
     ended: ca.SX
     out: ca.SX
 
@@ -68,10 +70,28 @@ def bounded(figure: Figure, s: ca.SX, lower: Lower, ending: Ending) -> Bounded:
         return Bounded(s, *(ca.SX(0) for _ in range(4)))
     least, largest = figure.ends(lower)
     long = largest - least
-    inside = ca.fmin(ca.fmax(s, least), largest)
-    over, under = (ending.beyond(x / long - AT_END) for x in (s - largest, least - s))
-    is_beyond = ca.logic_or(s > largest, s < least)
-    return Bounded(inside, (s - inside) / long, is_beyond, over + under, over - under)
+    above, below = (ending.beyond(x / long - AT_END) for x in (s - largest, least - s))
+    within, ended = ca.fmin(ca.fmax(s, least), largest), above + below
+    inside = ca.if_else(above, largest, ca.if_else(below, least, within))
+    away = s - inside
+    excess, over = ca.if_else(ended, away / long, 0), ca.if_else(ended, 0, away)
+    return Bounded(inside, excess, over, ended, above - below)
+
+
+def trace_on(figure: Figure, one: Bounded, pose: Pose, lower: Lower) -> Trace:
+    """The point with a parameter; where it only goes to be beyond an end, as the curve bends there.
+
+    The stages of a step that ends where it passes an end lie on both sides of it.
+    """
+    found = trace(figure, one.inside, pose, lower)
+    if not figure.has_ends:
+        return found
+    u = ca.SX.sym("u")
+    bend = ca.jacobian(ca.jacobian(figure.point(u, lower), u), u)
+    bend = pose.direction(ca.sparsify(ca.substitute(bend, u, one.inside)))
+    (slope,) = found.slopes
+    point = found.point + one.over * (slope + one.over / 2 * bend)
+    return Trace(point, (slope + one.over * bend,), found.drift)
 
 
 def away(way: ca.SX, least: ca.SX, instead: ca.SX) -> tuple[ca.SX, ca.SX]:
@@ -99,7 +119,7 @@ def _of_level(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending:
     (pa, pb), names = at, parameter_names(b, False)
     s = symbols_of(names)
     one = bounded(b, s, lower, ending)
-    point = trace(b, one.inside, pb, lower)
+    point = trace_on(b, one, pb, lower)
     found = level(a, point.point, pa, lower)
     middle = level(a, pb.point(b.middle(lower)), pa, lower).value
     far, (slope,) = far_of(pa.origin, pb.origin, point.point - pb.origin), point.slopes
@@ -122,12 +142,12 @@ def _of_point(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending:
     (pa, pb), names = at, parameter_names(a, False)
     s, side = symbols_of(names), ending.side
     one = bounded(a, s, lower, ending)
-    first = trace(a, one.inside, pa, lower)
+    first = trace_on(a, one, pa, lower)
     (slope,), way = first.slopes, pb.origin - first.point
     steep = long_of(slope)
     far = far_of(pa.origin, pb.origin, first.point - pa.origin)
     least, largest = a.ends(lower)
-    residual = ca.dot(way, slope) - steep**2 * (s - one.inside)
+    residual = ca.dot(way, slope) - steep**2 * (largest - least) * one.excess
     left = cross(Z, slope) / steep
     beyond, outwards = away(way, AT_END * steep * (largest - least), one.out * slope / steep)
     normal = ca.if_else(one.ended, outwards, side * left)
@@ -135,32 +155,34 @@ def _of_point(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending:
         ca.if_else(one.ended, beyond, side * ca.dot(left, way)), normal, pb.origin,
         ca.dot(left, way), far, -ca.dot(normal, first.drift), -first.drift,
     )  # fmt: skip
-    size = steep * (far + steep * ca.fabs(s - one.inside))
+    size = steep * (far + steep * (largest - least) * ca.fabs(one.excess))
     return Track(s, names, residual, size, nearest_pair(a, b, at, lower), touch, first, sided=True)
 
 
 def _of_curves(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending: Ending) -> Track:
     """Two curves: along the normal of both, of an end and the other, or from end to end.
 
-    An end has the normal of the other curve there, on which side its own middle tells.
+    An end has the normal of the other curve there: that of a points away from a, at first to where
+    b is, an end of b is met from where the middle of b is.
     """
     (pa, pb), names = at, (*parameter_names(a, False), *parameter_names(b, True))
     s = symbols_of(names)
     one, other = (bounded(x, s[k], lower, ending) for k, x in enumerate((a, b)))
-    first, second = trace(a, one.inside, pa, lower), trace(b, other.inside, pb, lower)
+    first, second = trace_on(a, one, pa, lower), trace_on(b, other, pb, lower)
     way = second.point - first.point
     left, right = (cross(Z, x.slopes[0]) / long_of(x.slopes[0]) for x in (first, second))
-    amid_a, amid_b = pa.point(a.middle(lower)), pb.point(b.middle(lower))
+    amid_b = pb.point(b.middle(lower))
     witness = ca.dot(left, amid_b - first.point)
     to_b = ca.if_else(witness < 0, -1, 1) * left
-    from_a = ca.if_else(ca.dot(right, second.point - amid_a) < 0, -1, 1) * right
+    beyond_a = one.out * first.slopes[0] / long_of(first.slopes[0]) + TILT * to_b
+    from_a = ca.if_else(ca.dot(right, beyond_a) < 0, -1, 1) * right
     far = far_of(pa.origin, pb.origin, first.point - pa.origin, second.point - pb.origin)
     (along,), (across,) = first.slopes, second.slopes
     long, wide = far * long_of(along), far * long_of(across)
-    alone = ca.logic_and(one.is_beyond, ca.logic_not(other.is_beyond))
+    alone = one.ended * (1 - other.ended)
     residual = ca.vertcat(
         ca.if_else(alone, -far * ca.dot(from_a, along), -ca.dot(way, along)) + long * one.excess,
-        ca.if_else(one.is_beyond, ca.dot(way, across), far * ca.dot(to_b, across))
+        ca.if_else(one.ended, ca.dot(way, across), far * ca.dot(to_b, across))
         + wide * other.excess,
     )
     size = ca.vertcat(long * (1 + ca.fabs(one.excess)), wide * (1 + ca.fabs(other.excess)))
