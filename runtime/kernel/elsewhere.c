@@ -9,6 +9,7 @@
 #include "damped.h"
 #include "gradual.h"
 #include "nearest.h"
+#include "parts.h"
 #include "tolerances.h"
 
 #define TRIES 8 /* beginnings of the search beside the given one, each to both hands */
@@ -20,7 +21,7 @@ void frot_begin_elsewhere(frot_opening *p, int k, int alike) {
   const frot_model *m = p->m;
   double least = INFINITY, *changes = p->w->opening.scratch;
   for (int i = 0; i < m->nq; i++)
-    if (frot_is_attached(p, i))
+    if (frot_is_own(p, i) && frot_is_attached(p, i))
       least =
           fmin(least,
                sqrt(frot_metric_entry(m, p->w, frot_speed_behind(p, i), frot_speed_behind(p, i))));
@@ -32,11 +33,12 @@ void frot_begin_elsewhere(frot_opening *p, int k, int alike) {
           sqrt(frot_metric_entry(m, p->w, frot_speed_behind(p, i), frot_speed_behind(p, i)));
       unit = alike ? least / own : 1;
     }
-    changes[i] = (k % 2 ? -1 : 1) * 3 * (0.1 + 0.9 * part) * unit;
+    changes[i] = frot_is_own(p, i) ? (k % 2 ? -1 : 1) * 3 * (0.1 + 0.9 * part) * unit : 0;
   }
   p->basis = p->w->opening.begin;
   frot_from_changes(p, changes, p->q);
   for (int i = 0; i < m->nq; i++) p->q[i] += p->w->opening.begin[i];
+  frot_begin_values(p, NULL, p->w->blocks.y);
 }
 
 /* The most that an angle changed from w->opening.begin. */
@@ -59,18 +61,22 @@ static void keep_nearer(frot_opening *p, nearest_found *best) {
   if (!(far < (1 - FROT_NEARER) * best->far)) return;
   best->far = far, best->turned = most_turned(p);
   memcpy(p->w->opening.nearest, p->q, sizeof(double) * (size_t)p->m->nq);
+  memcpy(p->w->opening.nearest + p->m->nq, p->w->blocks.y, sizeof(double) * (size_t)p->m->ny);
 }
 
 static void begin_again(const frot_opening *p) {
   frot_clear_opening(p);
   memcpy(p->q, p->w->opening.begin, sizeof(double) * (size_t)p->m->nq);
+  memcpy(p->w->blocks.y, p->w->opening.begin_y, sizeof(double) * (size_t)p->m->ny);
 }
 
-int frot_solve_widely(frot_opening *p) {
+static int solve_part(frot_opening *p) {
   frot_work *w = p->w;
   size_t bytes = sizeof(double) * (size_t)p->m->nq;
+  size_t y_bytes = sizeof(double) * (size_t)p->m->ny;
   nearest_found best = {INFINITY, INFINITY};
   memcpy(w->opening.begin, p->q, bytes);
+  memcpy(w->opening.begin_y, w->blocks.y, y_bytes);
   int found = frot_solve_nearest(p);
   if (found == FROT_OK && memcmp(w->opening.begin, p->q, bytes) == 0) return found;
   if (found != FROT_OK && (found != FROT_INITIAL || !p->wide)) return found;
@@ -90,6 +96,19 @@ int frot_solve_widely(frot_opening *p) {
     if (frot_solve_nearest(p) == FROT_OK && frot_come_closest(p) == FROT_OK) keep_nearer(p, &best);
   }
   frot_clear_opening(p);
-  memcpy(p->q, isfinite(best.far) ? w->opening.nearest : w->opening.begin, bytes);
+  const double *end = isfinite(best.far) ? w->opening.nearest : w->opening.begin;
+  const double *end_y = isfinite(best.far) ? end + p->m->nq : w->opening.begin_y;
+  memcpy(p->q, end, bytes), memcpy(w->blocks.y, end_y, y_bytes);
   return frot_solve_nearest(p);
+}
+
+int frot_solve_widely(frot_opening *p) {
+  int status = FROT_OK;
+  for (int part = 0; part < p->m->n_parts && status == FROT_OK; part++) {
+    frot_take_part(p, part);
+    status = solve_part(p);
+    p->failed = part;
+  }
+  frot_take_part(p, -1);
+  return status;
 }
