@@ -134,17 +134,17 @@ def lower_initial(
     y_start = move_by(system, guesses, system.y, _beginnings(system), known)
     discrete = column(d.start for d in system.reduced.text.memory)
     return Initial(
-        [natural, discrete],
-        [v, y_start],
-        _outputs(position, system.q, system.y),
-        _outputs(velocity, system.v, system.y),
-        tuple(statements),
-        tuple(r.statement for r in position),
-        tuple(r.statement for r in velocity),
-        tuple(r.statement < 0 or r.direct for r in position),
-        guessed,
-        vectors,
-        guessed_speeds(system, guesses, direct),
+        start=[natural, discrete],
+        beginning=[v, y_start],
+        position=_outputs(position, system.q, system.y),
+        velocity=_outputs(velocity, system.v, system.y),
+        statements=tuple(statements),
+        position_statement=tuple(r.statement for r in position),
+        velocity_statement=tuple(r.statement for r in velocity),
+        direct=tuple(r.statement < 0 or r.direct for r in position),
+        guessed=guessed,
+        vectors=vectors,
+        guessed_speeds=guessed_speeds(system, guesses, direct),
     )
 
 

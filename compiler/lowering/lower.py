@@ -12,7 +12,7 @@ from frot.compiler.lowering.equals import Kind, Member, share_functions
 from frot.compiler.lowering.explicit import make_explicit
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.finite import watch_numbers
-from frot.compiler.lowering.groups import Grouping
+from frot.compiler.lowering.groups import Grouping, Parts, make_parts
 from frot.compiler.lowering.initial_values import Statement, lower_initial
 from frot.compiler.lowering.islands import Island, divide
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, too_full, why_explicit
@@ -20,7 +20,6 @@ from frot.compiler.lowering.listing import Listed, list_variables
 from frot.compiler.lowering.lower_events import lower_update
 from frot.compiler.lowering.lower_parameters import lower_parameters, parameters_needed
 from frot.compiler.lowering.pace import make_pace
-from frot.compiler.lowering.parts import Parts, make_parts
 from frot.compiler.lowering.symbols import column
 from frot.compiler.lowering.timing import sort_conditions
 from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
@@ -211,7 +210,9 @@ def lower(
         velocity_statement=initial.velocity_statement,
         n_guessed=initial.guessed[0].numel() if initial.guessed else 0,
         n_guessed_speeds=initial.guessed_speeds[0].numel() if initial.guessed_speeds else 0,
-        parts=make_parts(system, grouping, initial),
+        parts=make_parts(
+            system, grouping, initial.position, initial.guessed, initial.direct, initial.vectors
+        ),
         n_followed=beginnings[0].numel() if beginnings else 0,
         row_depends=_row_depends(system),
         dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
