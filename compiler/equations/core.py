@@ -107,8 +107,9 @@ def make_core(
     force = -ca.substitute(equations, both, zero) if both.numel() else -equations
     sizes = replace_known(resolve_all(reduced.force_size, chains, left.resolver), known)
     sizes = ca.substitute(sizes, both, zero) if both.numel() else sizes
-    own = ca.fabs(force)
-    size = ca.vertcat(sizes[:count], own[count:nv], sizes[count : count + na], own[nv + na :])
+    # as lists: what is left of one scalar behind it is a row of one more to CasADi
+    told, own = scalars_of(sizes), scalars_of(ca.fabs(force))
+    size = column([*told[:count], *own[count:nv], *told[count : count + na], *own[nv + na :]])
     return Core(
         q=ca.vertcat(s.q, column(states.q)),
         v=column(states.v),

@@ -316,20 +316,6 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   return status;
 }
 
-int frot_inertia(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                 const double *v, const double *d, int alone) {
-  int status = frot_solve_blocks(m, s, w, t, q, v, d);
-  if (status != FROT_OK) return status;
-  s->statistics.evaluations++;
-  if (!frot_call_dynamics(m, s, w, t, q, v, d, FROT_INERTIA) && !alone) return FROT_NAN;
-  for (int k = 0; k < w->awake.now->n_groups && status == FROT_OK; k++) {
-    int group = w->awake.now->groups[k];
-    w->core.formed[group] = FROT_FACTOR;
-    if (!m->groups[group].general) status = frot_factor(w, &m->groups[group]);
-  }
-  return status == FROT_OK ? frot_metric(m, w) : status;
-}
-
 int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d) {
   int status = frot_solve_blocks(m, s, w, t, q, v, d);

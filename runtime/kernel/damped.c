@@ -23,30 +23,26 @@ double frot_missed_square(const frot_opening *p) {
   return sum;
 }
 
-/* What the angles do to an equation, whatever the masses, squared. */
-static double square_of_arm(const frot_opening *p, int i) {
+/* What the angles do to an equation, whatever the masses; of what they do nothing to, its size. */
+static double arm_of(const frot_opening *p, int i) {
   const double *row = p->w->relations.jacobian + p->m->nq * i;
   double square = 0;
   for (int j = 0; j < p->m->nv; j++) {
     int k = frot_angle_of(p->m, j);
     if (k >= 0) square += row[k] * row[k];
   }
-  for (int j = 0; j < p->m->n_turns; j++) {
-    const double *four = row + p->m->turns[j].at;
-    square += frot_dot(four, four, 4) / 4;
-  }
-  return square;
+  return square > 0 ? sqrt(square) : frot_statement_size(p, i);
 }
 
-/* By their arms, or their sizes where no angle moves them; those between lengths, or between
- * directions (of reach 1), of one liaison and those of one guessed vector by the mean of theirs: so
- * that it does not matter where the scene stands, nor along which axes it is seen. */
+/* By their arms, and those between lengths, or between directions (of reach 1), of one liaison by
+ * the mean of theirs: so that it does not matter where the scene stands, nor along which axes it is
+ * seen. */
 static void weigh_alike(const frot_opening *p) {
   const frot_model *m = p->m;
   const double *reach = p->w->opening.reach;
   double *weight = p->w->opening.row_weight, *arm = p->w->opening.off_at_first;
   int n = m->n_position;
-  for (int i = 0; i < p->n; i++) arm[i] = weight[i] = square_of_arm(p, i);
+  for (int i = 0; i < p->n; i++) arm[i] = weight[i] = arm_of(p, i);
   for (int i = 0; i < m->n_contacts; i++) {
     double square = 0, count = 0;
     if (!p->use[i] || m->contacts[i].kinematic) continue;
@@ -54,32 +50,24 @@ static void weigh_alike(const frot_opening *p) {
       if (!p->use[k] || m->contacts[k].kinematic) continue;
       if (strcmp(m->contacts[k].name, m->contacts[i].name) == 0 &&
           (reach[k] == 1) == (reach[i] == 1))
-        square += arm[at], count++;
+        square += arm[at] * arm[at], count++;
       at++;
     }
-    weight[n++] = square / count;
+    weight[n++] = sqrt(square / count);
   }
-  for (int i = 0; i < m->n_guessed && p->guessed; i++, n++) {
-    double square = 0, count = 0;
-    for (int k = 0; k < m->n_guessed; k++)
-      if (m->guess_vector[k] == m->guess_vector[i]) square += arm[n - i + k], count++;
-    weight[n] = square / count / (SHARE * SHARE);
-  }
-  for (int i = 0; i < p->n; i++) {
-    double size = weight[i] > 0 ? sqrt(weight[i]) : frot_statement_size(p, i);
-    weight[i] = size > 0 ? 1 / size : 0;
-  }
+  for (int i = 0; i < p->n; i++) weight[i] = weight[i] > 0 ? 1 / weight[i] : 0;
 }
 
 void frot_weigh_equations(const frot_opening *p) {
   const frot_relation_work *r = &p->w->relations;
-  if (p->alike) {
+  if (p->alike && p->m->n_turns == 0) {
     weigh_alike(p);
     return;
   }
   for (int i = 0; i < p->n; i++) {
-    double size = fmax(frot_statement_size(p, i), fabs(r->residual[i]));
-    p->w->opening.row_weight[i] = size > 0 ? 1 / size : 0;
+    int guess = p->guessed && i >= p->n - p->m->n_guessed;
+    double size = guess ? r->size[i] : fmax(frot_statement_size(p, i), fabs(r->residual[i]));
+    p->w->opening.row_weight[i] = size > 0 ? (guess ? SHARE : 1) / size : 0;
   }
 }
 
@@ -87,17 +75,16 @@ void frot_weigh_equations(const frot_opening *p) {
  * that they have moved so far (J. More 1978), in w->relations.unit. */
 static void scale_rows(const frot_opening *p) {
   frot_work *w = p->w;
-  int nx = p->m->nq, n = p->n_rows;
-  const int *rows = w->opening.rows;
+  int nx = p->m->nq;
   double *y = w->linear.matrix, *unit = w->relations.unit;
   for (int k = 0; k < nx; k++) {
     double sum = 0;
-    for (int j = 0; j < n; j++) {
-      y[nx * j + k] = w->relations.jacobian[nx * rows[j] + k] * w->opening.row_weight[rows[j]];
-      sum += y[nx * j + k] * y[nx * j + k];
+    for (int i = 0; i < p->n; i++) {
+      y[nx * i + k] = w->relations.jacobian[nx * i + k] * w->opening.row_weight[i];
+      sum += y[nx * i + k] * y[nx * i + k];
     }
     unit[k] = fmax(unit[k], sqrt(sum));
-    for (int j = 0; j < n && unit[k] > 0; j++) y[nx * j + k] /= unit[k];
+    for (int i = 0; i < p->n && unit[k] > 0; i++) y[nx * i + k] /= unit[k];
   }
 }
 
@@ -105,7 +92,7 @@ static void scale_rows(const frot_opening *p) {
  * far as is known of. Returns 0 if there is none. */
 static int damped_change(const frot_opening *p, double damping, double *step) {
   frot_work *w = p->w;
-  int nx = p->m->nq, n = p->n_rows;
+  int nx = p->m->nq, n = p->n;
   double *product = w->linear.scratch, *b = w->linear.right, largest = 0;
   for (int j = 0; j < n; j++) {
     const double *row = w->linear.matrix + nx * j;
@@ -135,10 +122,8 @@ int frot_follow_damped(frot_opening *p) {
   for (int pass = 0; pass < PASSES; pass++) {
     double before = frot_missed_square(p), after = INFINITY;
     scale_rows(p);
-    const int *rows = w->opening.rows;
-    for (int j = 0; j < p->n_rows; j++)
-      w->linear.right[p->n_rows + j] =
-          w->relations.residual[rows[j]] * w->opening.row_weight[rows[j]];
+    for (int i = 0; i < p->n; i++)
+      w->linear.right[p->n + i] = w->relations.residual[i] * w->opening.row_weight[i];
     memcpy(x0, p->q, sizeof(double) * (size_t)nx);
     memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)p->m->ny);
     for (; damping < STUCK && !(after < before); damping *= HARDER) {

@@ -60,6 +60,9 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
     frot_pack(w, s->data + l->slope, frot_stage(w, 0));
     memcpy(frot_stage(w, 0) + w->awake.n, s->data + l->slope + l->nx,
            sizeof(double) * (size_t)w->guards.count);
+    /* as large as they have been: scratch says nothing of the step before */
+    for (int k = 0; k < w->guards.count; k++)
+      w->guards.size[k] = s->data[l->scale_g + w->guards.list[k]];
     return FROT_OK;
   }
   memcpy(w->blocks.y, s->data + l->y, sizeof(double) * (size_t)m->ny);

@@ -19,11 +19,10 @@ void frot_begin_units(const frot_opening *p);
 /* y <- a change of the unknowns, in units in which its length is that of the metric. */
 void frot_measure_change(const frot_opening *p, const double *apart, double *y);
 
-/* y <- L^-1 row: a row in the units of the metric; the attached changes come first. */
-void frot_row_in_metric(const frot_opening *p, const double *row, double *y);
-
-/* The length of the row of equation i in the units of the metric. */
-double frot_row_length(const frot_opening *p, int i);
+/* Least change of the unknowns that removes the residuals to first order, over L, into w->step.
+ * With `from`, the change from there is the least one, that is from the present values what is left
+ * of it. Each row is divided by its length in the metric. */
+void frot_least_change(const frot_opening *p, const double *from);
 
 /* x <- x0 + part * L'^-1 y. Returns the largest change, and in *size the largest value. */
 double frot_move_opening(const frot_opening *p, const double *y, const double *x0, double part,
