@@ -88,13 +88,6 @@ static int shrinks_unheard(const frot_state *s, const frot_work *w, const frot_a
   return !s->implicit && w->step.worst < 0 && a->ratio > AUDIBLE && UNHEARD * s->h < s->heard;
 }
 
-/* Whether noise that was measured before an event, of another system, says how long the step may be
- * or where a guard is zero: else it is asked again in the next step, and this one is kept. */
-static int hears_another_system(const frot_model *m, const frot_state *s, const frot_work *w,
-                                double h) {
-  return !s->implicit && s->noise_measured < 0 && frot_noise_matters(m, s, w, h);
-}
-
 /* Take a guard that seems to dip for what it is: first by what rounding does to it, then by a
  * shorter step. */
 static int look_closer(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
@@ -136,7 +129,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &a->part) : -1;
   a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
   see_noise(s, a);
-  if (a->ratio <= 1 && (shrinks_unheard(s, w, a) || hears_another_system(m, s, w, h))) {
+  if (a->ratio <= 1 && (shrinks_unheard(s, w, a) || (!s->implicit && s->noise_measured < 0))) {
     measure_noise(m, s, w, t + h);
     return FROT_DIVERGE; /* its stages made way */
   }

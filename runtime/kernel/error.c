@@ -11,8 +11,6 @@
 
 /* Weight of a stage in the step, which what is doubtful in its slope has. */
 #define DOUBTED 0.001
-/* Part of the bound of an error up to which noise adds nothing to it that is worth measuring. */
-#define QUIET 0.1
 
 double frot_step_tolerance(const frot_state *s) {
   return fmax(FROT_EXPLICIT_SHARE * s->tolerance, FROT_LEAST_TOLERANCE);
@@ -50,30 +48,6 @@ static void size_own_states(const frot_model *m, const frot_state *s, frot_work 
   frot_state_sizes(m, s, w);
 }
 
-/* What rounding of its rate makes of the error of a state. */
-static double noise_of_state(const frot_model *m, const frot_state *s, const frot_work *w,
-                             int state, double h) {
-  int plain = state < m->nq && m->q_speed[state] < 0;
-  return (plain ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN) * h *
-         frot_noise_of_rate(m, s, w, state, h);
-}
-
-int frot_noise_matters(const frot_model *m, const frot_state *s, const frot_work *w, double h) {
-  double tolerance = frot_step_tolerance(s);
-  int n = w->awake.n;
-  for (int k = 0; k < n - FROT_QUADRATURES; k++) {
-    int state = w->awake.now->states[k];
-    double bound = tolerance * size_at_start(m, s, w, state, h);
-    if (!(noise_of_state(m, s, w, state, h) <= QUIET * bound)) return 1;
-  }
-  for (int k = 0; k < w->guards.count; k++) {
-    double size = fmax(s->data[w->layout.scale_g + w->guards.list[k]], w->guards.size[k]);
-    for (int i = 0; i <= DP_STAGES; i++) size = fmax(size, fabs(frot_stage(w, i)[n + k]));
-    if (!(frot_guard_noise(m, s, w, w->guards.list[k], h) <= FROT_GUARD_FLOOR * size)) return 1;
-  }
-  return 0;
-}
-
 /* The worst estimate of the local error over its bound, and in w->step.worst the value it is of. */
 static double worst_error(const frot_model *m, const frot_state *s, frot_work *w, double h) {
   const frot_layout *l = &w->layout;
@@ -97,7 +71,8 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
         fifth -= w->step.excused[state - m->nq];
         third -= w->step.excused[m->nv + state - m->nq];
       }
-      noise = noise_of_state(m, s, w, state, h);
+      noise = (plain ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN) * h *
+              frot_noise_of_rate(m, s, w, state, h);
       bound = tolerance * size_at_start(m, s, w, state, h);
       if (plain) bound = fmax(bound, noise), noise = 0; /* no inertia smooths it */
     } else {

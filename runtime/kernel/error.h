@@ -24,10 +24,6 @@ double frot_noise_of_rate(const frot_model *m, const frot_state *s, const frot_w
 double frot_guard_noise(const frot_model *m, const frot_state *s, const frot_work *w, int j,
                         double h);
 
-/* Whether any of that adds to what bounds the error of an explicit step h, or to what counts as
- * zero of a guard. */
-int frot_noise_matters(const frot_model *m, const frot_state *s, const frot_work *w, double h);
-
 /* Bound of the relative error of an explicit step. */
 double frot_step_tolerance(const frot_state *s);
 
