@@ -333,7 +333,7 @@ def _beginnings_of_open(system: Assembled) -> list[ca.SX]:
     tracks = system.reduced.variables.kinematics.tracks
     if not any(is_unilateral(liaison) for liaison in tracks):
         return []
-    return [column(x.start for x in tracks.values())]
+    return [column(x.start if x.elsewhere is None else x.elsewhere for x in tracks.values())]
 
 
 def _block_slopes(system: Assembled) -> list[ca.SX]:

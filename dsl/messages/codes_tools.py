@@ -108,8 +108,10 @@ TOOLS: Mapping[str, Row] = {
     ),
     "E0905": (
         "impact not resolved",
-        "The equations of an impact have no admissible solution.",
-        "Check the coefficients of restitution and of friction of the liaisons named.",
+        "Bodies meet with speed, or figures that touch meet at a second place, where their liaison "
+        "does not hold them. Impacts are not computed yet: the run keeps its motion up to there.",
+        "Let the bodies meet without speed, or end the run before; two bodies may touch at two "
+        "places by two liaisons, each of a figure of its own.",
         "",
     ),
     "E0906": (
@@ -140,7 +142,8 @@ TOOLS: Mapping[str, Row] = {
         "a figure without a tangent or a normal",
         "Where the liaison stands, the slope of its curve or surface is zero, as in a cusp or in "
         "the apex of a cone, or no place of it is the nearest, as in the centre of a sphere: "
-        "nothing tells in which direction it acts.",
+        "nothing tells in which direction it acts. Or two figures bend alike where they "
+        "are nearest, as a wheel in a curve of its own radius: nothing tells where they touch.",
         "State or guess another place, keep the motion away from there, or give the figure another "
         "form: a parameter that grows as its length does.",
         snippet(

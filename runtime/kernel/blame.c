@@ -132,7 +132,8 @@ int frot_name_vanished(const frot_model *m, frot_state *s, frot_work *w, int sta
   int unnamed = status == FROT_NAN && s->fault.item < 0 && s->fault.contact < 0;
   int lost = -1;
   if (m->n_vanishing == 0) return status;
-  if (!unnamed && status != FROT_SINGULAR && status != FROT_DIVERGE && status != FROT_ALGEBRAIC)
+  if (!unnamed && status != FROT_SINGULAR && status != FROT_DIVERGE && status != FROT_ALGEBRAIC &&
+      status != FROT_POSTURE)
     return status;
   for (int k = 0; k < 4 && lost < 0; k++) {
     if (k == 2) memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);

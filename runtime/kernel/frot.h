@@ -90,7 +90,8 @@ typedef struct {
    * statement or condition: -1 where none; of FROT_INITIAL without statement -2 for speeds; of
    * FROT_POSTURE the item is 0 where the speeds at the start say no way, or several, which differ
    * in the speed `other`; of
-   * FROT_DIVERGE the item is 0 where time takes the contact apart */
+   * FROT_DIVERGE the item is 0 where time takes the contact apart, of FROT_IMPACT where the figures
+   * of a closed contact meet at a second place */
   int contact, item, other;
   double t, value;
   double where[FROT_WHERE]; /* of FROT_VANISHED; values of that speed */

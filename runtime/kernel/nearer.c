@@ -6,11 +6,16 @@
 #include "core.h"
 #include "edges.h"
 #include "stages.h"
+#include "terms.h"
 #include "tolerances.h"
 
 #define HALVINGS 45
 /* Part of a step from which on its end is the instant. */
 #define AT_END (1 - 1e-6)
+/* Part of its lengths by which figures that touch are in each other at another place. */
+#define INSIDE 1e-11
+/* How many times what shows a place elsewhere it is to show where a step is to end by it. */
+#define CLEARLY 2
 
 /* The set of a contact's values among the unknowns of blocks and the flags. */
 static const frot_block *block_of(const frot_model *m, int contact) {
@@ -58,10 +63,20 @@ static void values_inside(const frot_work *w, double theta, double *x) {
   }
 }
 
-/* Whether after the part theta of the step a contact is nearer at the place found for its end than
- * at the one that is followed. */
+/* Whether a place elsewhere counts that has the gap `other`, where the followed one has `own`: of
+ * an open contact it is nearer, of a closed one the figures are in each other there: by so many
+ * `times` what shows it. NaN does not. */
+static int counts(const frot_model *m, const frot_state *s, const frot_work *w, int contact,
+                  double other, double own, double times) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  if (!modes[contact].closed) return fabs(other) < (1 - times * FROT_NEARER) * fabs(own);
+  double size = frot_gap_size(m, w, m->contacts[contact].row_n, w->step.z1);
+  return other < fmin(own, 0) - times * INSIDE * size;
+}
+
+/* Whether after the part theta of the step the place found for its end counts, `times`. */
 static int is_nearer(const frot_model *m, frot_state *s, frot_work *w, int contact, double t,
-                     double h, double theta) {
+                     double h, double theta, double times) {
   const double *y0 = s->data + w->layout.y;
   double *x = w->step.z, *y = w->blocks.y;
   values_inside(w, theta, x);
@@ -70,18 +85,18 @@ static int is_nearer(const frot_model *m, frot_state *s, frot_work *w, int conta
   memcpy(y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   set_place(m, w->nearer.y, contact, y);
   double other = gap_at(m, s, w, contact, t + theta * h, x, 1);
-  return fabs(other) < (1 - 2 * FROT_NEARER) * fabs(own);
+  return counts(m, s, w, contact, other, own, times);
 }
 
-/* Whether the figures of an open contact are nearer than `far` at another place, which is then
- * kept. */
+/* Whether another place of a contact counts, whose gap is `far` where it is followed: it is kept.
+ */
 static int look(const frot_model *m, frot_state *s, frot_work *w, int contact, double end,
                 double far) {
   double *y = w->blocks.y;
   memcpy(y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   set_place(m, w->nearer.begin, contact, y);
   double other = gap_at(m, s, w, contact, end, w->step.z1, 1);
-  if (!(fabs(other) < (1 - FROT_NEARER) * fabs(far))) return 0;
+  if (!counts(m, s, w, contact, other, far, 1)) return 0;
   set_place(m, y, contact, w->nearer.y);
   w->nearer.changed[contact] = other < 0 ? -1 : 1;
   return 1;
@@ -99,15 +114,24 @@ static void look_at_end(const frot_model *m, frot_state *s, frot_work *w, double
   frot_call(w, &m->beginnings);
 }
 
-/* The part of the step after which one of the places found is nearer first. */
+/* Of the places found for closed contacts those are none at which the figures are in each other at
+ * the start of the step already: where they meet they come together. */
+static void keep_met(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  for (int i = 0; i < m->n_contacts; i++)
+    if (w->nearer.changed[i] && modes[i].closed && is_nearer(m, s, w, i, t, h, 0, 1))
+      w->nearer.changed[i] = 0, w->nearer.count--;
+}
+
+/* The part of the step after which one of the places found counts first. */
 static double first_nearer(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   double first = 1;
   for (int i = 0; i < m->n_contacts; i++) {
     double low = 0, high = first;
-    if (!w->nearer.changed[i] || !is_nearer(m, s, w, i, t, h, high)) continue;
+    if (!w->nearer.changed[i] || !is_nearer(m, s, w, i, t, h, high, CLEARLY)) continue;
     for (int k = 0; k < HALVINGS; k++) {
       double middle = 0.5 * (low + high);
-      if (is_nearer(m, s, w, i, t, h, middle))
+      if (is_nearer(m, s, w, i, t, h, middle, CLEARLY))
         high = middle;
       else
         low = middle;
@@ -119,31 +143,35 @@ static double first_nearer(const frot_model *m, frot_state *s, frot_work *w, dou
 
 int frot_look_nearer(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
                      double *part) {
-  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   const double *unilateral = s->data + w->layout.unilateral, end = t + h;
   const frot_awake_lists *now = w->awake.now;
-  int found = 0, listed = 0, status = FROT_OK;
+  int listed = 0, status = FROT_OK;
   w->nearer.count = 0, *part = 1;
   if (m->n_followed == 0) return FROT_OK;
   memset(w->nearer.changed, 0, (size_t)m->n_contacts);
   for (int k = 0; k < now->n_contacts; k++) {
     int i = now->contacts[k];
-    if (m->contacts[i].followed < 0 || modes[i].closed || unilateral[i] == 0) continue;
+    if (m->contacts[i].followed < 0 || unilateral[i] == 0) continue;
     if (!listed) look_at_end(m, s, w, end), listed = 1;
-    found += look(m, s, w, i, end, w->nearer.far[i]);
+    w->nearer.count += look(m, s, w, i, end, w->nearer.far[i]);
   }
-  w->nearer.count = found;
-  if (found) status = frot_make_dense(m, s, w, t, h);
-  if (found && status == FROT_OK) *part = first_nearer(m, s, w, t, h);
+  if (w->nearer.count) status = frot_make_dense(m, s, w, t, h);
+  if (w->nearer.count && status == FROT_OK) keep_met(m, s, w, t, h);
+  if (w->nearer.count && status == FROT_OK) *part = first_nearer(m, s, w, t, h);
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   if (listed) frot_kinematics(m, s, w, end, w->step.z1, w->step.z1 + m->nq, s->data + w->layout.d);
   return status;
 }
 
 void frot_take_nearer(const frot_model *m, frot_state *s, frot_work *w) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   double *d = s->data + w->layout.d, *side = d + m->n_conditions;
   for (int i = 0; i < m->n_contacts && w->nearer.count > 0; i++) {
     if (!w->nearer.changed[i]) continue;
+    if (modes[i].closed) {
+      s->pending = 1, s->second = i;
+      continue;
+    }
     set_place(m, w->nearer.y, i, s->data + w->layout.y);
     if (w->nearer.changed[i] < 0) side[i] = -side[i];
     for (int j = 0; j < m->n_conditions; j++)

@@ -82,6 +82,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->ended_recorded = s->shrinking = 0;
   s->text_event = t, s->text_gap = s->text_ratio = s->text_first = 0;
   s->pending = s->has_slope = s->changed = s->crowded = s->several = s->untold = 0;
+  s->second = -1;
   for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
   s->crowded_since = s->left_at = t, s->told = s->statistics.events;
   s->measured = s->weak = s->tied = s->no_better = s->from_posture = s->unmeasured =
@@ -246,7 +247,9 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
     int status = FROT_OK;
     if (s->pending) {
       frot_wake_state(m, s, w);
-      if (++s->crowded > CROWD && s->statistics.events == s->told)
+      if (s->second >= 0)
+        status = frot_fail(s, FROT_IMPACT, *g.t1, s->second, 0, -1, 0);
+      else if (++s->crowded > CROWD && s->statistics.events == s->told)
         status = frot_fail_step(m, s, w, FROT_DIVERGE, *g.t1, 0); /* the same modes again */
       else if (s->crowded > CROWD && s->fleeting >= 0) /* none holds longer than the instant */
         status = frot_fail(s, FROT_IMPASSE, *g.t1, s->fleeting, -1, -1, s->crowded);

@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 17
+#define FROT_LAYOUT_VERSION 18
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -46,6 +46,7 @@ struct frot_state {
   int changed;     /* parameters or inputs were set since the last frot_settle */
   int crowded;     /* events since the time last moved on */
   int fleeting;    /* the contact at which no motion lasts at the last event, or -1 */
+  int second;      /* the contact whose figures meet at another place too, or -1: nearer.h */
   long long told;  /* events that changed something before that */
   int jumped;      /* the last event of the text moved coordinates or speeds */
   int several;     /* groups of contacts had several motions at the start: to be told as events */

@@ -196,6 +196,14 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       initial_text(m, f, text, size);
       return;
     case FROT_IMPACT:
+      if (f->item >= 0) {
+        snprintf(text, size,
+                 "liaison '%s': its figures, which touch, meet at a second place too at t = %.17g; "
+                 "a liaison holds one place, and impacts are not supported yet, so the run ends "
+                 "here",
+                 name, f->t);
+        return;
+      }
       snprintf(
           text, size,
           "liaison '%s': the bodies meet at t = %.17g with a normal speed of %.6g m/s; impacts "

@@ -16,13 +16,13 @@ import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.levels import level
 from frot.compiler.mechanics.geometry.paths import Trace, trace
+from frot.compiler.mechanics.geometry.searching import extremal, nearest_pair
 from frot.compiler.mechanics.geometry.touches import Touch
 from frot.compiler.mechanics.geometry.tracking import (
     Track,
-    extremal,
+    bends_of,
     far_of,
     long_of,
-    nearest_pair,
     on_side,
     parameter_names,
     symbols_of,
@@ -132,9 +132,12 @@ def _of_level(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending:
     def value(x: ca.SX) -> ca.SX:
         return level(a, trace(b, x, pb, lower).point, pa, lower).value
 
-    start = extremal(b, value, pa.origin, pb, lower)
-    seen = on_side(touch, ending.side)
-    return Track(s, names, residual, size * (1 + ca.fabs(one.excess)), start, seen, sided=True)
+    start, other = (extremal(b, value, pa.origin, pb, lower, x) for x in (None, one.inside))
+    seen, bends = on_side(touch, ending.side), bends_of(found.slope, point.slopes, s)
+    size, beyond = size * (1 + ca.fabs(one.excess)), ca.jacobian(residual, s) - sum(bends)
+    return Track(
+        s, names, residual, size, start, seen, sided=True, bends=(*bends, beyond), elsewhere=other
+    )
 
 
 def _of_point(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending: Ending) -> Track:
@@ -156,7 +159,8 @@ def _of_point(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending:
         ca.dot(left, way), far, -ca.dot(normal, first.drift), -first.drift,
     )  # fmt: skip
     size = steep * (far + steep * (largest - least) * ca.fabs(one.excess))
-    return Track(s, names, residual, size, nearest_pair(a, b, at, lower), touch, first, sided=True)
+    start, other = (nearest_pair(a, b, at, lower, x) for x in (None, one.inside))
+    return Track(s, names, residual, size, start, touch, first, sided=True, elsewhere=other)
 
 
 def _of_curves(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending: Ending) -> Track:
@@ -192,5 +196,5 @@ def _of_curves(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending
     gap = ca.if_else(one.ended * other.ended, beyond, ca.dot(normal, way))
     drift = second.drift - first.drift
     touch = Touch(gap, normal, second.point, witness, far, ca.dot(normal, drift), drift)
-    start = nearest_pair(a, b, at, lower)
-    return Track(s, names, residual, size, start, touch, first, sided=True)
+    start, found = (nearest_pair(a, b, at, lower, x) for x in (None, one.inside))
+    return Track(s, names, residual, size, start, touch, first, sided=True, elsewhere=found)

@@ -121,6 +121,11 @@ class Figure:
         """The least and the largest parameter of a curve that has ends."""
         raise NotImplementedError
 
+    @property
+    def borders(self) -> tuple[tuple[Axis, Expression], ...]:
+        """Directions along which a surface ends at half of a length on either side of its place."""
+        return ()
+
     def middle(self, lower: Lower) -> ca.SX:
         """A point (3) amid its points, in its axes: between its ends, or its centre."""
         if not self.has_ends:

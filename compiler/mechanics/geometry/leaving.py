@@ -1,4 +1,4 @@
-"""Where what cannot part comes to the end of a curve: a fault, told by name.
+"""Where what cannot part comes to the end of a curve or a face: a fault, told by name.
 
 What can part leaves it there, or stays on the end itself (`ended.py`).
 """
@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.ended import AT_END
+from frot.compiler.mechanics.geometry.figure import Figure, local_of
 from frot.compiler.mechanics.geometry.figures import figure_of
 from frot.compiler.mechanics.geometry.vanishing import Figured, figures_in
 from frot.compiler.mechanics.mechanism import is_unilateral
@@ -29,8 +30,8 @@ class Leaving:
 
 
 def find_leaving(variables: Variables) -> Iterator[Leaving]:
-    """Both ends of each curve that has some."""
-    kinematics = variables.kinematics
+    """Both ends of each curve that has some, and the borders of faces."""
+    kinematics, lower = variables.kinematics, variables.kinematics.fixed.lower
     for liaison, link in variables.links.items():
         parts = liaison.options["unilateral"] if is_unilateral(liaison) else None
         if isinstance(parts, Literal) and parts.value is True:
@@ -40,17 +41,30 @@ def find_leaving(variables: Variables) -> Iterator[Leaving]:
             assert placed is not None
             name = " ".join(liaison.b.span.text.split())
             found = [(name, placed.figure, variables.of_liaison(liaison, "u"))]
+            own = []
         else:
-            own = figures_in(link, variables.geometry[liaison], kinematics)
-            found = [(x.name, x.figure, _parameter(x, kinematics.fixed.lower)) for x in own]
+            own = list(figures_in(link, variables.geometry[liaison], kinematics))
+            found = [(x.name, x.figure, _parameter(x, lower)) for x in own]
         for name, figure, u in found:
             if figure.has_ends:
-                text = f"liaison '{liaison.name}' leaves '{name}', which ends there"
                 straight = figure.line is not None or figure.plane is not None
-                text += "" if straight else " (unless it says `periodic = true`)"
-                least, largest = figure.ends(kinematics.fixed.lower)
-                beyond = ca.fmax(u - largest, least - u) - AT_END * (largest - least)
-                yield Leaving(liaison, text, beyond, parts)
+                more = "" if straight else " (unless it says `periodic = true`)"
+                yield Leaving(liaison, _text(liaison, name) + more, _past(u, figure, lower), parts)
+        for one in own:
+            for axis, long in one.figure.borders:
+                way = ca.dot(axis.unit(lower), local_of(one.pose, one.place))
+                beyond = ca.fabs(way) - (0.5 + AT_END) * lower(long)
+                yield Leaving(liaison, _text(liaison, one.name), beyond, parts)
+
+
+def _text(liaison: Liaison, name: str) -> str:
+    return f"liaison '{liaison.name}' leaves '{name}', which ends there"
+
+
+def _past(u: ca.SX, figure: Figure, lower: Lower) -> ca.SX:
+    """How far a parameter is beyond the ends of a curve."""
+    least, largest = figure.ends(lower)
+    return ca.fmax(u - largest, least - u) - AT_END * (largest - least)
 
 
 def _parameter(one: Figured, lower: Lower) -> ca.SX:

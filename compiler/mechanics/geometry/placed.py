@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from frot.compiler.mechanics.geometry.figure import Figure, Placed
-from frot.compiler.mechanics.geometry.plain import Dot
+from frot.compiler.mechanics.geometry.plain import Dot, Flat, Straight
 from frot.compiler.mechanics.geometry.round import Ball
 from frot.compiler.mechanics.geometry.touches import is_closed
 from frot.compiler.mechanics.geometry.tracking import can_touch
@@ -52,7 +52,7 @@ def _annular(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | 
 def _line_on_plane(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
     if a.plane is None or b.line is None:
         return None
-    return _rows(Touching(a, Dot()), Level(a.plane, b.line))
+    return _rows(Touching(_endless(a), Dot()), Level(a.plane, b.line))
 
 
 def _rod(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
@@ -99,12 +99,19 @@ class _Lying:
     level: Level
 
 
+def _endless(a: Figure) -> Figure:
+    """The plane or the cylinder without its borders: what lies on it along a line reaches far."""
+    if a.plane is not None:
+        return Flat(a.plane, False)
+    return a if a.tube is None else Straight(*a.tube)
+
+
 def _lying(a: Figure, b: Figure) -> _Lying | None:
     """How a cylinder lies on a plane; None of other figures."""
     if a.plane is None or b.tube is None:
         return None
     axis, radius = b.tube
-    return _Lying(Touching(a, Ball(radius)), Level(a.plane, axis))
+    return _Lying(Touching(_endless(a), Ball(radius)), Level(a.plane, axis))
 
 
 def _tangent(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | None:
@@ -124,7 +131,7 @@ def _rolling(a: Figure, b: Figure, options: Options, planar: bool) -> Pairing | 
         still = (NoSlip(a, lying.touching.b, k, planar) for k in range(2))
         return _rows(lying.touching, lying.level, *still, NoSpin(lying.level.normal))
     if a.tube is not None and b.tube is not None:
-        return _side_by_side(a, a.tube[0], *b.tube)
+        return _side_by_side(_endless(a), a.tube[0], *b.tube)
     if not can_touch(a, b, planar):
         return None
     ways = range(1 if planar else 2)

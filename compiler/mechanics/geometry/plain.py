@@ -52,6 +52,7 @@ class Flat(Figure):
 
     axis: Axis
     in_plane: bool
+    borders: tuple[tuple[Axis, Expression], ...] = ()
 
     @property
     def rank(self) -> int:
@@ -150,13 +151,18 @@ class Straight(Figure):
 
     @property
     def has_ends(self) -> bool:
-        """Where a length is given."""
-        return self.long is not None
+        """A line, where a length is given."""
+        return self.radius is None and self.long is not None
 
     def ends(self, lower: Lower) -> tuple[ca.SX, ca.SX]:
         """Half of its length on either side."""
         assert self.long is not None
         return _halves(self.long, lower)
+
+    @property
+    def borders(self) -> tuple[tuple[Axis, Expression], ...]:
+        """A cylinder's, where a length is given."""
+        return () if self.radius is None or self.long is None else ((self.axis, self.long),)
 
     @property
     def bends(self) -> bool:

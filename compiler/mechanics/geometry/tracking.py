@@ -9,19 +9,19 @@ parameter, and closed surfaces by their function: none of these has a place that
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from itertools import permutations
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.levels import level
 from frot.compiler.mechanics.geometry.paths import Trace, trace
+from frot.compiler.mechanics.geometry.searching import beginning, extremal, nearest, nearest_pair
 from frot.compiler.mechanics.geometry.touches import Touch, is_closed
 from frot.compiler.mechanics.solve import solve_in_units
 from frot.compiler.mechanics.spatial import Pose, Z, beside_moving, cross
 from frot.compiler.mechanics.values import Lower
 from frot.dsl.data.classes import dataclass
-
-ROUNDS = 2  # of the nearest point on one figure to that on the other
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,6 +31,8 @@ class Track:
     `start` is where the search begins, `names` those of the parameters; `touch` is how the figures
     stand there, with the side +1. Of a curve that a point stays on there is `trace`, of tangent
     curves `meeting`, by the parts of the lock. `sided`: the touch is seen from its side already.
+    `bends`: what each figure adds to the slopes of the residual; none where they do not cancel.
+    `elsewhere`: where the search for another place begins; None where only `start` is known.
     """
 
     unknowns: ca.SX
@@ -42,6 +44,30 @@ class Track:
     trace: Trace | None = None
     meeting: tuple[Meeting, ...] = ()
     sided: bool = False
+    bends: tuple[ca.SX, ...] = ()
+    elsewhere: ca.SX | None = None
+
+    @property
+    def alone(self) -> ca.SX:
+        """How well the place is told from those beside it, 0 where it is not and 1 at most.
+
+        det(K)/perm|K| of the slopes K of the residual, each entry of |K| by what its figures add
+        to it: of two curves the difference of their curvatures over the sum.
+        """
+        bends = self.bends or (ca.jacobian(self.residual, self.unknowns),)
+        size = sum((ca.fabs(x) for x in bends[1:]), ca.fabs(bends[0]))
+        most = _permanent(ca.densify(size))
+        found = ca.fabs(ca.det(ca.densify(sum(bends[1:], bends[0]))))
+        return found / ca.if_else(most > 0, most, 1)
+
+
+def _permanent(matrix: ca.SX) -> ca.SX:
+    n = matrix.shape[0]
+    terms = (
+        math.prod((matrix[i, k] for i, k in enumerate(order)), start=ca.SX(1))
+        for order in permutations(range(n))
+    )
+    return sum(terms, ca.SX(0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -141,8 +167,19 @@ def _of_level(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Trac
     def value(x: ca.SX) -> ca.SX:
         return level(a, trace(b, x, pb, lower).point, pa, lower).value
 
-    start = extremal(b, value, pa.origin, pb, lower)
-    return Track(s, names, _column(residual), _column(size), start, touch)
+    start, other = (extremal(b, value, pa.origin, pb, lower, x) for x in (None, s))
+    bends = bends_of(found.slope, point.slopes, s)
+    return Track(
+        s, names, _column(residual), _column(size), start, touch, bends=bends, elsewhere=other
+    )
+
+
+def bends_of(slope: ca.SX, slopes: tuple[ca.SX, ...], s: ca.SX) -> tuple[ca.SX, ca.SX]:
+    """What the bend of a level F and that of a figure p(s) add to the slopes of grad F . p_s."""
+    return (
+        _column([x.T @ ca.jacobian(slope, s) for x in slopes]),
+        _column([slope.T @ ca.jacobian(x, s) for x in slopes]),
+    )
 
 
 def _of_levels(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track:
@@ -161,8 +198,10 @@ def _of_levels(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Tra
     )  # fmt: skip
     residual = ca.vertcat(first.slope + s[3] * second.slope, second.value)
     size = ca.vertcat(*(steep for _ in range(3)), second.steep * far)
-    start = _beginning(a, b, at, lower)
-    return Track(s, names, residual, size, start, touch)
+    start = beginning(a, b, at, lower)
+    own = ca.jacobian(ca.vertcat(first.slope, 0), s)
+    bends = own, ca.jacobian(residual, s) - own
+    return Track(s, names, residual, size, start, touch, bends=bends)
 
 
 def _of_points(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
@@ -189,8 +228,8 @@ def _of_points(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, planar
         ca.dot(normal, pb.point(b.middle(lower)) - first.point), far,
         ca.dot(normal, drift), drift,
     )  # fmt: skip
-    start = nearest_pair(a, b, at, lower)
-    return Track(s, names, _column(residual), _column(size), start, touch, first)
+    start, other = (nearest_pair(a, b, at, lower, x) for x in (None, s[:n]))
+    return Track(s, names, _column(residual), _column(size), start, touch, first, elsewhere=other)
 
 
 def along(curve: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track:
@@ -202,7 +241,7 @@ def along(curve: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track:
     far = far_of(pa.origin, pb.origin, first.point - pa.origin)
     (slope,) = first.slopes
     touch = Touch(ca.SX(0), way, pb.origin, ca.SX(1), far, ca.SX(0), -first.drift)
-    start = _nearest(curve, pb.origin, pa, lower)
+    start = nearest(curve, pb.origin, pa, lower)
     return Track(s, ("u",), ca.dot(way, slope), far * long_of(slope), start, touch, first)
 
 
@@ -258,97 +297,3 @@ def _bend(slope: ca.SX, parameter: ca.SX) -> tuple[ca.SX, ca.SX]:
 
 def _column(values: list[ca.SX]) -> ca.SX:
     return ca.vertcat(*values) if values else ca.SX.zeros(0)
-
-
-# ---------------------------------------------------------------------- where the search begins
-
-
-def _least(places: list[ca.SX], values: list[ca.SX]) -> ca.SX:
-    """The place of the least value."""
-    best, least = places[0], values[0]
-    for place, value in zip(places[1:], values[1:], strict=True):
-        lower_one = value < least
-        best, least = ca.if_else(lower_one, place, best), ca.if_else(lower_one, value, least)
-    return best
-
-
-def _all_values(places: list[ca.SX], value: Callable[[ca.SX], ca.SX]) -> list[ca.SX]:
-    s = ca.SX.sym("s", places[0].numel())
-    own = value(s)
-    return [ca.substitute(own, s, place) for place in places]
-
-
-def extremal(
-    b: Figure, value: Callable[[ca.SX], ca.SX], towards: ca.SX, pb: Pose, lower: Lower
-) -> ca.SX:
-    """Where a function is least on b, or largest where it is negative on most of it."""
-    if b.is_point:
-        return ca.SX.zeros(0)
-    places = b.beginnings(lower)
-    if not places:
-        return b.parameter(towards - pb.origin, pb, lower)
-    values = _all_values(places, value)
-    sign = ca.if_else(sum(values, ca.SX(0)) < 0, -1, 1)
-    return _least(places, [sign * x for x in values])
-
-
-def _nearest(figure: Figure, place: ca.SX, pose: Pose, lower: Lower) -> ca.SX:
-    """The parameters of the point nearest to a place."""
-    if figure.is_point:
-        return ca.SX.zeros(0)
-    places, local = figure.beginnings(lower), ca.SX.sym("local", 3)
-    if not places:
-        return figure.parameter(place - pose.origin, pose, lower)
-    far = _all_values(places, lambda s: ca.sumsqr(figure.point(s, lower) - local))
-    there = ca.densify(pose.axes.T @ (place - pose.origin))
-    return ca.substitute(_least(places, far), local, there)
-
-
-def nearest_pair(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> ca.SX:
-    """The parameters of the nearest points of two figures, of some all along them."""
-    pa, pb = at
-    place = pb.origin
-    first = second = ca.SX.zeros(0)
-    for _ in range(ROUNDS):
-        first = _nearest(a, place, pa, lower)
-        place = trace(a, first, pa, lower).point
-        if b.is_point:
-            break
-        second = _nearest(b, place, pb, lower)
-        place = trace(b, second, pb, lower).point
-    return ca.vertcat(first, second)
-
-
-def _beginning(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> ca.SX:
-    """Of an ellipsoid where its normal is along the slope of F_a, else down the slope of F_b."""
-    pa, pb = at
-    x = _where_it_faces(a, b, at, lower)
-    if x is None:
-        flat = a.plane is not None
-        place = pb.origin if flat else pa.origin
-        if flat:
-            found = level(a, place, pa, lower)
-            place = place - found.value * found.slope
-        for _ in range(2 * ROUNDS):
-            own = level(b, place, pb, lower)
-            square = ca.sumsqr(own.slope)
-            place = place - own.value * own.slope / ca.if_else(square > 0, square, 1)
-        x = ca.densify(pb.axes.T @ (place - pb.origin))
-    place = pb.point(x)
-    first, second = level(a, place, pa, lower).slope, level(b, place, pb, lower).slope
-    square = ca.sumsqr(second)
-    return ca.vertcat(x, -ca.dot(first, second) / ca.if_else(square > 0, square, 1))
-
-
-def _where_it_faces(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> ca.SX | None:
-    """The point of b, in its axes, whose normal is along the slope of F_a there."""
-    pa, pb = at
-    x = ca.SX.zeros(3)
-    side = ca.if_else(level(a, pb.origin, pa, lower).value < 0, 1, -1)
-    for _ in range(ROUNDS):
-        slope = pb.axes.T @ level(a, pb.point(x), pa, lower).slope
-        found = b.facing(slope, side, lower)
-        if found is None:
-            return None
-        x = found
-    return x

@@ -20,6 +20,7 @@ from frot.dsl.checked import Curve, CurvePlace, Expression, Liaison, Surface, Su
 from frot.dsl.data.classes import dataclass
 
 COUNT = 3  # numbers that tell where (FROT_WHERE)
+ALIKE = "where its figures are nearest they bend alike, so that no place of them is the nearest"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,6 +68,10 @@ def find_vanishing(
                 text = f"liaison '{liaison.name}': {what.format(one.name)}"
                 padded = ca.vertcat(where, ca.SX.zeros(COUNT - where.numel()))
                 yield Vanishing(liaison, text, names, distance, padded)
+        track = kinematics.tracks.get(liaison)
+        if track is not None:
+            text = f"liaison '{liaison.name}': {ALIKE}"
+            yield Vanishing(liaison, text, (), track.alone, ca.SX.zeros(COUNT))
 
 
 def _changing(liaison: Liaison, link: Link) -> Iterator[tuple[str, Expression]]:

@@ -33,7 +33,7 @@ class Cylinder(Shape):
         """Its `side`, and the `rims` of its two ends."""
         radius = part.body.arguments["radius"]
         if part.name == "side":
-            return at_centre(part, Straight(Axis("z"), radius))
+            return at_centre(part, Straight(Axis("z"), radius, part.body.arguments["length"]))
         rim = item_of(part.name, "rims")
         if not rim:
             return None
@@ -85,11 +85,18 @@ class Box(Shape):
         if part.name not in _FACES:
             return None
         centre = BodyPoint(part.body, part.name, part.span)
-        if not planar:
-            return Placed(centre, Flat(Axis(_FACES[part.name]), False))
-        axis = _SIDES[part.name]
-        long = element(part.body.arguments["size"], "xy".index(axis[-1]), part.span)
-        return Placed(centre, Segment(Axis(axis), True, long))
+        size = part.body.arguments["size"]
+        if planar:
+            axis = _SIDES[part.name]
+            long = element(size, "xy".index(axis[-1]), part.span)
+            return Placed(centre, Segment(Axis(axis), True, long=long))
+        normal = _FACES[part.name]
+        borders = tuple(
+            (Axis(axis), element(size, k, part.span))
+            for k, axis in enumerate("xyz")
+            if axis != normal[-1]
+        )
+        return Placed(centre, Flat(Axis(normal), False, borders))
 
     def corners(self, face: BodyGeometry) -> tuple[BodyPoint, ...]:
         """Four of a face, two of an edge."""

@@ -31,5 +31,5 @@ class Rod(Shape):
         if part.name != "axis":
             return None
         long = part.body.arguments["length"]
-        axis = Segment(Axis("x"), True, long) if planar else Straight(Axis("x"), None, long)
+        axis = Segment(Axis("x"), True, long=long) if planar else Straight(Axis("x"), None, long)
         return at_centre(part, axis)
