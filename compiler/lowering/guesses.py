@@ -102,7 +102,9 @@ def guessed_speeds(
     alone = {g.left.element_hash() for g in guesses if g.left.is_symbolic() and not g.start}
     speeds = [(s, s.element_hash()) for s in scalars_of(system.v)]
     free = column(s for s, key in speeds if key not in known)
-    found = _guesses_of(guesses, free, ca.vertcat(system.y[system.early :], system.z, system.lam))
+    found = _guesses_of(
+        guesses, free, ca.vertcat(system.y[system.early :, :], system.z, system.lam)
+    )
     moves = column(ca.SX(key not in known and key not in alone) for _, key in speeds)
     vectors = (g.whole if g.whole.numel() <= 3 else g.left for g in found)
     wholes = [scalars(ca.vertcat(x, ca.SX.zeros(3 - x.numel()))) for x in vectors]

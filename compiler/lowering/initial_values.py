@@ -75,7 +75,7 @@ def lower_initial(
     model = system.reduced.mechanism.model
     statements = [_statement(e) for e in model.initial]
     found: list[_Residual] = []
-    solved = (system.z, system.lam, system.y[system.early :])
+    solved = (system.z, system.lam, system.y[system.early :, :])
     later = {x.element_hash() for part in solved for x in scalars_of(part)}
     for index, equation in enumerate(model.initial):
         if not equation.guess and not _sets_memory(equation, system):
@@ -322,7 +322,7 @@ def _depends(value: ca.SX, system: Assembled, on: ca.SX) -> bool:
     if ca.depends_on(value, on):
         return True
     early = [b for b in system.blocks if not b.late]
-    if not early or not ca.depends_on(value, system.y[: system.early]):
+    if not early or not ca.depends_on(value, system.y[: system.early, :]):
         return False
     return any(bool(ca.depends_on(b.residual, on)) for b in early)
 

@@ -79,7 +79,7 @@ def make_jacobian(system: Assembled, grouping: Grouping, state: list[ca.SX]) -> 
     q, t, n = system.q, system.reduced.symbols.t, system.q.numel()
     slope, rate = ca.jacobian(system.rates, q), ca.jacobian(system.rates, t)
     if system.early:
-        y = system.y[: system.early]
+        y = system.y[: system.early, :]
         residual = column(b.residual for b in system.blocks if not b.late)
         parts = [ca.jacobian(system.rates, y), *(ca.jacobian(residual, x) for x in (q, t, y))]
         return Jacobian(state, [slope, rate, *parts], (), (), None)
@@ -103,7 +103,7 @@ def _of_motion(system: Assembled, grouping: Grouping, state: list[ca.SX]) -> Jac
     groups = grouping.groups
     owned = _owned(system, groups)
     values = ca.vertcat(*owned)
-    moved = ca.vertcat(system.q, system.v, system.y[: system.early])
+    moved = ca.vertcat(system.q, system.v, system.y[: system.early, :])
     arguments = [*state, system.z, system.lam]
     sizes = [int(x.numel()) for x in owned]
     pattern = ca.jacobian_sparsity(values, moved)

@@ -284,7 +284,7 @@ def _clean(outputs: list[ca.SX]) -> list[ca.SX]:
 
 def unsolved(conditions: ca.SX, system: Assembled) -> ca.SX:
     """The values of conditions; -1 for those that follow from accelerations or reactions."""
-    later = ca.vertcat(system.z, system.lam, system.y[system.early :])
+    later = ca.vertcat(system.z, system.lam, system.y[system.early :, :])
     if not (conditions.numel() and later.numel()):
         return conditions
     return column(
@@ -338,7 +338,7 @@ def _beginnings_of_open(system: Assembled) -> list[ca.SX]:
 
 def _block_slopes(system: Assembled) -> list[ca.SX]:
     residual = column(b.residual for b in system.blocks if not b.late)
-    y = system.y[: system.early]
+    y = system.y[: system.early, :]
     return [residual, *(ca.jacobian(residual, x).T for x in (system.q, system.v, y))]
 
 

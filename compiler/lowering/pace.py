@@ -27,7 +27,7 @@ def make_pace(system: Assembled, conditions: ca.SX) -> tuple[ca.SX, ca.SX] | Non
         conditions,
         *(b.residual for b in system.blocks if not b.late),
     ]
-    known = ca.vertcat(system.z, system.lam, system.y[system.early :])
+    known = ca.vertcat(system.z, system.lam, system.y[system.early :, :])
     values = column(ca.vec(ca.densify(part)) for part in parts)
     found = sorted(_rows_with(values, t) - _rows_with(values, known))
     if not found:

@@ -21,7 +21,7 @@ def sort_conditions(system: Assembled, values: ca.SX) -> tuple[ca.SX, list[ca.SX
     """
     reduced = system.reduced
     t, conditions = reduced.symbols.t, reduced.conditions
-    solved = ca.vertcat(system.z, system.lam, system.y[system.early :])
+    solved = ca.vertcat(system.z, system.lam, system.y[system.early :, :])
     moving = ca.vertcat(system.q, system.v, system.y)
     kinds: list[int] = []
     slopes: dict[int, ca.SX] = {}

@@ -233,7 +233,7 @@ class Kinematics:
         """Rate of a function of the coordinates and of time, without auxiliary speeds."""
         s = self.symbols
         count = s.q.numel() - len(self.counters)  # which turn it is changes no value
-        q = s.q[:count] if self.counters else s.q
+        q = s.q[:count, :] if self.counters else s.q  # of one alone [:0] is a row
         states = ca.vertcat(s.t, q, *(track.unknowns for track in self.tracks.values()))
         rates = ca.vertcat(1, s.rates, *self.track_rates.values())
         return ca.jtimes(value, states, rates)

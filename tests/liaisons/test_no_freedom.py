@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 import frot
 
 TRIANGLE = """
@@ -49,3 +51,17 @@ def test_what_moves_beside_is_counted_and_nothing_is_told() -> None:
     result = frot.compile(WELDED).simulate()
     assert result.figures.free == 1
     assert "nothing can move" not in result.summary()
+
+
+def test_what_time_alone_turns_may_be_kept_twice() -> None:
+    """A pin that is driven leaves no unknown; a plane that lies flat beside it keeps the same."""
+    result = frot.compile("""
+model Kept
+  body b: solid(mass = 1 kg, inertia = (1, 1, 2) kg.m^2);
+  liaison flat: appui_plan(ground, b);
+  liaison pin: rotoide(ground, b) driven(angle = 2*time/(1 s));
+  output Angle turned = flat.angle;
+  experiment(stop = 4 s);
+end Kept;
+""").simulate()
+    assert result["turned"] == pytest.approx(2 * result.time, abs=1e-12)

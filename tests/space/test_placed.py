@@ -27,8 +27,8 @@ SHAPES = {
     ),
     "hoop": ("ring(mass = 2 kg, radius = 0.3 m)", (0.09, 0.09, 0.18)),
     "can": (
-        "cylinder(mass = 2 kg, radius = 0.2 m, length = 1 m)",
-        (2 * (0.01 + 1 / 12), 2 * (0.01 + 1 / 12), 0.04),
+        "cylinder(mass = 2 kg, radius = 0.2 m, length = 4 m)",
+        (2 * (0.01 + 16 / 12), 2 * (0.01 + 16 / 12), 0.04),
     ),
     "box": ("box(mass = 2 kg, size = (0.4, 0.2, 0.3) m)", box("", 2, (0.4, 0.2, 0.3)).moments),
 }
