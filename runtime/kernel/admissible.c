@@ -122,7 +122,7 @@ static int element_is_admissible(const frot_instant *in, int e) {
 
 /* Whether an element is about to slip by no acceleration of its own: it is held by others, or no
  * speed moves it in this posture. */
-static int is_in_doubt(const frot_instant *in, int e) {
+static int departs(const frot_instant *in, int e) {
   const frot_element *element = &in->m->elements[e];
   const frot_contact_mode *mode = frot_element_mode(in->m, in->w->search.trial, e);
   if (mode->friction <= FROT_STICK || !in->zero[e] || element->prescribed) return 0;
@@ -143,14 +143,17 @@ static int goes_against(const frot_instant *in, int e) {
  * do, -1 where it cannot be seen. */
 static int look_at_doubts(const frot_instant *in, const frot_group *g) {
   const frot_model *m = in->m;
-  unsigned char *departs = in->w->search.departs;
   int doubt = !g->general && in->w->reactions.dependent;
-  memset(departs, 0, (size_t)m->n_elements);
+  memset(in->w->search.departs, 0, (size_t)m->n_elements);
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
-    departs[e] = in->w->search.trial[m->elements[e].contact].closed && is_in_doubt(in, e);
-    if (departs[e] && g->general) return -1;
-    doubt |= departs[e];
+    if (!in->w->search.trial[m->elements[e].contact].closed) continue;
+    in->w->search.departs[e] = (unsigned char)departs(in, e);
+    if (in->w->search.departs[e] && g->general) return -1;
+    /* nor does an acceleration start what rests at its bound, though it may rest in this posture
+     * alone */
+    int at_bound = !g->general && frot_element_mode(m, in->w->search.trial, e)->at_bound != 0;
+    doubt |= in->w->search.departs[e] || at_bound;
   }
   return doubt && frot_look_ahead(in, g) != FROT_OK ? -1 : doubt;
 }

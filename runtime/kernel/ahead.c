@@ -3,7 +3,8 @@
  * In a dead centre no speed moves the slip: its row is zero there, or depends on the rows that
  * hold, but only in this posture. Whether it slips, and in which direction, shows when the
  * mechanism has moved on: one step with the accelerations as they are, put back onto what holds for
- * certain. */
+ * certain. Where loads only begin to pass what friction can hold, these are the accelerations of a
+ * little later. */
 #include <math.h>
 #include <string.h>
 
@@ -18,9 +19,7 @@
 #define WAY 1e-3  /* how far the mechanism moves, in radians or parts of its length */
 #define SEEN 1e-6 /* part of the motion in the row above which it slips */
 
-/* Whether the group is at rest, but for what loads bring in a rounding of time, and the
- * accelerations are what rounding leaves of loads that cancel. */
-static int rests(const frot_instant *in, const frot_group *g) {
+int frot_group_rests(const frot_instant *in, const frot_group *g) {
   double size = frot_size_of_motion(in->m, in->w, g), limit = FROT_AGREES * size;
   double unresolved = DBL_EPSILON * frot_size_of_time(in->t, in->s->h_max) * size;
   double energy = FROT_ZERO * FROT_ZERO * in->s->energy_scale + 0.5 * unresolved * unresolved;
@@ -74,7 +73,8 @@ int frot_look_ahead(const frot_instant *in, const frot_group *g) {
   double *q = w->step.z1, *v = q + m->nq;
   memset(w->search.ahead, 0, (size_t)m->n_elements);
   frot_accelerations(m, w, w->search.nothing_frozen);
-  double dt = rests(in, g) ? 0 : frot_time_of_way(in, g);
+  if (frot_group_rests(in, g) && !frot_sets_out(in, g)) return FROT_OK;
+  double dt = frot_time_of_way(in, g);
   if (!(dt > 0)) return FROT_OK;
   memcpy(q, in->q, sizeof(double) * (size_t)m->nq);
   memcpy(v, in->v, sizeof(double) * (size_t)m->nv);

@@ -189,23 +189,45 @@ static int still_holds(const frot_instant *in, const int *chosen, int count, int
   return 1;
 }
 
+/* The accelerations of the instant and the rates of what has no speeds. Returns whether there are
+ * any. */
+static int note_rates(const frot_instant *in) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  const double *d = in->s->data + in->l.d;
+  frot_accelerations(m, w, w->search.nothing_frozen);
+  if (m->late_rates && (frot_solve_late(m, in->s, w, in->t, in->q, in->v, d) != FROT_OK ||
+                        frot_late_rates(m, in->s, w, in->t, in->q, in->v, d) != FROT_OK))
+    return 0;
+  memcpy(w->search.rates, w->core.qd, sizeof(double) * (size_t)m->nq);
+  return 1;
+}
+
+/* How much later an instant is for a part of the step that comes. */
+static double later_by(const frot_instant *in, double part, double way) {
+  double step = in->s->h > 0 ? in->s->h : in->s->h_max;
+  return way > 0 ? fmin(part * step, way) : part * step;
+}
+
+/* Evaluate the group at the instant again. */
+static void go_back(const frot_instant *in, const frot_group *g, double *q, double *v) {
+  memcpy(q, in->q, sizeof(double) * (size_t)in->m->nq);
+  memcpy(v, in->v, sizeof(double) * (size_t)in->m->nv);
+  evaluate(in, in->t, q, v);
+  frot_group_reactions(in->m, in->w, g, in->w->search.trial, in->resists);
+}
+
 int frot_lasts(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
   double *q = w->step.z, *v = q + m->nq;
-  const double *d = in->s->data + in->l.d;
   w->search.falls = 0;
-  if (!note_margins(in, chosen, count)) return 1;
-  frot_accelerations(m, w, w->search.nothing_frozen);
-  if (m->late_rates && (frot_solve_late(m, in->s, w, in->t, in->q, in->v, d) != FROT_OK ||
-                        frot_late_rates(m, in->s, w, in->t, in->q, in->v, d) != FROT_OK))
-    return 1;
-  memcpy(w->search.rates, w->core.qd, sizeof(double) * (size_t)m->nq);
-  double step = in->s->h > 0 ? in->s->h : in->s->h_max, way = frot_time_of_way(in, g);
+  if (!note_margins(in, chosen, count) || !note_rates(in)) return 1;
+  double way = frot_time_of_way(in, g);
   int lasts = 1, slow = 1;
   for (double part = LATER; lasts && slow && part <= LATEST; part *= 10) {
-    double dt = way > 0 ? fmin(part * step, way) : part * step;
+    double dt = later_by(in, part, way);
     slow = 0;
     if (move_on(in, g, dt, q, v) != FROT_OK || evaluate(in, in->t + dt, q, v) != FROT_OK) break;
     if (frot_group_reactions(m, w, g, w->search.trial, in->resists))
@@ -213,10 +235,29 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count) {
     else
       lasts = still_holds(in, chosen, count, &slow);
   }
-  memcpy(q, in->q, sizeof(double) * (size_t)m->nq);
-  memcpy(v, in->v, sizeof(double) * (size_t)m->nv);
-  evaluate(in, in->t, q, v);
-  frot_group_reactions(m, w, g, w->search.trial, in->resists);
+  go_back(in, g, q, v);
   w->search.falls = slow;
   return lasts;
+}
+
+int frot_sets_out(const frot_instant *in, const frot_group *g) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  double *q = w->step.z, *v = q + m->nq;
+  double *lam = w->search.motions + (size_t)(FROT_MOTIONS - 1) * (size_t)m->n_rows;
+  int sets_out = 0;
+  memcpy(lam, w->core.lam, sizeof(double) * (size_t)m->n_rows);
+  if (!note_rates(in)) return 0;
+  for (double part = LATER; !sets_out && part <= LATEST; part *= 10) {
+    double dt = later_by(in, part, 0);
+    if (move_on(in, g, dt, q, v) != FROT_OK || evaluate(in, in->t + dt, q, v) != FROT_OK) break;
+    if (frot_group_reactions(m, w, g, w->search.trial, in->resists)) break;
+    frot_accelerations(m, w, w->search.nothing_frozen);
+    sets_out = !frot_group_rests(in, g);
+    memcpy(w->search.set_out, w->core.a, sizeof(double) * (size_t)m->nv);
+  }
+  go_back(in, g, q, v);
+  memcpy(w->core.lam, lam, sizeof(double) * (size_t)m->n_rows);
+  if (sets_out) memcpy(w->core.a, w->search.set_out, sizeof(double) * (size_t)m->nv);
+  return sets_out;
 }

@@ -74,6 +74,14 @@ double frot_margin_of_element(const frot_instant *in, int element);
  * may have either sign the one it has then. */
 int frot_lasts(const frot_instant *in, const int *chosen, int count);
 
+/* Whether the group is at rest, but for what loads bring in a rounding of time, and the
+ * accelerations are what rounding leaves of loads that cancel (ahead.c). */
+int frot_group_rests(const frot_instant *in, const frot_group *g);
+
+/* Whether the group, which rests at the instant, starts to move in w->search.trial as loads grow;
+ * then w->core.a are its accelerations a little later, all else is at the instant (lasting.c). */
+int frot_sets_out(const frot_instant *in, const frot_group *g);
+
 /* Share the load of w->search.trial among the contacts `chosen` and their stuck elements, so that
  * reactions are unique and each within its bounds: sets those at their bounds and those without
  * load. FROT_SHARE_UNKNOWN: reactions are unique already, or friction follows what is no cone; then

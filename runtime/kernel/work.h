@@ -211,12 +211,13 @@ typedef struct {
 /* The search for modes (search.h, admissible.c, ahead.c, pivot.c, resolve.c): modes tried, found
  * and before; of contacts: which are decided; of elements: whose motion is zero or at rest, where
  * it would go, and which slips no acceleration starts; of both: what is left of their inequalities
- * where that is little, and the rates of coordinates (lasting.c). */
+ * where that is little, the rates of coordinates, and accelerations of a little later (lasting.c).
+ */
 typedef struct {
   frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner, *found, *slack;
   unsigned char *certain, *zero, *at_rest, *departs;
   signed char *ahead;
-  double *motions, *pivot_bound, *nothing_frozen, *margin, *rates;
+  double *motions, *pivot_bound, *nothing_frozen, *margin, *rates, *set_out;
   double *along; /* directions of pins' reactions in `best`: there may be solutions in others */
   int *choice, *component, *chosen;
   int exact;   /* whether `best` needs no slack: frot_is_exact */

@@ -121,6 +121,29 @@ def test_two_dry_slider_cranks_start_where_one_is_in_a_dead_centre(
     assert abs(result.balance.residual) <= 1e3 * tolerance * result.balance.scale
 
 
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-8, 1e-11])
+@pytest.mark.parametrize(
+    ("start", "swing", "mu"), [(0.5, 4, 0.12), (-0.5, -7, 0.02), (0.5, 5, 0.3)]
+)
+def test_a_crank_across_its_rail_sets_out_as_its_couple_grows(
+    crank: frot.Model, start: float, swing: float, mu: float, tolerance: float
+) -> None:
+    """No speed turns the rod there, nor does an acceleration, which grows from zero: its pin seemed
+    to rest, until it was found to turn."""
+    given = {"start": start * math.pi, "mu": mu, "mu_g": 0, "c": 0, "a": swing}
+    result = crank.simulate(stop=0.4, tolerance=tolerance, parameters=given)
+    reference = crank.simulate(stop=0.4, tolerance=1e-13, parameters=given)
+    speed, turned = reference["O.speed"], np.abs(reference["O.angle"]).max()
+    assert np.abs(speed).max() > 1
+    error = np.abs(result["O.speed"] - speed).max() / np.abs(speed).max()
+    assert error < 30 * tolerance * max(1, turned) + 1e-9
+    friction, slip = result["B.torque"], result["B.speed"]
+    turning = np.abs(slip) > 1e-3
+    assert turning.any()
+    bound = mu * 0.012 * result["B.normal_force"][turning]
+    assert np.abs(np.abs(friction[turning]) - bound).max() < 1e-9 * bound.max()
+
+
 def test_a_slip_that_turns_back_next_to_a_dead_centre_does_not_stop_the_crank(
     crank: frot.Model,
 ) -> None:
