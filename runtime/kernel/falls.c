@@ -56,6 +56,26 @@ static int lost_at_once(const frot_state *s, const frot_work *w, int j, const do
   return rise < (s->jumped ? FROT_FLAT : -2 * FROT_ROUNDING) * inside;
 }
 
+/* Whether listed guard k is a force that holds: the reaction of a closed contact, what is left of a
+ * bound of rest, or a pin's reaction in its direction; not a gap nor a speed. */
+static int is_force(const frot_model *m, const frot_state *s, const frot_work *w, int k) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  int j = w->guards.list[k], e = (j - m->n_contacts) / 2;
+  if (j >= frot_condition_guard(m)) return 0;
+  if (j < m->n_contacts) return modes[j].closed;
+  return frot_element_mode(m, modes, e)->friction <= FROT_STICK || j != frot_element_guard(m, e);
+}
+
+double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int k,
+                           double h, const double g[7]) {
+  int j = w->guards.list[k];
+  double inside = 0, floor = FROT_GUARD_FLOOR * s->data[w->layout.scale_g + j];
+  for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
+  floor += FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
+  double slack = fmax(FROT_LOCATED * inside, floor);
+  return is_force(m, s, w, k) && fabs(g[0]) <= slack ? slack : 0;
+}
+
 int frot_may_fall(const frot_state *s, const frot_work *w, int rests) {
   for (int k = 0; k < w->guards.count; k++) {
     const double *value = w->step.k + w->awake.n + k;
@@ -102,6 +122,8 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
          j < conditions && i < 6 && g[i] < 0 && g[i] >= -FROT_LOCATED * size && g[i + 1] > g[i];
          i++)
       g[i] = 0;
+    double slack = frot_slack_of_guard(m, s, w, k, h, g);
+    for (int i = 0; i < 7; i++) g[i] += slack;
     double floor = FROT_GUARD_FLOOR * size + FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
     double at = frot_first_fall(g, floor + 8 * DBL_EPSILON * fabs(t) * slope);
     if (j >= conditions && fabs(first) <= FROT_ZERO * size &&

@@ -25,6 +25,13 @@ int frot_may_fall(const frot_state *s, const frot_work *w, int rests);
 int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work *w, double t,
                        double h, double *theta);
 
+/* How far below zero the listed guard k, with these coefficients over h, goes before it has fallen.
+ * A force that is zero at the start of the step, to rounding or beside what it is inside as near as
+ * events are located, may have either sign there and a little later: where all loads vanish with
+ * it, only that it is clearly below says that it has come to be negative. */
+double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int k,
+                           double h, const double g[7]);
+
 /* The value below which the listed guard k, known with that slope in time, has fallen at t. */
 double frot_close_to_fall(const frot_model *m, const frot_state *s, const frot_work *w, int k,
                           double t, double slope);

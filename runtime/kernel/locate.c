@@ -43,10 +43,10 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, double t) {
   return status;
 }
 
-/* The search for the instant, from t: the guard's value at the part `at` of time, its slope, and
- * the instant before that one with its value. */
+/* The search for the instant, from t: the guard's value, with what it may fall below zero, at the
+ * part `at` of time, its slope, and the instant before that one with its value. */
 typedef struct {
-  double longest, resolved;
+  double longest, resolved, slack;
   double at, value, slope, last_at, last;
   int passes;
 } search;
@@ -108,7 +108,7 @@ static int refine(const frot_model *m, frot_state *s, frot_work *w, double t, in
     if (status == FROT_OK) status = shift_end(m, s, w, t + a->at, base, way);
     if (status != FROT_OK) return status;
     known = 1;
-    a->value = frot_stage(w, DP_STAGES)[w->awake.n + guard];
+    a->value = frot_stage(w, DP_STAGES)[w->awake.n + guard] + a->slack;
     next = next_instant(a, t);
   } while (next != a->at && fabs(next - stages) <= NEXT_TO * stages);
   return FROT_OK;
@@ -122,14 +122,16 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, double t, int 
   double slope = (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * *h);
   /* what reactions decide is read no better than this: nothing is gained by the steps beyond */
   int j = w->guards.list[guard];
+  double slack = frot_slack_of_guard(m, s, w, guard, *h, g);
   double resolved = j < frot_condition_guard(m) ? RESOLVED * s->data[w->layout.scale_g + j] : 0;
-  search a = {.longest = *h, .resolved = resolved, .at = theta * *h, .slope = slope};
+  search a = {
+      .longest = *h, .resolved = resolved, .slack = slack, .at = theta * *h, .slope = slope};
   for (;;) {
     int status = frot_run_stages(m, s, w, t, a.at);
     if (status == FROT_OK && !(s->implicit && !frot_has_motion(m)))
       status = land(m, s, w, t + a.at);
     if (status != FROT_OK) return status;
-    a.value = frot_stage(w, DP_STAGES)[w->awake.n + guard];
+    a.value = frot_stage(w, DP_STAGES)[w->awake.n + guard] + slack;
     double next = next_instant(&a, t);
     *h = *end = a.at;
     if (next == a.at) {
@@ -144,7 +146,8 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, double t, int 
       go_to(&a, next);
       continue;
     }
-    *falls = a.value <= frot_close_to_fall(m, s, w, guard, t, a.slope);
+    double close = slack > 0 ? 0.5 * slack : frot_close_to_fall(m, s, w, guard, t, a.slope);
+    *falls = a.value <= close;
     return status;
   }
 }
