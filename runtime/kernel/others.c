@@ -13,10 +13,16 @@
 #include "search.h"
 #include "tolerances.h"
 
+/* Whether an element was at its bound until now, or has come to it. */
+static int was_at_bound(const frot_instant *in, int e) {
+  return frot_element_mode(in->m, in->w->search.before, e)->at_bound != 0 || in->left[e] != 0;
+}
+
 /* The loaded contact whose reaction is worst beyond what is admissible or, if none is, the element;
- * -1 for the other. Returns whether there is any. */
-static int find_worst(const frot_instant *in, const int *chosen, int count, int *contact,
-                      int *friction) {
+ * -1 for the other. With `touching` what was at its bound is beyond it where it is there to slack.
+ * Returns whether there is any. */
+static int find_worst(const frot_instant *in, const int *chosen, int count, int touching,
+                      int *contact, int *friction) {
   const frot_model *m = in->m;
   const frot_contact_mode *trial = in->w->search.trial;
   double most = -FROT_BOUND_SLACK;
@@ -32,6 +38,7 @@ static int find_worst(const frot_instant *in, const int *chosen, int count, int 
     for (int c = 0; c < count; c++) among |= chosen[c] == m->elements[e].contact;
     if (!among || !frot_is_held(m, trial, e)) continue;
     double left = frot_reserve(in, e);
+    if (touching && was_at_bound(in, e)) left -= 2 * FROT_BOUND_SLACK;
     if (left < most) most = left, worst_element = e;
   }
   *contact = worst_contact, *friction = worst_element;
@@ -58,11 +65,11 @@ static int solve(const frot_instant *in, int contact) {
 }
 
 /* Put the worst at its bound or without load until nothing is beyond what is admissible. */
-static int relieve(const frot_instant *in, const int *chosen, int count) {
+static int relieve(const frot_instant *in, const int *chosen, int count, int touching) {
   const frot_model *m = in->m;
   frot_contact_mode *trial = in->w->search.trial;
   int contact, element;
-  while (find_worst(in, chosen, count, &contact, &element)) {
+  while (find_worst(in, chosen, count, touching, &contact, &element)) {
     if (contact >= 0)
       trial[contact].unloaded = 1;
     else
@@ -107,13 +114,16 @@ int frot_others_carry(const frot_instant *in, const int *chosen, int count) {
   frot_contact_mode *trial = in->w->search.trial, *before = in->w->search.corner;
   size_t modes = sizeof *trial * (size_t)(m->n_contacts + m->n_elements);
   int worst;
-  if (!gives_bounds(in, chosen, count) && !find_worst(in, chosen, count, &worst, &worst))
+  if (!gives_bounds(in, chosen, count) && !find_worst(in, chosen, count, 0, &worst, &worst))
     return frot_reactions_hold(in, chosen, count);
   enum frot_share share = frot_share_load(in, chosen, count);
   if (share == FROT_NO_SHARE) return 0;
   if (share == FROT_SHARED) return frot_reactions_hold(in, chosen, count);
   memcpy(before, trial, modes);
-  if (relieve(in, chosen, count)) return 1;
-  memcpy(trial, before, modes);
-  return solve(in, chosen[0]) && find_corner(in, chosen, count, 0);
+  for (int touching = 1; touching >= 0; touching--) {
+    if (relieve(in, chosen, count, touching)) return 1;
+    memcpy(trial, before, modes);
+    if (!solve(in, chosen[0])) return 0;
+  }
+  return find_corner(in, chosen, count, 0);
 }

@@ -22,16 +22,25 @@ static int same_element(const frot_instant *in, int e) {
          frot_element_mode(in->m, in->w->search.before, e)->friction;
 }
 
+/* Whether an element has come to its bound and rests all the same by itself: its guard falls again
+ * at once. */
+static int stays_beyond(const frot_instant *in, int e) {
+  const frot_contact_mode *mode = frot_element_mode(in->m, in->w->search.trial, e);
+  return in->left[e] != 0 && mode->friction == FROT_STICK && mode->at_bound == 0;
+}
+
 /* How much a combination is preferred: what needs no slack first; what will need none, if it was
- * looked for; then rest by itself, then continuity, or the other way round. */
+ * looked for, else what time can go on in; then rest by itself, then continuity, or the other way
+ * round. */
 static long long preference(const frot_instant *in, const int *chosen, int count, int lasting) {
   const frot_model *m = in->m;
   long long rest = 0, kept = 0;
-  int own[FROT_LAWS_OF_CONTACT];
+  int own[FROT_LAWS_OF_CONTACT], moves = 1;
   for (int c = 0; c < count; c++) {
     int laws = frot_laws_of(m, chosen[c], own);
     kept += same_contact(in, chosen[c]);
     for (int k = 0; k < laws; k++) {
+      moves &= !stays_beyond(in, own[k]);
       const frot_contact_mode *mode = frot_element_mode(m, in->w->search.trial, own[k]);
       rest += mode->friction == FROT_STICK && mode->at_bound == 0;
       kept += same_element(in, own[k]);
@@ -39,7 +48,7 @@ static long long preference(const frot_instant *in, const int *chosen, int count
   }
   long long big = (1 + FROT_LAWS_OF_CONTACT) * m->n_contacts + 1;
   long long exact = frot_is_exact(in, chosen, count) ? 2 * big * big : 0;
-  if (lasting && !in->w->search.falls) exact += big * big;
+  if (lasting ? !in->w->search.falls : moves) exact += big * big;
   int continues = in->s->options.on_indeterminate == FROT_CONTINUE;
   return exact + (continues ? kept * big + rest : rest * big + kept);
 }

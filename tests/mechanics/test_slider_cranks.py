@@ -32,6 +32,20 @@ def crank() -> frot.Model:
     return frot.compile(text)
 
 
+@pytest.fixture(scope="module")
+def crank_on_end() -> frot.Model:
+    """Its rail is turned, and the crank folded along it: gravity loads what nothing moves."""
+    text = PLAIN.read_text(encoding="utf-8")
+    turned = {
+        "direction = (1, 0)": "direction = (cos(start), sin(start))",
+        "O.angle = start;": "O.angle = start;\n  guess(bielle.angle = start + 180 deg);",
+    }
+    for old, new in {**CHANGES, **turned}.items():
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    return frot.compile(text)
+
+
 def setting(seed: int) -> tuple[dict[str, float], float]:
     """Parameters and a tolerance."""
     draw = random.Random(seed)
@@ -156,3 +170,22 @@ def test_a_slip_that_turns_back_next_to_a_dead_centre_does_not_stop_the_crank(
         np.abs(result["O.speed"] - reference["O.speed"]).max() < 1e-2 * reference["O.speed"].max()
     )
     assert abs(result.balance.residual) <= 1e-3 * result.balance.scale
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize(
+    ("start", "mu", "mu_g", "couple"), [(90, 0.001, 0.27, 0.0), (-90, 0.043, 0.37, 0.02)]
+)
+def test_a_loaded_crank_leaves_its_dead_centre_when_no_share_of_its_friction_holds(
+    crank_on_end: frot.Model, start: float, mu: float, mu_g: float, couple: float, tolerance: float
+) -> None:
+    """One pin after the other comes to its bound, the guide, which nothing moves, last of all."""
+    given = {"start": math.radians(start), "mu": mu, "mu_g": mu_g, "c": couple, "a": 3.0}
+    result = crank_on_end.simulate(stop=0.3, tolerance=tolerance, parameters=given)
+    reference = crank_on_end.simulate(stop=0.3, tolerance=1e-13, parameters=given)
+    left = [e.time for e in result.events if e.kind == "slip"]
+    assert left[0] == pytest.approx(left[3], rel=1e-3)
+    speed, turned = reference["O.speed"], np.abs(reference["O.angle"]).max()
+    assert np.abs(speed).max() > 1
+    error = np.abs(result["O.speed"] - speed).max() / np.abs(speed).max()
+    assert error < 30 * tolerance * max(1, turned) + 1e-9
