@@ -13,6 +13,7 @@
 #include "jacobian.h"
 #include "length.h"
 #include "lost.h"
+#include "mechanics.h"
 #include "pace.h"
 #include "passage.h"
 #include "sizes.h"
@@ -88,6 +89,14 @@ static int shrinks_unheard(const frot_state *s, const frot_work *w, const frot_a
   return !s->implicit && w->step.worst < 0 && a->ratio > AUDIBLE && UNHEARD * s->h < s->heard;
 }
 
+/* The error of the step that ran, over its bound, by rounding that is measured now. */
+static double hear(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  measure_noise(m, s, w, t + h);
+  memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
+  frot_slope(m, s, w, t + h, w->step.z1, frot_stage(w, DP_STAGES + 1)); /* the end is read later */
+  return frot_error_ratio(m, s, w, t, h);
+}
+
 /* Take a guard that seems to dip for what it is: first by what rounding does to it, then by a
  * shorter step. */
 static int look_closer(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
@@ -129,10 +138,8 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &a->part) : -1;
   a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
   see_noise(s, a);
-  if (a->ratio <= 1 && (shrinks_unheard(s, w, a) || (!s->implicit && s->noise_measured < 0))) {
-    measure_noise(m, s, w, t + h);
-    return FROT_DIVERGE; /* its stages made way */
-  }
+  if (a->ratio <= 1 && (shrinks_unheard(s, w, a) || (!s->implicit && s->noise_measured < 0)))
+    a->tried_ratio = a->ratio = hear(m, s, w, t, h);
   if (a->loose > 0) frot_judge_tie(s, a->ratio, a->loose), a->loose = 0;
   a->forced = a->blurred;
   if (a->forced) frot_take_forced(s, a);

@@ -13,7 +13,12 @@
 #include "roots.h"
 #include "stages.h"
 
-#define PASSES 12
+/* Passes of the search, and those after which it ends where the guard is as good as zero. */
+#define PASSES 60
+#define ENOUGH 12
+/* Part of what lies between where a guard has not fallen and where it has that a pass leaves at
+ * most, or the next one takes the middle. */
+#define HALVES 0.5
 /* Part of the step on either side of a root over which the guard's slope is taken. */
 #define SPAN 1e-4
 /* Part of its size below which a guard that is no condition is rounding, and what a pass must leave
@@ -44,12 +49,23 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, double t) {
 }
 
 /* The search for the instant, from t: the guard's value, with what it may fall below zero, at the
- * part `at` of time, its slope, and the instant before that one with its value. */
+ * part `at` of time, its slope, and the instant before that one with its value. It falls between
+ * the last instant known at which it has not fallen, which it begins with, and the first at which
+ * it has, if there is one. */
 typedef struct {
-  double longest, resolved, slack;
+  double longest, resolved, slack, zero;
   double at, value, slope, last_at, last;
+  double before, above, after, below, width;
   int passes;
 } search;
+
+/* The instant at which a straight line between those two is zero, or the middle. */
+static double inside(search *a) {
+  double width = a->after - a->before, part = a->above / (a->above - a->below);
+  int line = a->above > 0 && a->below < 0 && width <= HALVES * a->width;
+  a->width = width;
+  return a->before + width * (line ? part : 0.5);
+}
 
 /* Where the secant goes on, or where it is if nothing is gained by that. */
 static double next_instant(search *a, double t) {
@@ -57,11 +73,16 @@ static double next_instant(search *a, double t) {
     double secant = (a->value - a->last) / (a->at - a->last_at);
     if (secant < 0) a->slope = secant;
   }
+  if (a->value > 0)
+    a->before = a->at, a->above = a->value;
+  else
+    a->after = a->at, a->below = a->value;
   if (a->value == 0 || !(a->slope < 0) || a->passes == PASSES) return a->at;
+  if (a->passes >= ENOUGH && fabs(a->value) <= a->zero) return a->at;
   if (a->resolved > 0 && fabs(a->value) <= a->resolved) return a->at;
   if (a->resolved > 0 && a->passes > 0 && fabs(a->value) > STALLS * fabs(a->last)) return a->at;
   double next = a->at - a->value / a->slope;
-  if (!(next > 0)) next = 0.5 * a->at;
+  if (!(next > a->before) || (a->below < 0 && next >= a->after)) next = inside(a);
   if (next > a->longest) next = a->longest;
   int same = fabs(next - a->at) <= 2 * DBL_EPSILON * fmax(fabs(t + a->at), a->at);
   return same ? a->at : next;
@@ -126,6 +147,8 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, double t, int 
   double resolved = j < frot_condition_guard(m) ? RESOLVED * s->data[w->layout.scale_g + j] : 0;
   search a = {
       .longest = *h, .resolved = resolved, .slack = slack, .at = theta * *h, .slope = slope};
+  a.zero = frot_close_to_fall(m, s, w, guard, t, slope);
+  a.above = w->step.first[w->awake.n + guard] + slack, a.width = INFINITY;
   for (;;) {
     int status = frot_run_stages(m, s, w, t, a.at);
     if (status == FROT_OK && !(s->implicit && !frot_has_motion(m)))

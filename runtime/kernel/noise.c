@@ -17,6 +17,9 @@
 /* What noise of slopes makes of speeds in the stages, and these of the error of a coordinate, over
  * what it makes of that of a speed: |e' A| / |e| of the method of order eight. */
 #define BY_STAGES 4
+/* Rows of the dense output's stages, which are made later, and vectors of that output: scratch. */
+enum { BASE = DP_STAGES + 1, FORTH, BACK };
+enum { LARGEST, SIZE, MOVED };
 /* Stages near the start of a step, and how much farther than their slopes lead it may end. */
 #define FIRST_STAGES 3
 #define ASTRAY 1e3
@@ -30,7 +33,7 @@ static double level(const frot_state *s) { return s->noise_level > 1 ? s->noise_
 static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, double t,
                          const double *z, const double *largest) {
   double *noise = s->data + w->layout.noise, *size = w->relations.residual;
-  if (frot_slope(m, s, w, t, z, frot_stage(w, 1)) != FROT_OK) return;
+  if (frot_slope(m, s, w, t, z, frot_stage(w, BASE)) != FROT_OK) return;
   frot_acceleration_sizes(m, s, w, t, z, z + m->nq, s->data + w->layout.d, size);
   for (int j = 0; j < w->awake.n - FROT_QUADRATURES; j++) {
     int state = w->awake.now->states[j];
@@ -164,7 +167,8 @@ static void move_parameters(const frot_model *m, frot_state *s, const frot_work 
  * but for that. */
 static void add_rounding_of_constants(const frot_model *m, frot_state *s, frot_work *w, double t,
                                       const double *base) {
-  double *forth = frot_stage(w, 2), *back = frot_stage(w, 3), *noise = s->data + w->layout.noise;
+  double *forth = frot_stage(w, FORTH), *back = frot_stage(w, BACK);
+  double *noise = s->data + w->layout.noise;
   size_t size = sizeof(double) * (size_t)m->np;
   memcpy(w->step.parameters, s->data + w->layout.p, size);
   move_parameters(m, s, w, FROT_APART);
@@ -181,8 +185,9 @@ static void add_rounding_of_constants(const frot_model *m, frot_state *s, frot_w
 }
 
 void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
-  double *base = frot_stage(w, 1), *forth = frot_stage(w, 2), *back = frot_stage(w, 3);
-  double *noise = s->data + w->layout.noise, *largest = w->step.f, *size = largest + w->layout.nz;
+  double *base = frot_stage(w, BASE), *forth = frot_stage(w, FORTH), *back = frot_stage(w, BACK);
+  double *largest = w->step.f + LARGEST * w->layout.nz, *size = w->step.f + SIZE * w->layout.nz;
+  double *z = w->step.f + MOVED * w->layout.nz, *noise = s->data + w->layout.noise;
   double *guards = noise + m->nq + m->nv;
   const int *states = w->awake.now->states;
   int n = m->nq + m->nv, packed = w->awake.n, moving = packed - FROT_QUADRATURES;
@@ -201,11 +206,10 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {
       double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
-      memcpy(w->step.z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
-      for (int j = 0; j < n; j++)
-        w->step.z[j] += (((j >> pattern) & 1) != 0 ? moved : -moved) * size[j];
+      memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
+      for (int j = 0; j < n; j++) z[j] += (((j >> pattern) & 1) != 0 ? moved : -moved) * size[j];
       w->blocks.shaken = moved, w->blocks.pattern = pattern;
-      int status = slope_from_start(m, s, w, t * (1 + moved), w->step.z, there);
+      int status = slope_from_start(m, s, w, t * (1 + moved), z, there);
       w->blocks.shaken = 0;
       if (status != FROT_OK) return;
     }

@@ -99,6 +99,22 @@ def test_no_diode_like_another(text: str, seed: int) -> None:
         assert result.figures.steps < 60 * (10 + len(result.events))
 
 
+@pytest.mark.parametrize(("seed", "tolerances"), [(2, (1e-3, 1e-9)), (4, (1e-3, 1e-7))])
+def test_a_step_a_million_times_longer_than_the_way_to_its_event(
+    seed: int, tolerances: tuple[float, ...]
+) -> None:
+    """Of a run ten times as long steps reach far beyond diodes that cease to conduct in 1 ns: that
+    instant is found all the same, not one before it with currents that others take up."""
+    values = draw(THREE_PHASES, seed)
+    exact = model(THREE_PHASES).simulate(tolerance=1e-11, parameters=values)
+    long = model(THREE_PHASES.replace("stop = 0.1 s", "stop = 1 s"))
+    for tolerance in tolerances:
+        result = long.simulate(stop=0.1, tolerance=tolerance, parameters=values)
+        assert result["c.v"][-1] == pytest.approx(exact["c.v"][-1], rel=100 * tolerance)
+        assert len(result.events) == len(exact.events)
+        assert result.figures.steps < 60 * (10 + len(result.events))
+
+
 def test_what_cancels_in_a_sum_stays_in_a_product() -> None:
     """0 = (a - p) + (p - b) + p y: only the potential p of the product is left."""
     a, b, p, y = (ca.SX.sym(name) for name in "abpy")
