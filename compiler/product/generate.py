@@ -26,6 +26,8 @@ _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
 # function is one straight line, which C compilers take in time proportional to its length.
 _ABSENT = re.compile(r"(arg\[\d+\])\? (\1\[\d+\]) : 0")
 _UNASKED = re.compile(r"if \(res\[\d+\]!=0\) (?=res\[)")
+# What CasADi calls for a square is no function that others may ask for: it goes where it is called.
+_SMALL = re.compile(r"^(casadi_real casadi_\w+\(casadi_real )", re.MULTILINE)
 # Characters of C beyond which GCC looks for no more than it finds in such time.
 _LONG = 100_000
 _QUICK = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("O1")\n#endif\n'
@@ -197,6 +199,6 @@ def _functions(lowered: Lowered) -> str:
         text = path.read_text(encoding="utf-8")
     if "#error" in text:
         raise RuntimeError("CasADi could not generate C for a function of the model")
-    text = _UNASKED.sub("", _ABSENT.sub(r"\2", text))
+    text = _SMALL.sub(r"static inline \1", _UNASKED.sub("", _ABSENT.sub(r"\2", text)))
     text = split_functions(read_numbers(text, lowered))
     return (_QUICK + text) if len(text) > _LONG else text

@@ -31,6 +31,20 @@ static inline const frot_contact_mode *frot_element_mode(const frot_model *m,
   return modes + m->n_contacts + e;
 }
 
+/* Whether the motion of an element is held by a reaction of its own in `modes`. */
+static inline int frot_is_held(const frot_model *m, const frot_contact_mode *modes, int element) {
+  const frot_element *e = &m->elements[element];
+  const frot_contact_mode *mode = frot_element_mode(m, modes, element);
+  return modes[e->contact].closed && !modes[e->contact].unloaded && mode->friction == FROT_STICK &&
+         mode->at_bound == 0 && !e->prescribed;
+}
+
+/* Whether a contact keeps its distance by a reaction of its own. */
+static inline int frot_is_loaded(const frot_model *m, const frot_contact_mode *modes, int contact) {
+  const frot_contact *c = &m->contacts[contact];
+  return c->row_n >= 0 && !c->reduced && modes[contact].closed && !modes[contact].unloaded;
+}
+
 /* Guards: one of each contact, two of each element, then those of the conditions. */
 static inline int frot_element_guard(const frot_model *m, int e) { return m->n_contacts + 2 * e; }
 /* Of a guard that fired: at the start of a step, before time could move on. */

@@ -38,21 +38,10 @@ void frot_outwards(const frot_work *w, const frot_group *g, double *x) {
     frot_backward(factor, g->n_speeds, g->n_speeds, x);
 }
 
-/* Behind the speeds x what auxiliary unknowns make of their momenta, four speeds at a time. */
+/* Behind the speeds x what auxiliary unknowns make of their momenta. */
 static void read_momenta(const frot_work *w, const frot_group *g, double *x) {
-  int ns = g->n_speeds, n = g->n, k = 0;
-  const double *column = w->core.mass + g->matrix + ns;
-  double *read = x + ns;
-  memset(read, 0, sizeof(double) * (size_t)(n - ns));
-  for (; k + FROT_ABREAST <= ns; k += FROT_ABREAST)
-    frot_add_four(column + k * n, n, x + k, n - ns, read);
-  if (k < ns && ns >= FROT_ABREAST) { /* the last four, those before of no weight */
-    double last[FROT_ABREAST] = {0, 0, 0, 0};
-    for (int from = ns - FROT_ABREAST; k < ns; k++) last[k - from] = x[k];
-    frot_add_four(column + (ns - FROT_ABREAST) * n, n, last, n - ns, read);
-  }
-  for (; k < ns; k++)
-    for (int i = 0; i < n - ns; i++) read[i] += x[k] * column[k * n + i];
+  int ns = g->n_speeds;
+  frot_add_columns(w->core.mass + g->matrix + ns, g->n, x, ns, g->n - ns, x + ns);
 }
 
 void frot_respond(const frot_work *w, const frot_group *g, double *x) {

@@ -24,15 +24,29 @@ double frot_dot(const double *a, const double *b, int n) {
   return (w + x) + (y + z);
 }
 
+/* x (n) less one column times p, then less the next one, which is `ld` on, times q: as much as
+ * there is room for in a register. */
+static inline void take_two(double *restrict x, const double *one, int ld, double p, double q,
+                            int n) {
+  const double *two = one + ld;
+  int i = 0;
+  for (; i + 2 <= n; i += 2) {
+    x[i] = (x[i] - one[i] * p) - two[i] * q;
+    x[i + 1] = (x[i + 1] - one[i + 1] * p) - two[i + 1] * q;
+  }
+  if (i < n) x[i] = (x[i] - one[i] * p) - two[i] * q;
+}
+
 int frot_cholesky(double *a, int n) {
   for (int j = 0; j < n; j++) {
     double *column = a + (size_t)j * (size_t)n, whole = column[j];
-    for (int k = 0; k < j; k++) {
-      const double *before = a + (size_t)k * (size_t)n;
-      double factor = before[j];
-      if (factor == 0) continue;
-      for (int i = j; i < n; i++) column[i] -= before[i] * factor;
-    }
+    const double *before = a + j;
+    int k = 0;
+    for (; k + 2 <= j; k += 2, before += 2 * n)
+      if (before[0] != 0 || before[n] != 0)
+        take_two(column + j, before, n, before[0], before[n], n - j);
+    for (double factor = before[0]; k < j && factor != 0; k++)
+      for (int i = 0; i < n - j; i++) column[j + i] -= before[i] * factor;
     if (!(column[j] > n * DBL_EPSILON * whole)) return 1;
     double share = 1 / (column[j] = sqrt(column[j]));
     for (int i = j + 1; i < n; i++) column[i] *= share;
@@ -91,16 +105,24 @@ void frot_dot_fours(const double *a, const double *b, int n,
   }
 }
 
-void frot_add_four(const double *columns, int ld, const double factor[FROT_ABREAST], int n,
-                   double *restrict y) {
-  const double a = factor[0], b = factor[1], c = factor[2], d = factor[3];
-  const double *second = columns + ld, *third = second + ld, *fourth = third + ld;
+void frot_add_columns(const double *columns, int ld, const double *factor, int count, int n,
+                      double *sum) {
   int i = 0;
-  for (; i + 2 <= n; i += 2) { /* as much as there is room for in a register */
-    y[i] += (a * columns[i] + b * second[i]) + (c * third[i] + d * fourth[i]);
-    y[i + 1] += (a * columns[i + 1] + b * second[i + 1]) + (c * third[i + 1] + d * fourth[i + 1]);
+  for (; i + 4 <= n; i += 4) { /* as many sums as there is room for in registers */
+    const double *x = columns + i;
+    double a = 0, b = 0, c = 0, d = 0;
+    for (int k = 0; k < count; k++, x += ld) {
+      const double by = factor[k];
+      a += by * x[0], b += by * x[1], c += by * x[2], d += by * x[3];
+    }
+    sum[i] = a, sum[i + 1] = b, sum[i + 2] = c, sum[i + 3] = d;
   }
-  if (i < n) y[i] += (a * columns[i] + b * second[i]) + (c * third[i] + d * fourth[i]);
+  for (; i < n; i++) {
+    const double *x = columns + i;
+    double a = 0;
+    for (int k = 0; k < count; k++, x += ld) a += factor[k] * x[0];
+    sum[i] = a;
+  }
 }
 
 void frot_backward(const double *l, int n, int m, double *x) {
@@ -112,19 +134,33 @@ void frot_backward(const double *l, int n, int m, double *x) {
 }
 
 void frot_forward_by(const double *l, const double *share, int n, double *x) {
-  for (int i = 0; i < n; i++) {
-    double sum = x[i];
-    for (int k = 0; k < i; k++) sum -= AT(l, n, i, k) * x[k];
-    x[i] = sum * share[i];
+  int i = 0;
+  for (; i + 2 <= n; i += 2) {
+    const double *entry = l + i;
+    double one = x[i], two = x[i + 1];
+    for (int k = 0; k < i; k++, entry += n) one -= entry[0] * x[k], two -= entry[1] * x[k];
+    x[i] = one *= share[i];
+    x[i + 1] = (two - entry[1] * one) * share[i + 1];
   }
+  if (i == n) return;
+  double last = x[i];
+  for (int k = 0; k < i; k++) last -= AT(l, n, i, k) * x[k];
+  x[i] = last * share[i];
 }
 
 void frot_backward_by(const double *l, const double *share, int n, double *x) {
-  for (int i = n - 1; i >= 0; i--) {
-    double sum = x[i];
-    for (int k = n - 1; k > i; k--) sum -= AT(l, n, k, i) * x[k];
-    x[i] = sum * share[i];
+  int i = n - 1;
+  for (; i >= 1; i -= 2) {
+    const double *right = l + (size_t)i * (size_t)n, *left = right - n;
+    double two = x[i], one = x[i - 1];
+    for (int k = n - 1; k > i; k--) two -= right[k] * x[k], one -= left[k] * x[k];
+    x[i] = two *= share[i];
+    x[i - 1] = (one - left[i] * two) * share[i - 1];
   }
+  if (i < 0) return;
+  double first = x[0];
+  for (int k = n - 1; k > 0; k--) first -= l[k] * x[k];
+  x[0] = first * share[0];
 }
 
 /* Whether none of four numbers is anything. */

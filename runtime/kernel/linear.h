@@ -22,9 +22,9 @@ void frot_dot_four(const double *a, const double *four, int n, double product[FR
 void frot_dot_fours(const double *a, const double *b, int n,
                     double product[FROT_ABREAST * FROT_ABREAST]);
 
-/* y (n) += four columns, each times its factor; the next column is `ld` on. */
-void frot_add_four(const double *columns, int ld, const double factor[FROT_ABREAST], int n,
-                   double *y);
+/* sum (n) <- `count` columns, each times its factor; the next one is `ld` on. */
+void frot_add_columns(const double *columns, int ld, const double *factor, int count, int n,
+                      double *sum);
 
 /* Solve a x = b by LU with partial pivoting (a gets the factors, b becomes x; `pivot` takes n
  * integers). Returns 0 with the sign of the determinant, or 1 when a is singular to rounding.

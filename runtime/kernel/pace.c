@@ -8,7 +8,7 @@
 #include "tolerances.h"
 
 #define SAMPLES 20000 /* in a run */
-#define PART 0.01     /* longest step, in runs */
+#define PART 0.1      /* longest step, in runs */
 #define GROWTH 0.25   /* longest step, in what has been run, of rest or where no run is told */
 #define FINEST 1e-15  /* s: a first step below every scale of time */
 #define BEYOND 2      /* rates are seen when those at the stages come up to this part of them */

@@ -102,7 +102,7 @@ static double per_size(const frot_follower *own, const double *whole, const doub
 /* What the readings make of the friction of each follower. Returns the largest change, as a part of
  * the terms that one is made of. */
 static double follow(const frot_problem *p, const double *whole, const double *load, int pass) {
-  double most = 0;
+  double most = 0, sum = 0; /* what is no number stays in a sum */
   for (int f = 0; f < p->unknowns; f++) {
     frot_follower *own = &p->w->reactions.followers[f];
     double first = whole[own->at[0]] - own->force[0] - load[own->at[0]];
@@ -114,10 +114,9 @@ static double follow(const frot_problem *p, const double *whole, const double *l
     if (pass == 0 || own->per_size == 0) own->per_size = per_size(own, whole, load);
     own->next = own->ratio * own->size;
     double change = fabs(own->next - *own->friction) * own->per_size;
-    if (!(change <= most)) most = change;
-    if (isnan(most)) break;
+    most = change > most ? change : most, sum += change;
   }
-  return most;
+  return isnan(sum) ? NAN : most;
 }
 
 /* Take what the readings made of friction. What passes leave foretells no more: an extrapolation

@@ -60,18 +60,6 @@ double frot_free_size(const frot_model *m, const frot_work *w, int row) {
   return sum;
 }
 
-int frot_is_held(const frot_model *m, const frot_contact_mode *modes, int element) {
-  const frot_element *e = &m->elements[element];
-  const frot_contact_mode *mode = frot_element_mode(m, modes, element);
-  return modes[e->contact].closed && !modes[e->contact].unloaded && mode->friction == FROT_STICK &&
-         mode->at_bound == 0 && !e->prescribed;
-}
-
-int frot_is_loaded(const frot_model *m, const frot_contact_mode *modes, int contact) {
-  const frot_contact *c = &m->contacts[contact];
-  return c->row_n >= 0 && !c->reduced && modes[contact].closed && !modes[contact].unloaded;
-}
-
 double frot_size_of_motion(const frot_model *m, const frot_work *w, const frot_group *g) {
   int count = g->general ? g->n : g->n_speeds;
   const double *force = w->core.force + g->vector;

@@ -43,9 +43,4 @@ double frot_free_rounding(const frot_work *w, const frot_group *g, double length
 /* Size of the terms of a row's acceleration without reactions. */
 double frot_free_size(const frot_model *m, const frot_work *w, int row);
 
-/* Whether the motion of an element is held by a reaction of its own in `modes`. */
-int frot_is_held(const frot_model *m, const frot_contact_mode *modes, int element);
-/* Whether a contact keeps its distance by a reaction of its own. */
-int frot_is_loaded(const frot_model *m, const frot_contact_mode *modes, int contact);
-
 #endif
