@@ -9,6 +9,15 @@
 #include "tolerances.h"
 #include "tree.h"
 
+/* Under the address sanitizer a gap behind each piece in which nobody may read or write. */
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/asan_interface.h>
+#define GAP 64
+#else
+#define GAP 0
+#define ASAN_POISON_MEMORY_REGION(from, size) ((void)(from), (void)(size))
+#endif
+
 /* Hands out pieces of the scratch block; with a NULL base it only counts. */
 typedef struct {
   char *base;
@@ -16,9 +25,11 @@ typedef struct {
 } arena;
 
 static void *take(arena *a, size_t count, size_t size) {
-  size_t at = (a->used + 15) & ~(size_t)15;
-  a->used = at + (count + 1) * size;
-  return a->base ? a->base + at : NULL;
+  size_t at = (a->used + 15) & ~(size_t)15, end = at + count * size;
+  a->used = end + (GAP > 0 ? GAP : size);
+  if (!a->base) return NULL;
+  ASAN_POISON_MEMORY_REGION(a->base + end, GAP);
+  return a->base + at;
 }
 
 #define TAKE(field, count) (field = take(a, (size_t)(count), sizeof *field))

@@ -156,8 +156,41 @@ static void one_life(int number) {
   FMI(FreeInstance)(c); /* with a saved state left over */
 }
 
+static instance started(void) {
+  instance c = make("hand-model-key");
+  if (c == NULL) exit(4);
+  EXPECT(OK, begin(c, 0.0));
+  EXPECT(OK, FMI(ExitInitializationMode)(c));
+  return c;
+}
+
+/* Three at once, one reset while another runs on and one freed: none knows of the others. */
+static void lives_beside_each_other(void) {
+  instance long_steps = started(), short_steps = started(), other = started();
+  EXPECT(OK, set(other, MASS, 7.0));
+  for (int i = 0; i < 10; i++) {
+    EXPECT(OK, step(long_steps, 0.5 * i, 0.5));
+    EXPECT(OK, step(other, 0.3 * i, 0.3));
+    for (int k = 0; k < 2; k++) EXPECT(OK, step(short_steps, 0.5 * i + 0.25 * k, 0.25));
+  }
+  const double x = get(long_steps, X);
+  if (get(short_steps, X) != x || get(other, X) == x) exit(9);
+  EXPECT(OK, FMI(Reset)(long_steps));
+  FMI(FreeInstance)(other);
+  EXPECT(OK, begin(long_steps, 0.0));
+  EXPECT(OK, FMI(ExitInitializationMode)(long_steps));
+  for (int i = 0; i < 10; i++) {
+    EXPECT(OK, step(short_steps, 5.0 + 0.1 * i, 0.1));
+    EXPECT(OK, step(long_steps, 0.5 * i, 0.5));
+  }
+  if (get(long_steps, X) != x) exit(10);
+  FMI(FreeInstance)(long_steps);
+  FMI(FreeInstance)(short_steps);
+}
+
 int main(void) {
   for (int i = 0; i < 20; i++) one_life(i % 4);
+  lives_beside_each_other();
   FMI(FreeInstance)(NULL);
   return 0;
 }

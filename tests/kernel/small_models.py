@@ -163,7 +163,8 @@ def _packed(matrix: ca.SX, m: Small) -> ca.SX:
     """Of a mass matrix the columns of speeds and the diagonal of the rest."""
     if m.general:
         return matrix
-    return ca.vertcat(ca.vec(matrix[:, : m.nv]), ca.diag(matrix)[m.nv :])
+    rest = (matrix[k, k] for k in range(m.nv, matrix.shape[0]))
+    return ca.vertcat(ca.vec(matrix[:, : m.nv]), *rest)
 
 
 def _matrix_size(m: Small) -> int:
