@@ -1,6 +1,8 @@
 /* Layout of the scratch block. */
 #include "work.h"
 
+#include <string.h>
+
 #include "awake.h"
 #include "edges.h"
 #include "implicit.h"
@@ -277,6 +279,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
 }
 
 void frot_bind_work(const frot_model *model, frot_work *work) {
+  memset(work, 0, sizeof *work); /* numbers beside the pieces carry nothing either */
   bind(model, work, (char *)work);
   frot_measure_islands(model, work);
   frot_measure_rows(model, work);

@@ -127,16 +127,19 @@ def test_a_singular_core_is_said_in_a_sentence_of_equations(run) -> None:
         run(model)
 
 
-def test_kepler_s_equation_is_solved_at_every_instant(run) -> None:
-    """E - e sin E = M(t): the nonlinear block, and an orbit from it."""
-    e = 0.9
-    kepler = Block(0, lambda s: [s.y[0] - e * ca.sin(s.y[0]) - s.t], name="E")
-    model = Small(
-        name="kepler", nq=1, q_speed=[-1], start=([0.0], [], [0.0]), blocks=[kepler], stop=20.0,
+def kepler(e: float) -> Small:
+    """E - e sin E = M(t) in a nonlinear block, and an orbit from it."""
+    block = Block(0, lambda s: [s.y[0] - e * ca.sin(s.y[0]) - s.t], name="E")
+    return Small(
+        name="kepler", nq=1, q_speed=[-1], start=([0.0], [], [0.0]), blocks=[block], stop=20.0,
         rates=lambda s: 1 / (1 - e * ca.cos(s.y[0])), time_dependent=True,
         variables={"E": lambda s: s.y[0], "integral": lambda s: s.q[0]},
     )  # fmt: skip
-    result = run(model, tolerance=1e-11)
+
+
+def test_kepler_s_equation_is_solved_at_every_instant(run) -> None:
+    e = 0.9
+    result = run(kepler(e), tolerance=1e-11)
     E = result["E"]
     assert np.allclose(E - e * np.sin(E), result.time, rtol=0, atol=5e-15 * 20)
     assert np.allclose(result["integral"], E, rtol=0, atol=1e-8)

@@ -13,7 +13,7 @@ from frot.runtime.program import Program
 from patience import PATIENCE
 from small_models import Small, source
 from test_elements import clutch, pin_pendulum
-from test_general_core import pendulum_in_x_y
+from test_general_core import kepler, pendulum_in_x_y
 from test_text_events import ball, sampler
 
 STOPS = {"inclined_block": 3.0, "backspin_hoop": 3.0, "coulomb_oscillator": 12.0}
@@ -21,6 +21,7 @@ SMALL = (
     (clutch("clutch", 1.0, 5.0, start=([0, 0], [10.0, 0.0])), 5.0),
     (pin_pendulum("pin", 0.05, 0.06, start=([1.2], [0.0])), 10.0),
     (pendulum_in_x_y(), 3.0),
+    (kepler(0.9), 3.0),
     (ball(), 2.5),
     (sampler("sampler"), 1.05),
 )
