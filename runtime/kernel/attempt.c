@@ -193,11 +193,25 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   return status == FROT_OK ? FROT_DIVERGE : status;
 }
 
+/* Whether no step is possible because the stages, however near, have no reactions in the modes of a
+ * group with friction: then other modes are looked for, once. */
+static int ends_modes(const frot_model *m, frot_state *s, const frot_work *w,
+                      const frot_attempt *a) {
+  int group = w->reactions.jammed;
+  if (!isnan(a->ratio) || a->passed >= 0 || group < 0) return 0;
+  if (m->groups[group].n_elements == 0 || s->jammed_at == a->t) return 0;
+  s->jammed_at = a->t, s->jammed = group;
+  frot_unpack(w, frot_stage(w, 0), s->data + w->layout.slope);
+  s->pending = 1;
+  return 1;
+}
+
 /* The step has become too short. FROT_OK where it can go on with the other method, or an event is
  * at its start (s->pending), else the status of the fault. */
 static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a, int status) {
   int ends = frot_condition_at_zero(m, s, w);
   int over = a->passed >= 0 && ends >= 0; /* no method has a value beyond it */
+  if (ends < 0 && ends_modes(m, s, w, a)) return FROT_OK;
   if (!over && !a->changed && frot_change_method(m, s)) {
     if (s->implicit) frot_wake_within_step(m, s, w);
     int begun = s->implicit ? frot_begin_step(m, s, w, a) : FROT_OK;

@@ -189,6 +189,23 @@ static int still_holds(const frot_instant *in, const int *chosen, int count, int
   return 1;
 }
 
+/* Whether the modes are those of before in a group that has no reactions in them beyond the
+ * instant: what friction makes of the reactions that bound it has no solution any more. Then other
+ * modes come, though no bound was passed, and reactions jump. */
+static int has_ended(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  const frot_contact_mode *trial = in->w->search.trial, *before = in->w->search.before;
+  if (in->s->jammed_at != in->t || in->s->jammed != m->contact_group[chosen[0]]) return 0;
+  for (int c = 0; c < count; c++) {
+    if (trial[chosen[c]].closed != before[chosen[c]].closed) return 0;
+    for (int e = 0; e < m->n_elements; e++)
+      if (m->elements[e].contact == chosen[c] &&
+          trial[m->n_contacts + e].friction != before[m->n_contacts + e].friction)
+        return 0;
+  }
+  return 1;
+}
+
 /* The accelerations of the instant and the rates of what has no speeds. Returns whether there are
  * any. */
 static int note_rates(const frot_instant *in) {
@@ -223,6 +240,7 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count) {
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
   double *q = w->step.z, *v = q + m->nq;
   w->search.falls = 0;
+  if (has_ended(in, chosen, count)) return 0;
   if (!note_margins(in, chosen, count) || !note_rates(in)) return 1;
   double way = frot_time_of_way(in, g);
   int lasts = 1, slow = 1;

@@ -283,6 +283,7 @@ int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                    const unsigned char *at_rest) {
   for (int k = 0; k < w->awake.now->n_groups; k++)
-    if (frot_group_reactions(m, w, &m->groups[w->awake.now->groups[k]], modes, at_rest)) return 1;
+    if (frot_group_reactions(m, w, &m->groups[w->awake.now->groups[k]], modes, at_rest))
+      return w->reactions.jammed = w->awake.now->groups[k], 1;
   return 0;
 }

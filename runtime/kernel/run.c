@@ -80,6 +80,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->h_max = experiment[1] > start ? experiment[1] - start : 1;
   if (m->time_dependent) s->h_max *= PART_OF_RUN;
   s->ended_recorded = s->shrinking = 0;
+  s->jammed_at = NAN;
   s->text_event = t, s->text_gap = s->text_ratio = s->text_first = 0;
   s->pending = s->has_slope = s->changed = s->crowded = s->several = s->untold = 0;
   s->second = -1;

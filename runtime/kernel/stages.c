@@ -55,10 +55,10 @@ static void weigh(const frot_work *w, const double *coefficient, int count, doub
   }
 }
 
-int frot_has_jammed(const frot_state *s, const frot_work *w) {
+int frot_has_jammed(const frot_state *s, frot_work *w) {
   for (int i = 0; i < w->awake.now->n_groups; i++) {
     int k = w->awake.now->groups[i];
-    if (w->reactions.sign[k] * s->data[w->layout.sign + k] < 0) return 1;
+    if (w->reactions.sign[k] * s->data[w->layout.sign + k] < 0) return w->reactions.jammed = k, 1;
   }
   return 0;
 }
@@ -103,6 +103,7 @@ static int run_once(const frot_model *m, frot_state *s, frot_work *w, double t, 
 }
 
 int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  w->reactions.jammed = -1;
   if (s->implicit) return frot_implicit_stages(m, s, w, t, h);
   int loops = frot_has_loops(m, s, w), reached = 0, status;
   memset(w->step.near, 0, DP_STAGES + 1);

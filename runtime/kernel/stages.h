@@ -30,7 +30,7 @@ int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, 
 
 /* Whether the determinant that gives the reactions has another sign than at the start of the step:
  * it was zero between, where they grow without bound (jamming). */
-int frot_has_jammed(const frot_state *s, const frot_work *w);
+int frot_has_jammed(const frot_state *s, frot_work *w);
 
 /* Vectors of the dense output of the step h into w->step.f (DP_DENSE x nz). Takes three
  * evaluations; the cubic between its ends alone takes none. */

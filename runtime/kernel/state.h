@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 18
+#define FROT_LAYOUT_VERSION 19
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -48,6 +48,7 @@ struct frot_state {
   int fleeting;    /* the contact at which no motion lasts at the last event, or -1 */
   int second;      /* the contact whose figures meet at another place too, or -1: nearer.h */
   long long told;  /* events that changed something before that */
+  int jammed;      /* the group without reactions beyond jammed_at */
   int jumped;      /* the last event of the text moved coordinates or speeds */
   int several;     /* groups of contacts had several motions at the start: to be told as events */
   int asleep;      /* islands that sleep: see awake.h */
@@ -75,6 +76,7 @@ struct frot_state {
    * that the row began with */
   double text_event, text_gap, text_ratio, text_first;
   double crowded_since;
+  double jammed_at;          /* where no step was possible for want of reactions, or NaN */
   double left_at;            /* instant of the last event: see `left` and `vanished` */
   double t;                  /* time reached */
   double h;                  /* next step */

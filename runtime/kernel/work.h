@@ -107,6 +107,7 @@ typedef struct {
   double *noted, *instant; /* past.c: n_elements and n_groups times FROT_INSTANTS */
   int *instants;           /* of each group, how many of them */
   int dependent, *sign;    /* sign (n_groups): of the determinant, 0 where there is none */
+  int jammed;              /* the group that had no reactions in the last stages, or -1 */
   int follow;              /* 1: pins' directions are looked for from the last stage's on */
   int warm;                /* the reactions are those of a stage before: pins.c */
 } frot_reaction_work;

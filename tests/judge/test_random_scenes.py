@@ -34,7 +34,8 @@ SCENES = (
 # pins that could depart together one does; a coefficient is negative where the start is looked for;
 # all loads of an instant vanish, or a reaction does among others that do; motions hold with the
 # friction of motion alone, or each for its instant alone; rounding from before an event would hide
-# a reversal after it; friction of pins is found by passes that end in one rounding
+# a reversal after it; friction of pins is found by passes that end in one rounding; a rest ends
+# because friction leaves its reactions no solution, and passes no bound
 ONCE_WRONG = (
     (77, "corner", 0, (0,)),
     (77, "stack", 0, (2,)),
@@ -53,6 +54,7 @@ ONCE_WRONG = (
     (7502, "anything", 4, (15,)),
     (8101, "anything", 5, (1,)),
     (8101, "anything", 8, (3,)),
+    (8301, "anything", 6, (14,)),
     (8401, "anything", 4, (1,)),
     (8401, "anything", 24, (5,)),
     (8501, "anything", 36, (9,)),
