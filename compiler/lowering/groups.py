@@ -227,7 +227,10 @@ def _readings(system: Assembled, groups: Sequence[Group]) -> tuple[int, ...]:
 
 
 def _is_general(system: Assembled, unknowns: tuple[int, ...], rows: tuple[int, ...]) -> bool:
-    """Whether this is no mass matrix with reactions along the rows: at a few random places."""
+    """Whether this is no mass matrix with reactions along the rows: at a few random places.
+
+    Auxiliary speeds are never solved for: that of the spin of a slender rod moves no mass.
+    """
     places, own = list(unknowns), list(rows)
     if any(k >= system.nv + system.na for k in unknowns):
         return True
@@ -243,6 +246,9 @@ def _is_general(system: Assembled, unknowns: tuple[int, ...], rows: tuple[int, .
             return False
         scale = np.abs(a).max()
         symmetric = np.all(np.abs(a - a.T) <= 1e-12 * scale) and np.allclose(e, j, 1e-12, 0)
-        if not symmetric or np.linalg.eigvalsh((a + a.T) / 2)[0] <= 0:
+        own_speeds = [i for i, k in enumerate(places) if k < system.nv]
+        inertia = a[np.ix_(own_speeds, own_speeds)]
+        least = np.linalg.eigvalsh((inertia + inertia.T) / 2)[0] if own_speeds else 1
+        if not symmetric or least <= 0:
             return True
     return False

@@ -175,9 +175,9 @@ def solve(mass: Floats, rows: Floats, load: Floats, wanted: Floats) -> tuple[Flo
     """The a with `mass` a = `load` + `rows`' lam, `rows` a = `wanted`; sizes of its terms."""
     try:
         factor = np.linalg.cholesky(mass)
+        free = np.linalg.solve(mass, load)
     except np.linalg.LinAlgError:
         return None
-    free = np.linalg.solve(mass, load)
     if not rows.size:
         return np.asarray(free), np.asarray(np.abs(free))
     even = np.linalg.solve(factor, rows.T)
