@@ -26,11 +26,18 @@ static double speed_unresolved(const frot_instant *in, int row) {
   return DBL_EPSILON * frot_size_of_time(in->t, in->s->h_max) * in->w->core.row_load[row];
 }
 
+/* The motion of element e that is none to rounding, against its terms, the sizes it had, the motion
+ * as a whole and the motion to come, or that no instant resolves. */
+static double zero_rate(const frot_instant *in, int e, const double *v) {
+  int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
+  double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
+  return FROT_ZERO * fmax(size, speed_to_come(in, row)) +
+         FROT_ZERO_OF_MOTION * frot_row_speed(in->m, in->w, row, v) + speed_unresolved(in, row);
+}
+
 /* Whether the motion of element e is zero: its guard fired at zero, as near as events are located
  * (what a landing next to a dead centre leaves of it is a motion: to hold it would stop the
- * mechanism), or before time can move on, or it is zero to rounding
- * against its terms, the sizes it had, the motion as a whole and the motion to come, or what no
- * instant resolves. */
+ * mechanism), or before time can move on, or it is zero to rounding. */
 static int is_zero_rate(const frot_instant *in, int e, const double *v, int friction) {
   int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
   int slipped = friction > FROT_STICK, way = friction == FROT_SLIP_FORWARD ? 1 : -1;
@@ -40,10 +47,7 @@ static int is_zero_rate(const frot_instant *in, int e, const double *v, int fric
   if (slipped && in->fired[guard] == FROT_AT_START && way * in->w->core.rate[row] >= 0) return 1;
   if (in->m->elements[e].prescribed && fabs(in->w->core.rate[row]) <= FROT_PRESCRIBED_REST)
     return 1;
-  size = fmax(size, speed_to_come(in, row));
-  return fabs(in->w->core.rate[row]) <=
-         FROT_ZERO * size + FROT_ZERO_OF_MOTION * frot_row_speed(in->m, in->w, row, v) +
-             speed_unresolved(in, row);
+  return fabs(in->w->core.rate[row]) <= zero_rate(in, e, v);
 }
 
 /* A reaction that reached its upper bound (first guard) lets the body go backward. */
@@ -323,6 +327,16 @@ static void pass_directions(const frot_instant *in) {
   }
 }
 
+/* What begins to slip is known no better at its start than it was taken for zero. */
+static void size_beginnings(const frot_instant *in) {
+  const frot_contact_mode *modes = (const void *)(in->s->data + in->l.modes);
+  for (int e = 0; e < in->m->n_elements; e++) {
+    double *scale = in->s->data + in->l.scale_g + frot_element_guard(in->m, e);
+    if (in->zero[e] && frot_element_mode(in->m, modes, e)->friction > FROT_STICK)
+      *scale = fmax(*scale, zero_rate(in, e, in->v) / FROT_LOCATED);
+  }
+}
+
 int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  int first, frot_recorder *recorder) {
   frot_layout l = frot_layout_of(m);
@@ -383,5 +397,6 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   for (int e = 0; e < m->n_elements; e++)
     if (memcmp(&modes[m->n_contacts + e], &w->search.before[m->n_contacts + e], sizeof *modes) != 0)
       frot_forget_guards(m, s, frot_element_guard(m, e), 2);
+  size_beginnings(&in);
   return FROT_OK;
 }
