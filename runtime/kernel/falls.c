@@ -125,6 +125,7 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
     double slack = frot_slack_of_guard(m, s, w, k, h, g);
     for (int i = 0; i < 7; i++) g[i] += slack;
     double floor = FROT_GUARD_FLOOR * size + FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
+    floor = fmin(floor, FROT_DROWNED * size); /* next to a jam noise would hide any reversal */
     double at = frot_first_fall(g, floor + 8 * DBL_EPSILON * fabs(t) * slope);
     if (j >= conditions && fabs(first) <= FROT_ZERO * size &&
         lost_at_once(s, w, j - conditions, g, inside, at < FROT_NO_ROOT))
