@@ -80,12 +80,20 @@ static int relieve(const frot_instant *in, const int *chosen, int count, int tou
   return frot_reactions_hold(in, chosen, count);
 }
 
-/* Whether reactions hold with more of the contacts and elements from `first` on at their bounds;
- * the first of each contact stands before its elements. Reactions of w->search.trial are solved. */
-static int find_corner(const frot_instant *in, const int *chosen, int count, int first) {
+/* Whether the reactions of w->search.trial hold now and a little later. */
+static int hold_on(const frot_instant *in, const int *chosen, int count) {
+  return frot_is_admissible(in, chosen, count) && frot_lasts(in, chosen, count);
+}
+
+/* Whether reactions hold with more of the contacts and elements from `first` on at their bounds,
+ * and with `lasting` beyond the instant; the first of each contact stands before its elements.
+ * Reactions of w->search.trial are solved. */
+static int find_corner(const frot_instant *in, const int *chosen, int count, int lasting,
+                       int first) {
   const frot_model *m = in->m;
   frot_contact_mode *trial = in->w->search.trial;
-  if (!in->w->reactions.dependent) return frot_reactions_hold(in, chosen, count);
+  if (!in->w->reactions.dependent)
+    return lasting ? hold_on(in, chosen, count) : frot_reactions_hold(in, chosen, count);
   int all = count + m->n_elements;
   for (int k = first; k < all; k++) {
     int e = k - count, contact = e < 0 ? chosen[k] : m->elements[e].contact, among = e < 0;
@@ -99,7 +107,7 @@ static int find_corner(const frot_instant *in, const int *chosen, int count, int
         trial[contact].unloaded = 1;
       else
         trial[m->n_contacts + e].at_bound = (signed char)(way * trial[contact].side);
-      if (solve(in, chosen[0]) && find_corner(in, chosen, count, k + 1)) return 1;
+      if (solve(in, chosen[0]) && find_corner(in, chosen, count, lasting, k + 1)) return 1;
       if (e < 0)
         trial[contact].unloaded = 0;
       else
@@ -125,5 +133,12 @@ int frot_others_carry(const frot_instant *in, const int *chosen, int count) {
     memcpy(trial, before, modes);
     if (!solve(in, chosen[0])) return 0;
   }
-  return find_corner(in, chosen, count, 0);
+  return find_corner(in, chosen, count, 0, 0);
+}
+
+int frot_others_last(const frot_instant *in, const int *chosen, int count) {
+  if (!in->w->reactions.dependent) return 0;
+  enum frot_share share = frot_share_load(in, chosen, count);
+  if (share == FROT_NO_SHARE) return 0;
+  return share == FROT_SHARED ? hold_on(in, chosen, count) : find_corner(in, chosen, count, 1, 0);
 }

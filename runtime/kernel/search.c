@@ -117,6 +117,11 @@ static void remember(const frot_instant *in, const int *chosen, int count) {
   }
 }
 
+/* Whether the motion lasts, with these reactions or, where they are not unique, with others. */
+static int lasts(const frot_instant *in, const int *chosen, int count) {
+  return frot_lasts(in, chosen, count) || frot_others_last(in, chosen, count);
+}
+
 /* Examine all combinations of the options; those of contacts that are `certain` (may be NULL) stay
  * as they are in w->trial. */
 static int enumerate(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
@@ -134,7 +139,7 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
   size_t modes = (size_t)(in->m->n_contacts + in->m->n_elements);
   memcpy(w->search.guess, w->search.trial, sizeof *w->search.trial * modes);
   for (;;) {
-    if (frot_is_admissible(in, chosen, count) && (!lasting || frot_lasts(in, chosen, count))) {
+    if (frot_is_admissible(in, chosen, count) && (!lasting || lasts(in, chosen, count))) {
       long long rank = preference(in, chosen, count, lasting);
       motions = count_motion(in, chosen, motions);
       if (!any || rank > best) best = rank, remember(in, chosen, count);
@@ -202,7 +207,7 @@ static int mend_guess(const frot_instant *in, const int *chosen, int count, int 
   int first = 0, *falls = &in->w->search.falls;
   for (int tries = 0; tries <= count; tries++) {
     if (!frot_mend_modes(in, chosen, count, forced)) break;
-    if (lasting && !frot_lasts(in, chosen, count)) break;
+    if (lasting && !lasts(in, chosen, count)) break;
     int better = tries == 0 || (*falls == 0 && frot_is_exact(in, chosen, count));
     if (better) remember(in, chosen, count);
     if (better && (!lasting || *falls == 0)) return 1;

@@ -51,6 +51,10 @@ int frot_follow_ahead(const frot_instant *in, const frot_group *g);
  * contacts without load, which are set in w->search.trial (others.c). */
 int frot_others_carry(const frot_instant *in, const int *chosen, int count);
 
+/* Where reactions are not unique and those of frot_is_admissible do not last: whether others do,
+ * with elements at their bounds and contacts without load, which are set in w->search.trial. */
+int frot_others_last(const frot_instant *in, const int *chosen, int count);
+
 /* Whether every law of a contact holds in w->search.trial, so that the side it is pressed on
  * follows from its reaction. */
 int frot_all_held(const frot_instant *in, int contact);
