@@ -26,6 +26,7 @@ class Guess:
 
     `start`: it is no statement of `initial`, but the `start` of a variable. `whole` is the vector
     of which the scalar is an item: an item that hardly moves beside the others guesses nothing.
+    `statement` is the same for all items that are guessed together.
     """
 
     left: ca.SX
@@ -33,6 +34,7 @@ class Guess:
     dimension: Dimension
     start: bool
     whole: ca.SX
+    statement: int = -1
 
     @property
     def missed(self) -> ca.SX:
@@ -55,7 +57,7 @@ def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
             of = variable.start.type.dimension
             starts += [Guess(a, b, of, True, a) for a, b in zip(left, right, strict=True)]
     guesses: list[Guess] = []
-    for equation in model.initial:
+    for index, equation in enumerate(model.initial):
         if equation.guess:
             left, right = (
                 scalars(system.resolve(settled(looking.lower(side))))
@@ -65,29 +67,51 @@ def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
             whole = column(left) - column(right)
             if isinstance(equation.left, Element):
                 whole = system.resolve(settled(looking.lower(equation.left.operand)))
-            guesses += [Guess(a, b, of, False, whole) for a, b in zip(left, right, strict=True)]
+            guesses += [
+                Guess(a, b, of, False, whole, index) for a, b in zip(left, right, strict=True)
+            ]
     ordered = [sorted(each, key=lambda g: g.left.is_symbolic()) for each in (starts, guesses)]
     return [*ordered[0], *ordered[1]][::-1]
 
 
+def guessed_states(
+    system: Assembled, guesses: Sequence[Guess], known: Mapping[int, ca.SX]
+) -> dict[int, ca.SX]:
+    """The values of the states of the text that are guessed themselves, and not `known`."""
+    turns = [range(t.coordinate, t.coordinate + 4) for t in system.reduced.symbols.turns]
+    of_text = {
+        s.element_hash()
+        for k, (s, speed) in enumerate(zip(scalars_of(system.q), system.q_speed, strict=True))
+        if speed < 0 and not any(k in four for four in turns)
+    }
+    moving = ca.vertcat(system.q, system.v, system.y, system.z, system.lam)
+    found: dict[int, ca.SX] = {}
+    for g in guesses:
+        key, own = g.left.element_hash(), g.left.is_symbolic() and not g.start
+        if own and key in of_text - known.keys() and not ca.depends_on(g.right, moving):
+            found.setdefault(key, g.right)
+    return found
+
+
 def guessed_places(
-    system: Assembled, guesses: Sequence[Guess], natural: ca.SX, known: Mapping[int, ca.SX]
-) -> list[ca.SX]:
+    system: Assembled, guesses: Sequence[Guess], known: Mapping[int, ca.SX]
+) -> tuple[list[ca.SX], tuple[int, ...]]:
     """The guesses of `initial` of what follows from the coordinates that are not `known`.
 
-    By how much each is missed, the slopes (nq x n), what it is measured by: lengths by the size of
-    all lengths that are guessed, and so on, numbers (angles) by one; and where those that are
-    linear in the coordinates put the bodies from their `natural` places. Nothing without guesses.
+    By how much each is missed, the slopes (nq x n) in these coordinates and the size of both sides;
+    and, for each, the first item of the vector that it is an item of. Nothing without guesses.
     """
     free = column(s for s in scalars_of(system.q) if s.element_hash() not in known)
     others = ca.vertcat(system.v, system.y, system.z, system.lam)
     found = _guesses_of(guesses, free, others)
     if not found:
-        return []
-    missed, sizes = _measured(found)
-    linear = [g for g in guesses if not ca.depends_on(ca.jacobian(g.missed, free), free)]
-    begin = move_by(system, linear, system.q, natural, known)
-    return [missed, ca.jacobian(missed, system.q).T, sizes, begin]
+        return [], ()
+    statements = [g.statement for g in found]
+    missed = column(g.missed for g in found)
+    sizes = column(ca.fabs(g.left) + ca.fabs(g.right) for g in found)
+    moves = column(ca.SX(s.element_hash() not in known) for s in scalars_of(system.q))
+    slopes = ca.sparsify(ca.jacobian(missed, system.q) @ ca.diag(moves)).T
+    return [missed, slopes, sizes], tuple(statements.index(k) for k in statements)
 
 
 def guessed_speeds(

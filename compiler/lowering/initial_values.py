@@ -14,6 +14,7 @@ from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.guesses import (
     guessed_places,
     guessed_speeds,
+    guessed_states,
     list_guesses,
     move_by,
     values_of,
@@ -38,15 +39,22 @@ class Statement:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Initial:
-    """Outputs of `start`, `initial_position` and `initial_velocity`, and the statements behind."""
+    """Outputs of the functions of the start, and the statements behind.
+
+    `direct`: the scalar equations on positions that hold where the search begins, whatever is
+    guessed. `vectors`: of each guessed scalar the first item of its vector.
+    """
 
     start: list[ca.SX]
+    beginning: list[ca.SX]
     position: list[ca.SX]
     velocity: list[ca.SX]
     statements: tuple[Statement, ...]
     position_statement: tuple[int, ...]
     velocity_statement: tuple[int, ...]
+    direct: tuple[bool, ...]
     guessed: list[ca.SX]
+    vectors: tuple[int, ...]
     guessed_speeds: list[ca.SX]
 
 
@@ -56,6 +64,7 @@ class _Residual:
 
     `solved`: it is on an acceleration or a reaction. `statement` s < 0 is that of ~s, which is none
     of the text, but keeps a quaternion's length or an angle within half a turn of its count.
+    `direct`: it gives a state its value, where the search begins.
     """
 
     value: ca.SX
@@ -63,6 +72,7 @@ class _Residual:
     statement: int
     only: ca.SX | None = None
     solved: bool = False
+    direct: bool = False
 
 
 def lower_initial(
@@ -85,11 +95,13 @@ def lower_initial(
     guesses = list_guesses(system, looking)
     # values that are stated one by one are where the search begins, or all there is to find
     natural = _with(system.q, _natural(system), direct)
-    q = move_by(system, guesses, system.q, natural, direct)
-    known = direct | values_of(system.q, q)
+    natural = move_by(system, [g for g in guesses if g.start], system.q, natural, direct)
+    stated = direct | guessed_states(system, guesses, direct)
+    natural = _with(system.q, natural, stated)
+    known = direct | values_of(system.q, system.q)
     v = _with(system.v, ca.SX.zeros(system.v.shape), direct)
     v = move_by(system, [g for g in guesses if g.left.is_symbolic()], system.v, v, known)
-    guessed = guessed_places(system, guesses, natural, direct)
+    guessed, vectors = guessed_places(system, guesses, stated)
     turns = system.reduced.symbols.turns
     kept = all(link.reduced for link in system.reduced.mechanism.contacts)
     relations = turns or not kept or system.invariants.origins
@@ -119,18 +131,20 @@ def lower_initial(
     position = [r for r, m in zip(found, moving, strict=True) if not m]
     velocity = [r for r, m in zip(found, moving, strict=True) if m]
     known |= values_of(system.v, v)
-    y_start = _beginnings(system, values_of(system.q, q))
-    y_start = move_by(system, guesses, system.y, y_start, known)
+    y_start = move_by(system, guesses, system.y, _beginnings(system), known)
     discrete = column(d.start for d in system.reduced.text.memory)
     return Initial(
-        [q, v, y_start, discrete],
-        _outputs(position, system.q, system.y),
-        _outputs(velocity, system.v, system.y),
-        tuple(statements),
-        tuple(r.statement for r in position),
-        tuple(r.statement for r in velocity),
-        guessed,
-        guessed_speeds(system, guesses, direct),
+        start=[natural, discrete],
+        beginning=[v, y_start],
+        position=_outputs(position, system.q, system.y),
+        velocity=_outputs(velocity, system.v, system.y),
+        statements=tuple(statements),
+        position_statement=tuple(r.statement for r in position),
+        velocity_statement=tuple(r.statement for r in velocity),
+        direct=tuple(r.statement < 0 or r.direct for r in position),
+        guessed=guessed,
+        vectors=vectors,
+        guessed_speeds=guessed_speeds(system, guesses, direct),
     )
 
 
@@ -184,14 +198,12 @@ def _natural(system: Assembled) -> ca.SX:
     return start
 
 
-def _beginnings(system: Assembled, places: Mapping[int, ca.SX]) -> ca.SX:
-    """Where the search for the unknowns of the blocks begins without a guess."""
+def _beginnings(system: Assembled) -> ca.SX:
+    """Where the search for the unknowns of the blocks begins without a guess, at these places."""
     start = ca.SX.zeros(system.y.shape)
     for block in system.blocks:
         if block.start is not None:
-            start[block.first : block.first + block.start.numel()] = replace_known(
-                block.start, places
-            )
+            start[block.first : block.first + block.start.numel()] = block.start
     return start
 
 
@@ -263,6 +275,7 @@ def _direct(found: list[_Residual], system: Assembled) -> tuple[dict[int, ca.SX]
 
     One may speak of states that others give (the angle of a body at the end of a chain): each is
     taken when one state of it is left, so that large trees need no system for all of them.
+    Those that do are marked in `found`.
     """
     states = {s.element_hash() for s in (*scalars_of(system.q), *scalars_of(system.v))}
     moving = states | {s.element_hash() for s in scalars_of(system.y)}
@@ -291,6 +304,7 @@ def _direct(found: list[_Residual], system: Assembled) -> tuple[dict[int, ca.SX]
         if not all(s in given or s in values for s in symbols[i].keys() - {key}):
             continue
         values[key] = value
+        found[i] = replace(found[i], direct=True)
         named.append(symbol)
         for k in behind[key]:
             left[k] = left[k] - {key}

@@ -12,7 +12,7 @@ from frot.compiler.lowering.equals import Kind, Member, share_functions
 from frot.compiler.lowering.explicit import make_explicit
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.finite import watch_numbers
-from frot.compiler.lowering.groups import Grouping
+from frot.compiler.lowering.groups import Grouping, Parts, make_parts
 from frot.compiler.lowering.initial_values import Statement, lower_initial
 from frot.compiler.lowering.islands import Island, divide
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, too_full, why_explicit
@@ -40,7 +40,7 @@ class Lowered:
 
     `position_statement` and `velocity_statement` give, for each scalar initial equation, the index
     of its statement in `statements`, ~index of one that is none of the text. `n_guessed`: scalars
-    whose places are guessed, `n_guessed_speeds`: and speeds.
+    whose places are guessed, `n_guessed_speeds`: and speeds. `parts`: what is put together alone.
     `n_followed`: unknowns of places that are followed, if one may be of an open contact.
     `blocks` are the functions of the blocks of `system`.
     Where there are `islands`, each is of one of the `kinds`. `conditions`: the values of all.
@@ -63,6 +63,7 @@ class Lowered:
     velocity_statement: tuple[int, ...]
     n_guessed: int
     n_guessed_speeds: int
+    parts: Parts
     n_followed: int
     row_depends: tuple[tuple[bool, ...], ...]
     dependent: tuple[bool, ...]
@@ -121,6 +122,7 @@ def lower(
             ),
         ),
         "start": ([s.t, s.u, s.p], initial.start),
+        "beginning": (state, initial.beginning),
         "initial_position": (state, initial.position),
         "initial_velocity": (state, initial.velocity),
         "sides": (state, list(_sides(system))),
@@ -208,6 +210,9 @@ def lower(
         velocity_statement=initial.velocity_statement,
         n_guessed=initial.guessed[0].numel() if initial.guessed else 0,
         n_guessed_speeds=initial.guessed_speeds[0].numel() if initial.guessed_speeds else 0,
+        parts=make_parts(
+            system, grouping, initial.position, initial.guessed, initial.direct, initial.vectors
+        ),
         n_followed=beginnings[0].numel() if beginnings else 0,
         row_depends=_row_depends(system),
         dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),

@@ -102,6 +102,18 @@ class Dae:
         }
 
 
+def _start(lowered: Lowered, state: list[ca.SX]) -> tuple[ca.SX, ca.SX, ca.SX]:
+    """Where the search for q, v and y begins, the conditions taken not to hold."""
+    t, _, _, u, p, d, y = state
+    q, discrete = lowered.functions["start"].call([t, u, p])
+    known = ca.vertcat(ca.SX.zeros(d.numel() - discrete.numel()), discrete)
+    speeds = ca.SX.zeros(lowered.system.v.shape)
+    v, guess = lowered.functions["beginning"].call(
+        [t, q, speeds, u, p, known, ca.SX.zeros(y.shape)]
+    )
+    return q, v, guess
+
+
 def dae_of(lowered: Lowered) -> Dae:
     """The DAE of a model's functions."""
     system = lowered.system
@@ -119,7 +131,7 @@ def dae_of(lowered: Lowered) -> Dae:
     d = ca.vertcat(flags, s.sides, sideless, system.discrete)
     state = [s.t, system.q, system.v, s.u, s.p, d, system.y]
     conditions = lowered.conditions
-    q, v, guess, _ = lowered.functions["start"].call([s.t, s.u, s.p])
+    q, v, guess = _start(lowered, state)
     values = default_values(reduced.mechanism.model, {})
     places = {"t": s.t, "x": x, "z": z, "u": s.u, "p": s.p, "mode": mode}
 

@@ -115,6 +115,7 @@ def _counts(lowered: Lowered) -> dict[str, float | str]:
         "n_position": len(lowered.position_statement),
         "n_velocity": len(lowered.velocity_statement),
         "n_guessed": lowered.n_guessed,
+        "n_parts": lowered.parts.count,
         "n_guessed_speeds": lowered.n_guessed_speeds,
         "n_followed": lowered.n_followed,
         "n_statements": len(lowered.statements),

@@ -65,8 +65,10 @@ def find_start(system: Assembled) -> Start | None:
     p = _numbers(evaluate(k.value, values) for k in symbols.parameters)
     begin = model.experiment.start
     t = 0.0 if begin is None else as_number(evaluate(begin, values))
-    guess = Numbers("guess", [symbols.t, symbols.u, symbols.p], initial.start)
-    q, v, y, discrete = (x.ravel() for x in guess(t, u, p))
+    begin_at = Numbers("start", [symbols.t, symbols.u, symbols.p], initial.start)
+    q, discrete = (x.ravel() for x in begin_at(t, u, p))
+    v, y = np.zeros(system.nv), np.zeros(system.y.numel())
+    values_at = Numbers("beginning", state, initial.beginning)
 
     links = reduced.mechanism.contacts
     parts = np.array([may_part(x, values) for x in links], dtype=bool)
@@ -78,6 +80,10 @@ def find_start(system: Assembled) -> Start | None:
     witness = system.resolve(reduced.witness)
     look = Numbers("look", state, (witness, located))
     function = Numbers("position", state, outputs)
+    direct = np.array(initial.direct, dtype=bool)
+    if initial.guessed:
+        missed, slopes, _ = initial.guessed
+        guesses = Numbers("guessed", state, [missed, slopes.T])
     flags = np.zeros(len(reduced.conditions.flags))
     sides = np.ones(len(links))
     none = np.ones(len(system.elements))
@@ -108,12 +114,30 @@ def find_start(system: Assembled) -> Start | None:
             q = q + step / max(1.0, longest / 0.7)
         return False
 
+    def meet_guesses() -> None:
+        nonlocal q
+        for _ in range(_STEPS):
+            missed, slopes = guesses(*arguments())
+            value, own, *_ = function(*arguments())
+            short = np.concatenate([value.ravel()[direct], missed.ravel()])
+            down = np.vstack([own.reshape(-1, q.size)[direct], slopes.reshape(-1, q.size)])
+            if not (np.all(np.isfinite(short)) and np.all(np.isfinite(down))):
+                return
+            step = np.linalg.lstsq(down, -short, rcond=1e-10)[0]
+            longest = np.max(np.abs(step) / (1 + np.abs(q)))
+            q = q + step / max(1.0, longest / 0.7)
+            if longest <= _HOLDS:
+                return
+
     def choose_sides() -> None:
         three = look(*arguments())[0].reshape(-1, 3)
         for k, one in enumerate(three[: len(links)]):
             known = one[np.abs(one) > _TOUCHES]
             sides[k] = np.sign(known[0]) if known.size else 1.0
 
+    if initial.guessed:
+        meet_guesses()
+    v, y = (x.ravel() for x in values_at(*arguments()))
     used = np.zeros(len(links), dtype=bool)
     settle(used)
     choose_sides()

@@ -176,7 +176,7 @@ static int solve(const frot_model *m, frot_state *s, frot_work *w, double t, con
 
 int frot_solve_blocks(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                       const double *v, const double *d) {
-  return solve(m, s, w, t, q, v, d, 0);
+  return w->blocks.unwanted ? FROT_OK : solve(m, s, w, t, q, v, d, 0);
 }
 
 int frot_solve_late(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,

@@ -316,6 +316,21 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   return status;
 }
 
+int frot_inertia(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                 const double *v, const double *d) {
+  int status = frot_solve_blocks(m, s, w, t, q, v, d);
+  if (status != FROT_OK) return status;
+  s->statistics.evaluations++;
+  frot_call_dynamics(m, s, w, t, q, v, d, FROT_INERTIA);
+  for (int k = 0; k < w->awake.now->n_groups; k++) {
+    int group = w->awake.now->groups[k];
+    w->core.formed[group] = FROT_FACTOR;
+    if (!m->groups[group].general) frot_factor(w, &m->groups[group]);
+  }
+  frot_metric(m, w);
+  return FROT_OK;
+}
+
 int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d) {
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
@@ -376,7 +391,7 @@ void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen)
 double frot_metric_entry(const frot_model *m, frot_work *w, int a, int b) {
   const frot_group *g = &m->groups[m->speed_group[a]];
   if (m->speed_group[b] != m->speed_group[a]) return 0;
-  return frot_group_metric(w, g, m->speed_local[a], m->speed_local[b]);
+  return frot_metric_column(w, g, m->speed_local[b])[m->speed_local[a]];
 }
 
 double frot_kinetic(const frot_model *m, const frot_work *w, const double *v) {

@@ -31,6 +31,12 @@ enum frot_wanted {
 int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes, int wanted);
 
+/* The metric of the speeds alone, and its factors: A may be singular, and where a body has no
+ * inertia in this place its entries are no numbers. FROT_OK or a status that is not recorded as a
+ * fault. */
+int frot_inertia(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                 const double *v, const double *d);
+
 /* How much of that is there of a group. */
 enum frot_formed { FROT_FACTOR, FROT_ROWS, FROT_EFFECTS };
 

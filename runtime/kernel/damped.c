@@ -23,26 +23,30 @@ double frot_missed_square(const frot_opening *p) {
   return sum;
 }
 
-/* What the angles do to an equation, whatever the masses; of what they do nothing to, its size. */
-static double arm_of(const frot_opening *p, int i) {
+/* What the angles do to an equation, whatever the masses, squared. */
+static double square_of_arm(const frot_opening *p, int i) {
   const double *row = p->w->relations.jacobian + p->m->nq * i;
   double square = 0;
   for (int j = 0; j < p->m->nv; j++) {
     int k = frot_angle_of(p->m, j);
     if (k >= 0) square += row[k] * row[k];
   }
-  return square > 0 ? sqrt(square) : frot_statement_size(p, i);
+  for (int j = 0; j < p->m->n_turns; j++) {
+    const double *four = row + p->m->turns[j].at;
+    square += frot_dot(four, four, 4) / 4;
+  }
+  return square;
 }
 
-/* By their arms, and those between lengths, or between directions (of reach 1), of one liaison by
- * the mean of theirs: so that it does not matter where the scene stands, nor along which axes it is
- * seen. */
+/* By their arms, or their sizes where no angle moves them; those between lengths, or between
+ * directions (of reach 1), of one liaison and those of one guessed vector by the mean of theirs: so
+ * that it does not matter where the scene stands, nor along which axes it is seen. */
 static void weigh_alike(const frot_opening *p) {
   const frot_model *m = p->m;
   const double *reach = p->w->opening.reach;
   double *weight = p->w->opening.row_weight, *arm = p->w->opening.off_at_first;
   int n = m->n_position;
-  for (int i = 0; i < p->n; i++) arm[i] = weight[i] = arm_of(p, i);
+  for (int i = 0; i < p->n; i++) arm[i] = weight[i] = square_of_arm(p, i);
   for (int i = 0; i < m->n_contacts; i++) {
     double square = 0, count = 0;
     if (!p->use[i] || m->contacts[i].kinematic) continue;
@@ -50,41 +54,51 @@ static void weigh_alike(const frot_opening *p) {
       if (!p->use[k] || m->contacts[k].kinematic) continue;
       if (strcmp(m->contacts[k].name, m->contacts[i].name) == 0 &&
           (reach[k] == 1) == (reach[i] == 1))
-        square += arm[at] * arm[at], count++;
+        square += arm[at], count++;
       at++;
     }
-    weight[n++] = sqrt(square / count);
+    weight[n++] = square / count;
   }
-  for (int i = 0; i < p->n; i++) weight[i] = weight[i] > 0 ? 1 / weight[i] : 0;
+  for (int i = 0; i < m->n_guessed && p->guessed; i++, n++) {
+    double square = 0, count = 0;
+    for (int k = 0; k < m->n_guessed; k++)
+      if (m->guess_vector[k] == m->guess_vector[i]) square += arm[n - i + k], count++;
+    weight[n] = square / count / (SHARE * SHARE);
+  }
+  for (int i = 0; i < p->n; i++) {
+    double size = weight[i] > 0 ? sqrt(weight[i]) : frot_statement_size(p, i);
+    weight[i] = size > 0 ? 1 / size : 0;
+  }
 }
 
 void frot_weigh_equations(const frot_opening *p) {
   const frot_relation_work *r = &p->w->relations;
-  if (p->alike && p->m->n_turns == 0) {
+  if (p->alike) {
     weigh_alike(p);
     return;
   }
   for (int i = 0; i < p->n; i++) {
-    int guess = p->guessed && i >= p->n - p->m->n_guessed;
-    double size = guess ? r->size[i] : fmax(frot_statement_size(p, i), fabs(r->residual[i]));
-    p->w->opening.row_weight[i] = size > 0 ? (guess ? SHARE : 1) / size : 0;
+    double size = fmax(frot_statement_size(p, i), fabs(r->residual[i]));
+    p->w->opening.row_weight[i] = size > 0 ? 1 / size : 0;
   }
 }
 
-/* The rows at p->q into w->linear.matrix (n columns), weighed; changes are measured by the most
- * that they have moved so far (J. More 1978), in w->relations.unit. */
+/* The rows at p->q over the unknowns of the part into w->linear.matrix, weighed; changes are
+ * measured by the most that they have moved so far (J. More 1978), in w->relations.unit. */
 static void scale_rows(const frot_opening *p) {
   frot_work *w = p->w;
-  int nx = p->m->nq;
-  double *y = w->linear.matrix, *unit = w->relations.unit;
-  for (int k = 0; k < nx; k++) {
-    double sum = 0;
-    for (int i = 0; i < p->n; i++) {
-      y[nx * i + k] = w->relations.jacobian[nx * i + k] * w->opening.row_weight[i];
-      sum += y[nx * i + k] * y[nx * i + k];
+  int nx = p->m->nq, own = p->n_own, n = p->n_rows;
+  const int *rows = w->opening.rows;
+  double *y = w->linear.matrix;
+  for (int a = 0; a < own; a++) {
+    int k = w->opening.own[a];
+    double sum = 0, *unit = w->relations.unit + k;
+    for (int j = 0; j < n; j++) {
+      double entry = w->relations.jacobian[nx * rows[j] + k] * w->opening.row_weight[rows[j]];
+      y[own * j + a] = entry, sum += entry * entry;
     }
-    unit[k] = fmax(unit[k], sqrt(sum));
-    for (int i = 0; i < p->n && unit[k] > 0; i++) y[nx * i + k] /= unit[k];
+    *unit = fmax(*unit, sqrt(sum));
+    for (int j = 0; j < n && *unit > 0; j++) y[own * j + a] /= *unit;
   }
 }
 
@@ -92,23 +106,27 @@ static void scale_rows(const frot_opening *p) {
  * far as is known of. Returns 0 if there is none. */
 static int damped_change(const frot_opening *p, double damping, double *step) {
   frot_work *w = p->w;
-  int nx = p->m->nq, n = p->n;
-  double *product = w->linear.scratch, *b = w->linear.right, largest = 0;
+  int own = p->n_own, n = p->n_rows;
+  double *product = w->linear.scratch, *b = w->linear.right, *change = w->opening.apart,
+         largest = 0;
   for (int j = 0; j < n; j++) {
-    const double *row = w->linear.matrix + nx * j;
+    const double *row = w->linear.matrix + own * j;
     for (int i = j; i < n; i++)
-      product[n * j + i] = frot_dot(row, w->linear.matrix + nx * i, nx) + (i == j ? damping : 0);
+      product[n * j + i] = frot_dot(row, w->linear.matrix + own * i, own) + (i == j ? damping : 0);
     b[j] = -w->linear.right[n + j];
   }
   if (frot_cholesky(product, n)) return 0;
   frot_forward(product, n, n, b);
   frot_backward(product, n, n, b);
-  memset(step, 0, sizeof(double) * (size_t)nx);
+  memset(change, 0, sizeof(double) * (size_t)own);
   for (int i = 0; i < n; i++)
-    for (int k = 0; k < nx; k++) step[k] += w->linear.matrix[nx * i + k] * b[i];
-  for (int k = 0; k < nx; k++) largest = fmax(largest, fabs(step[k]));
-  for (int k = 0; k < nx; k++)
-    step[k] = w->relations.unit[k] > 0 ? step[k] / w->relations.unit[k] / fmax(largest, 1) : 0;
+    for (int a = 0; a < own; a++) change[a] += w->linear.matrix[own * i + a] * b[i];
+  for (int a = 0; a < own; a++) largest = fmax(largest, fabs(change[a]));
+  memset(step, 0, sizeof(double) * (size_t)p->m->nq);
+  for (int a = 0; a < own; a++) {
+    double unit = w->relations.unit[w->opening.own[a]];
+    step[w->opening.own[a]] = unit > 0 ? change[a] / unit / fmax(largest, 1) : 0;
+  }
   return 1;
 }
 
@@ -122,8 +140,10 @@ int frot_follow_damped(frot_opening *p) {
   for (int pass = 0; pass < PASSES; pass++) {
     double before = frot_missed_square(p), after = INFINITY;
     scale_rows(p);
-    for (int i = 0; i < p->n; i++)
-      w->linear.right[p->n + i] = w->relations.residual[i] * w->opening.row_weight[i];
+    const int *rows = w->opening.rows;
+    for (int j = 0; j < p->n_rows; j++)
+      w->linear.right[p->n_rows + j] =
+          w->relations.residual[rows[j]] * w->opening.row_weight[rows[j]];
     memcpy(x0, p->q, sizeof(double) * (size_t)nx);
     memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)p->m->ny);
     for (; damping < STUCK && !(after < before); damping *= HARDER) {

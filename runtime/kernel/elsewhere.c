@@ -9,6 +9,7 @@
 #include "damped.h"
 #include "gradual.h"
 #include "nearest.h"
+#include "parts.h"
 #include "tolerances.h"
 
 #define TRIES 8 /* beginnings of the search beside the given one, each to both hands */
@@ -16,27 +17,49 @@
 /* From a beginning as near as this, in angles, the straight way leads to what is nearest. */
 #define BEND 1.0
 
+/* The square root of what change i moves of mass or inertia. */
+static double moved_by(const frot_opening *p, int i) {
+  int speed = frot_speed_behind(p, i);
+  return sqrt(frot_metric_entry(p->m, p->w, speed, speed));
+}
+
+/* The least and the largest of these of all turns of the part; 0 where nothing turns. */
+static void span_turns(const frot_opening *p, double span[2]) {
+  span[0] = span[1] = 0;
+  for (int a = 0; a < p->attached; a++) {
+    int k = p->w->opening.own[a];
+    if (!p->m->speed_turns[frot_speed_behind(p, k)]) continue;
+    double own = moved_by(p, k);
+    span[0] = span[0] > 0 ? fmin(span[0], own) : own, span[1] = fmax(span[1], own);
+  }
+}
+
+/* A unit of change i: of a turn 1 or, if `alike`, such that all move as much; of a length the arm
+ * that turns have, the shortest or the longest. So the unit of length does not matter. */
+static double unit_of(const frot_opening *p, int i, const double *span, int alike) {
+  int speed = frot_speed_behind(p, i);
+  if (speed < 0) return p->w->relations.unit[i];
+  if (p->m->speed_turns[speed]) return alike ? span[0] / moved_by(p, i) : 1;
+  if (span[1] == 0) return p->scene;
+  return span[alike ? 0 : 1] / moved_by(p, i);
+}
+
 void frot_begin_elsewhere(frot_opening *p, int k, int alike) {
   const frot_model *m = p->m;
-  double least = INFINITY, *changes = p->w->opening.scratch;
-  for (int i = 0; i < m->nq; i++)
-    if (frot_is_attached(p, i))
-      least =
-          fmin(least,
-               sqrt(frot_metric_entry(m, p->w, frot_speed_behind(p, i), frot_speed_behind(p, i))));
-  for (int i = 0; i < m->nq; i++) {
-    double part = fmod((k / 2 + 1) * (0.3819660112501051 + 0.6180339887498949 * i), 1);
-    double unit = p->w->relations.unit[i];
-    if (frot_is_attached(p, i)) {
-      double own =
-          sqrt(frot_metric_entry(m, p->w, frot_speed_behind(p, i), frot_speed_behind(p, i)));
-      unit = alike ? least / own : 1;
-    }
-    changes[i] = (k % 2 ? -1 : 1) * 3 * (0.1 + 0.9 * part) * unit;
+  double span[2], *changes = p->w->opening.scratch;
+  span_turns(p, span);
+  memset(changes, 0, sizeof(double) * (size_t)m->nq);
+  for (int i = 0, own = 0; i < m->nq; i++) {
+    if (!frot_is_own(p, i)) continue;
+    double part = fmod((k / 2 + 1) * (0.3819660112501051 + 0.6180339887498949 * own++), 1);
+    changes[i] = (k % 2 ? -1 : 1) * 3 * (0.1 + 0.9 * part) * unit_of(p, i, span, alike);
   }
+  /* an orientation stays of length 1 */
+  for (int i = 0; i < m->n_turns; i++) changes[m->turns[i].at] = 0;
   p->basis = p->w->opening.begin;
   frot_from_changes(p, changes, p->q);
   for (int i = 0; i < m->nq; i++) p->q[i] += p->w->opening.begin[i];
+  frot_begin_values(p, NULL, p->w->blocks.y);
 }
 
 /* The most that an angle changed from w->opening.begin. */
@@ -59,18 +82,22 @@ static void keep_nearer(frot_opening *p, nearest_found *best) {
   if (!(far < (1 - FROT_NEARER) * best->far)) return;
   best->far = far, best->turned = most_turned(p);
   memcpy(p->w->opening.nearest, p->q, sizeof(double) * (size_t)p->m->nq);
+  memcpy(p->w->opening.nearest + p->m->nq, p->w->blocks.y, sizeof(double) * (size_t)p->m->ny);
 }
 
 static void begin_again(const frot_opening *p) {
   frot_clear_opening(p);
   memcpy(p->q, p->w->opening.begin, sizeof(double) * (size_t)p->m->nq);
+  memcpy(p->w->blocks.y, p->w->opening.begin_y, sizeof(double) * (size_t)p->m->ny);
 }
 
 int frot_solve_widely(frot_opening *p) {
   frot_work *w = p->w;
   size_t bytes = sizeof(double) * (size_t)p->m->nq;
+  size_t y_bytes = sizeof(double) * (size_t)p->m->ny;
   nearest_found best = {INFINITY, INFINITY};
   memcpy(w->opening.begin, p->q, bytes);
+  memcpy(w->opening.begin_y, w->blocks.y, y_bytes);
   int found = frot_solve_nearest(p);
   if (found == FROT_OK && memcmp(w->opening.begin, p->q, bytes) == 0) return found;
   if (found != FROT_OK && (found != FROT_INITIAL || !p->wide)) return found;
@@ -90,6 +117,8 @@ int frot_solve_widely(frot_opening *p) {
     if (frot_solve_nearest(p) == FROT_OK && frot_come_closest(p) == FROT_OK) keep_nearer(p, &best);
   }
   frot_clear_opening(p);
-  memcpy(p->q, isfinite(best.far) ? w->opening.nearest : w->opening.begin, bytes);
+  const double *end = isfinite(best.far) ? w->opening.nearest : w->opening.begin;
+  const double *end_y = isfinite(best.far) ? end + p->m->nq : w->opening.begin_y;
+  memcpy(p->q, end, bytes), memcpy(w->blocks.y, end_y, y_bytes);
   return frot_solve_nearest(p);
 }

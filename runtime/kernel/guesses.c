@@ -10,63 +10,175 @@
 #include "elsewhere.h"
 #include "linear.h"
 #include "nearest.h"
+#include "parts.h"
 #include "tolerances.h"
 
-#define BEGINNINGS 10 /* of the search for a place near the guesses */
-/* A place is what the guesses mean if what they are missed by is this square of their sizes. */
-#define MEANT 1e-4
+#define BEGINNINGS 9 /* of the search for another place near the guesses */
+#define ROUNDS 40    /* of the weights of guesses, until none changes by more than this part */
+#define SETTLED 1e-12
 /* Part of the length of a slope that is its own, beside the vector it is an item of and the other
  * guesses, for its guess to say more. */
 #define SAYS_MORE 0.1
 
-/* Mean square of what the equations from `first` on are missed by, in parts of their sizes. */
-static double missed_from(const frot_opening *p, int first) {
-  double sum = 0;
-  for (int i = first; i < p->n; i++) {
-    int guess = i >= p->n - p->m->n_guessed;
-    double size = guess ? p->w->relations.size[i] : frot_statement_size(p, i);
-    double part = size > 0 ? p->w->relations.residual[i] / size : 0;
-    sum += part * part;
-  }
-  return p->n > first ? sum / (p->n - first) : 0;
+int frot_has_guesses(const frot_opening *p) {
+  for (int j = 0; j < p->m->n_guessed; j++)
+    if (p->m->guess_part[j] == p->part) return 1;
+  return 0;
 }
 
-int frot_near_guesses(frot_opening *p) {
-  frot_opening_work *w = &p->w->opening;
-  double least = INFINITY, *y = p->w->blocks.y, *best = w->near, *best_y = best + p->m->nq;
-  double *first_y = w->first + p->m->nq;
-  size_t bytes = sizeof(double) * (size_t)p->m->nq, y_bytes = sizeof(double) * (size_t)p->m->ny;
-  frot_take_liaisons(p);
-  p->guessed = 1;
-  if (frot_evaluate_statements(p) == FROT_OK) memcpy(w->begin, w->natural, bytes);
-  for (int k = 0; k < BEGINNINGS && least > MEANT; k++) {
-    frot_clear_opening(p);
-    memcpy(p->q, w->begin, bytes);
-    memcpy(y, first_y, y_bytes);
-    frot_begin_units(p);
-    if (k > 0 && frot_opening_metric(p) == FROT_OK) frot_begin_elsewhere(p, k - 1, k % 3 == 0);
-    if (!frot_follow_damped(p)) continue;
-    double missed = missed_from(p, 0);
-    if (missed < least) least = missed, memcpy(best, p->q, bytes), memcpy(best_y, y, y_bytes);
+/* What each guess counts: the items of a vector alike, by the effective mass of the vector at p->q.
+ * Returns the largest part that one of them changed by, INFINITY where something is no number. */
+static double weigh_guesses(frot_opening *p) {
+  const frot_model *m = p->m;
+  double *weight = p->w->opening.guess_weight, *square = weight + m->n_guessed, most = 0;
+  frot_begin_units(p);
+  p->aim = 1;
+  int status = frot_opening_metric(p);
+  if (status == FROT_OK) status = frot_evaluate_statements(p);
+  p->aim = 0;
+  if (status != FROT_OK) return INFINITY;
+  for (int j = 0; j < m->n_guessed; j++) {
+    if (m->guess_part[j] != p->part) continue;
+    double length = frot_row_length(p, p->n + j), *whole = square + m->guess_vector[j];
+    *whole = (m->guess_vector[j] == j ? 0 : *whole) + length * length;
   }
-  if (isfinite(least)) {
-    memcpy(p->q, best, bytes);
-    memcpy(y, best_y, y_bytes);
-    if (frot_note_beginning(p) == FROT_OK) frot_unwind(p);
+  for (int j = 0; j < m->n_guessed; j++) {
+    if (m->guess_part[j] != p->part) continue;
+    double whole = square[m->guess_vector[j]], before = weight[j];
+    weight[j] = whole > 0 && isfinite(1 / whole) ? 1 / sqrt(whole) : 0;
+    if (weight[j] != before) most = fmax(most, fabs(weight[j] - before) / fmax(weight[j], before));
   }
-  p->guessed = 0;
-  frot_clear_opening(p);
-  return isfinite(least);
+  return most;
 }
 
 double frot_guesses_missed(frot_opening *p) {
-  p->guessed = 1;
+  double sum = 0;
+  int aims = p->aim;
+  p->aim = 1;
   int status = frot_evaluate_statements(p);
+  p->aim = aims;
+  for (int j = 0; j < p->m->n_guessed && status == FROT_OK; j++) {
+    double part = p->w->relations.residual[p->n + j] * p->w->opening.guess_weight[j];
+    sum += part * part;
+  }
+  return status == FROT_OK && isfinite(sum) ? sqrt(sum) : INFINITY;
+}
+
+int frot_are_guesses_met(frot_opening *p) {
+  int met = 1;
+  p->aim = 1;
+  if (frot_evaluate_statements(p) != FROT_OK) met = 0;
+  for (int j = 0; j < p->m->n_guessed && met; j++) met = frot_statement_agrees(p, p->n + j, 0);
+  p->aim = 0;
+  return met;
+}
+
+/* p->q <- the place at which guesses and equations hold best together near it, by damped least
+ * squares, then the equations. Returns 0 if there is none. */
+static int compromise(frot_opening *p) {
+  p->guessed = p->alike = 1;
+  int found = frot_follow_damped(p);
+  p->guessed = p->alike = 0;
+  if (found) found = frot_solve_nearest(p) == FROT_OK;
+  frot_clear_opening(p);
+  return found;
+}
+
+/* On from a place where the equations hold to one near it that misses the guesses least, weighed as
+ * they are there. */
+static void aim(frot_opening *p) {
+  for (int k = 0; k < ROUNDS; k++) {
+    double changed = weigh_guesses(p);
+    if (!isfinite(changed) || (k > 0 && changed < SETTLED)) break;
+    p->aim = 1;
+    if (frot_come_closest(p) != FROT_OK) frot_clear_opening(p);
+    p->aim = 0;
+  }
+}
+
+double frot_least_missed(frot_opening *p) {
+  memcpy(p->w->opening.begin, p->q, sizeof(double) * (size_t)p->m->nq);
+  if (frot_note_beginning(p) != FROT_OK) return INFINITY;
+  aim(p);
+  return frot_are_guesses_met(p) ? 0 : frot_guesses_missed(p);
+}
+
+/* Angles without whole turns that neither equations nor guesses notice. */
+static void unwind(frot_opening *p) {
+  p->guessed = p->alike = 1;
+  frot_unwind(p);
+  p->guessed = p->alike = 0;
+}
+
+/* p->q <- of compromises near w->opening.begin and near places elsewhere the one that misses the
+ * guesses least, the first that meets them. Returns 0 if there is none. */
+static int compromise_widely(frot_opening *p) {
+  frot_opening_work *w = &p->w->opening;
+  double least = INFINITY, *y = p->w->blocks.y, *best = w->near, *best_y = best + p->m->nq;
+  size_t bytes = sizeof(double) * (size_t)p->m->nq, y_bytes = sizeof(double) * (size_t)p->m->ny;
+  for (int k = 0, met = 0; k < BEGINNINGS && !met; k++) {
+    frot_clear_opening(p);
+    memcpy(p->q, w->begin, bytes);
+    frot_begin_values(p, NULL, y);
+    frot_begin_units(p);
+    if (frot_opening_metric(p) != FROT_OK) continue;
+    if (k > 0) frot_begin_elsewhere(p, k - 1, k % 3 == 0);
+    if (!compromise(p)) continue;
+    double missed = frot_guesses_missed(p);
+    met = frot_are_guesses_met(p);
+    if (met || missed < (1 - FROT_NEARER) * least)
+      least = missed, memcpy(best, p->q, bytes), memcpy(best_y, y, y_bytes);
+  }
+  frot_clear_opening(p);
+  if (!isfinite(least)) return 0;
+  memcpy(p->q, best, bytes);
+  memcpy(y, best_y, y_bytes);
+  return 1;
+}
+
+/* The same for one part. */
+static void meet_part(frot_opening *p) {
+  frot_opening_work *w = &p->w->opening;
+  size_t bytes = sizeof(double) * (size_t)p->m->nq;
+  if (!frot_has_guesses(p) || !isfinite(weigh_guesses(p))) return;
+  memcpy(w->begin, p->q, bytes);
+  if (frot_note_beginning(p) != FROT_OK) return;
+  p->guessed = 1;
+  int met = frot_solve_nearest(p) == FROT_OK && frot_come_closest(p) == FROT_OK;
   p->guessed = 0;
-  if (status != FROT_OK) return INFINITY;
-  double missed = missed_from(p, p->n - p->m->n_guessed);
-  p->n -= p->m->n_guessed;
-  return isfinite(missed) ? missed : INFINITY;
+  frot_clear_opening(p);
+  if (met) return;
+  if (!compromise_widely(p)) memcpy(p->q, w->begin, bytes);
+  unwind(p);
+  aim(p);
+}
+
+void frot_meet_guesses(frot_opening *p) {
+  memset(p->use, 0, (size_t)p->m->n_contacts);
+  memset(p->w->opening.guess_weight, 0, sizeof(double) * (size_t)p->m->n_guessed);
+  p->direct = p->w->blocks.unwanted = 1;
+  for (int part = 0; part < p->m->n_parts && p->m->n_guessed > 0; part++) {
+    frot_take_part(p, part);
+    meet_part(p);
+  }
+  p->direct = p->w->blocks.unwanted = 0;
+  frot_take_part(p, -1);
+}
+
+void frot_begin_as_met(const frot_opening *p) {
+  double *begin = p->w->opening.begin;
+  memcpy(begin, p->q, sizeof(double) * (size_t)p->m->nq);
+  for (int a = 0; a < p->n_own; a++) {
+    int k = p->w->opening.own[a];
+    begin[k] = p->w->opening.met[k];
+  }
+}
+
+int frot_find_other(frot_opening *p) {
+  frot_begin_as_met(p);
+  if (!compromise_widely(p)) return 0;
+  if (frot_note_beginning(p) == FROT_OK) unwind(p);
+  return 1;
 }
 
 /* The factor of the metric of the speeds marked in `moves`, which come first; returns how many. */

@@ -114,11 +114,11 @@ void frot_whole_column(const frot_work *w, const frot_group *g, int k, double *c
     memcpy(column, w->core.mass + g->matrix + k * g->n, sizeof(double) * (size_t)g->n);
 }
 
-double frot_group_metric(frot_work *w, const frot_group *g, int i, int k) {
-  if (g->general) return w->core.metric[g->metric + k * g->n_speeds + i];
-  if (g->n_links == 0) return w->core.mass[g->matrix + k * g->n + i];
+const double *frot_metric_column(frot_work *w, const frot_group *g, int k) {
+  if (g->general) return w->core.metric + g->metric + k * g->n_speeds;
+  if (g->n_links == 0) return w->core.mass + g->matrix + k * g->n;
   tree_column(w, g, k, w->core.momenta);
-  return w->core.momenta[i];
+  return w->core.momenta;
 }
 
 double frot_square_of(const frot_work *w, const frot_group *g, const double *v) {

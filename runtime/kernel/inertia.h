@@ -28,8 +28,8 @@ void frot_whole_column(const frot_work *w, const frot_group *g, int k, double *c
 void frot_momenta(const frot_work *w, const frot_group *g, const double *x, double *y);
 void frot_own_inertias(const frot_work *w, const frot_group *g, double *own);
 
-/* Entry of the metric for two unknowns of a group. */
-double frot_group_metric(frot_work *w, const frot_group *g, int i, int k);
+/* The column of the speed k of a group in the metric (n_speeds), until another one is asked for. */
+const double *frot_metric_column(frot_work *w, const frot_group *g, int k);
 
 /* Square of speeds or accelerations (nv) of a group in the metric. */
 double frot_square_of(const frot_work *w, const frot_group *g, const double *v);

@@ -9,7 +9,9 @@
 #include "core.h"
 #include "elsewhere.h"
 #include "guesses.h"
+#include "closest.h"
 #include "nearest.h"
+#include "parts.h"
 #include "sides.h"
 #include "statements.h"
 #include "terms.h"
@@ -23,24 +25,42 @@ static void set_conditions(const frot_model *m, const frot_work *w, double *d) {
 }
 
 /* Where the text says that the search begins. */
-static void guess(const frot_opening *p, double *q, double *v) {
+static void guess(frot_opening *p) {
   const frot_model *m = p->m;
   frot_layout l = frot_layout_of(m);
   frot_work *w = p->w;
   double *discrete = p->s->data + l.d + m->n_conditions + m->n_contacts;
+  p->velocity = 0;
+  memset(p->v, 0, sizeof(double) * (size_t)m->nv);
   w->call.arg[0] = &p->t, w->call.arg[1] = p->s->data + l.u, w->call.arg[2] = p->s->data + l.p;
-  w->call.res[0] = q, w->call.res[1] = v, w->call.res[2] = w->blocks.y, w->call.res[3] = discrete;
+  w->call.res[0] = p->q, w->call.res[1] = discrete;
   frot_call(w, &m->start);
+  frot_begin_values(p, p->v, w->blocks.y);
+  frot_meet_guesses(p);
+  memcpy(w->opening.met, p->q, sizeof(double) * (size_t)m->nq);
+  frot_begin_values(p, p->v, w->blocks.y);
 }
 
-/* Whether the statements hold where the search begins, with the sides of that place: then nothing
- * is to be moved. */
-static int hold_already(frot_opening *p, double *side) {
-  frot_choose_sides(p, side, 0);
+/* The part again where its search begins. */
+static void begin_part(const frot_opening *p) {
+  frot_begin_as_met(p);
+  memcpy(p->q, p->w->opening.begin, sizeof(double) * (size_t)p->m->nq);
+  frot_begin_values(p, NULL, p->w->blocks.y);
+}
+
+/* Take no contact of the part for an equation. */
+static void leave_contacts(const frot_opening *p) {
+  for (int i = 0; i < p->m->n_contacts; i++)
+    if (frot_is_of_part(p, p->m->contact_part[i])) p->use[i] = 0;
+}
+
+/* Whether the statements on the part hold where the search begins, with the sides of that place:
+ * then nothing is to be moved. */
+static int hold_already(frot_opening *p) {
   if (frot_evaluate_statements(p) != FROT_OK) return 0;
   for (int i = 0; i < p->n; i++)
     if (!(fabs(p->w->relations.residual[i]) <= FROT_TOUCH * frot_statement_size(p, i))) return 0;
-  return p->n > 0;
+  return p->n_rows > 0;
 }
 
 /* The statements alone show on which side of its line each point is meant to be. A stated gap needs
@@ -49,14 +69,15 @@ static int hold_already(frot_opening *p, double *side) {
 static int solve_statements(frot_opening *p, double *side) {
   const frot_model *m = p->m;
   frot_state *s = p->s;
-  memset(p->use, 0, (size_t)m->n_contacts);
+  leave_contacts(p);
   int status = frot_kinematics(m, s, p->w, p->t, p->q, p->v, p->d);
   if (status != FROT_OK) return frot_no_number(p, status);
-  if (!hold_already(p, side)) frot_choose_sides(p, side, 1);
+  frot_choose_sides(p, side, 0);
+  if (!hold_already(p)) frot_choose_sides(p, side, 1);
   status = frot_solve_widely(p);
   if (status != FROT_INITIAL && status != FROT_ALGEBRAIC) return status;
   frot_fault first = s->fault;
-  guess(p, p->q, p->v);
+  begin_part(p);
   int again = frot_kinematics(m, s, p->w, p->t, p->q, p->v, p->d) == FROT_OK &&
               frot_choose_sides(p, side, 0) > 0 && frot_solve_widely(p) == FROT_OK;
   s->fault = again ? frot_no_fault(p->t) : first;
@@ -84,6 +105,7 @@ static int put_together(frot_opening *p, double *side) {
     int added = 0;
     for (int i = 0; i < nc; i++) {
       if (p->use[i] || m->contacts[i].reduced || !frot_has_normal(&m->contacts[i])) continue;
+      if (!frot_is_of_part(p, m->contact_part[i])) continue;
       if (w->core.gap[i] < -FROT_TOUCH * frot_length_size(m, w, i, p->q)) p->use[i] = 1, added = 1;
     }
     if (!added) return FROT_OK;
@@ -107,31 +129,91 @@ static int keep_place(frot_opening *p, double *side, int again) {
   return again ? frot_kinematics(p->m, p->s, w, p->t, p->q, p->v, p->d) : FROT_OK;
 }
 
-/* Whether a place near the guesses, put together with its own sides, misses them by far less. */
-static int put_near_guesses(frot_opening *p, double *side, double missed) {
-  if (!frot_near_guesses(p)) return 0;
-  memset(p->use, 0, (size_t)p->m->n_contacts);
-  return frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d) == FROT_OK &&
-         put_together(p, side) == FROT_OK && frot_guesses_missed(p) < FROT_GUESS_LESS * missed;
+/* Keep coordinates and unknowns of blocks, or take them again. */
+static void copy_place(const frot_opening *p, double *kept, int again) {
+  double *y = p->w->blocks.y, *kept_y = kept + p->m->nq;
+  memcpy(again ? p->q : kept, again ? kept : p->q, sizeof(double) * (size_t)p->m->nq);
+  memcpy(again ? y : kept_y, again ? kept_y : y, sizeof(double) * (size_t)p->m->ny);
 }
 
-/* Coordinates: those that follow from the beginning or, where these miss the guesses, from a place
- * near them if that misses them by far less: what goes together in several ways is meant so. */
-static int solve_positions(frot_opening *p, double *side) {
-  p->velocity = 0;
-  int status = solve_statements(p, side);
-  if (status == FROT_OK) status = put_together(p, side);
-  if (p->m->n_guessed == 0 || (status != FROT_OK && status != FROT_INITIAL)) return status;
-  double missed = status == FROT_OK ? frot_guesses_missed(p) : INFINITY;
-  if (missed <= FROT_GUESS_MET) return status;
+/* Whether another place of the part, put together with its own sides, misses its guesses by far
+ * less than `missed`: then the nearest of that kind to where the search began. */
+static int put_elsewhere(frot_opening *p, double *side, double missed) {
+  frot_take_liaisons(p);
+  int found = frot_find_other(p);
+  leave_contacts(p);
+  if (!found || frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d) != FROT_OK ||
+      put_together(p, side) != FROT_OK)
+    return 0;
+  double *best = p->w->opening.other, *nearest = best + p->m->nq + p->m->ny;
+  double other = frot_least_missed(p);
+  if (!(other < sqrt(FROT_GUESS_LESS) * missed)) return 0;
+  copy_place(p, best, 0);
+  frot_begin_as_met(p);
+  int status = frot_note_beginning(p) == FROT_OK ? frot_come_closest(p) : FROT_NAN;
+  copy_place(p, nearest, 0);
+  /* the way to what is nearer may lead to a place of the first kind */
+  int same = status == FROT_OK && !(other < sqrt(FROT_GUESS_LESS) * frot_least_missed(p));
+  frot_clear_opening(p);
+  copy_place(p, same ? nearest : best, 1);
+  return frot_solve_nearest(p) == FROT_OK;
+}
+
+/* Where the place of the part that is found misses the guesses, another one if that misses them by
+ * far less: what goes together in several ways is meant so. `status` is that of the place. */
+static int look_elsewhere(frot_opening *p, double *side, int status) {
+  if (!frot_has_guesses(p) || (status == FROT_OK && frot_are_guesses_met(p))) return status;
   frot_fault fault = p->s->fault;
   keep_place(p, side, 0);
-  if (put_near_guesses(p, side, missed)) return FROT_OK;
+  double missed = status == FROT_OK ? frot_least_missed(p) : INFINITY;
+  if (missed > 0 && put_elsewhere(p, side, missed)) return FROT_OK;
   frot_clear_opening(p);
   int kept = keep_place(p, side, 1);
-  if (status == FROT_OK) return kept == FROT_OK ? FROT_OK : frot_no_number(p, kept);
-  p->s->fault = fault, p->s->phase = FROT_FAULTED;
+  if (status == FROT_OK && kept != FROT_OK) return frot_no_number(p, kept);
+  if (status != FROT_OK) p->s->fault = fault, p->s->phase = FROT_FAULTED;
   return status;
+}
+
+/* Coordinates of the part: those that follow from the beginning or others that the guesses mean
+ * rather. */
+static int solve_part(frot_opening *p, double *side) {
+  int status = solve_statements(p, side);
+  frot_fault fault = p->s->fault;
+  if (status == FROT_INITIAL && p->wide) { /* it may be the liaisons that tell how they are met */
+    frot_clear_opening(p);
+    begin_part(p);
+    int found = put_together(p, side) == FROT_OK;
+    p->s->fault = found ? p->s->fault : fault;
+    status = found ? FROT_OK : status;
+  } else if (status == FROT_OK) {
+    status = put_together(p, side);
+  }
+  int several = status == FROT_OK || status == FROT_INITIAL || status == FROT_ALGEBRAIC;
+  return several ? look_elsewhere(p, side, status) : status;
+}
+
+/* All coordinates, part by part: what stands beside a part does nothing to it. */
+static int solve_positions(frot_opening *p, double *side, int stay) {
+  p->velocity = 0;
+  for (int part = 0; part < p->m->n_parts; part++) {
+    frot_take_part(p, part);
+    if (!stay) begin_part(p);
+    int status = solve_part(p, side);
+    if (status == FROT_INITIAL) {
+      frot_clear_opening(p);
+      begin_part(p);
+      p->wide = 1;
+      status = solve_part(p, side);
+      p->wide = 0;
+      if (status == FROT_INITIAL && p->s->fault.item < 0) frot_tell_apart(p);
+    }
+    if (status != FROT_OK) return status;
+  }
+  frot_take_part(p, -1);
+  int status = frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
+  if (status != FROT_OK) return frot_no_number(p, status);
+  frot_look_at_sides(p);
+  return FROT_OK;
 }
 
 /* Speeds; opens contacts that separate. */
@@ -139,6 +221,8 @@ static int solve_speeds(frot_opening *p, frot_contact_mode *modes) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   p->velocity = 1;
+  frot_take_part(p, -1);
+  frot_begin_values(p, p->v, NULL);
   int status = frot_follow_guessed_speeds(p);
   for (; status == FROT_OK;) {
     status = frot_solve_nearest(p);
@@ -157,6 +241,7 @@ static int solve_speeds(frot_opening *p, frot_contact_mode *modes) {
     }
     if (!added) return FROT_OK;
   }
+  return status;
 }
 
 static void look_at_conditions(const frot_opening *p) {
@@ -166,7 +251,7 @@ static void look_at_conditions(const frot_opening *p) {
 
 /* All values from the guesses, or from those found before, with the conditions as they are; then
  * sets these. */
-static int solve_once(frot_opening *p, double *q, double *v, int stay) {
+static int solve_once(frot_opening *p, int stay) {
   const frot_model *m = p->m;
   frot_state *s = p->s;
   frot_work *w = p->w;
@@ -180,23 +265,15 @@ static int solve_once(frot_opening *p, double *q, double *v, int stay) {
     side[i] = modes[i].side = 1;
     modes[i].closed = (signed char)!frot_has_normal(&m->contacts[i]);
   }
-  if (!stay) guess(p, q, v);
-  int status = solve_positions(p, side);
-  if (status == FROT_INITIAL) {
-    frot_clear_opening(p);
-    guess(p, q, v);
-    p->wide = 1;
-    status = solve_positions(p, side);
-    p->wide = 0;
-    if (status == FROT_INITIAL && s->fault.item < 0) frot_tell_apart(p);
-  }
+  if (!stay) guess(p);
+  int status = solve_positions(p, side, stay);
   if (status != FROT_OK) return status;
   set_conditions(m, w, d);
   for (int i = 0; i < nc; i++) {
     const frot_contact *contact = &m->contacts[i];
     if (!frot_has_normal(contact)) continue;
     int touches = unilateral[i] == 0 || p->use[i] ||
-                  fabs(w->core.gap[i]) <= FROT_TOUCH * frot_length_size(m, w, i, q);
+                  fabs(w->core.gap[i]) <= FROT_TOUCH * frot_length_size(m, w, i, p->q);
     modes[i].closed = (signed char)touches;
     p->use[i] = touches && unilateral[i] == 0 && !contact->reduced;
   }
@@ -221,18 +298,19 @@ static int only_ends(const frot_model *m, const frot_work *w, const double *d, i
 int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v) {
   frot_layout l = frot_layout_of(m);
-  frot_opening p = {m, s, w, t, q, v, s->data + l.d, w->opening.use, 0, 0, NULL, NULL, 0, 0,
-                    0, 0, 0, 0, 0, 0};
+  frot_opening p = {.m = m, .s = s, .w = w, .t = t, .q = q, .v = v};
+  p.d = s->data + l.d, p.use = w->opening.use;
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
   size_t size = sizeof(double) * (size_t)m->n_conditions;
   frot_name_changes(&p);
-  guess(&p, q, v);
+  frot_take_part(&p, -1);
+  guess(&p);
   look_at_conditions(&p);
   int failed = FROT_OK;
   frot_fault told = s->fault;
   for (int round = 0, stay = 0; round < ROUNDS; round++) {
     memcpy(w->events.before, p.d, size);
-    int status = solve_once(&p, q, v, stay);
+    int status = solve_once(&p, stay);
     /* what has no solution under these conditions may have one under those found there */
     if (status != FROT_OK) failed = status, told = s->fault, look_at_conditions(&p);
     if (memcmp(w->events.before, p.d, size) == 0) return status;

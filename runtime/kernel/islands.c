@@ -96,14 +96,15 @@ static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, 
              frot_all_finite(r.c, (int)(r.condition - r.c));
   else
     finite = finite && frot_all_finite(r.qd, (int)(r.end - r.qd));
-  if (!finite) return 0;
+  if (!finite && wanted != FROT_INERTIA) return 0;
   w->awake.power[i] = *r.power;
   w->core.power[0] += *r.power;
-  if (!island->spread.call) return 1;
+  if (!island->spread.call) return finite;
   double *effect = w->core.effect + size->entries, *metric = w->core.metric + size->metric;
   w->call.res[0] = effect, w->call.res[1] = metric;
   frot_call(w, &island->spread);
-  return frot_all_finite(effect, size->all_entries) && frot_all_finite(metric, size->metrics);
+  return finite && frot_all_finite(effect, size->all_entries) &&
+         frot_all_finite(metric, size->metrics);
 }
 
 static int loads_finite(const frot_model *m, const frot_work *w) {
@@ -121,15 +122,15 @@ static int call_whole(const frot_model *m, frot_state *s, frot_work *w, double t
   memcpy(w->call.res, res, sizeof res);
   frot_call(w, &m->dynamics);
   spread_rows(m, w, 0, m->n_groups);
-  if (!frot_all_finite(w->core.mass, m->n_matrix) ||
-      !frot_all_finite(w->core.given, w->core.n_given) || !frot_all_finite(w->core.qd, m->nq) ||
-      !frot_all_finite(w->core.c, m->n_rows) || !frot_all_finite(w->core.gap, m->n_contacts))
-    return 0;
-  if (wanted != FROT_INERTIA && !loads_finite(m, w)) return 0;
-  if (!m->general) return 1;
+  int finite = frot_all_finite(w->core.mass, m->n_matrix) &&
+               frot_all_finite(w->core.given, w->core.n_given) &&
+               frot_all_finite(w->core.qd, m->nq) && frot_all_finite(w->core.c, m->n_rows) &&
+               frot_all_finite(w->core.gap, m->n_contacts);
+  if (wanted != FROT_INERTIA && !(finite && loads_finite(m, w))) return 0;
+  if (!m->general) return finite;
   w->call.res[0] = w->core.effect, w->call.res[1] = w->core.metric;
   frot_call(w, &m->spread);
-  return frot_all_finite(w->core.effect, m->n_entries) &&
+  return finite && frot_all_finite(w->core.effect, m->n_entries) &&
          frot_all_finite(w->core.metric, m->n_metric);
 }
 
@@ -175,9 +176,10 @@ int frot_call_dynamics(const frot_model *m, frot_state *s, frot_work *w, double 
   if (m->n_islands == 0) return call_whole(m, s, w, t, q, v, d, wanted);
   const frot_awake_lists *now = w->awake.now;
   w->core.power[0] = 0;
+  int finite = 1;
   for (int k = 0; k < now->n_islands; k++)
-    if (!call_island(m, s, w, now->islands[k], t, q, v, d, wanted)) return 0;
-  return 1;
+    finite &= call_island(m, s, w, now->islands[k], t, q, v, d, wanted);
+  return finite;
 }
 
 void frot_call_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t,

@@ -51,12 +51,18 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0);
   s->statistics.free = frot_free_speeds(m, s, w);
   double h = FIRST_PART * s->h_max;
-  int lost = frot_starts_singular(m, s, w, s->t, h);
-  if (lost >= 0 && !frot_begins_on_way(m, s, w, s->t, lost))
-    return frot_fail(s, FROT_POSTURE, s->t, lost, -1, -1, 0);
-  if (lost >= 0) {
-    const frot_group *g = frot_group_of(m, m->contacts[lost].row_n);
-    s->h = fmin(LEAVES * frot_time_of_turn(m, s, g, w->step.z0 + m->nq), s->h_max);
+  double leaves = INFINITY;
+  unsigned char *lost = w->opening.use;
+  frot_starts_singular(m, s, w, s->t, h, lost);
+  for (int i = 0; i < m->n_contacts; i++) {
+    if (!lost[i]) continue;
+    if (!frot_begins_on_way(m, s, w, s->t, i))
+      return frot_fail(s, FROT_POSTURE, s->t, i, -1, -1, 0);
+    const frot_group *g = frot_group_of(m, m->contacts[i].row_n);
+    leaves = fmin(leaves, LEAVES * frot_time_of_turn(m, s, g, w->step.z0 + m->nq));
+  }
+  if (isfinite(leaves)) {
+    s->h = fmin(leaves, s->h_max);
     return FROT_OK;
   }
   for (int j = 0; j < m->nq + m->nv; j++) {

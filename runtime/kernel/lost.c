@@ -83,12 +83,14 @@ static int note_weak(const frot_model *m, const frot_state *s, frot_work *w,
   return any;
 }
 
-int frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+void frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
+                          unsigned char *lost) {
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   double *z = w->step.z, *step = w->relations.step;
   unsigned char *carried = w->span.spare;
   int moved;
-  if (!note_weak(m, s, w, carried)) return -1;
+  memset(lost, 0, (size_t)m->n_contacts);
+  if (!note_weak(m, s, w, carried)) return;
   memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
   for (int k = 0; k < m->n_groups; k++) {
     const frot_group *g = &m->groups[k];
@@ -99,14 +101,17 @@ int frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, doubl
     frot_displace(m, g, z, step, 1);
   }
   if (frot_project(m, s, w, t + h, z, z + m->nq, s->data + w->layout.d, modes, NULL, &moved))
-    return -1;
+    return;
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
-  if (frot_slope(m, s, w, t + h, z, frot_stage(w, 1)) != FROT_OK) return -1;
-  for (int i = 0; i < m->n_contacts; i++)
-    if (frot_is_loop(m, s, w, i)) {
-      int row = m->contacts[i].row_n;
+  if (frot_slope(m, s, w, t + h, z, frot_stage(w, 1)) != FROT_OK) return;
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    for (int j = 0, found = 0; j < g->n_contacts && !found; j++) {
+      int i = g->contacts[j], row = m->contacts[i].row_n;
+      if (!frot_is_loop(m, s, w, i)) continue;
       double now = w->reactions.carried[row] ? 0 : w->span.left[row];
-      if (carried[row] ? now > 0 : now > MORE * w->step.left[row]) return i;
+      found = carried[row] ? now > 0 : now > MORE * w->step.left[row];
+      lost[i] = (unsigned char)found;
     }
-  return -1;
+  }
 }

@@ -49,6 +49,7 @@ typedef struct {
   int has_jacobian;   /* 1: the implicit method can run: q' not late */
   double implicit_price;           /* explicit steps that cost what an implicit one does */
   int n_guessed, n_guessed_speeds; /* guesses of places, and of speeds */
+  int n_parts;    /* what is put together at the start without regard to the rest */
   int n_followed; /* unknowns of places that are followed, where a contact of them may be open */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
   /* the first variables are the modes of the contacts that have one, the others are real */
@@ -57,15 +58,16 @@ typedef struct {
    *   experiment (start stop tolerance interval max_step; NaN where the text is silent), nominal
    *   sizes of the states (nq, 0: not given) */
   frot_callable parameters;
-  /* start(t, u, p) -> q guess, v guess, y guess, discrete variables at the start */
+  /* start(t, u, p) -> q where the search begins, whatever is guessed, discrete variables there */
   frot_callable start;
+  /* beginning(t, q, v, u, p, d, y) -> v and y where the search for them begins, at these places */
+  frot_callable beginning;
   /* The functions of the state take (t, q, v, u, p, d, y).
    * initial_position -> residual (n_position), its transposed Jacobian in q (nq x n_position), size
    *   of its terms (n_position), its transposed Jacobian in y (ny x n_position) */
   frot_callable initial_position;
   /* guessed -> by how much each guess of a place is missed (n_guessed), its transposed Jacobian in
-   * q (nq x n_guessed), the size that it is measured by; q where the search begins but for the
-   * guesses that are no linear functions of q */
+   * q (nq x n_guessed), the size of its terms */
   frot_callable guessed;
   /* guessed_speeds -> by how much each guess of a speed is missed (n_guessed_speeds), the size that
    * it is measured by, its slopes in the speeds that may follow it (nv x n_guessed_speeds), those
@@ -175,6 +177,12 @@ typedef struct {
    */
   const int *position_statement;
   const int *velocity_statement;
+  /* the part of each coordinate, unknown of the blocks (-1: of none, or of several), contact,
+   * statement on positions (n_position) and guess of a place (n_guessed); of each guess the first
+   * item of its vector; 1 where a statement holds where the search begins, whatever is guessed
+   * (n_position) */
+  const int *q_part, *y_part, *contact_part, *position_part, *guess_part, *guess_vector;
+  const unsigned char *position_direct;
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;      /* np: frot_type */
   /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t,

@@ -6,20 +6,18 @@
 
 #include "changes.h"
 #include "core.h"
+#include "inertia.h"
 #include "linear.h"
+#include "parts.h"
 #include "tolerances.h"
+#include "turns.h"
 
 #define PASSES 100
 /* By how much a pass may change an angle: what it is taken for straight bends in such an arc. */
 #define MOST_TURN 0.5
 #define HALF_TURN 3.141592653589793
 
-/* The inertia of the groups at the values as they are. */
-static int find_inertia(const frot_opening *p) {
-  const frot_contact_mode *modes = (const void *)(p->s->data + p->w->layout.modes);
-  int status = frot_dynamics(p->m, p->s, p->w, p->t, p->q, p->v, p->d, modes, FROT_INERTIA);
-  return status == FROT_OK ? frot_metric(p->m, p->w) : status;
-}
+static const double ASIDE[4] = {0.8, 0.36, 0.288, 0.384}; /* about no axis of a figure */
 
 /* Of the length of a quaternion, such that the whole change of it is measured by the body's
  * inertia.
@@ -32,57 +30,84 @@ static double unit_of_length(const frot_opening *p, const frot_turn *turn) {
   return 0.5 / sqrt(inertia / count);
 }
 
-/* The factor of the metric of all unknowns, after find_inertia. */
-static int factor_metric(frot_opening *p) {
+/* The entries of the metric for the unknowns of the part that have a speed. */
+static void copy_metric(const frot_opening *p) {
   const frot_model *m = p->m;
-  frot_work *w = p->w;
-  int count = 0;
-  for (int k = 0; k < frot_opening_count(p); k++) count += frot_is_attached(p, k);
-  for (int a = 0, i = 0; a < frot_opening_count(p); a++) {
-    if (!frot_is_attached(p, a)) continue;
-    for (int b = 0, j = 0; b < frot_opening_count(p); b++)
-      if (frot_is_attached(p, b))
-        w->opening.factor[count * j++ + i] =
-            frot_metric_entry(m, w, frot_speed_behind(p, a), frot_speed_behind(p, b));
-    i++;
+  const int *own = p->w->opening.own;
+  int count = p->attached;
+  for (int b = 0; b < count; b++) {
+    int speed = frot_speed_behind(p, own[b]), group = m->speed_group[speed];
+    const double *column = frot_metric_column(p->w, &m->groups[group], m->speed_local[speed]);
+    for (int a = 0; a < count; a++) {
+      int other = frot_speed_behind(p, own[a]);
+      p->w->opening.factor[count * b + a] =
+          m->speed_group[other] == group ? column[m->speed_local[other]] : 0;
+    }
   }
-  for (int i = 0; i < m->n_turns && !p->velocity; i++)
-    w->relations.unit[m->turns[i].at] = unit_of_length(p, &m->turns[i]);
-  p->factor = w->opening.factor, p->order = p->attached = count;
-  memcpy(w->opening.here, p->q, sizeof(double) * (size_t)m->nq);
-  p->basis = w->opening.here;
+}
+
+/* Turn what turns of the part, the same in every run. */
+static void turn_aside(const frot_opening *p) {
+  const frot_model *m = p->m;
+  for (int i = 0; i < m->n_turns; i++) {
+    double *four = p->q + m->turns[i].at, turned[4];
+    if (!frot_is_own(p, m->turns[i].at)) continue;
+    frot_turned(&m->turns[i], ASIDE, four, turned);
+    memcpy(four, turned, sizeof turned);
+  }
+  for (int j = 0; j < m->nv; j++) {
+    int k = frot_angle_of(m, j);
+    if (k >= 0 && frot_is_own(p, k)) p->q[k] += 1;
+  }
+}
+
+static int find_metric(frot_opening *p) {
+  frot_work *w = p->w;
+  int count = p->attached;
+  int status = frot_inertia(p->m, p->s, w, p->t, p->q, p->v, p->d);
+  if (status != FROT_OK) return status;
+  copy_metric(p);
+  if (!frot_all_finite(w->opening.factor, count * count)) return FROT_NAN;
+  for (int i = 0; i < p->m->n_turns && !p->velocity; i++)
+    if (frot_is_own(p, p->m->turns[i].at))
+      w->relations.unit[p->m->turns[i].at] = unit_of_length(p, &p->m->turns[i]);
   return frot_cholesky(w->opening.factor, count) ? FROT_SINGULAR : FROT_OK;
 }
 
 int frot_opening_metric(frot_opening *p) {
-  int status = find_inertia(p);
-  return status == FROT_OK ? factor_metric(p) : status;
+  size_t bytes = sizeof(double) * (size_t)p->m->nq;
+  memcpy(p->w->opening.here, p->q, bytes);
+  p->factor = p->w->opening.factor, p->order = p->attached, p->basis = p->w->opening.here;
+  int status = find_metric(p);
+  if (status != FROT_NAN || !p->direct) return status;
+  turn_aside(p);
+  status = find_metric(p);
+  memcpy(p->q, p->w->opening.here, bytes);
+  return status;
 }
 
-/* y <- L^-1 x: a row in the units of the metric; the attached changes come first. */
-static void into_metric(const frot_opening *p, const double *x, double *y) {
+void frot_row_in_metric(const frot_opening *p, const double *x, double *y) {
   double *over = p->w->opening.scratch + 2 * frot_opening_count(p);
-  int first = 0, other = p->attached;
+  const int *own = p->w->opening.own;
   frot_over_changes(p, x, over);
-  for (int k = 0; k < frot_opening_count(p); k++) {
-    if (frot_is_attached(p, k))
-      y[first++] = over[k];
-    else
-      y[other++] = over[k] * p->w->relations.unit[k];
-  }
+  for (int a = 0; a < p->n_own; a++)
+    y[a] = a < p->attached ? over[own[a]] : over[own[a]] * p->w->relations.unit[own[a]];
   frot_forward(p->factor, p->order, p->attached, y);
+}
+
+double frot_row_length(const frot_opening *p, int i) {
+  double *y = p->w->relations.step;
+  frot_row_in_metric(p, p->w->relations.jacobian + frot_opening_count(p) * i, y);
+  return sqrt(frot_dot(y, y, p->n_own));
 }
 
 void frot_measure_change(const frot_opening *p, const double *apart, double *y) {
   double *over = p->w->opening.scratch + 2 * frot_opening_count(p);
-  int n = p->attached, first = 0, other = n;
+  const int *own = p->w->opening.own;
+  int n = p->attached;
   frot_into_changes(p, apart, over);
-  for (int k = 0; k < frot_opening_count(p); k++) {
-    if (frot_is_attached(p, k))
-      y[first++] = over[k];
-    else
-      y[other++] = over[k] / p->w->relations.unit[k];
-  }
+  for (int a = 0; a < p->n_own; a++)
+    y[a] = a < n ? over[own[a]] : over[own[a]] / p->w->relations.unit[own[a]];
   for (int i = 0; i < n; i++) { /* L' x, in place from above */
     double sum = 0;
     for (int k = i; k < n; k++) sum += p->factor[n * i + k] * y[k];
@@ -93,15 +118,16 @@ void frot_measure_change(const frot_opening *p, const double *apart, double *y) 
 double frot_move_opening(const frot_opening *p, const double *y, const double *x0, double part,
                          double *x, double *size) {
   double *changes = p->w->opening.scratch, *moved = changes + frot_opening_count(p);
-  int first = 0, other = p->attached;
+  const int *own = p->w->opening.own;
   double largest = 0;
   *size = 0;
-  for (int k = 0; k < frot_opening_count(p); k++)
-    changes[k] =
-        part * (frot_is_attached(p, k) ? y[first++] : y[other++] * p->w->relations.unit[k]);
+  memset(changes, 0, sizeof(double) * (size_t)frot_opening_count(p));
+  for (int a = 0; a < p->n_own; a++)
+    changes[own[a]] = part * (a < p->attached ? y[a] : y[a] * p->w->relations.unit[own[a]]);
   frot_from_changes(p, changes, moved);
   for (int k = 0; k < frot_opening_count(p); k++) {
     x[k] = x0[k] + moved[k];
+    if (!frot_is_own(p, k)) continue;
     largest = fmax(largest, fabs(moved[k])), *size = fmax(*size, fabs(x[k]));
   }
   return largest;
@@ -119,7 +145,8 @@ void frot_begin_units(const frot_opening *p) {
 static double square(const frot_opening *p, int *close) {
   double sum = 0;
   *close = 1;
-  for (int i = 0; i < p->n; i++) {
+  for (int j = 0; j < p->n_rows; j++) {
+    int i = p->w->opening.rows[j];
     double change = p->w->relations.residual[i] * p->w->opening.row_weight[i];
     sum += change * change;
     if (!frot_statement_agrees(p, i, 0)) *close = 0;
@@ -127,21 +154,21 @@ static double square(const frot_opening *p, int *close) {
   return sum;
 }
 
-void frot_least_change(const frot_opening *p, const double *from) {
+/* Least change of the unknowns that removes the residuals to first order, over L, into w->step.
+ * Each row is divided by its length in the metric. */
+static void least_change(const frot_opening *p) {
   frot_work *w = p->w;
-  int nx = frot_opening_count(p);
+  int nx = frot_opening_count(p), own = p->n_own, n = p->n_rows;
   double *a = w->linear.matrix, *b = w->linear.right, *y = w->relations.step;
-  for (int i = 0; i < p->n; i++) {
-    into_metric(p, w->relations.jacobian + nx * i, y);
-    double length = sqrt(frot_dot(y, y, nx)), *weight = w->opening.row_weight + i;
+  for (int j = 0; j < n; j++) {
+    int i = w->opening.rows[j];
+    frot_row_in_metric(p, w->relations.jacobian + nx * i, y);
+    double length = sqrt(frot_dot(y, y, own)), *weight = w->opening.row_weight + i;
     *weight = length > 0 && isfinite(1 / length) ? 1 / length : 0;
-    for (int k = 0; k < nx; k++) a[k * p->n + i] = y[k] * *weight;
-    b[i] = -w->relations.residual[i];
-    for (int k = 0; from != NULL && k < nx; k++)
-      b[i] += w->relations.jacobian[nx * i + k] * (frot_opening_unknown(p)[k] - from[k]);
-    b[i] *= *weight;
+    for (int k = 0; k < own; k++) a[k * n + j] = y[k] * *weight;
+    b[j] = -w->relations.residual[i] * *weight;
   }
-  frot_least_norm(a, b, p->n, nx, FROT_RANK, y, w->linear.scratch, w->linear.pivot);
+  frot_least_norm(a, b, n, own, FROT_RANK, y, w->linear.scratch, w->linear.pivot);
   frot_backward(p->factor, p->order, p->attached, y);
 }
 
@@ -188,7 +215,7 @@ static int take(frot_opening *p) {
 static double scene_of(const frot_opening *p) {
   const double *x = frot_opening_unknown(p);
   double scene = 0;
-  for (int k = 0; k < frot_opening_count(p); k++) scene = fmax(scene, fabs(x[k]));
+  for (int a = 0; a < p->n_own; a++) scene = fmax(scene, fabs(x[p->w->opening.own[a]]));
   for (int i = 0; i < p->n; i++)
     scene = fmax(scene, fmax(fabs(p->w->relations.residual[i]), p->w->relations.size[i]));
   return scene;
@@ -209,9 +236,11 @@ static int solve(frot_opening *p) {
   double last = INFINITY;
   if (frot_opening_count(p) == 0) return look_at_statements(p);
   if (!p->velocity) frot_begin_units(p);
+  p->n = 0;
+  int status = p->velocity ? frot_opening_metric(p) : FROT_OK; /* speeds do not change it */
+  if (status != FROT_OK) return frot_no_number(p, status);
   for (int pass = 0;; pass++) {
-    int status = find_inertia(p);
-    if (status == FROT_OK) status = frot_evaluate_statements(p);
+    status = frot_evaluate_statements(p);
     if (status != FROT_OK) return frot_no_number(p, status);
     int good = 1;
     double largest = 0; /* relative to the terms */
@@ -223,12 +252,12 @@ static int solve(frot_opening *p) {
       if (off > 0) largest = fmax(largest, off / size);
     }
     if (pass == 0) p->scene = scene_of(p);
-    if (good || p->n == 0) return FROT_OK;
+    if (good || p->n_rows == 0) return FROT_OK;
     if (pass > 3 && largest >= last && largest <= FROT_AGREES) return FROT_OK;
     last = largest;
-    status = factor_metric(p);
+    if (!p->velocity) status = frot_opening_metric(p);
     if (status != FROT_OK) return frot_no_number(p, status);
-    frot_least_change(p, NULL);
+    least_change(p);
     if (!take(p) && pass < PASSES - 1) continue;
     status = frot_evaluate_statements(p);
     if (status != FROT_OK) return frot_no_number(p, status);
@@ -238,19 +267,49 @@ static int solve(frot_opening *p) {
   }
 }
 
-/* What a statement says of one unknown alone holds to the last digit: the least change, which moves
- * all of them, leaves it with rounding. */
+enum { KEPT = 1, NOW = 2 };
+
+/* The unknown that equation i alone speaks of beside those that are kept, -1 if there are several
+ * or none. */
+static int only_left(const frot_opening *p, int i) {
+  const int *bounds = p->w->relations.bounds + 2 * i;
+  const double *row = p->w->relations.jacobian + frot_opening_count(p) * i;
+  int only = -1;
+  for (int k = bounds[0]; k < bounds[1]; k++) {
+    if (row[k] == 0 || p->w->opening.kept[k] == KEPT) continue;
+    if (only >= 0) return -1;
+    only = k;
+  }
+  return only;
+}
+
+/* What is stated or guessed of one unknown alone holds to the last digit, and then what is of one
+ * more: the least change, which moves all of them, leaves it with rounding. */
 static int keep_stated(frot_opening *p) {
   double *x = frot_opening_unknown(p);
-  int nx = frot_opening_count(p), moved = 0;
-  for (int i = 0; i < p->n; i++) {
-    int only = frot_only_unknown(p, i);
-    if (only < 0 || p->w->relations.residual[i] == 0) continue;
-    x[only] -= p->w->relations.residual[i] / p->w->relations.jacobian[nx * i + only], moved = 1;
+  unsigned char *kept = p->w->opening.kept;
+  int nx = frot_opening_count(p), own = p->velocity ? p->m->n_velocity : p->m->n_position;
+  int guesses = p->guessed ? p->n - p->m->n_guessed : p->n;
+  memset(kept, 0, (size_t)nx);
+  for (int found = 1; found;) {
+    double *by = p->w->step.z;
+    int moved = found = 0;
+    for (int i = 0; i < p->n; i++) {
+      int only = i < own || i >= guesses ? only_left(p, i) : -1;
+      if (only < 0) continue;
+      double change = -p->w->relations.residual[i] / p->w->relations.jacobian[nx * i + only];
+      /* of several the one that is off by least: the others follow from more */
+      if (kept[only] != NOW || fabs(change) < fabs(by[only])) by[only] = change;
+      found = 1, kept[only] = NOW;
+    }
+    for (int k = 0; k < nx; k++) {
+      if (kept[k] == NOW && by[k] != 0) x[k] += by[k], moved = 1;
+      kept[k] = kept[k] != 0; /* KEPT */
+    }
+    int status = moved ? frot_evaluate_statements(p) : FROT_OK;
+    if (status != FROT_OK) return frot_no_number(p, status);
   }
-  if (!moved) return FROT_OK;
-  int status = frot_evaluate_statements(p);
-  return status == FROT_OK ? FROT_OK : frot_no_number(p, status);
+  return FROT_OK;
 }
 
 int frot_solve_nearest(frot_opening *p) {

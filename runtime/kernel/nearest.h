@@ -10,7 +10,9 @@
 int frot_solve_nearest(frot_opening *p);
 
 /* The metric at the present values: that of the speeds for the unknowns that have one (their number
- * in p->attached, its factor in p->factor), for the others the size of their guess. */
+ * in p->attached, its factor in p->factor), for the others the size of their guess. Where guesses
+ * are met, whatever the liaisons, and a figure has no place on another from here, so that what
+ * rolls has no inertia, it is that of a place turned aside. */
 int frot_opening_metric(frot_opening *p);
 
 /* Units of the changes that no mass measures: the sizes of the present values. */
@@ -19,10 +21,11 @@ void frot_begin_units(const frot_opening *p);
 /* y <- a change of the unknowns, in units in which its length is that of the metric. */
 void frot_measure_change(const frot_opening *p, const double *apart, double *y);
 
-/* Least change of the unknowns that removes the residuals to first order, over L, into w->step.
- * With `from`, the change from there is the least one, that is from the present values what is left
- * of it. Each row is divided by its length in the metric. */
-void frot_least_change(const frot_opening *p, const double *from);
+/* y <- L^-1 row: a row in the units of the metric; the attached changes come first. */
+void frot_row_in_metric(const frot_opening *p, const double *row, double *y);
+
+/* The length of the row of equation i in the units of the metric. */
+double frot_row_length(const frot_opening *p, int i);
 
 /* x <- x0 + part * L'^-1 y. Returns the largest change, and in *size the largest value. */
 double frot_move_opening(const frot_opening *p, const double *y, const double *x0, double part,

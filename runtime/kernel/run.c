@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "awake.h"
+#include "apart.h"
 #include "blame.h"
 #include "blocks.h"
 #include "conditions.h"
@@ -265,7 +266,8 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
     if (status == FROT_OK) status = frot_step(m, s, w);
     if (status != FROT_OK) {
       s->t = *g.t1;
-      return frot_name_vanished(m, s, w, status, w->step.z1);
+      status = frot_name_vanished(m, s, w, status, w->step.z1);
+      return frot_name_reach(m, s, w, status);
     }
     if (s->statistics.steps == steps) continue;
     if (recorder && recorder->segments) frot_record(m, s, w, recorder);

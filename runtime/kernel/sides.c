@@ -1,6 +1,7 @@
 #include "sides.h"
 
 #include "core.h"
+#include "parts.h"
 #include "tolerances.h"
 
 void frot_look_at_sides(const frot_opening *p) {
@@ -18,7 +19,7 @@ int frot_choose_sides(const frot_opening *p, double *side, int natural) {
   int changes = 0;
   frot_look_at_sides(p);
   for (int i = 0; i < m->n_contacts; i++) {
-    if (!frot_has_normal(&m->contacts[i])) continue;
+    if (!frot_has_normal(&m->contacts[i]) || !frot_is_of_part(p, m->contact_part[i])) continue;
     const double *witness = p->w->opening.witness + 3 * i;
     double rounding = FROT_TOUCH * frot_length_size(m, p->w, i, p->q);
     int sign = natural ? 0 : sign_beyond(witness[0], rounding);

@@ -7,6 +7,7 @@
 #include "core.h"
 #include "inertia.h"
 #include "linear.h"
+#include "parts.h"
 #include "terms.h"
 #include "tolerances.h"
 #include "turns.h"
@@ -18,7 +19,7 @@ static int through_blocks(const frot_opening *p, int n) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   int early = frot_layout_of(m).early, nx = frot_opening_count(p);
-  if (early == 0 || n == 0 || !m->block_slopes.call) return FROT_OK;
+  if (early == 0 || n == 0 || p->direct || !m->block_slopes.call) return FROT_OK;
   double *slopes_q = w->opening.slopes, *slopes_v = slopes_q + m->nq * early;
   double *lu = w->opening.slopes_y, *scale = lu + early * early, *part = scale + 2 * early;
   frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
@@ -114,10 +115,17 @@ static int append_ways(const frot_opening *p, int n) {
       for (int j = 0; j < g->n_speeds; j++) equation[g->unknowns[j]] = whole[j];
       w->relations.residual[n] = w->linear.right[i];
       w->relations.size[n] = fabs(w->linear.right[i]);
+      w->opening.row_part[n] = 0;
       bound(p, n);
     }
   }
   return n;
+}
+
+/* Whether equation i is a statement of the text, and none of what holds at any time. */
+static int is_of_start(const frot_opening *p, int i) {
+  const int *statement = p->velocity ? p->m->velocity_statement : p->m->position_statement;
+  return statement[i] >= 0 && statement[i] < p->m->n_statements - p->m->n_invariants;
 }
 
 int frot_evaluate_statements(frot_opening *p) {
@@ -141,6 +149,9 @@ int frot_evaluate_statements(frot_opening *p) {
     /* slopes that are rounding of what cancels out tell no way */
     for (int i = 0; i < n; i++) {
       bound(p, i);
+      w->opening.row_part[i] = p->velocity ? 0 : m->position_part[i];
+      if (p->direct && !m->position_direct[i]) w->opening.row_part[i] = FROT_NO_PART;
+      if (p->timeless && is_of_start(p, i)) w->opening.row_part[i] = FROT_NO_PART;
       if (reach_of(p, i) <= FROT_CONSTANT * w->relations.size[i])
         memset(w->relations.jacobian + nx * i, 0, sizeof(double) * (size_t)nx);
     }
@@ -166,29 +177,50 @@ int frot_evaluate_statements(frot_opening *p) {
       if (p->velocity && frot_is_still(p, n, w->opening.reach[i]))
         w->relations.residual[n] = w->relations.size[n] = 0;
     }
+    w->opening.row_part[n] = m->contact_part[i];
     bound(p, n++);
   }
-  if (p->guessed && !p->velocity) {
+  int guesses = 0;
+  if ((p->guessed || p->aim) && !p->velocity) {
     frot_inputs(m, p->s, w, &p->t, p->q, p->v, p->d);
     w->call.res[0] = w->relations.residual + n, w->call.res[1] = w->relations.jacobian + nx * n;
-    w->call.res[2] = w->relations.size + n, w->call.res[3] = w->opening.natural;
+    w->call.res[2] = w->relations.size + n;
     frot_call(w, &m->guessed);
-    for (int i = 0; i < m->n_guessed; i++) bound(p, n++);
+    for (int i = 0; i < m->n_guessed; i++) {
+      w->opening.row_part[n + i] = m->guess_part[i];
+      bound(p, n + i);
+    }
+    if (p->guessed)
+      n += m->n_guessed;
+    else
+      guesses = m->n_guessed;
   }
   if (p->ways && p->velocity) n = append_ways(p, n);
   for (int i = 0; i < n && p->left > 0; i++)
     w->relations.residual[i] -= p->left * w->opening.left[i];
   p->n = n;
+  frot_leave_others(p, n + guesses);
+  n += guesses;
   int finite =
       frot_all_finite(w->relations.residual, n) && frot_all_finite(w->relations.jacobian, n * nx);
   return finite ? FROT_OK : FROT_NAN;
+}
+
+void frot_begin_values(const frot_opening *p, double *v, double *y) {
+  frot_work *w = p->w;
+  frot_inputs(p->m, p->s, w, &p->t, p->q, p->v, p->d);
+  w->call.res[0] = v ? v : w->opening.scratch, w->call.res[1] = w->opening.fresh;
+  frot_call(w, &p->m->beginning);
+  for (int k = 0; k < p->m->ny && y; k++)
+    if (p->m->y_part[k] < 0 || frot_is_of_part(p, p->m->y_part[k])) y[k] = w->opening.fresh[k];
 }
 
 void frot_take_liaisons(const frot_opening *p) {
   const frot_model *m = p->m;
   const double *unilateral = p->s->data + frot_layout_of(m).unilateral;
   for (int i = 0; i < m->n_contacts; i++)
-    p->use[i] = frot_has_normal(&m->contacts[i]) && !m->contacts[i].reduced && unilateral[i] == 0;
+    if (frot_is_of_part(p, m->contact_part[i]))
+      p->use[i] = frot_has_normal(&m->contacts[i]) && !m->contacts[i].reduced && unilateral[i] == 0;
 }
 
 double frot_statement_size(const frot_opening *p, int i) {

@@ -17,10 +17,14 @@ typedef struct {
   const double *factor; /* of the metric of the changes that have a speed, of the given order */
   const double *basis;  /* the coordinates from which changes are counted (changes.h) */
   int order, attached;
-  double scene; /* largest value, term and residual where the search begins */
-  int wide;     /* the search may begin elsewhere too */
-  int guessed;  /* the guesses of places are equations too, after the others */
+  int part, n_own, n_rows; /* what is put together, its unknowns and equations: parts.h */
+  double scene;            /* largest value, term and residual where the search begins */
+  int wide;                /* the search may begin elsewhere too */
+  int guessed;             /* the guesses of places are equations too, after the others */
   int alike;    /* what holds by one liaison counts alike, by the arms of the angles (damped.h) */
+  int aim;      /* they are no equations, but what is to be missed least (descend.h) */
+  int direct;   /* of the statements those alone that hold where the search begins */
+  int timeless; /* of the statements those alone that hold at any time */
   double left;  /* the part of w->opening.left that may still be missed (gradual.h) */
   int ways;     /* speeds are to begin a motion in singular postures too (ways.h) */
 } frot_opening;
@@ -46,6 +50,10 @@ static inline int frot_is_attached(const frot_opening *p, int k) {
 /* Residuals (w->relations.residual), the rows of the Jacobian (w->relations.jacobian) and the sizes
  * of the terms (w->relations.size); sets p->n. FROT_OK or the status of a failed evaluation. */
 int frot_evaluate_statements(frot_opening *p);
+
+/* v and y, if they are not NULL, <- where the search for speeds and for the unknowns of the blocks
+ * begins at the places as they are; of those of other parts nothing. */
+void frot_begin_values(const frot_opening *p, double *v, double *y);
 
 /* Take the liaisons that cannot part for equations, with the sides of the place as it is. */
 void frot_take_liaisons(const frot_opening *p);

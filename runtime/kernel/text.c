@@ -170,6 +170,22 @@ static void posture_text(const frot_model *m, const frot_fault *f, char *text, s
              name, f->t);
 }
 
+/* That a loop cannot stay closed: what is missed soon, of its places or of what is driven. */
+static void reach_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
+  char beyond[128];
+  snprintf(beyond, sizeof beyond,
+           "what time drives goes beyond the reach of the loop that it closes: from t = %.17g on",
+           f->t);
+  if (f->other >= 0)
+    snprintf(
+        text, size, "liaison '%s': %s `%s` is missed by at least %.3g in SI units %.3g s later",
+        contact_name(m, f->contact), beyond, m->statements[f->other].text, f->value, f->where[0]);
+  else
+    snprintf(text, size, "liaison '%s': %s its %s stay at least %.3g %s apart %.3g s later",
+             contact_name(m, f->contact), beyond, f->where[1] != 0 ? "directions" : "places",
+             f->value, f->where[1] != 0 ? "rad" : "m", f->where[0]);
+}
+
 void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_t size) {
   const frot_fault *f = &s->fault;
   const char *name = contact_name(m, f->contact);
@@ -278,6 +294,10 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
           f->t);
       return;
     case FROT_DIVERGE:
+      if (f->item == 1) {
+        reach_text(m, f, text, size);
+        return;
+      }
       if (f->item >= 0) {
         snprintf(text, size,
                  "liaison '%s': time takes apart what it joins from t = %.17g on, and no body that "

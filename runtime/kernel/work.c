@@ -60,15 +60,33 @@ static extent extent_of(const frot_model *m, const frot_layout *l) {
 
 /* The scratch that any of the generated functions needs. */
 static frot_callable scratch_of_all(const frot_model *m) {
-  const frot_callable *calls[] = {&m->parameters,       &m->start,      &m->initial_position,
-                                  &m->initial_velocity, &m->guessed,    &m->guessed_speeds,
-                                  &m->kinematics,       &m->sides,      &m->beginnings,
-                                  &m->places,           &m->pace,       &m->dynamics,
-                                  &m->drives,           &m->spread,     &m->rates,
-                                  &m->jacobian,         &m->invariants, &m->block_slopes,
-                                  &m->update,           &m->sizes,      &m->variables,
-                                  &m->energy,           &m->timers,     &m->sensed,
-                                  &m->watched,          &m->vanishing};
+  const frot_callable *calls[] = {&m->parameters,
+                                  &m->start,
+                                  &m->beginning,
+                                  &m->initial_position,
+                                  &m->initial_velocity,
+                                  &m->guessed,
+                                  &m->guessed_speeds,
+                                  &m->kinematics,
+                                  &m->sides,
+                                  &m->beginnings,
+                                  &m->places,
+                                  &m->pace,
+                                  &m->dynamics,
+                                  &m->drives,
+                                  &m->spread,
+                                  &m->rates,
+                                  &m->jacobian,
+                                  &m->invariants,
+                                  &m->block_slopes,
+                                  &m->update,
+                                  &m->sizes,
+                                  &m->variables,
+                                  &m->energy,
+                                  &m->timers,
+                                  &m->sensed,
+                                  &m->watched,
+                                  &m->vanishing};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
   for (int i = 0; i < count + m->n_blocks; i++) {
@@ -194,15 +212,21 @@ static void bind_opening(const frot_model *m, const frot_layout *l, const extent
   TAKE(w->residual_y, m->ny * e->equations), TAKE(w->slopes, (m->nq + m->nv) * early);
   TAKE(w->slopes_y, early * early + 3 * early), TAKE(w->slopes_pivot, early);
   TAKE(w->factor, m->nv * m->nv), TAKE(w->row_weight, e->equations);
-  TAKE(w->off_at_first, e->equations), TAKE(w->begin, e->states), TAKE(w->nearest, e->states);
+  TAKE(w->off_at_first, e->equations), TAKE(w->begin, e->states),
+      TAKE(w->nearest, e->states + m->ny);
   TAKE(w->behind, m->nq), TAKE(w->here, m->nq), TAKE(w->first_factor, m->nv * m->nv),
       TAKE(w->first_unit, m->nq);
   TAKE(w->found, m->nq), TAKE(w->way, larger(m->nq, m->nv)), TAKE(w->next_way, m->nq),
       TAKE(w->apart, larger(m->nq, m->nv));
   TAKE(w->scratch, 3 * larger(m->nq, m->nv));
-  TAKE(w->left, e->equations), TAKE(w->natural, m->nq),
-      TAKE(w->first, m->nq + m->ny + m->n_contacts), TAKE(w->near, m->nq + m->ny);
+  TAKE(w->left, e->equations), TAKE(w->met, m->nq), TAKE(w->guess_weight, 2 * m->n_guessed);
+  TAKE(w->begin_y, m->ny), TAKE(w->fresh, m->ny), TAKE(w->other, 2 * (m->nq + m->ny)),
+      TAKE(w->own, larger(m->nq, m->nv)), TAKE(w->rows, e->equations),
+      TAKE(w->row_part, e->equations), TAKE(w->is_own, larger(m->nq, m->nv)),
+      TAKE(w->kept, larger(m->nq, m->nv)), TAKE(w->first, m->nq + m->ny + m->n_contacts),
+      TAKE(w->near, m->nq + m->ny);
   TAKE(w->first_use, m->n_contacts), TAKE(w->start, m->nv), TAKE(w->second, m->nv);
+  TAKE(w->descent, 6 * m->nq), TAKE(w->multiplier, e->equations);
 }
 
 static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, arena *a) {

@@ -49,7 +49,7 @@ typedef struct {
  * `pattern` of their index: error.h. The rest is the system of one block. */
 typedef struct {
   double *y, shaken;
-  int failed, singular, pattern;
+  int failed, singular, pattern, unwanted;
   double *r, *j, *lu, *size, *step, *scale;
   int *pivot;
 } frot_block_work;
@@ -150,8 +150,12 @@ typedef struct {
   double *here, *first_factor, *first_unit; /* where changes are counted from; metric at `begin` */
   double *found, *way, *next_way, *apart, *scratch; /* closest.c; scratch: 3 nq */
   double *left;                                     /* gradual.h */
-  double *natural, *near;                           /* guesses.h; near: q, y */
-  double *start, *second;                           /* branch.c: speeds */
+  double *near, *met, *guess_weight;                /* guesses.h; near: q, y; weights, squares */
+  double *begin_y, *fresh, *other; /* unknowns of the blocks at `begin`; initial.c: q, y */
+  int *own, *rows, *row_part;      /* parts.h */
+  unsigned char *is_own, *kept;    /* kept: nearest.c */
+  double *descent, *multiplier;    /* descend.c */
+  double *start, *second;          /* branch.c: speeds */
   double *first; /* initial.c: q, y and the sides of the place found first, its `use` */
   unsigned char *first_use;
 } frot_opening_work;

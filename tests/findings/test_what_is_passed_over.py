@@ -25,7 +25,7 @@ initial
   disc.angle = 1.64; disc.angular_velocity = 0.0301 rad/s;
   C.slip = 1.447 m/s;
   block.angular_velocity = -0.0131 rad/s;
-  guess(block.position = (-36, 9.5) m);
+  guess(block.position.y = 9.5 m);
   experiment(stop = 8 s);
 end Jam;
 """

@@ -28,7 +28,12 @@ static int parameters(const double **arg, double **res, long long *iw, double *w
 static int start(const double **arg, double **res, long long *iw, double *w, int mem) {
   (void)iw, (void)w, (void)mem;
   res[0][0] = arg[2][2];
-  res[1][0] = 0.0;
+  return 0;
+}
+
+static int beginning(const double **arg, double **res, long long *iw, double *w, int mem) {
+  (void)arg, (void)iw, (void)w, (void)mem;
+  res[0][0] = 0.0;
   return 0;
 }
 
@@ -115,6 +120,7 @@ static const frot_group groups[1] = {
 static const int row_reads[2] = {1, -1};
 static const int row_beside[2] = {-1, 0};
 static const int none[2] = {0, 0};
+static const unsigned char held_at_start[1] = {1};
 static const frot_check checks[2] = {
     {FROT_POSITIVE, "mass of body 'block'", "hand_model.c:2:1"},
     {FROT_NOT_NEGATIVE, "friction of 'guide'", "hand_model.c:3:1"}};
@@ -154,6 +160,7 @@ const frot_model frot_the_model = {
     .n_variables = 6,
     .parameters = CALL(parameters),
     .start = CALL(start),
+    .beginning = CALL(beginning),
     .initial_position = CALL(initial_position),
     .initial_velocity = CALL(initial_velocity),
     .kinematics = CALL(kinematics),
@@ -178,6 +185,12 @@ const frot_model frot_the_model = {
     .speed_turns = none,
     .checks = checks,
     .statements = statements,
+    .n_parts = 1,
+    .q_part = none,
+    .y_part = none,
+    .contact_part = none,
+    .position_part = none,
+    .position_direct = held_at_start,
     .position_statement = position_statement,
     .velocity_statement = velocity_statement,
     .p_dependent = p_dependent,

@@ -182,6 +182,7 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
     rows, conditions = of(m.rows, nr, nw), of(m.conditions, m.n_conditions)
     row_rates = of(m.row_rates, nr) if m.row_rates else rows[:, : m.nv] @ s.v
     gaps, start = of(m.gaps, ne), [*m.start, [], [], [], []][:4]
+    numbers = [ca.DM(list(x)) if not isinstance(x, ca.SX) else x for x in start]
     rates = of(m.rates) if m.rates else s.v
     invariants, position, velocity = of(m.invariants, 0), of(m.position, 0), of(m.velocity, 0)
     states = ca.vertcat(s.q, s.v)
@@ -190,10 +191,8 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
             [s.p, ca.SX.sym("set", s.p.numel()), s.u],
             [s.p, NONE, ca.DM(list(m.unilateral)), ca.DM([0.0, m.stop, 1e-10, float("nan")])],
         ),
-        "start": (
-            [s.t, s.u, s.p],
-            [ca.DM(list(x)) if not isinstance(x, ca.SX) else x for x in start],
-        ),
+        "start": ([s.t, s.u, s.p], [numbers[0], numbers[3]]),
+        "beginning": (s.state, numbers[1:3]),
         "initial_position": (
             s.state,
             [
@@ -329,6 +328,11 @@ def source(m: Small, folder: Path) -> str:
         ("frot_statement", "statements"): [
             f'{{"statement {i + 1}", "small:{i + 1}:1", "1"}}' for i in range(_statements(m))
         ],
+        ("int", "q_part"): [0] * m.nq,
+        ("int", "y_part"): [0] * m.ny,
+        ("int", "contact_part"): [0] * len(m.elements),
+        ("int", "position_part"): [0] * made["initial_position"].numel_out(0),
+        ("unsigned char", "position_direct"): [0] * made["initial_position"].numel_out(0),
         ("int", "position_statement"): range(made["initial_position"].numel_out(0)),
         ("int", "velocity_statement"): [
             made["initial_position"].numel_out(0) + i
@@ -366,6 +370,7 @@ def source(m: Small, folder: Path) -> str:
         "late_rates": int(m.late_rates is not None), "time_dependent": int(m.time_dependent),
         "n_position": made["initial_position"].numel_out(0),
         "n_velocity": made["initial_velocity"].numel_out(0), "n_statements": _statements(m),
+        "n_parts": 1,
         "n_variables": len(m.elements) + len(m.variables),
     }  # fmt: skip
     calls = {name: _call(f) for name, f in made.items() if not name.startswith("block_")}

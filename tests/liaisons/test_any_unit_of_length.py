@@ -14,6 +14,14 @@ SCENES = {
   surface bowl on ground: implicit((x/(1.469 m))^2 + (y/(0.96 m))^2 + (z/(1.078 m))^2 - 1);
   liaison kept: contact_ponctuel(bowl, b.surface, unilateral = false);
 """,
+    "a sphere that rolls in an ellipsoid with a rod on it": """
+  body b: sphere(mass = 2 kg, radius = 0.3 m);
+  body rod: rod(mass = 1 kg, length = 0.7 m);
+  frame eye on b at (0.1 m, 0.05 m, -0.1 m);
+  surface bowl on ground: implicit((x/(1.376 m))^2 + (y/(1.273 m))^2 + (z/(0.992 m))^2 - 1);
+  liaison rolls: roulement(bowl, b.surface);
+  liaison hinge: spherique(eye, rod.start);
+""",
     "a point of a ring on an ellipse, its rim on a parabola": """
   body b: ring(mass = 0.5 kg, radius = 0.2 m);
   frame eye on b at (0.05 m, 0.02 m, 0.01 m);

@@ -13,7 +13,7 @@ STARTS = {
     "a.displacement = 11 mm": 1.1 * np.pi,
     "a.displacement = 100 mm": 10 * np.pi,
     "c.angle = 31": 31.0,
-    "guess(n.position = (0, 0, -0.25) m)": -25 * np.pi,
+    "guess(n.position = (0, 0, -0.24) m)": -24 * np.pi,
 }
 
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+import re
+
 import pytest
 
 import frot
@@ -206,3 +209,48 @@ end Triangle;
     with pytest.raises(frot.FrotError, match="contradict liaison 'C'") as told:
         frot.compile(text).simulate()
     assert "`A.speed = 1 rad/s`" in str(told.value)
+
+
+DRIVEN_OFF = {
+    "crank": (
+        "  body a: rod(mass = 1 kg, length = 1 m);\n  body b: rod(mass = 1 kg, length = 1 m);\n"
+        "  body c: rod(mass = 1 kg, length = 0.6 m);\n  frame far on ground at (1, 0) m;\n"
+        "  liaison A: rotoide(ground, a.start) driven(angle = 1 rad/s*time + 0.5 rad);\n"
+        "  liaison B: rotoide(a.tip, b.start);\n  liaison C: rotoide(b.tip, c.tip);\n"
+        "  liaison D: rotoide(far, c.start);\n",
+        # 2 sin(f/2) = 1.6, its rate cos(f/2) = 0.6
+        (2 * math.asin(0.8) - 0.5, "'D'", "places stay at least", 0.6),
+    ),
+    "frame": (
+        "  body a: rod(mass = 1 kg, length = 0.3 m);\n  body b: rod(mass = 1 kg, length = 1 m);\n"
+        "  frame far on ground at (1.1 m + 0.3 m/s*time, 0 m);\n"
+        "  liaison A: rotoide(ground, a.start);\n  liaison B: rotoide(a.tip, b.start);\n"
+        "  liaison C: rotoide(b.tip, far);\n",
+        (2 / 3, "'C'", "places stay at least", 0.3),
+    ),
+    "slider": (
+        "  body a: rod(mass = 1 kg, length = 0.3 m);\n  body b: rod(mass = 1 kg, length = 1 m);\n"
+        "  body p: particle(mass = 1 kg);\n"
+        "  curve bore on ground: line(through = (0, 0) m, direction = (1, 0));\n"
+        "  liaison A: rotoide(ground, a.start);\n  liaison B: rotoide(a.tip, b.start);\n"
+        "  liaison C: rotoide(b.tip, p);\n"
+        "  liaison D: point_courbe(p, bore) driven(abscissa = 1.1 m + 0.3 m/s*time);\n",
+        (2 / 3, "'D'", "`1.1 m \\+ 0.3 m/s\\*time` is missed by at least", 0.3),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", DRIVEN_OFF)
+def test_a_loop_that_is_driven_beyond_its_reach_is_told(name: str) -> None:
+    """Where its rods lie along one line, and by how much a little later: the rate beyond it."""
+    body, (ends, liaison, told, rate) = DRIVEN_OFF[name]
+    head = f"planar model Driven\n  world(gravity = 0 m/s^2);\n{body}"
+    model = frot.compile(f"{head}initial\n  guess(a.angle = 0.5);\nend Driven;\n")
+    with pytest.raises(frot.FrotError, match=f"liaison {liaison}: .* reach .*{told}") as raised:
+        model.simulate(stop=3.0)
+    fault = raised.value
+    assert fault.diagnostics[0].code == "E0901"
+    assert fault.result.time[-1] == pytest.approx(ends, abs=1e-8)
+    number = r"at least (\S+) .* (\S+) s later"
+    by, later = (float(x) for x in re.search(number, str(fault)).groups())
+    assert by == pytest.approx(rate * later, rel=0.01)

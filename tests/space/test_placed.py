@@ -272,6 +272,17 @@ def test_every_liaison_of_figures_obeys_newton_and_euler() -> None:
     assert np.ptp(energy) < 1e-8
 
 
+def test_a_start_is_the_same_whatever_stands_beside_it() -> None:
+    """Bit for bit; also beside a rim that has no place on its plane where its guess is not met."""
+    names = ("lamina_on_plane", "can_on_plane", "rolling_hoop")
+    beside = compiled([*names, "can_on_ball"])
+    for name in names:
+        alone = compiled([name])
+        for of in ("position", *(f"orientation[{k}]" for k in range(1, 5))):
+            for axis in (".x", ".y", ".z") if of == "position" else ("",):
+                assert alone[f"{name}.{of}{axis}"][0] == beside[f"{name}.{of}{axis}"][0], name
+
+
 def test_places_that_meet_by_more_than_one_relation_are_told() -> None:
     for liaison in ("b.axis, ground.plane", "ground.plane, c"):
         with pytest.raises(frot.FrotError, match="does not join these two places"):
