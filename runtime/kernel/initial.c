@@ -166,7 +166,9 @@ static int look_elsewhere(frot_opening *p, double *side, int status) {
   frot_fault fault = p->s->fault;
   keep_place(p, side, 0);
   double missed = status == FROT_OK ? frot_least_missed(p) : INFINITY;
-  if (missed > 0 && put_elsewhere(p, side, missed)) return FROT_OK;
+  /* the way on from it may have led to where they are met */
+  int found = missed > 0 ? put_elsewhere(p, side, missed) : frot_solve_nearest(p) == FROT_OK;
+  if (found) return FROT_OK;
   frot_clear_opening(p);
   int kept = keep_place(p, side, 1);
   if (status == FROT_OK && kept != FROT_OK) return frot_no_number(p, kept);
