@@ -32,7 +32,7 @@ from frot.runtime.settings import read_option, read_settings
 MOST_POINTS = 10_000_000
 TOLERANCES = (1e-14, 1e-1)
 _GOOD = (OK, STOPPED, TERMINATED)
-POSTURE = 31
+IMPACT, POSTURE = 13, 31
 
 CODES = {
     10: "E0401",
@@ -237,10 +237,15 @@ def _fault(engine: Engine, result: Result | None) -> SimulationError:
 
 def _help(fault: Fault) -> str:
     """The remedy: where no step has been taken, to say which way, or to begin elsewhere."""
+    if fault.status == IMPACT and fault.item >= 0:
+        return _SECOND
     if fault.status != POSTURE or fault.value != 0:
         return _HELP.get(fault.status, "")
     return _SAY_WHICH if fault.other >= 0 else _BEGIN_BESIDE
 
+
+# Nobody looks for a second place of what cannot part: that is no remedy.
+_SECOND = "stop before that time, or let the bodies touch there by a liaison of its own"
 
 _BEGIN_BESIDE = (
     "begin beside that posture: state a place a little before it, or beyond it on the way that "
@@ -255,7 +260,7 @@ _SAY_WHICH = (
 _HELP = {
     10: "give the parameter it comes from another value",
     11: "make statements, lengths and places agree, or leave a statement out",
-    13: "stop before that time, or write `unilateral = false` if the liaison cannot part",
+    IMPACT: "stop before that time, or write `unilateral = false` if the liaison cannot part",
     14: "a smaller coefficient of friction avoids it; the result holds the motion up to there",
     15: "write `on_indeterminate = rest` or `continue` to go on with one of them",
     16: "look at what switches at that time; change a coefficient or the starting values a little",

@@ -12,6 +12,7 @@
 #include "core.h"
 #include "guards.h"
 #include "mechanics.h"
+#include "options.h"
 #include "projection.h"
 #include "reactions.h"
 #include "search.h"
@@ -198,9 +199,10 @@ static int has_ended(const frot_instant *in, const int *chosen, int count) {
   if (in->s->jammed_at != in->t || in->s->jammed != m->contact_group[chosen[0]]) return 0;
   for (int c = 0; c < count; c++) {
     if (trial[chosen[c]].closed != before[chosen[c]].closed) return 0;
-    for (int e = 0; e < m->n_elements; e++)
-      if (m->elements[e].contact == chosen[c] &&
-          trial[m->n_contacts + e].friction != before[m->n_contacts + e].friction)
+    int own[FROT_LAWS_OF_CONTACT], laws = frot_laws_of(m, chosen[c], own);
+    for (int k = 0; k < laws; k++)
+      if (frot_element_mode(m, trial, own[k])->friction !=
+          frot_element_mode(m, before, own[k])->friction)
         return 0;
   }
   return 1;

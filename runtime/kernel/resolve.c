@@ -398,5 +398,6 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     if (memcmp(&modes[m->n_contacts + e], &w->search.before[m->n_contacts + e], sizeof *modes) != 0)
       frot_forget_guards(m, s, frot_element_guard(m, e), 2);
   size_beginnings(&in);
+  s->jammed = -1; /* the modes found have not ended */
   return FROT_OK;
 }

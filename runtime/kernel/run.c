@@ -23,7 +23,7 @@
 /* Events at one instant after which the modes will not settle. */
 #define CROWD 100
 #define MONITOR_EVERY 64
-/* Longest step where forces depend on time, so that none is passed over while nothing moves. */
+/* First steps and scales of time where forces depend on it, in runs; the longest step: pace.c. */
 #define PART_OF_RUN 0.01
 
 int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, double experiment[4]) {
@@ -179,7 +179,7 @@ static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
   if (status != FROT_OK && status != FROT_TERMINATED) return status;
   frot_make_instant(m, s, w, s->t, x);
   s->energy = events + energy_now(m, s, w, x) - before;
-  s->pending = 0;
+  s->pending = 0, s->second = -1; /* what the step led to comes no more */
   return status;
 }
 

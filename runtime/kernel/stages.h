@@ -29,7 +29,8 @@ void frot_weigh_stages(const frot_work *w, const double *coefficient, int count,
 int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 
 /* Whether the determinant that gives the reactions has another sign than at the start of the step:
- * it was zero between, where they grow without bound (jamming). */
+ * it was zero between, where they grow without bound (jamming): then w->reactions.jammed is the
+ * group. */
 int frot_has_jammed(const frot_state *s, frot_work *w);
 
 /* Vectors of the dense output of the step h into w->step.f (DP_DENSE x nz). Takes three

@@ -48,7 +48,7 @@ struct frot_state {
   int fleeting;    /* the contact at which no motion lasts at the last event, or -1 */
   int second;      /* the contact whose figures meet at another place too, or -1: nearer.h */
   long long told;  /* events that changed something before that */
-  int jammed;      /* the group without reactions beyond jammed_at */
+  int jammed;      /* the group without reactions beyond jammed_at, -1 once it has other modes */
   int jumped;      /* the last event of the text moved coordinates or speeds */
   int several;     /* groups of contacts had several motions at the start: to be told as events */
   int asleep;      /* islands that sleep: see awake.h */

@@ -151,7 +151,7 @@ static int go_explicitly(const frot_model *m, frot_state *s) {
   return 1;
 }
 
-/* End the step where another place of an open contact comes to be nearer. */
+/* End the step where another place of a contact that may part comes to count: nearer.h. */
 static int cut_where_nearer(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
                             int *guard) {
   for (double part = 0; part < 1 && !s->pending && *guard < 0;) {

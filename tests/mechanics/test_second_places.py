@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from frot.runtime.engine import Engine
 
 import frot
 
@@ -89,3 +90,25 @@ end Rim;"""
 def test_a_rim_in_a_tube_names_its_liaison(kind: str) -> None:
     with pytest.raises(frot.SimulationError, match=r"E0911.*'L'.*bend alike"):
         frot.compile(RIM.format(kind=kind)).simulate()
+
+
+def test_a_wheel_that_is_lifted_before_it_meets_the_other_side_meets_nothing() -> None:
+    """The step that leads there has run already: it no longer counts."""
+    text = TROUGH.format(places="wheel.rim, wall", parts="true").replace(
+        "19.62 N*", "(if time < 2 s then down else 0.5*down)*"
+    )
+    text = text.replace(
+        "  parameter Real mu", "  parameter Force down = 19.62 N;\n  parameter Real mu"
+    )
+    program = frot.compile(text).program()
+    engine = Engine(program)
+    engine.start(0.0, 1e-8, "rest")
+    engine.advance(3.0)
+    met = engine.time
+    assert "second place" in engine.fault_text
+    engine = Engine(program)
+    engine.start(0.0, 1e-8, "rest")
+    engine.advance(met * (1 - 1e-6))
+    engine.set_parameter([p.name for p in program.parameters].index("down"), -1e7)
+    assert engine.advance(3.0).status == 0
+    assert engine.time == 3
