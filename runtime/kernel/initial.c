@@ -6,10 +6,10 @@
 #include "apart.h"
 #include "branch.h"
 #include "changes.h"
+#include "closest.h"
 #include "core.h"
 #include "elsewhere.h"
 #include "guesses.h"
-#include "closest.h"
 #include "nearest.h"
 #include "parts.h"
 #include "sides.h"
@@ -306,8 +306,7 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
   size_t size = sizeof(double) * (size_t)m->n_conditions;
   frot_name_changes(&p);
   frot_take_part(&p, -1);
-  guess(&p);
-  look_at_conditions(&p);
+  if (m->n_conditions > 0) guess(&p), look_at_conditions(&p);
   int failed = FROT_OK;
   frot_fault told = s->fault;
   for (int round = 0, stay = 0; round < ROUNDS; round++) {

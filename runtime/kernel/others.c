@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core.h"
+#include "options.h"
 #include "reactions.h"
 #include "search.h"
 #include "tolerances.h"
@@ -16,6 +17,16 @@
 /* Whether an element was at its bound until now, or has come to it. */
 static int was_at_bound(const frot_instant *in, int e) {
   return frot_element_mode(in->m, in->w->search.before, e)->at_bound != 0 || in->left[e] != 0;
+}
+
+/* The same of any of them. */
+static int some_were_at_bound(const frot_instant *in, const int *chosen, int count) {
+  int own[FROT_LAWS_OF_CONTACT], some = 0;
+  for (int c = 0; c < count; c++) {
+    int laws = frot_laws_of(in->m, chosen[c], own);
+    for (int k = 0; k < laws; k++) some |= was_at_bound(in, own[k]);
+  }
+  return some;
 }
 
 /* The loaded contact whose reaction is worst beyond what is admissible or, if none is, the element;
@@ -128,7 +139,7 @@ int frot_others_carry(const frot_instant *in, const int *chosen, int count) {
   if (share == FROT_NO_SHARE) return 0;
   if (share == FROT_SHARED) return frot_reactions_hold(in, chosen, count);
   memcpy(before, trial, modes);
-  for (int touching = 1; touching >= 0; touching--) {
+  for (int touching = some_were_at_bound(in, chosen, count); touching >= 0; touching--) {
     if (relieve(in, chosen, count, touching)) return 1;
     memcpy(trial, before, modes);
     if (!solve(in, chosen[0])) return 0;
