@@ -170,20 +170,27 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
   }
 }
 
-int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count) {
+/* Whether all that may stay at rest does, its load shared in some way, while what slips goes on:
+ * then these modes are remembered. */
+static int can_rest(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   int own[FROT_LAWS_OF_CONTACT];
   memset(w->search.trial, 0, sizeof *w->search.trial * (size_t)(m->n_contacts + m->n_elements));
   for (int c = 0; c < count; c++) {
     int laws = frot_laws_of(m, chosen[c], own);
-    w->search.trial[chosen[c]] = w->search.before[chosen[c]];
-    if (!w->search.before[chosen[c]].closed) return 0;
+    frot_contact_mode *contact = &w->search.trial[chosen[c]];
+    *contact = w->search.best[chosen[c]];
+    if (contact->side == 0) contact->side = 1;
     for (int k = 0; k < laws; k++) {
-      const frot_contact_mode *before = frot_element_mode(m, w->search.before, own[k]);
-      int bounds = frot_bounds_something(m, w, own[k]);
-      if (bounds && (before->friction != FROT_STICK || !in->at_rest[own[k]])) return 0;
-      w->search.trial[m->n_contacts + own[k]] = *before;
+      double rate = w->core.rate[m->elements[own[k]].row];
+      frot_contact_mode *law = &w->search.trial[m->n_contacts + own[k]];
+      *law = *frot_element_mode(m, w->search.before, own[k]);
+      if (!frot_bounds_something(m, w, own[k])) continue;
+      if (in->zero[own[k]] && !in->at_rest[own[k]]) return 0;
+      law->friction = in->zero[own[k]] ? FROT_STICK
+                      : rate > 0       ? FROT_SLIP_FORWARD
+                                       : FROT_SLIP_BACKWARD;
     }
   }
   w->search.corners = FROT_ENOUGH;
@@ -191,6 +198,21 @@ int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count) {
   if (!frot_is_admissible(in, chosen, count) || !frot_lasts(in, chosen, count)) return 0;
   remember(in, chosen, count);
   return 1;
+}
+
+int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  int own[FROT_LAWS_OF_CONTACT];
+  for (int c = 0; c < count; c++) {
+    int laws = frot_laws_of(m, chosen[c], own);
+    if (!in->w->search.before[chosen[c]].closed) return 0;
+    for (int k = 0; k < laws; k++) {
+      const frot_contact_mode *before = frot_element_mode(m, in->w->search.before, own[k]);
+      int bounds = frot_bounds_something(m, in->w, own[k]);
+      if (bounds && (before->friction != FROT_STICK || !in->at_rest[own[k]])) return 0;
+    }
+  }
+  return can_rest(in, chosen, count);
 }
 
 /* Whether a guard of the contact or of its elements fired. */
@@ -259,6 +281,7 @@ static int search_all(const frot_instant *in, const int *chosen, int count, int 
   if (combinations <= FROT_ENOUGH && !*unsearched)
     return enumerate(in, chosen, count, forced, lasting, NULL);
   *unsearched = 1;
+  if (in->s->options.on_indeterminate != FROT_CONTINUE && can_rest(in, chosen, count)) return 1;
   int motions = search_near(in, chosen, count, forced, lasting, forced);
   /* the rest ends though what fired stays as it is: others carry what it carried */
   if (motions == 0 && !forced) motions = search_near(in, chosen, count, 0, lasting, 1);

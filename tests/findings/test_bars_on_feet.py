@@ -27,13 +27,17 @@ def bar(n: int) -> frot.Model:
         "  parameter Force pull = 3 N;",
         "  parameter Angle tilt = 0;",
         "  parameter Length h = 0 m;",
+        "  parameter Real more = 1;",
         *(f"  parameter Real mu{i} = 0.3;" for i in feet),
         *(f"  parameter Length x{i} = {i} m;" for i in feet),
         "  body b: rod(mass = m, length = 2 m);",
         *(f"  frame f{i} on b at (x{i}, 0 m);" for i in feet),
         "  curve floor on ground: line(through = (0, 0) m, direction = (cos(tilt), sin(tilt)));",
         "  frame hand on b at (0 m, h);",
-        *(f"  liaison c{i}: contact_ponctuel(f{i}, floor) with coulomb(mu{i});" for i in feet),
+        *(
+            f"  liaison c{i}: contact_ponctuel(f{i}, floor) with coulomb(mu{i}, mu_s = more*mu{i});"
+            for i in feet
+        ),
         "  force drawn: on(hand, value = pull*(time/(1 s))*(cos(tilt), sin(tilt)));",
         "initial",
         "  b.position = (0, 0) m;",
@@ -86,3 +90,23 @@ def test_a_bar_departs_when_no_share_of_its_weight_holds_it(n: int, alike: bool)
             assert np.all(normal >= -1e-9 * weight)
             assert np.all(np.abs(friction) <= mu[i] * normal + 1e-9 * weight)
             assert np.all(at[f"c{i}.slip"] == 0)
+
+
+@pytest.mark.parametrize("n", [4, 9, 12])
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_start_between_slipping_and_resting_is_rest(n: int, side: int) -> None:
+    """What slips on could slip here, and what rests may rest: the default takes rest, however many
+    feet there are."""
+    random = np.random.default_rng(200 + n)
+    model = bar(n)
+    for m, tolerance in ((1.0, 1e-4), (1e6, 1e-9), (1e-6, 1e-12)):
+        x = np.sort(random.uniform(-1, 1, n))
+        x[0], x[-1] = -1, 1
+        mu = random.uniform(0.2, 0.6, n)
+        pull = side * largest_pull(x, 1.3 * mu, m * G, 0.0, 0.0)
+        values = {"m": m, "more": 1.3, "pull": pull / 2}
+        values |= {f"x{i}": x[i] for i in range(n)} | {f"mu{i}": mu[i] for i in range(n)}
+        result = model.simulate(start=1.9, tolerance=tolerance, parameters=values)
+        departed = [e.time for e in result.events if e.kind == "slip"]
+        assert departed == pytest.approx([2.0] * n, rel=1e-9)
+        assert np.all(result.at(np.linspace(1.9, 1.999, 9))["b.velocity.x"] == 0)
