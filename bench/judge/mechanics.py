@@ -19,6 +19,10 @@ from judge.scene import Body, Contact, Force, Pin, Point, Scene
 
 Floats = NDArray[np.float64]
 
+# Differences of places and of velocities are known to 1e-14 of their terms, where forces are held
+# to `check.EXACT` of theirs: so much of the terms counts as theirs.
+KNOWN = 1e-6
+
 
 def left(v: Floats) -> Floats:
     """The vector turned by a right angle, counter-clockwise."""
@@ -140,16 +144,17 @@ class Mechanics:
 
     # loads
 
-    def push(self, body: Body | None, at: Floats, force: Floats) -> None:
-        """Add a force that acts at a place of a body."""
+    def push(self, body: Body | None, at: Floats, force: Floats, terms: float = 0.0) -> None:
+        """Add a force that acts at a place of a body, of this size and so large in its terms."""
         if body is None:
             return
         k, arm = self.at[body.name], at - self.origin(body)
+        size = norm(force) + KNOWN * terms
         self.load[k : k + 2] += force
-        self.load_size[k : k + 2] += norm(force)
+        self.load_size[k : k + 2] += size
         if body.turns:
             self.load[k + 2] += left(arm) @ force
-            self.load_size[k + 2] += norm(arm) * norm(force)
+            self.load_size[k + 2] += norm(arm) * size
 
     def turn(self, body: Body | None, couple: float) -> None:
         """Add a couple."""
@@ -163,9 +168,10 @@ class Mechanics:
         for b in self.scene.bodies:
             self.push(b, self.origin(b), np.array([0.0, -g * b.mass.at(self.look)]))
 
-    def _velocity(self, p: Point) -> Floats:
-        at = self.position(p)
-        return np.array([self.along(p.body, at, way).rate for way in np.eye(2)])
+    def _velocity(self, p: Point) -> tuple[Floats, float]:
+        """The velocity of a point, and the size of its terms."""
+        rows = [self.along(p.body, self.position(p), way) for way in np.eye(2)]
+        return np.array([r.rate for r in rows]), rows[0].rate_size
 
     def _apply(self, f: Force) -> None:
         v = [x.at(self.look) for x in f.values]
@@ -178,9 +184,9 @@ class Mechanics:
         elif f.kind == "couple":
             self.turn(f.holder, v[0])
         elif f.kind == "drag":
-            velocity = self._velocity(f.points[0])
-            size = norm(velocity) if f.exponent == 2 else 1.0
-            self.push(f.points[0].body, at[0], -v[0] * size * velocity)
+            velocity, terms = self._velocity(f.points[0])
+            by = v[0] * (norm(velocity) if f.exponent == 2 else 1.0)
+            self.push(f.points[0].body, at[0], -by * velocity, by * terms)
         else:
             self._pull(f, v, at)
 
@@ -189,14 +195,16 @@ class Mechanics:
         apart = at[1] - at[0]
         length = norm(apart)
         way = apart / length if length > 0 else np.zeros(2)
+        terms = norm(at[0]) + norm(at[1])
         if f.kind == "spring":
             pull, size = v[0] * (length - v[1]), v[0] * (length + v[1])
         elif f.kind == "attraction":
             pull = size = v[0] * length
         else:
-            speeds = [self._velocity(p) for p in f.points]
-            pull = v[0] * ((speeds[1] - speeds[0]) @ way)
-            size = v[0] * (norm(speeds[0]) + norm(speeds[1]))
+            (one, more), (other, others) = (self._velocity(p) for p in f.points)
+            pull, size = v[0] * ((other - one) @ way), v[0] * (norm(one) + norm(other))
+            terms = more + others
+        size += KNOWN * v[0] * terms
         for p, where, sign in zip(f.points, at, (1, -1), strict=True):
             self.push(p.body, where, sign * pull * way)
             if p.body is not None:

@@ -287,8 +287,9 @@ def motion(
         bent = _bend(system, z, solve, rows, columns)
         if bent is None:
             return None
-        z, sign = bent[0], sign * bent[1]
-        right = matrix @ z if rank == len(s) else right
+        z, sign, couples = bent[0], sign * bent[1], bent[2]
+        for (at, _, _), couple in zip(system.bends, couples, strict=True):
+            right[at] += couple / rows[at]
 
     def holds(z: Floats) -> bool:
         size = np.abs(matrix) @ np.abs(z) + np.abs(right) + system.sizes / rows
@@ -297,10 +298,9 @@ def motion(
 
     if rank < len(s) and not holds(z):
         return None
-    free = vt[rank:].T
+    free = _held(system, vt[rank:].T)
     margin, best = _margin(system, z / columns, free / columns[:, None], modes)
-    if not system.bends:
-        best = solve(right, best * columns) / columns
+    best = solve(right, best * columns) / columns
     if rank < len(s) and not holds(best * columns):  # what seemed free is only nearly so
         margin, best = _margin(system, z / columns, free[:, :0], modes)
     z = best
@@ -309,16 +309,28 @@ def motion(
     return Motion(dict(modes), z[:n], z[n:], margin, gap, size, sign)
 
 
+def _held(system: System, free: Floats) -> Floats:
+    """What is left of the open directions where the reactions of pins in motion stay as they are.
+
+    Their friction follows the size of these, which is no linear law.
+    """
+    turned = [system.index[name, w] for _, name, _ in system.bends for w in "xy"]
+    if not turned or free.shape[1] == 0:
+        return free
+    _, s, vt = np.linalg.svd(free[turned])
+    return free @ vt[int(np.sum(s > 1e-11)) :].T
+
+
 def _bend(
     system: System,
     z: Floats,
     solve,  # type: ignore[no-untyped-def]
     rows: Floats,
     columns: Floats,
-) -> tuple[Floats, float] | None:
+) -> tuple[Floats, float, Floats] | None:
     """Pins in motion: c + way * mu * radius * norm(R) = 0, by Newton's method.
 
-    With the sign of its last determinant.
+    With the sign of its last determinant, and the couples c.
     """
     base = z
     units = []
@@ -345,7 +357,7 @@ def _bend(
     else:
         if not np.max(np.abs(step)) <= 1e-9 * np.max(np.abs(c)):
             return None
-    return base + units_matrix @ c, float(np.linalg.slogdet(jacobian)[0])
+    return base + units_matrix @ c, float(np.linalg.slogdet(jacobian)[0]), c
 
 
 def _margin(

@@ -66,6 +66,13 @@ static int is_force(const frot_model *m, const frot_state *s, const frot_work *w
   return frot_element_mode(m, modes, e)->friction <= FROT_STICK || j != frot_element_guard(m, e);
 }
 
+/* Whether guard j is that of what is closed: no gap, no condition. */
+static int is_reaction_or_slip(const frot_model *m, const frot_state *s, const frot_work *w,
+                               int j) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  return j < m->n_contacts ? modes[j].closed : j < frot_condition_guard(m);
+}
+
 double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int k,
                            double h, const double g[7]) {
   int j = w->guards.list[k];
@@ -73,7 +80,10 @@ double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_
   for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
   floor += FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
   double slack = fmax(FROT_LOCATED * inside, floor);
-  return is_force(m, s, w, k) && fabs(g[0]) <= slack ? slack : 0;
+  if (!is_force(m, s, w, k) || !(fabs(g[0]) <= slack)) slack = 0;
+  return s->idle && is_reaction_or_slip(m, s, w, j)
+             ? fmax(slack, 0.5 * FROT_LOCATED * s->data[w->layout.scale_g + j])
+             : slack;
 }
 
 int frot_may_fall(const frot_state *s, const frot_work *w, int rests) {

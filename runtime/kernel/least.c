@@ -7,11 +7,13 @@
 #include "problem.h"
 #include "tolerances.h"
 
+#define GOLDEN 0.6180339887498949
+
 /* What the unknowns weigh, into w->reactions.weight: friction so much more than normal reactions
  * that rest is not lost for want of it. Elements side by side that values bound share a load in
  * proportion to their bounds, so that they reach them together: sum of lam^2 g / bound is least,
  * where g, the size of the row, makes a gear between them count. */
-static void weigh(const frot_problem *p) {
+static void weigh_sparingly(const frot_problem *p) {
   frot_work *w = p->w;
   double largest = 0;
   for (int c = 0; c < p->unknowns; c++) {
@@ -30,6 +32,11 @@ static void weigh(const frot_problem *p) {
   }
 }
 
+/* Other weights, all alike but so that no two reactions are weighed in a simple ratio: others.c. */
+static void weigh_evenly(const frot_problem *p) {
+  for (int c = 0; c < p->unknowns; c++) p->w->reactions.weight[c] = 1 + fmod(GOLDEN * (c + 1), 1);
+}
+
 /* Passes: what friction the weights leave in the place of normal reactions, 1e-10 of them, is more
  * than a pin can bear whose reaction comes to zero. So it begins anew with what the normal
  * reactions of the pass before leave to it; the last pass takes away rounding. */
@@ -39,7 +46,10 @@ void frot_solve_least(const frot_problem *p, double *x) {
   frot_work *w = p->w;
   int n = p->unknowns, rows = p->equations;
   double *copy = w->linear.scratch, *b = copy + n * n, *step = b + n, *scratch = step + n;
-  weigh(p);
+  if (w->reactions.evenly)
+    weigh_evenly(p);
+  else
+    weigh_sparingly(p);
   memset(x, 0, sizeof(double) * (size_t)n);
   for (int pass = 0; pass < PASSES; pass++) {
     for (int c = 0; c < p->held && pass < PASSES - 1; c++)

@@ -14,6 +14,8 @@
 #include "search.h"
 #include "tolerances.h"
 
+#define UNCHANGED 1e-6 /* part by which what no other reactions change may differ by rounding */
+
 /* Whether an element was at its bound until now, or has come to it. */
 static int was_at_bound(const frot_instant *in, int e) {
   return frot_element_mode(in->m, in->w->search.before, e)->at_bound != 0 || in->left[e] != 0;
@@ -91,6 +93,46 @@ static int relieve(const frot_instant *in, const int *chosen, int count, int tou
   return frot_reactions_hold(in, chosen, count);
 }
 
+/* By how much the reactions of w->search.trial are beyond their inequalities, of contacts and then
+ * of elements, into `beyond`: 0 where there is none or it holds. Returns how many do not hold. */
+static int list_violated(const frot_instant *in, const int *chosen, int count, double *beyond) {
+  const frot_model *m = in->m;
+  const frot_contact_mode *trial = in->w->search.trial;
+  const double *lam = in->w->core.lam;
+  int own[FROT_LAWS_OF_CONTACT], violated = 0;
+  memset(beyond, 0, sizeof(double) * (size_t)(m->n_contacts + m->n_elements));
+  for (int c = 0; c < count; c++) {
+    int i = chosen[c], laws = frot_laws_of(m, i, own);
+    if (frot_is_loaded(m, trial, i) && frot_must_press(in, i) &&
+        frot_pressure(in, i) < -FROT_BOUND_SLACK)
+      beyond[i] = fabs(lam[m->contacts[i].row_n]), violated++;
+    for (int k = 0; k < laws; k++) {
+      int e = own[k];
+      if (!frot_is_held(m, trial, e) || !(frot_reserve(in, e) < -FROT_BOUND_SLACK)) continue;
+      double bound = fabs(frot_bound_of_rest(m, in->w, e, trial));
+      beyond[m->n_contacts + e] = fabs(lam[m->elements[e].row]) - bound, violated++;
+    }
+  }
+  return violated;
+}
+
+/* Whether an inequality that does not hold is one that no other reactions change: on what two of
+ * them agree, weighed in other ways, all do. Then there is no corner to look for. */
+static int is_hopeless(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  double *beyond = in->w->search.beyond, *again = beyond + m->n_contacts + m->n_elements;
+  int hopeless = 0;
+  if (!list_violated(in, chosen, count, beyond)) return 0;
+  in->w->reactions.evenly = 1;
+  if (solve(in, chosen[0])) {
+    list_violated(in, chosen, count, again);
+    for (int k = 0; k < m->n_contacts + m->n_elements; k++)
+      hopeless |= beyond[k] > 0 && fabs(again[k] - beyond[k]) <= UNCHANGED * beyond[k];
+  }
+  in->w->reactions.evenly = 0;
+  return hopeless || !solve(in, chosen[0]);
+}
+
 /* Whether the reactions of w->search.trial hold now and a little later. */
 static int hold_on(const frot_instant *in, const int *chosen, int count) {
   return frot_is_admissible(in, chosen, count) && frot_lasts(in, chosen, count);
@@ -144,7 +186,7 @@ int frot_others_carry(const frot_instant *in, const int *chosen, int count) {
     memcpy(trial, before, modes);
     if (!solve(in, chosen[0])) return 0;
   }
-  return find_corner(in, chosen, count, 0, 0);
+  return !is_hopeless(in, chosen, count) && find_corner(in, chosen, count, 0, 0);
 }
 
 int frot_others_last(const frot_instant *in, const int *chosen, int count) {

@@ -14,24 +14,32 @@
 #include "terms.h"
 #include "tolerances.h"
 
-/* The speed that the loads bring a row in the next step. What begins from rest has no other to be
- * measured against. */
-static double speed_to_come(const frot_instant *in, int row) {
-  return fabs(in->s->h) * in->w->core.row_load[row];
+/* The largest speed of a row so far. */
+static double met_speed(const frot_instant *in, int row) {
+  return frot_row_size(in->m, in->w, row, in->s->data + in->l.scale_x + in->m->nq);
 }
 
-/* The speed that they bring it in a rounding of time: no instant is known better, and at a start
- * there is no step yet. */
+/* The speed that a row is measured against. What has never moved has no other than the one that the
+ * loads bring it in the next step; what has may never get that, as a light body on a stiff damper.
+ */
+static double typical_speed(const frot_instant *in, int row) {
+  double met = met_speed(in, row);
+  return met > 0 ? met : fabs(in->s->h) * in->w->core.row_load[row];
+}
+
+/* The speed that the loads bring what has never moved in a rounding of time: no instant is known
+ * better, and at a start there is no step yet. */
 static double speed_unresolved(const frot_instant *in, int row) {
+  if (met_speed(in, row) > 0) return 0;
   return DBL_EPSILON * frot_size_of_time(in->t, in->s->h_max) * in->w->core.row_load[row];
 }
 
 /* The motion of element e that is none to rounding, against its terms, the sizes it had, the motion
- * as a whole and the motion to come, or that no instant resolves. */
+ * as a whole and its usual motion, or that no instant resolves. */
 static double zero_rate(const frot_instant *in, int e, const double *v) {
   int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
   double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
-  return FROT_ZERO * fmax(size, speed_to_come(in, row)) +
+  return FROT_ZERO * fmax(size, typical_speed(in, row)) +
          FROT_ZERO_OF_MOTION * frot_row_speed(in->m, in->w, row, v) + speed_unresolved(in, row);
 }
 
@@ -94,12 +102,6 @@ static void find_components(const frot_instant *in) {
       for (int k = 0; k <= i; k++)
         if (component[k] == from) component[k] = to;
     }
-}
-
-/* The speed of a row with the largest speeds met so far, or with those to come. */
-static double typical_speed(const frot_instant *in, int row) {
-  double met = frot_row_size(in->m, in->w, row, in->s->data + in->l.scale_x + in->m->nq);
-  return fmax(met, speed_to_come(in, row));
 }
 
 /* Contacts that may be closed after the instant, into w->search.best: those that were, and open
@@ -383,6 +385,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   frot_row_loads(m, s, w, t, q, v, d);
   status = choose_modes(&in, t, first, recorder);
   if (status != FROT_OK) return status;
+  if (memcmp(modes, w->search.best, sizeof *modes * count) != 0) s->idle = 0;
   memcpy(modes, w->search.best, sizeof *modes * count);
   pass_directions(&in);
   if (!first) frot_note_changes(m, s, t, w->search.before, modes, recorder);

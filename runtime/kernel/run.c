@@ -83,7 +83,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->ended_recorded = s->shrinking = 0;
   s->jammed_at = NAN;
   s->text_event = t, s->text_gap = s->text_ratio = s->text_first = 0;
-  s->pending = s->has_slope = s->changed = s->crowded = s->several = s->untold = 0;
+  s->pending = s->has_slope = s->changed = s->crowded = s->idle = s->several = s->untold = 0;
   s->second = -1;
   for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
   s->crowded_since = s->left_at = t, s->told = s->statistics.events;
@@ -247,6 +247,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
       return FROT_FULL;
     frot_tell(m, s, recorder);
     int status = FROT_OK;
+    long long events = s->statistics.events;
     if (s->pending) {
       frot_wake_state(m, s, w);
       if (s->second >= 0)
@@ -258,7 +259,8 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
       else if (s->crowded > CROWD)
         status = frot_fail(s, FROT_CHATTER, *g.t1, -1, condition_at_fault(m, s), -1, s->crowded);
       else
-        status = happen_at_end(m, s, w, recorder);
+        s->idle = 1, status = happen_at_end(m, s, w, recorder);
+      if (s->statistics.events != events) s->idle = 0;
       s->pending = s->has_slope = 0;
       if (status == FROT_TERMINATED) return end_of_run(m, s, w, recorder);
     }

@@ -138,7 +138,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   frot_choose_next(m, s, a->stiff);
   if (s->implicit) frot_wake_within_step(m, s, w);
   if (end > s->crowded_since + CROWDED * s->h_max) {
-    s->crowded_since = end, s->crowded = 0;
+    s->crowded_since = end, s->crowded = s->idle = 0;
     s->told = s->statistics.events;
   }
   return FROT_OK;

@@ -110,6 +110,7 @@ typedef struct {
   int jammed;              /* the group that had no reactions in the last stages, or -1 */
   int follow;              /* 1: pins' directions are looked for from the last stage's on */
   int warm;                /* the reactions are those of a stage before: pins.c */
+  int evenly;              /* 1: of those that are not unique others are found: least.c */
 } frot_reaction_work;
 
 /* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:
@@ -216,13 +217,13 @@ typedef struct {
 /* The search for modes (search.h, admissible.c, ahead.c, pivot.c, resolve.c): modes tried, found
  * and before; of contacts: which are decided; of elements: whose motion is zero or at rest, where
  * it would go, and which slips no acceleration starts; of both: what is left of their inequalities
- * where that is little, the rates of coordinates, and accelerations of a little later (lasting.c).
- */
+ * where that is little, the rates of coordinates, and accelerations of a little later (lasting.c);
+ * of both twice: by how much they do not hold (others.c). */
 typedef struct {
   frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner, *found, *slack;
   unsigned char *certain, *zero, *at_rest, *departs;
   signed char *ahead;
-  double *motions, *pivot_bound, *nothing_frozen, *margin, *rates, *set_out;
+  double *motions, *pivot_bound, *nothing_frozen, *margin, *rates, *set_out, *beyond;
   double *along; /* directions of pins' reactions in `best`: there may be solutions in others */
   int *choice, *component, *chosen;
   int exact;   /* whether `best` needs no slack: frot_is_exact */

@@ -134,6 +134,30 @@ def test_a_level_rod_on_a_dry_pin_falls_and_does_not_rise() -> None:
     assert [m.modes["joint"].slip for m in found] == [-1]
 
 
+def test_a_dry_pin_turns_beside_a_bar_on_three_feet() -> None:
+    """Reactions that are not unique take no motion away from what turns with friction."""
+    s = Scene("Beside")
+    rod, bar = s.body("rod", "rod"), s.body("bar", "rod")
+    mu, radius = s.parameter("mu", "Real"), s.parameter("pin", "Length")
+    s.pins.append(Pin("joint", s.frame("eye", None), s.end(rod, "start"), mu, mu, radius))
+    values = {"m_rod": 1.0, "l_rod": 1.0, "mu": 0.3, "pin": 0.05, "x_eye": 0.0, "y_eye": 5.0}
+    values |= {"m_bar": 2.0, "l_bar": 1.0, "x_floor": 0.0, "y_floor": 0.0, "a_floor": 0.0}
+    floor = s.line("floor", None)
+    for i in range(3):
+        s.contacts.append(Contact(f"c{i}", floor, s.frame(f"f{i}", bar)))
+        values |= {f"x_f{i}": 0.4 * (i - 1), f"y_f{i}": -0.1}
+    values |= {f"{c}0_rod": x for c, x in zip("xyauvw", (0.5, 5, 0, 0, 0.5, 1), strict=True)}
+    values |= {f"{c}0_bar": x for c, x in zip("xyauvw", (0, 0.1, 0, 0, 0, 0), strict=True)}
+    judge = Judge(s, values, Start(s, values, 1.0), 1e-9)
+    now = judge.mechanics(0.0)
+    found = [m for m in motions(now, still_of(judge, now, 1e-6)) if m.margin > 1e-6]
+    assert found
+    # about the eye: m g l/2 and the friction mu r |R| of R = m (a - g), a from the motion itself
+    a = found[0].acceleration
+    force = np.hypot(a[0], a[1] + 9.81)
+    assert a[2] == pytest.approx((-9.81 / 2 - 0.3 * 0.05 * force) * 3, rel=1e-12)
+
+
 ROD = """
 planar model Rod
   parameter Mass m_bar = 1 kg;
