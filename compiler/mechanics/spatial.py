@@ -61,13 +61,18 @@ def turn_about(axis: ca.SX, angle: ca.SX) -> ca.SX:
 
 
 def axes_of(quaternion: ca.SX) -> ca.SX:
-    """R (3 x 3) of a unit quaternion (w, x, y, z)."""
+    """R (3 x 3) of a quaternion (w, x, y, z), of whatever length.
+
+    Between the stages of a step the length is no longer one to the order of the turn's square; axes
+    of unit length at right angles leave no trace of it.
+    """
     w, x, y, z = ca.vertsplit(quaternion)
+    two = 2 / (w * w + x * x + y * y + z * z)
     return ca.blockcat(
         [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+            [1 - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y)],
+            [two * (x * y + w * z), 1 - two * (x * x + z * z), two * (y * z - w * x)],
+            [two * (x * z - w * y), two * (y * z + w * x), 1 - two * (x * x + y * y)],
         ]
     )
 
