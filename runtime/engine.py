@@ -33,7 +33,7 @@ _TEXT = 1024
 # Doubles of the first and of the longest chunk of recorded steps; in a recorded step, the place of
 # the time at which it begins.
 _CHUNK, _LARGEST_CHUNK = 2**16, 2**24
-_BEGIN = 2
+_BEGIN = 3
 # Bytes of recorded steps after which a run is told to be too long.
 MOST_MEMORY = 2**30
 

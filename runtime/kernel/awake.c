@@ -43,11 +43,6 @@ void frot_list_all(const frot_model *m, frot_work *w) {
   frot_wake(w);
 }
 
-void frot_list_awake(const frot_model *m, frot_work *w, const double *asleep) {
-  fill(m, w, &w->awake.some, asleep);
-  w->awake.known = 0;
-}
-
 /* The lists in use: all, or those of a step. */
 static void use(frot_work *w, const frot_awake_lists *a) {
   w->awake.now = a;
@@ -57,10 +52,16 @@ static void use(frot_work *w, const frot_awake_lists *a) {
 
 void frot_wake(frot_work *w) { use(w, &w->awake.all); }
 
+void frot_sleep_as(const frot_model *m, frot_work *w, const double *asleep) {
+  fill(m, w, &w->awake.some, m->n_islands > 0 ? asleep : NULL);
+  w->awake.known = 0;
+  use(w, &w->awake.some);
+}
+
 void frot_let_sleep(const frot_model *m, const frot_state *s, frot_work *w) {
   if (s->asleep == 0) return;
   w->awake.filled = w->awake.known != s->asleep;
-  if (w->awake.filled) frot_list_awake(m, w, s->data + w->layout.asleep);
+  if (w->awake.filled) fill(m, w, &w->awake.some, s->data + w->layout.asleep);
   w->awake.known = s->asleep;
   use(w, &w->awake.some);
 }

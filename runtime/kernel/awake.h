@@ -29,8 +29,8 @@ int frot_note_still_at_start(const frot_model *m, frot_state *s, frot_work *w);
  * islands that stood still. Returns their number. */
 int frot_note_still(const frot_model *m, frot_state *s, frot_work *w, const double *x);
 
-/* List those awake in w->awake.some, where no step runs. */
-void frot_list_awake(const frot_model *m, frot_work *w, const double *asleep);
+/* Let those sleep that `asleep` (n_islands) says, where no step runs, until frot_wake. */
+void frot_sleep_as(const frot_model *m, frot_work *w, const double *asleep);
 
 /* Awake states from one vector of all to another; from packed ones (stages.h) into all; and back.
  * What sleeps is left as it is. */

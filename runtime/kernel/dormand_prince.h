@@ -11,6 +11,10 @@
 #define DP_ALL 16
 #define DP_DENSE 7  /* vectors F of the dense output, without the value at the start */
 #define DP_DEGREE 7 /* degree of the dense output */
+#define DP_INSIDE 9 /* stages of a step that the dense output is made of */
+
+/* Stages of the step that the last three and the dense output weigh. */
+static const int dp_inside[DP_INSIDE] = {0, 5, 6, 7, 8, 9, 10, 11, 12};
 
 /* Nodes. */
 static const double dp_c[16] = {

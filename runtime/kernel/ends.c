@@ -24,6 +24,7 @@ void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t
     int e = now->elements[i];
     for (int k = 0; k < 2 && m->elements[e].bound == FROT_BY_PIN; k++)
       w->guards.end_reaction[2 * e + k] = w->core.lam[m->elements[e].bounded_by[k]];
+    w->guards.end_friction[e] = w->core.lam[m->elements[e].row];
   }
   w->guards.end_kinetic = frot_kinetic(m, w, z + m->nq);
   if (frot_guards_read_loads(m, w, modes)) {
@@ -31,6 +32,14 @@ void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t
     frot_row_loads(m, s, w, t, z, z + m->nq, d);
   }
   frot_guards(m, s, w, z, z + m->nq, d, modes, w->step.z, w->guards.size);
+}
+
+void frot_keep_friction(frot_state *s, const frot_work *w) {
+  const frot_awake_lists *now = w->awake.now;
+  for (int i = 0; i < now->n_elements; i++) {
+    int e = now->elements[i];
+    s->data[w->layout.friction + e] = w->guards.end_friction[e];
+  }
 }
 
 void frot_note_sizes(frot_state *s, const frot_work *w, const double *z) {
@@ -74,6 +83,7 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
     memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
     frot_turn_references(m, s, w);
     frot_measure_end(m, s, w, t, w->step.z0);
+    frot_keep_friction(s, w);
     frot_note_sizes(s, w, w->step.z0);
     memcpy(frot_stage(w, 0) + w->awake.n, w->step.z, sizeof(double) * (size_t)w->guards.count);
   }

@@ -8,9 +8,13 @@
  * the guards. FROT_OK or a status that is not recorded as a fault. */
 int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t);
 
-/* Sizes of the guards' terms at (t, z) into w->guards.size, the pins' reactions into
- * w->guards.end_reaction, the kinetic energy; the last evaluation was there. */
+/* Sizes of the guards' terms at (t, z) into w->guards.size, the pins' reactions and
+ * friction into w->guards.end_reaction and end_friction, the kinetic energy; the last evaluation
+ * was there. */
 void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z);
+
+/* The friction measured there is that at the start of the next step. */
+void frot_keep_friction(frot_state *s, const frot_work *w);
 
 /* Note how large values and guards have been, after frot_measure_end at z. */
 void frot_note_sizes(frot_state *s, const frot_work *w, const double *z);

@@ -131,7 +131,7 @@ typedef struct frot_work frot_work;
 
 /* Where segments and events go, in memory of the caller. A segment takes frot_segment_size doubles
  * at most: one in which islands sleep refers to one before it for what stands still. Its first item
- * is its length, its third the time at which it begins. The first of each memory stands by itself.
+ * is its length, its fourth the time at which it begins. The first of each memory stands by itself.
  * With segments NULL only events are recorded. The events need room for frot_events_at_once. */
 typedef struct {
   double *segments;
@@ -183,7 +183,8 @@ int frot_advance(const frot_model *model, frot_state *state, frot_work *work, do
 /* Values of all variables at the time reached by frot_start or frot_advance. */
 int frot_values(const frot_model *model, frot_state *state, frot_work *work, double *values);
 
-/* Values at any time inside a recorded segment (parameters and inputs are those of `state`). */
+/* Values at any time inside a recorded segment (parameters and inputs are those of `state`, and are
+ * to be what they were in the run). */
 int frot_segment_values(const frot_model *model, frot_state *state, frot_work *work,
                         const double *segment, double t, double *values);
 /* The same at many times in order, over recorded segments in order, which take `size` doubles

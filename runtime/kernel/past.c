@@ -15,6 +15,19 @@ static int place_of(const double *at, int count, double t) {
   return count;
 }
 
+void frot_begin_friction(frot_work *w, double t, const double *friction) {
+  frot_reaction_work *r = &w->reactions;
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_groups; k++) {
+    int g = now->groups[k];
+    r->rate[g] = 0, r->instants[g] = 1, r->instant[FROT_INSTANTS * g] = t;
+  }
+  for (int k = 0; k < now->n_elements; k++) {
+    int e = now->elements[k];
+    r->noted[FROT_INSTANTS * e] = friction[e];
+  }
+}
+
 void frot_note_friction(const frot_problem *p) {
   frot_reaction_work *r = &p->w->reactions;
   int g = (int)(p->g - p->m->groups);

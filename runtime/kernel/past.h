@@ -4,6 +4,9 @@
 
 #include "problem.h"
 
+/* Stages begin, from the instant t with the friction (n_elements) there. */
+void frot_begin_friction(frot_work *w, double t, const double *friction);
+
 /* Note the friction w->core.lam of the followers of p->g at the instant of the evaluation.
  * w->reactions.instants says how many are known: 0 where a step begins. */
 void frot_note_friction(const frot_problem *p);

@@ -152,21 +152,22 @@ static void finish(const frot_problem *p, const double *whole, const double *loa
   }
 }
 
-/* The friction that values bound; of those that follow what it was in the stage before, or none.
- * Returns whether it was that. */
+/* The friction that values bound; of those that follow none, where it is not known at instants
+ * before. Returns whether it is. */
 static int begin(const frot_problem *p) {
   const frot_model *m = p->m;
   const frot_group *g = p->g;
   frot_work *w = p->w;
-  int warm = w->reactions.follow && w->reactions.warm;
-  if (!warm) w->reactions.rate[g - m->groups] = 0, w->reactions.instants[g - m->groups] = 0;
+  int warm = w->reactions.follow && w->reactions.warm,
+      *known = &w->reactions.instants[g - m->groups];
+  if (!w->reactions.follow) w->reactions.rate[g - m->groups] = 0, *known = 0;
   for (int i = 0; i < g->n_rows && !warm; i++) w->core.lam[g->rows[i]] = 0;
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
     if (m->elements[e].bound == FROT_BY_VALUE)
       w->core.lam[m->elements[e].row] = w->reactions.ratio[e];
   }
-  return warm;
+  return *known > 0;
 }
 
 /* What a pass leaves of a change is only seen by one more: a first pass that changes little, from
@@ -177,7 +178,7 @@ int frot_follow_in_turn(const frot_problem *p) {
   frot_work *w = p->w;
   double *load = w->core.column, *whole = w->core.rest, before = 0, some = INFINITY;
   double *rate = &w->reactions.rate[g - p->m->groups];
-  int warm = begin(p);
+  int known = begin(p);
   if (*rate >= 1) return 0; /* they have not settled in a stage before */
   int acting = list_followers(p);
   frot_foretell_friction(p);
@@ -187,11 +188,11 @@ int frot_follow_in_turn(const frot_problem *p) {
     frot_respond(w, g, whole);
     double changed = follow(p, whole, load, pass);
     if (isnan(changed)) return 0;
-    int far = pass == 1 && !warm; /* from none at all: only a beginning */
+    int far = pass == 1 && !known; /* from none at all: only a beginning */
     if (before > 0 && !far) *rate = changed / before;
-    int known = *rate > 0 || changed == 0, stays = before > 0 && changed > STAYS * before;
-    int done = known && changed * *rate <= ENOUGH * (1 - *rate);
-    if (done || (known && changed <= ROUNDED && stays)) {
+    int rated = *rate > 0 || changed == 0, stays = before > 0 && changed > STAYS * before;
+    int done = rated && changed * *rate <= ENOUGH * (1 - *rate);
+    if (done || (rated && changed <= ROUNDED && stays)) {
       *rate = fmin(*rate, STAYS);
       return finish(p, whole, load), 1;
     }

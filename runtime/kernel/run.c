@@ -98,6 +98,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   memset(s->data + l.noise, 0, sizeof(double) * (size_t)(m->nq + m->nv + l.ng));
   memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   memset(s->data + l.along, 0, sizeof(double) * 2 * (size_t)m->n_elements);
+  memset(s->data + l.friction, 0, sizeof(double) * (size_t)m->n_elements);
   memset(s->data + l.reach, 0, sizeof(double) * (size_t)m->n_contacts);
   memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.nf);
   s->due = INFINITY;
@@ -217,7 +218,7 @@ static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
 static int end_of_run(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
   if (recorder && recorder->segments && !s->ended_recorded) {
     if (!frot_has_room(m, w, recorder)) return FROT_FULL;
-    frot_record(m, s, w, recorder);
+    frot_record(m, s, w, recorder, FROT_VECTORS);
     s->ended_recorded = 1;
   }
   frot_tell(m, s, recorder);
@@ -233,7 +234,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
   }
   if (s->phase != FROT_RUNNING || !(t >= s->t)) return FROT_MISUSE;
   frot_bind_work(m, w);
-  w->step.looked = recorder && recorder->segments ? -INFINITY : t;
+  w->step.looked = t;
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   if (s->changed) {
@@ -265,14 +266,13 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
       if (status == FROT_TERMINATED) return end_of_run(m, s, w, recorder);
     }
     long long steps = s->statistics.steps;
-    if (status == FROT_OK) status = frot_step(m, s, w);
+    if (status == FROT_OK) status = frot_step(m, s, w, recorder);
     if (status != FROT_OK) {
       s->t = *g.t1;
       status = frot_name_vanished(m, s, w, status, w->step.z1);
       return frot_name_reach(m, s, w, status);
     }
     if (s->statistics.steps == steps) continue;
-    if (recorder && recorder->segments) frot_record(m, s, w, recorder);
     if (monitor && s->statistics.steps % MONITOR_EVERY == 0 && monitor(context, fmin(*g.t1, t))) {
       s->t = fmin(*g.t1, t);
       return FROT_STOPPED;

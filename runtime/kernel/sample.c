@@ -80,14 +80,16 @@ int frot_values(const frot_model *m, frot_state *s, frot_work *w, double *values
 int frot_segment_values(const frot_model *m, frot_state *s, frot_work *w, const double *segment,
                         double t, double *values) {
   frot_bind_work(m, w);
-  frot_segment g = frot_read_record(m, w, segment);
+  frot_segment g = frot_read_record(m, s, w, segment);
   return values_in(m, s, w, &g, t, values);
 }
 
 int frot_sample(const frot_model *m, frot_state *s, frot_work *w, const double *segments,
                 long long size, const double *times, long long count, double *values) {
-  const double *at = segments, *end_of_all = segments + size;
+  const double *at = segments, *end_of_all = segments + size, *held = NULL;
+  frot_segment g;
   if (size <= 0) return FROT_MISUSE;
+  frot_bind_work(m, w);
   for (long long i = 0; i < count; i++) {
     /* a segment begins with its first time */
     double end = times[i] + FROT_SAME_INSTANT(times[i]);
@@ -95,7 +97,8 @@ int frot_sample(const frot_model *m, frot_state *s, frot_work *w, const double *
          next < end_of_all && frot_record_begin(next) <= end; next += frot_record_length(next))
       at = next;
     double t = fmax(times[i], frot_record_begin(at));
-    int status = frot_segment_values(m, s, w, at, t, values + i * m->n_variables);
+    if (at != held) g = frot_read_record(m, s, w, at), held = at;
+    int status = values_in(m, s, w, &g, t, values + i * m->n_variables);
     if (status != FROT_OK) return frot_name_vanished_there(m, s, w, status, t);
   }
   return FROT_OK;

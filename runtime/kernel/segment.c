@@ -26,6 +26,7 @@ static void copy_modes(const frot_model *m, frot_state *s, const frot_layout *l,
                        const frot_segment *g) {
   memcpy(g->modes, s->data + l->modes, sizeof *g->modes * (size_t)(m->n_contacts + m->n_elements));
   memcpy(g->along, s->data + l->along, sizeof(double) * 2 * (size_t)m->n_elements);
+  memcpy(g->friction, s->data + l->friction, sizeof(double) * (size_t)m->n_elements);
   memcpy(g->d, s->data + l->d, sizeof(double) * (size_t)l->nd);
   memcpy(g->frozen, s->data + l->frozen, sizeof(double) * (size_t)m->nv);
 }
@@ -68,9 +69,11 @@ void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, doub
     const frot_group *group = &m->groups[now->groups[k]];
     for (int i = 0; i < group->n_rows; i++) g.spare[group->rows[i]] = spare[group->rows[i]];
   }
-  for (int i = 0; i < now->n_elements; i++)
-    memcpy(g.along + 2 * now->elements[i], s->data + w->layout.along + 2 * now->elements[i],
-           2 * sizeof(double));
+  for (int i = 0; i < now->n_elements; i++) {
+    int e = now->elements[i];
+    memcpy(g.along + 2 * e, s->data + w->layout.along + 2 * e, 2 * sizeof(double));
+    g.friction[e] = s->data[w->layout.friction + e];
+  }
   memcpy(g.y0, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
   memcpy(g.y1, w->step.y_end, sizeof(double) * (size_t)m->ny);
   frot_copy_awake(w, w->step.z0, g.x0);

@@ -2,10 +2,14 @@
 
 #include <string.h>
 
+#include "awake.h"
 #include "crossing.h"
 #include "implicit.h"
 #include "mechanics.h"
+#include "past.h"
 #include "projection.h"
+#include "segment.h"
+#include "spare.h"
 
 void frot_weigh_stages(const frot_work *w, const double *coefficient, int count, int from, int size,
                        double sum[FROT_CHUNK]) {
@@ -102,17 +106,24 @@ static int run_once(const frot_model *m, frot_state *s, frot_work *w, double t, 
   return FROT_OK;
 }
 
+/* Evaluations follow each other from the instant t on: where to begin to look for the directions of
+ * pins' reactions, and the friction there. */
+static void follow_from(frot_work *w, double t, const double *along, const double *friction) {
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_elements; k++) {
+    int at = 2 * now->elements[k];
+    memcpy(w->reactions.along + at, along + at, 2 * sizeof(double));
+  }
+  w->reactions.follow = 1, w->reactions.warm = 0;
+  frot_begin_friction(w, t, friction);
+}
+
 int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   w->reactions.jammed = -1;
   if (s->implicit) return frot_implicit_stages(m, s, w, t, h);
   int loops = frot_has_loops(m, s, w), reached = 0, status;
   memset(w->step.near, 0, DP_STAGES + 1);
-  const frot_awake_lists *now = w->awake.now;
-  for (int k = 0; k < now->n_elements; k++) {
-    int at = 2 * now->elements[k];
-    memcpy(w->reactions.along + at, s->data + w->layout.along + at, 2 * sizeof(double));
-  }
-  w->reactions.follow = 1, w->reactions.warm = 0;
+  follow_from(w, t, s->data + w->layout.along, s->data + w->layout.friction);
   memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)frot_width(w));
   for (int pass = 0;; pass++) {
     int measured = s->measured;
@@ -141,16 +152,46 @@ void frot_make_cubic(const frot_work *w, double h) {
     memset(w->step.f + i * nz, 0, sizeof(double) * (size_t)frot_width(w));
 }
 
+/* All vectors, with the last stages. */
+static void make_vectors(const frot_work *w, double h) {
+  frot_make_cubic(w, h);
+  for (int i = 0; i < 4; i++) weigh(w, dp_d[i], DP_ALL, h, 0, w->step.f + (3 + i) * w->layout.nz);
+}
+
 int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   if (s->implicit) return frot_implicit_dense(m, s, w, t, h);
-  int nz = w->layout.nz;
   memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
   for (int i = DP_STAGES + 1; i < DP_ALL; i++) {
     move(w, dp_a[i], i, h, w->step.z);
     int status = evaluate(m, s, w, t + dp_c[i] * h, w->step.z, i);
     if (status != FROT_OK) return status;
   }
-  frot_make_cubic(w, h);
-  for (int i = 0; i < 4; i++) weigh(w, dp_d[i], DP_ALL, h, 0, w->step.f + (3 + i) * nz);
+  make_vectors(w, h);
   return FROT_OK;
+}
+
+/* The slopes of the last stages, in the modes of the segment. */
+static int run_last(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g) {
+  double *z = w->step.z;
+  for (int i = DP_STAGES + 1; i < DP_ALL; i++) {
+    double t = *g->t0 + dp_c[i] * *g->h;
+    move(w, dp_a[i], i, *g->h, z);
+    int status = frot_derivatives(m, s, w, t, z, g->d, g->modes, g->frozen, frot_stage(w, i));
+    if (status != FROT_OK) return status;
+  }
+  return FROT_OK;
+}
+
+void frot_look_inside(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g) {
+  int implicit = s->implicit, guards = w->guards.count;
+  long long evaluations = s->statistics.evaluations;
+  s->implicit = w->guards.count = 0;
+  follow_from(w, *g->t0, g->along, g->friction);
+  frot_follow_spare(m, w, g->spare);
+  frot_make_cubic(w, *g->h);
+  if (run_last(m, s, w, g) == FROT_OK) make_vectors(w, *g->h);
+  frot_keep_dense(w, g);
+  frot_see_anew(w);
+  w->reactions.follow = 0;
+  s->implicit = implicit, w->guards.count = guards, s->statistics.evaluations = evaluations;
 }

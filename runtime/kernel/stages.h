@@ -38,4 +38,11 @@ int frot_has_jammed(const frot_state *s, frot_work *w);
 int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 void frot_make_cubic(const frot_work *w, double h);
 
+/* The same of a step inside which nothing is decided, after it: the vectors of the segment g from
+ * the ends z0 and z1 and the stages dp_inside that are in the scratch memory. Looking on is no part
+ * of the run: neither these evaluations are counted nor does the motion depend on them. Next to a
+ * place beyond which there is no motion they may lie beyond that: then the cubic has to do, which
+ * is as short there as its ends are near. */
+void frot_look_inside(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g);
+
 #endif

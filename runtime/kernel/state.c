@@ -15,7 +15,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.nf = m->n_contacts + 2 * m->n_elements + m->n_conditions;
   l.nz = l.nx + l.ng;
   l.nd = m->n_conditions + m->n_contacts + m->n_discrete;
-  l.ns = 3 + m->n_contacts + 3 * m->n_elements + l.nd + m->nv + m->n_rows + 2 * m->ny + l.nx +
+  l.ns = 3 + m->n_contacts + 4 * m->n_elements + l.nd + m->nv + m->n_rows + 2 * m->ny + l.nx +
          DP_DENSE * l.nx;
   l.early = 0;
   for (int i = 0; i < m->n_blocks; i++)
@@ -37,6 +37,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.worth = at, at += m->nq;
   l.noise = at, at += m->nq + m->nv + l.ng;
   l.along = at, at += 2 * m->n_elements;
+  l.friction = at, at += m->n_elements;
   l.reach = at, at += m->n_contacts;
   l.asleep = at, at += m->n_islands;
   l.fired = at, at += l.nf;
@@ -62,7 +63,8 @@ size_t frot_state_size(const frot_model *model) {
 }
 
 long long frot_segment_size(const frot_model *model) {
-  return FROT_RECORD_HEAD + frot_layout_of(model).ns + model->n_islands;
+  frot_layout l = frot_layout_of(model);
+  return FROT_RECORD_HEAD + model->n_islands + l.ns + (DP_INSIDE + 1 - DP_DENSE) * l.nx;
 }
 
 frot_segment frot_segment_at(const frot_model *m, double *data) {
@@ -74,6 +76,7 @@ frot_segment frot_segment_at(const frot_model *m, double *data) {
   s.frozen = data, data += m->nv;
   s.spare = data, data += m->n_rows;
   s.along = data, data += 2 * m->n_elements;
+  s.friction = data, data += m->n_elements;
   s.y0 = data, data += m->ny;
   s.y1 = data, data += m->ny;
   s.x0 = data, data += m->nq + m->nv + FROT_QUADRATURES;

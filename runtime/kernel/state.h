@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 19
+#define FROT_LAYOUT_VERSION 20
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -32,8 +32,8 @@ typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, experiment, nominal, unilateral, x, y, slope, scale_x, scale_g, worth,
-      noise, along, reach, asleep, fired, several, due, left, vanished, spare, sign, posture, asked,
-      fresh, modes, d, frozen, segment, size;
+      noise, along, friction, reach, asleep, fired, several, due, left, vanished, spare, sign,
+      posture, asked, fresh, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -105,16 +105,17 @@ typedef struct {
   double *t0, *t1, *h;
   frot_contact_mode *modes;
   double *d, *frozen;
-  double *spare;   /* n_rows: left to others inside it, none at an instant: spare.h */
-  double *along;   /* 2 n_elements: where to begin to look for the directions of pins' reactions */
-  double *y0, *y1; /* unknowns of the blocks at its ends */
-  double *x0;      /* nx: q, v, quadratures */
-  double *f;       /* DP_DENSE x nx */
+  double *spare;    /* n_rows: left to others inside it, none at an instant: spare.h */
+  double *along;    /* 2 n_elements: where to begin to look for the directions of pins' reactions */
+  double *friction; /* n_elements: at its start */
+  double *y0, *y1;  /* unknowns of the blocks at its ends */
+  double *x0;       /* nx: q, v, quadratures */
+  double *f;        /* DP_DENSE x nx */
 } frot_segment;
 
-/* A recorded segment begins with its length and how far before it, in doubles, one stands by itself
- * that holds what it lacks: 0 where it does so itself. */
-#define FROT_RECORD_HEAD 2
+/* A recorded segment begins with its length, how far before it, in doubles, one stands by itself
+ * that holds what it lacks: 0 where it does so itself, and what it tells of its inside: tape.h. */
+#define FROT_RECORD_HEAD 3
 
 /* Times that differ by less are one instant: both are sums, rounded in different ways. */
 #define FROT_SAME_INSTANT(t) (4 * DBL_EPSILON * fabs(t))

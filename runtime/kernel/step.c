@@ -24,6 +24,7 @@
 #include "spare.h"
 #include "stages.h"
 #include "stiffness.h"
+#include "tape.h"
 #include "tolerances.h"
 
 /* What is left of the measure of rounding a step later, and steps that their error limits after
@@ -86,39 +87,22 @@ static void forget_noise(const frot_model *m, frot_state *s, const frot_work *w)
     guards[frot_condition_guard(m) + now->located[k]] *= FORGET;
 }
 
-/* Make the dense output of the step that was kept, if it is not there and somebody looks inside it.
- * Nothing is decided by it, so that the motion does not depend on who looks: next to a place beyond
- * which there is no motion its stages may lie beyond that, and the cubic of the step has to do,
- * which is as short there as its ends are near. */
-static void show(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a) {
+/* Record the step that was kept, and make its dense output, if it is not there and somebody looks
+ * inside the step. Nothing is decided by that, so that the motion does not depend on who looks. */
+static void show(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a,
+                 frot_recorder *recorder) {
   frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
-  if (a->dense || *g.t1 <= w->step.looked) return;
-  if (frot_make_dense(m, s, w, a->t, a->h) == FROT_OK) frot_keep_dense(w, &g);
+  if (recorder && recorder->segments)
+    frot_record(m, s, w, recorder, a->dense ? FROT_VECTORS : FROT_INSIDE);
+  if (!a->dense && *g.t1 > w->step.looked) frot_look_inside(m, s, w, &g);
 }
 
-/* Take the step: it becomes the current segment. Its end goes onto the relations; the slope there
- * serves the next step if nothing moved. */
-static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a,
-                int guard) {
+/* The step that was kept ends at x: put that onto the relations; the slope there serves the next
+ * step if nothing moved. */
+static int land(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a, double end,
+                double *x) {
   const frot_layout *l = &w->layout;
-  double *x = s->data + l->x, *slope = s->data + l->slope;
-  double end = a->to_due ? s->due : a->t + (a->h + a->beyond);
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
-  s->statistics.steps++;
-  s->statistics.implicit_steps += s->implicit, s->was_implicit = s->implicit;
-  memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
-  frot_note_sizes(s, w, w->step.z1);
-  frot_note_worth(s, w, w->step.z1);
-  if (guard >= 0) s->last_ratio = 0;
-  if (guard >= 0) frot_fire_guards(m, s, w, guard, a->t, a->h);
-  if (a->to_due) frot_fire_due(m, s);
-  forget_noise(m, s, w);
-  frot_keep_step(m, s, w, a->t, a->h, end);
-  frot_copy_awake(w, w->step.z1, x);
-  frot_unpack(w, frot_stage(w, DP_STAGES), slope);
-  memcpy(slope + l->nx, frot_stage(w, DP_STAGES) + w->awake.n,
-         sizeof(double) * (size_t)w->guards.count);
-  memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   int moved = 0, lost = frot_lost_row(m, s, w, a->t, a->h);
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   int status = s->weak && w->step.near[DP_STAGES]
@@ -130,11 +114,38 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   frot_take_nearer(m, s, w);
   s->has_slope = !moved && !s->pending && !s->spare_loops && w->nearer.count == 0;
-  if (s->has_slope) frot_turn_at_end(m, s, w, slope);
+  if (s->has_slope) frot_turn_at_end(m, s, w, s->data + l->slope);
   if (!s->implicit) frot_keep_crossings(m, s, w, a->t, a->h);
   if (!s->pending && !s->implicit && frot_note_still(m, s, w, x))
     s->has_slope = 0; /* other guards are listed */
-  show(m, s, w, a);
+  return FROT_OK;
+}
+
+/* Take the step: it becomes the current segment. */
+static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a, int guard,
+                frot_recorder *recorder) {
+  const frot_layout *l = &w->layout;
+  double *x = s->data + l->x, *slope = s->data + l->slope;
+  double end = a->to_due ? s->due : a->t + (a->h + a->beyond);
+  s->statistics.steps++;
+  s->statistics.implicit_steps += s->implicit, s->was_implicit = s->implicit;
+  memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
+  frot_note_sizes(s, w, w->step.z1);
+  frot_note_worth(s, w, w->step.z1);
+  if (guard >= 0) s->last_ratio = 0;
+  if (guard >= 0) frot_fire_guards(m, s, w, guard, a->t, a->h);
+  if (a->to_due) frot_fire_due(m, s);
+  forget_noise(m, s, w);
+  frot_keep_step(m, s, w, a->t, a->h, end);
+  frot_keep_friction(s, w);
+  frot_copy_awake(w, w->step.z1, x);
+  frot_unpack(w, frot_stage(w, DP_STAGES), slope);
+  memcpy(slope + l->nx, frot_stage(w, DP_STAGES) + w->awake.n,
+         sizeof(double) * (size_t)w->guards.count);
+  memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
+  int status = land(m, s, w, a, end, x);
+  show(m, s, w, a, recorder);
+  if (status != FROT_OK) return status;
   frot_choose_next(m, s, a->stiff);
   if (s->implicit) frot_wake_within_step(m, s, w);
   if (end > s->crowded_since + CROWDED * s->h_max) {
@@ -170,7 +181,8 @@ static int cut_where_nearer(const frot_model *m, frot_state *s, frot_work *w, fr
 }
 
 /* Find the step's length and its end, and take it. */
-static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
+static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
+                frot_recorder *recorder) {
   int guard, status = frot_find_length(m, s, w, a);
   w->nearer.count = 0;
   if (status != FROT_OK || s->pending) return status;
@@ -183,7 +195,7 @@ static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
   }
   if (status == FROT_OK) status = cut_where_nearer(m, s, w, a, &guard);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, a->t, a->h);
-  return s->pending ? FROT_OK : keep(m, s, w, a, guard);
+  return s->pending ? FROT_OK : keep(m, s, w, a, guard, recorder);
 }
 
 /* An error that is rounding grows with the step, not with its ninth power: it may keep steps short
@@ -195,7 +207,7 @@ static void look_at_noise(const frot_model *m, frot_state *s, frot_work *w, cons
   frot_measure_noise(m, s, w, a->t + a->h);
 }
 
-static int step(const frot_model *m, frot_state *s, frot_work *w) {
+static int step(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
   frot_attempt a = frot_attempt_from(*frot_segment_at(m, s->data + w->layout.segment).t1);
   if (s->due <= a.t) {
     frot_fire_due(m, s);
@@ -205,16 +217,16 @@ static int step(const frot_model *m, frot_state *s, frot_work *w) {
   if (status == FROT_NAN && go_explicitly(m, s))
     status = frot_begin_step(m, s, w, &a); /* no Jacobian */
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, a.t, 0);
-  status = take(m, s, w, &a);
+  status = take(m, s, w, &a, recorder);
   if (status == FROT_OK && !s->pending) look_at_noise(m, s, w, &a);
   frot_see_anew(w);
   w->reactions.follow = 0;
   return status;
 }
 
-int frot_step(const frot_model *m, frot_state *s, frot_work *w) {
+int frot_step(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
   frot_let_sleep(m, s, w);
-  int status = step(m, s, w);
+  int status = step(m, s, w, recorder);
   frot_wake(w);
   return status;
 }

@@ -9,9 +9,9 @@
 #include "work.h"
 
 /* Advance from the end of the current segment by one step in the current modes, to the next event
- * at most. Replaces the current segment; s->pending says that an event waits at its end (or, when
- * no progress was possible, at its start: then the segment is left as it is). Returns FROT_OK or
- * the status of the fault recorded. */
-int frot_step(const frot_model *m, frot_state *s, frot_work *w);
+ * at most. Replaces the current segment, into the recorder too, if there is one that has room;
+ * s->pending says that an event waits at its end (or, when no progress was possible, at its start:
+ * then the segment is left as it is). Returns FROT_OK or the status of the fault recorded. */
+int frot_step(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder);
 
 #endif

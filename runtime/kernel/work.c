@@ -233,6 +233,7 @@ static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, a
   frot_step_work *p = &w->step;
   TAKE(w->guards.list, l->ng), TAKE(w->guards.size, l->ng), TAKE(w->guards.motion, m->n_groups);
   TAKE(w->guards.end_reaction, 2 * m->n_elements);
+  TAKE(w->guards.end_friction, m->n_elements);
   TAKE(p->k, DP_ALL * l->nz), TAKE(p->first, l->nz), TAKE(p->doubt, l->nz),
       TAKE(p->excused, 2 * m->nv), TAKE(p->z0, l->nz), TAKE(p->z1, l->nz), TAKE(p->z, l->nz);
   TAKE(p->y_end, m->ny), TAKE(p->f, DP_DENSE * l->nz), TAKE(p->parameters, m->np);
@@ -298,7 +299,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   TAKE(w->nearer.flags, m->n_conditions), TAKE(w->nearer.kept, m->n_conditions);
   TAKE(w->nearer.changed, m->n_contacts);
   TAKE(w->pace, 4 * m->n_paced);
-  TAKE(w->tape, m->n_islands > 0 ? l.ns : 0);
+  TAKE(w->tape, l.ns);
   TAKE(w->stood, m->n_contacts + m->n_rows + 2 * (FROT_PLACE * m->n_carried + m->n_invariants));
   return held.used;
 }

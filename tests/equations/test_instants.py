@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+from records import HEAD, records
 
 import frot
 
@@ -66,7 +67,7 @@ WHENS = {
 
 def times_of_change(result: frot.Result, name: str) -> list[float]:
     """The ends of the steps at which a value that jumps has another value than before."""
-    starts = np.frombuffer(result._record).reshape(-1, result._engine.segment_size)[:, 2]
+    starts = np.array([segment[HEAD] for segment in records(result._record)])
     values = result.at(np.unique(np.clip(starts, 0, result.time[-1])))[name]
     at = np.unique(starts)[1:][np.diff(values) != 0]
     return list(at)

@@ -7,6 +7,7 @@ import math
 import casadi as ca
 import numpy as np
 import pytest
+from records import HEAD, records
 from scipy.special import ellipj, ellipk
 from small_models import NONE, Block, Small, column
 
@@ -48,15 +49,12 @@ def test_its_length_stays_over_a_thousand_periods(run) -> None:
     result = run(pendulum_in_x_y(), stop=1000 * period, tolerance=1e-8, interval=period / 3.7)
     ends = np.hypot(result["x"], result["y"])
     assert np.abs(ends / 1.3 - 1).max() < 1e-6  # inside the steps: their dense output
-    segments = np.frombuffer(result._record).reshape(-1, result._engine.segment_size)
-    x, y = segments[:, _first(result)], segments[:, _first(result) + 1]
+    segments = records(result._record)
+    assert len(segments) == result.figures.steps
+    first = HEAD + 3 + 2  # q begins after three times and the speeds held
+    x, y = np.array([segment[first : first + 2] for segment in segments]).T
     assert np.abs(np.hypot(x, y) / 1.3 - 1).max() < 1e-12
     assert result.balance.relative < 1e-5
-
-
-def _first(result) -> int:
-    """Where q begins in its segments: after two of the record, three times, the speeds held."""
-    return 2 + 3 + 2
 
 
 def test_plain_states_need_no_speeds(run) -> None:

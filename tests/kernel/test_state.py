@@ -35,8 +35,8 @@ def run_unseen(engine: Engine, t: float) -> None:
 
 @pytest.mark.parametrize("name", STOPS)
 def test_the_motion_does_not_depend_on_who_looks(programs: dict[str, Program], name: str) -> None:
-    """Three evaluations make the dense output of a step: where nobody looks and nothing can fall
-    they are spared."""
+    """Three evaluations make the dense output of a step: where nothing can fall they are made only
+    where somebody looks, and are no part of the run."""
     seen, unseen = started(programs[name]), started(programs[name])
     expected = seen.advance(STOPS[name]).segments
     run_unseen(unseen, STOPS[name] / 2)
@@ -44,8 +44,7 @@ def test_the_motion_does_not_depend_on_who_looks(programs: dict[str, Program], n
     found = unseen.advance(STOPS[name]).segments
     assert len(found) > 0
     assert np.array_equal(found.view(np.uint64), expected[-len(found) :].view(np.uint64))
-    spared = seen.statistics.evaluations - unseen.statistics.evaluations
-    assert spared > 0 and spared % 3 == 0
+    assert seen.statistics.evaluations == unseen.statistics.evaluations
 
 
 @pytest.mark.parametrize("name", STOPS)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from frot.runtime.engine import OK, Engine
+from records import records
 
 import frot
 
@@ -91,14 +92,9 @@ def test_what_sleeps_is_not_evaluated(six: frot.Model) -> None:
     engine = started(six)
     whole = engine.advance(3.0)
     steps = engine.statistics.steps
-    short, long = 0, 0
-    at = 0
-    while at < len(whole.segments):
-        length = int(whole.segments[at])
-        short, long = (short + 1, long) if length < engine.segment_size / 2 else (short, long + 1)
-        at += length
-    assert short + long == steps
-    assert long == 1
+    lengths = [len(segment) for segment in records(whole.segments)]
+    assert len(lengths) == steps
+    assert sum(length > engine.segment_size / 2 for length in lengths) == 1
 
 
 def test_a_load_from_outside_wakes(six: frot.Model) -> None:
