@@ -6,6 +6,7 @@
 
 #include "core.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "guards.h"
 #include "options.h"
 #include "reactions.h"

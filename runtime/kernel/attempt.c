@@ -120,10 +120,9 @@ static void see_noise(frot_state *s, frot_attempt *a) {
   a->tried_h = a->ratio > 0 && a->ratio < 1e300 ? a->h : 0, a->tried_ratio = a->ratio;
 }
 
-/* Whether the step is followed inside, though nobody looks: where a guard may fall, or what is
- * evaluated there depends on more than the step. */
+/* Whether the step is followed inside, though nobody looks: where a guard may fall too. */
 static int needs_dense(const frot_model *m, const frot_state *s, const frot_work *w) {
-  return s->implicit || s->tied > 0 || s->weak || m->ny > 0 || frot_may_fall(s, w, rests(w));
+  return frot_needs_inside(m, s) || frot_may_fall(s, w, rests(w));
 }
 
 /* Try the step once: FROT_OK if it is good, with its dense output if it needs that; then s->h is

@@ -23,7 +23,8 @@ typedef struct {
   int guard,
       looks; /* the guard that falls first, or -1, at theta; looks at one that seems to dip */
   double theta;
-  int dense; /* whether its dense output is made: step.c */
+  int dense;   /* whether its dense output is made: step.c */
+  int refined; /* whether its end has gone on from that of its stages: locate.h */
 } frot_attempt;
 
 /* An attempt that begins at t. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "linear.h"
+#include "orthogonal.h"
 #include "mechanics.h"
 #include "tolerances.h"
 

@@ -15,6 +15,7 @@
 #include "inertia.h"
 #include "islands.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "problem.h"
 #include "tolerances.h"
 

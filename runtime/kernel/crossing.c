@@ -7,6 +7,7 @@
 #include "groups.h"
 #include "inertia.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "reactions.h"
 #include "spare.h"
 #include "stages.h"

@@ -6,6 +6,7 @@
 
 #include "closest.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "nearest.h"
 #include "tolerances.h"
 

@@ -5,6 +5,7 @@
 
 #include "core.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "projection.h"
 #include "tolerances.h"
 

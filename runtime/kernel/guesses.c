@@ -9,6 +9,7 @@
 #include "damped.h"
 #include "elsewhere.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "nearest.h"
 #include "parts.h"
 #include "tolerances.h"

@@ -9,6 +9,7 @@
 
 #include "core.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "problem.h"
 #include "reactions.h"
 #include "spare.h"

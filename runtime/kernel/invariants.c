@@ -6,6 +6,7 @@
 
 #include "core.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "projection.h"
 #include "terms.h"
 #include "tolerances.h"

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "core.h"
-#include "linear.h"
+#include "orthogonal.h"
 #include "problem.h"
 #include "tolerances.h"
 

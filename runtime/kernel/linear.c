@@ -6,11 +6,6 @@
 
 #include "tolerances.h"
 
-/* Part of its length that is left of a vector at least where what was taken from it need not be
- * taken again: it is then orthogonal to ten units of rounding (J. Daniel, W. Gragg, L. Kaufman,
- * G. Stewart, Math. Comp. 30, 1976, p. 772). */
-#define KEPT 0.1
-
 #define AT(a, ld, i, j) ((a)[(size_t)(j) * (size_t)(ld) + (size_t)(i)])
 
 double frot_dot(const double *a, const double *b, int n) {
@@ -22,6 +17,19 @@ double frot_dot(const double *a, const double *b, int n) {
   }
   for (; i < n; i++) w += a[i] * b[i];
   return (w + x) + (y + z);
+}
+
+/* x (n) times a factor, and less a column times one: two items at a time, as a register holds. */
+static inline void scale_by(double *x, double factor, int n) {
+  int i = 0;
+  for (; i + 2 <= n; i += 2) x[i] *= factor, x[i + 1] *= factor;
+  if (i < n) x[i] *= factor;
+}
+
+static inline void take_one(double *restrict x, const double *column, double p, int n) {
+  int i = 0;
+  for (; i + 2 <= n; i += 2) x[i] -= column[i] * p, x[i + 1] -= column[i + 1] * p;
+  if (i < n) x[i] -= column[i] * p;
 }
 
 /* x (n) less one column times p, then less the next one, which is `ld` on, times q: as much as
@@ -45,11 +53,10 @@ int frot_cholesky(double *a, int n) {
     for (; k + 2 <= j; k += 2, before += 2 * n)
       if (before[0] != 0 || before[n] != 0)
         take_two(column + j, before, n, before[0], before[n], n - j);
-    for (double factor = before[0]; k < j && factor != 0; k++)
-      for (int i = 0; i < n - j; i++) column[j + i] -= before[i] * factor;
+    if (k < j && before[0] != 0) take_one(column + j, before, before[0], n - j);
     if (!(column[j] > n * DBL_EPSILON * whole)) return 1;
-    double share = 1 / (column[j] = sqrt(column[j]));
-    for (int i = j + 1; i < n; i++) column[i] *= share;
+    column[j] = sqrt(column[j]);
+    scale_by(column + j + 1, 1 / column[j], n - j - 1);
   }
   return 0;
 }
@@ -57,8 +64,7 @@ int frot_cholesky(double *a, int n) {
 void frot_forward(const double *l, int n, int m, double *x) {
   for (int k = 0; k < m; k++, l += n) {
     double value = x[k] /= l[k];
-    if (value == 0) continue;
-    for (int i = k + 1; i < m; i++) x[i] -= l[i] * value;
+    if (value != 0) take_one(x + k + 1, l + k + 1, value, m - k - 1);
   }
 }
 
@@ -108,14 +114,22 @@ void frot_dot_fours(const double *a, const double *b, int n,
 void frot_add_columns(const double *columns, int ld, const double *factor, int count, int n,
                       double *sum) {
   int i = 0;
-  for (; i + 4 <= n; i += 4) { /* as many sums as there is room for in registers */
+  for (; i + 8 <= n; i += 8) { /* as many sums as there is room for in registers */
     const double *x = columns + i;
-    double a = 0, b = 0, c = 0, d = 0;
+    double a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0;
     for (int k = 0; k < count; k++, x += ld) {
       const double by = factor[k];
       a += by * x[0], b += by * x[1], c += by * x[2], d += by * x[3];
+      e += by * x[4], f += by * x[5], g += by * x[6], h += by * x[7];
     }
     sum[i] = a, sum[i + 1] = b, sum[i + 2] = c, sum[i + 3] = d;
+    sum[i + 4] = e, sum[i + 5] = f, sum[i + 6] = g, sum[i + 7] = h;
+  }
+  for (; i + 2 <= n; i += 2) {
+    const double *x = columns + i;
+    double a = 0, b = 0;
+    for (int k = 0; k < count; k++, x += ld) a += factor[k] * x[0], b += factor[k] * x[1];
+    sum[i] = a, sum[i + 1] = b;
   }
   for (; i < n; i++) {
     const double *x = columns + i;
@@ -163,50 +177,6 @@ void frot_backward_by(const double *l, const double *share, int n, double *x) {
   x[0] = first * share[0];
 }
 
-/* Whether none of four numbers is anything. */
-static inline int nothing(const double *x) {
-  return (fabs(x[0]) + fabs(x[1])) + (fabs(x[2]) + fabs(x[3])) == 0;
-}
-
-void frot_support(const double *x, int n, int *first, int *end) {
-  int from = 0, to = n;
-  while (from + 4 <= n && nothing(x + from)) from += 4;
-  while (to - 4 >= from && nothing(x + to - 4)) to -= 4;
-  while (from < n && x[from] == 0) from++;
-  while (to > from && x[to - 1] == 0) to--;
-  *first = from, *end = to;
-}
-
-void frot_find_places(const double *x, int n, frot_places *places) {
-  int count = 0;
-  frot_support(x, n, &places->first, &places->end);
-  for (int k = places->first; k < places->end && count <= FROT_FEW; k++) {
-    if (x[k] == 0) continue;
-    if (count < FROT_FEW) places->place[count] = k;
-    count++;
-  }
-  places->count = count <= FROT_FEW && 2 * count < places->end - places->first ? count : -1;
-}
-
-double frot_reject(double *x, const double *basis, int columns, int n, double *parts) {
-  double own = sqrt(frot_dot(x, x, n)), rest = own;
-  frot_places places;
-  for (int c = 0; c < columns; c++) parts[c] = 0;
-  frot_find_places(x, n, &places);
-  for (int pass = 0; pass < 2; pass++) {
-    for (int c = 0; c < columns; c++) {
-      const double *with = basis + n * c;
-      double part = frot_dot_at(&places, x, with);
-      if (part == 0) continue;
-      for (int k = 0; k < n; k++) x[k] -= part * with[k];
-      parts[c] += part, places = (frot_places){.first = 0, .end = n, .count = -1};
-    }
-    rest = sqrt(frot_dot(x, x, n));
-    if (rest > KEPT * own) break;
-  }
-  return rest;
-}
-
 int frot_lu_solve(double *a, double *b, int n, int *pivot, int *sign) {
   double largest = 0;
   *sign = 1;
@@ -233,7 +203,7 @@ int frot_lu_solve(double *a, double *b, int n, int *pivot, int *sign) {
     for (int j = k + 1; j < n && end > k + 1; j++) {
       double *other = a + (size_t)j * (size_t)n, factor = other[k];
       if (factor == 0) continue;
-      for (int i = k + 1; i < end; i++) other[i] -= column[i] * factor;
+      take_one(other + k + 1, column + k + 1, factor, end - k - 1);
     }
   }
   frot_lu_again(a, b, n, pivot);
@@ -247,11 +217,11 @@ void frot_lu_again(const double *a, double *b, int n, const int *pivot) {
   }
   for (int k = 0; k < n; k++) {
     const double *column = a + (size_t)k * (size_t)n, value = b[k];
-    for (int i = k + 1; i < n; i++) b[i] -= column[i] * value;
+    take_one(b + k + 1, column + k + 1, value, n - k - 1);
   }
   for (int k = n - 1; k >= 0; k--) {
     const double *column = a + (size_t)k * (size_t)n, value = b[k] /= column[k];
-    for (int i = 0; i < k; i++) b[i] -= column[i] * value;
+    take_one(b, column, value, k);
   }
 }
 
@@ -318,115 +288,4 @@ void frot_lu_apply(const double *a, int n, const int *pivot, const double *scale
     for (int i = 0; i < k; i++) x[i] -= AT(a, n, i, k) * x[k];
   }
   for (int j = 0; j < n; j++) x[j] *= scale[n + j];
-}
-
-/* Householder vector of x (n), stored over x with its first entry beta apart: (I - 2 v v'/v'v) x
- * = (beta, 0, ...). Returns beta; `scale` is 2/v'v, 0 when nothing is to be done. */
-static double reflect(double *x, int n, double *scale) {
-  double norm = sqrt(frot_dot(x, x, n));
-  if (norm == 0) {
-    *scale = 0;
-    return 0;
-  }
-  double beta = x[0] > 0 ? -norm : norm;
-  x[0] -= beta;
-  *scale = -1 / (beta * x[0]);
-  return beta;
-}
-
-void frot_take_row(double *rows, int n, int size, int k, int best) {
-  double *x = rows + size * k, *by = rows + size * best, length = sqrt(frot_dot(by, by, size));
-  for (int j = 0; j < size; j++) {
-    double own = by[j];
-    by[j] = x[j], x[j] = length > 0 ? own / length : 0;
-  }
-  for (int i = k + 1; i < n; i++) {
-    double *other = rows + size * i, part = frot_dot(other, x, size);
-    for (int j = 0; j < size; j++) other[j] -= part * x[j];
-  }
-}
-
-int frot_least_norm(double *a, double *b, int m, int n, double least, double *x, double *work,
-                    int *pivot) {
-  double *scale = work, *diagonal = work + n, *row_scale = work + 2 * n, *y = work + 3 * n;
-  double *kept = work + 4 * n; /* b rotated */
-  int steps = m < n ? m : n, rank = 0;
-  for (int j = 0; j < n; j++) pivot[j] = j;
-  double first = 0;
-  for (int k = 0; k < steps; k++) {
-    int best = k;
-    double best_norm = -1;
-    for (int j = k; j < n; j++) {
-      double norm = 0;
-      for (int i = k; i < m; i++) norm += AT(a, m, i, j) * AT(a, m, i, j);
-      if (norm > best_norm) best_norm = norm, best = j;
-    }
-    if (k == 0) first = sqrt(best_norm);
-    if (!(sqrt(best_norm) > least * first) || first == 0) break;
-    if (best != k) {
-      for (int i = 0; i < m; i++) {
-        double t = AT(a, m, i, k);
-        AT(a, m, i, k) = AT(a, m, i, best);
-        AT(a, m, i, best) = t;
-      }
-      int t = pivot[k];
-      pivot[k] = pivot[best];
-      pivot[best] = t;
-    }
-    diagonal[k] = reflect(&AT(a, m, k, k), m - k, &scale[k]);
-    for (int j = k + 1; j < n; j++) {
-      double f = scale[k] * frot_dot(&AT(a, m, k, k), &AT(a, m, k, j), m - k);
-      for (int i = k; i < m; i++) AT(a, m, i, j) -= f * AT(a, m, i, k);
-    }
-    double f = scale[k] * frot_dot(&AT(a, m, k, k), b + k, m - k);
-    for (int i = k; i < m; i++) b[i] -= f * AT(a, m, i, k);
-    rank++;
-  }
-  /* R = (T S): reduce the trapezoid rank x n to a triangle from the right, last row first. The row
-   * k holds diagonal[k] at k and AT(a, k, j) right of it. */
-  for (int i = 0; i < m; i++) kept[i] = b[i];
-  if (rank < n) {
-    double *t = kept + m; /* rank x n trapezoid, by rows */
-    for (int k = 0; k < rank; k++)
-      for (int j = 0; j < n; j++)
-        t[k * n + j] = j < k ? 0 : (j == k ? diagonal[k] : AT(a, m, k, j));
-    for (int k = rank - 1; k >= 0; k--) {
-      /* reflector on entries k and rank..n-1 of row k */
-      double norm2 = t[k * n + k] * t[k * n + k];
-      for (int j = rank; j < n; j++) norm2 += t[k * n + j] * t[k * n + j];
-      double norm = sqrt(norm2), beta = t[k * n + k] > 0 ? -norm : norm;
-      double head = t[k * n + k] - beta;
-      row_scale[k] = head == 0 ? 0 : -1 / (beta * head);
-      for (int r = 0; r < k; r++) {
-        double f = head * t[r * n + k];
-        for (int j = rank; j < n; j++) f += t[k * n + j] * t[r * n + j];
-        f *= row_scale[k];
-        t[r * n + k] -= f * head;
-        for (int j = rank; j < n; j++) t[r * n + j] -= f * t[k * n + j];
-      }
-      t[k * n + k] = beta;
-      scale[k] = head;
-    }
-    for (int k = rank - 1; k >= 0; k--) {
-      double sum = kept[k];
-      for (int j = k + 1; j < rank; j++) sum -= t[k * n + j] * y[j];
-      y[k] = sum / t[k * n + k];
-    }
-    for (int j = rank; j < n; j++) y[j] = 0;
-    for (int k = 0; k < rank; k++) {
-      double f = scale[k] * y[k];
-      for (int j = rank; j < n; j++) f += t[k * n + j] * y[j];
-      f *= row_scale[k];
-      y[k] -= f * scale[k];
-      for (int j = rank; j < n; j++) y[j] -= f * t[k * n + j];
-    }
-  } else {
-    for (int k = rank - 1; k >= 0; k--) {
-      double sum = kept[k];
-      for (int j = k + 1; j < n; j++) sum -= AT(a, m, k, j) * y[j];
-      y[k] = sum / diagonal[k];
-    }
-  }
-  for (int j = 0; j < n; j++) x[pivot[j]] = y[j];
-  return rank;
 }

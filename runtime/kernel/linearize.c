@@ -6,6 +6,7 @@
 #include "core.h"
 #include "inertia.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "mechanics.h"
 #include "reactions.h"
 #include "spare.h"

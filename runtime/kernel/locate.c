@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "awake.h"
 #include "ends.h"
 #include "falls.h"
 #include "groups.h"
@@ -29,8 +30,9 @@
  * which leave a part of the third order of the way; by the slope alone. */
 #define NEXT_TO 1e-5
 #define STRAIGHT 1e-8
-/* Stages without weight in the dense output: room for that slope and its rate. */
-enum { AT_END = 1, RATE_AT_END = 2 };
+/* Stages without weight in the dense output: room for that slope, its rate, and the end of the
+ * stages. */
+enum { AT_END = 2, RATE_AT_END, END };
 
 /* Move the end of the step onto the relations and evaluate there: a guard is read where the motion
  * will go on. */
@@ -93,14 +95,13 @@ static void go_to(search *a, double next) {
   a->last_at = a->at, a->last = a->value, a->at = next, a->passes++;
 }
 
-/* z1 and its slope <- those `way` after the end of the step's stages, where the states are `base`
- * and the slopes and their rates stand in stages that serve no more. */
-static int shift_end(const frot_model *m, frot_state *s, frot_work *w, double t, const double *base,
-                     double way) {
+/* z1 and its slope <- those `way` after the end of the step's stages. */
+static int shift_end(const frot_model *m, frot_state *s, frot_work *w, double t, double way) {
+  const double *base = frot_stage(w, END);
   const double *slope = frot_stage(w, AT_END), *rate = frot_stage(w, RATE_AT_END);
   for (int k = 0; k < w->awake.n; k++) {
     int at = w->awake.now->states[k];
-    w->step.z1[at] = base[at] + way * (slope[k] + 0.5 * way * rate[k]);
+    w->step.z1[at] = base[k] + way * (slope[k] + 0.5 * way * rate[k]);
   }
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   int status = frot_slope(m, s, w, t, w->step.z1, frot_stage(w, DP_STAGES));
@@ -116,17 +117,17 @@ static int shift_end(const frot_model *m, frot_state *s, frot_work *w, double t,
  * evaluation a time. */
 static int refine(const frot_model *m, frot_state *s, frot_work *w, double t, int guard, search *a,
                   double next) {
-  double stages = a->at, *base = w->step.z;
+  double stages = a->at;
   int known = 0; /* whether the rate is */
-  memcpy(base, w->step.z1, sizeof(double) * (size_t)w->layout.nx);
+  frot_pack(w, w->step.z1, frot_stage(w, END));
   memcpy(frot_stage(w, AT_END), frot_stage(w, DP_STAGES), sizeof(double) * (size_t)frot_width(w));
   memset(frot_stage(w, RATE_AT_END), 0, sizeof(double) * (size_t)w->awake.n);
   do {
     go_to(a, next);
     double way = a->at - stages;
     int status = FROT_OK;
-    if (!known && fabs(way) > STRAIGHT * stages) status = shift_end(m, s, w, t + a->at, base, way);
-    if (status == FROT_OK) status = shift_end(m, s, w, t + a->at, base, way);
+    if (!known && fabs(way) > STRAIGHT * stages) status = shift_end(m, s, w, t + a->at, way);
+    if (status == FROT_OK) status = shift_end(m, s, w, t + a->at, way);
     if (status != FROT_OK) return status;
     known = 1;
     a->value = frot_stage(w, DP_STAGES)[w->awake.n + guard] + a->slack;
@@ -135,20 +136,34 @@ static int refine(const frot_model *m, frot_state *s, frot_work *w, double t, in
   return FROT_OK;
 }
 
-int frot_locate(const frot_model *m, frot_state *s, frot_work *w, double t, int guard, double theta,
-                double *h, double *end, int *falls) {
-  double g[7];
-  frot_guard_polynomial(s, w, guard, *h, g);
+void frot_return_to_stages(const frot_work *w, const frot_attempt *a) {
+  if (!a->refined) return;
+  frot_unpack(w, frot_stage(w, END), w->step.z1);
+  memcpy(frot_stage(w, DP_STAGES), frot_stage(w, AT_END), sizeof(double) * (size_t)w->awake.n);
+}
+
+/* The dense output of the step h that ends where the guard is zero, or next to that. */
+static int make_inside(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a,
+                       double h) {
+  if (a->dense) return frot_make_dense(m, s, w, a->t, h);
+  frot_make_cubic(w, h);
+  return FROT_OK;
+}
+
+int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *step, int *falls) {
+  double g[7], t = step->t, theta = step->theta, h = step->h;
+  int guard = step->guard;
+  frot_guard_polynomial(s, w, guard, h, g);
   double left = fmax(theta - SPAN, 0), right = fmin(theta + SPAN, 1);
-  double slope = (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * *h);
+  double slope = (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * h);
   /* what reactions decide is read no better than this: nothing is gained by the steps beyond */
   int j = w->guards.list[guard];
-  double slack = frot_slack_of_guard(m, s, w, guard, *h, g);
+  double slack = frot_slack_of_guard(m, s, w, guard, h, g);
   double resolved = j < frot_condition_guard(m) ? RESOLVED * s->data[w->layout.scale_g + j] : 0;
-  search a = {
-      .longest = *h, .resolved = resolved, .slack = slack, .at = theta * *h, .slope = slope};
+  search a = {.longest = h, .resolved = resolved, .slack = slack, .at = theta * h, .slope = slope};
   a.zero = frot_close_to_fall(m, s, w, guard, t, slope);
   a.above = w->step.first[w->awake.n + guard] + slack, a.width = INFINITY;
+  step->dense = frot_needs_inside(m, s);
   for (;;) {
     int status = frot_run_stages(m, s, w, t, a.at);
     if (status == FROT_OK && !(s->implicit && !frot_has_motion(m)))
@@ -156,19 +171,18 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, double t, int 
     if (status != FROT_OK) return status;
     a.value = frot_stage(w, DP_STAGES)[w->awake.n + guard] + slack;
     double next = next_instant(&a, t);
-    *h = *end = a.at;
-    if (next == a.at) {
-      frot_measure_end(m, s, w, t + a.at, w->step.z1);
-      status = frot_make_dense(m, s, w, t, a.at);
-    } else if (!s->implicit && !s->weak && fabs(next - a.at) <= NEXT_TO * a.at) {
-      status = frot_make_dense(m, s, w, t, a.at);
-      if (status == FROT_OK) status = refine(m, s, w, t, guard, &a, next);
-      frot_measure_end(m, s, w, t + a.at, w->step.z1);
-      *end = a.at;
-    } else {
+    int there = next == a.at;
+    step->h = a.at;
+    if (!there && (s->implicit || s->weak || fabs(next - a.at) > NEXT_TO * a.at)) {
       go_to(&a, next);
       continue;
     }
+    step->refined = !there;
+    if (there) frot_measure_end(m, s, w, t + a.at, w->step.z1);
+    status = make_inside(m, s, w, step, a.at);
+    if (!there && status == FROT_OK) status = refine(m, s, w, t, guard, &a, next);
+    if (!there) frot_measure_end(m, s, w, t + a.at, w->step.z1);
+    step->beyond = a.at - step->h;
     double close = slack > 0 ? 0.5 * slack : frot_close_to_fall(m, s, w, guard, t, a.slope);
     *falls = a.value <= close;
     return status;

@@ -8,6 +8,7 @@
 #include "core.h"
 #include "inertia.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "parts.h"
 #include "tolerances.h"
 #include "turns.h"

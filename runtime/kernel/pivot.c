@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "core.h"
-#include "linear.h"
+#include "orthogonal.h"
 #include "guards.h"
 #include "reactions.h"
 #include "search.h"

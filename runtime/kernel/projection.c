@@ -7,6 +7,7 @@
 #include "core.h"
 #include "invariants.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "spare.h"
 #include "terms.h"
 #include "tolerances.h"

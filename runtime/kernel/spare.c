@@ -7,6 +7,7 @@
 #include "crossing.h"
 #include "groups.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "projection.h"
 #include "terms.h"
 #include "tolerances.h"

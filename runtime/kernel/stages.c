@@ -170,6 +170,10 @@ int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, 
   return FROT_OK;
 }
 
+int frot_needs_inside(const frot_model *m, const frot_state *s) {
+  return s->implicit || s->tied > 0 || s->weak || m->ny > 0;
+}
+
 /* The slopes of the last stages, in the modes of the segment. */
 static int run_last(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g) {
   double *z = w->step.z;

@@ -38,6 +38,10 @@ int frot_has_jammed(const frot_state *s, frot_work *w);
 int frot_make_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 void frot_make_cubic(const frot_work *w, double h);
 
+/* Whether what is evaluated inside a step depends on more than its segment tells: then its dense
+ * output is made with it. */
+int frot_needs_inside(const frot_model *m, const frot_state *s);
+
 /* The same of a step inside which nothing is decided, after it: the vectors of the segment g from
  * the ends z0 and z1 and the stages dp_inside that are in the scratch memory. Looking on is no part
  * of the run: neither these evaluations are counted nor does the motion depend on them. Next to a

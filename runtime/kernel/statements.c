@@ -7,6 +7,7 @@
 #include "core.h"
 #include "inertia.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "parts.h"
 #include "terms.h"
 #include "tolerances.h"

@@ -42,7 +42,7 @@
 
 /* Run the step again with the length h, with its dense output. */
 static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a, double h) {
-  a->h = h, a->to_due = 0;
+  a->h = h, a->to_due = 0, a->dense = 1, a->beyond = a->refined = 0;
   int status = frot_run_stages(m, s, w, a->t, h);
   if (status != FROT_OK) return status;
   frot_measure_end(m, s, w, a->t + h, w->step.z1);
@@ -55,17 +55,17 @@ static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_atte
 static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
                         int *guard) {
   for (*guard = -1; a->guard >= 0;) {
-    double longest = a->h, end;
+    double longest = a->h;
     int falls;
     if (a->theta * a->h <= FROT_LEAST_STEP * fmax(fabs(a->t), a->h)) {
       frot_fire_at_start(s, w, a->guard);
       return FROT_OK;
     }
-    int status = frot_locate(m, s, w, a->t, a->guard, a->theta, &a->h, &end, &falls);
+    int status = frot_locate(m, s, w, a, &falls);
     falls &= a->h <= (a->theta + STRAY) * longest;
     double part = fmin(fmax(FROT_NEARLY * a->theta, SHORTER), FROT_NEARLY);
     if (status == FROT_OK && falls) {
-      *guard = a->guard, a->to_due = 0, a->beyond = end - a->h;
+      *guard = a->guard, a->to_due = 0;
       return FROT_OK;
     }
     if (status == FROT_OK) status = run_again(m, s, w, a, part * longest);
@@ -92,6 +92,7 @@ static void forget_noise(const frot_model *m, frot_state *s, const frot_work *w)
 static void show(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a,
                  frot_recorder *recorder) {
   frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
+  frot_return_to_stages(w, a);
   if (recorder && recorder->segments)
     frot_record(m, s, w, recorder, a->dense ? FROT_VECTORS : FROT_INSIDE);
   if (!a->dense && *g.t1 > w->step.looked) frot_look_inside(m, s, w, &g);
@@ -173,7 +174,7 @@ static int cut_where_nearer(const frot_model *m, frot_state *s, frot_work *w, fr
       part = 1;
     if (status != FROT_OK || part == 1) return status;
     w->nearer.count = 0;
-    a->dense = 1, a->guard = frot_falling_guard(m, s, w, a->t, a->h, &a->theta);
+    a->guard = frot_falling_guard(m, s, w, a->t, a->h, &a->theta);
     status = cut_at_event(m, s, w, a, guard);
     if (status != FROT_OK) return status;
   }

@@ -8,6 +8,7 @@
 #include "groups.h"
 #include "inertia.h"
 #include "linear.h"
+#include "orthogonal.h"
 #include "projection.h"
 #include "spare.h"
 #include "tolerances.h"
