@@ -17,6 +17,7 @@
 #include "linear.h"
 #include "orthogonal.h"
 #include "problem.h"
+#include "rows.h"
 #include "tolerances.h"
 
 void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
@@ -45,69 +46,6 @@ static void want_rows(const frot_model *m, frot_work *w, const frot_group *g,
     w->core.wanted[element->row] = (unsigned char)acts;
     for (int k = 0; acts && k < 2; k++)
       if (element->bounded_by[k] >= 0) w->core.wanted[element->bounded_by[k]] = 1;
-  }
-}
-
-/* Sizes of what drives bring to c, where they may cancel in it. */
-static void size_drives(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                        const double *v, const double *d) {
-  if (!m->drives.call) return;
-  frot_inputs(m, s, w, &t, q, v, d);
-  w->call.res[0] = w->core.bias_size;
-  frot_call(w, &m->drives);
-}
-
-/* Sizes of the terms of c, of which those of drives may cancel, and those of the lengths of a
- * contact: with the sum W of the group's angular velocities and V of its other speeds, reach W^2 +
- * V W. */
-static void size_biases(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
-                        const double *v) {
-  if (g->n_rows == 0) return;
-  double turning = 0, moving = 0;
-  for (int i = 0; i < g->n_speeds; i++) {
-    int speed = g->unknowns[i];
-    *(m->speed_turns[speed] ? &turning : &moving) += fabs(v[speed]);
-  }
-  for (int i = 0; i < g->n_rows; i++) {
-    int row = g->rows[i];
-    double driven = m->drives.call ? w->core.bias_size[row] : 0;
-    w->core.bias_size[row] = driven + fabs(w->core.c[row]);
-  }
-  for (int i = 0; i < g->n_elements; i++) {
-    const frot_element *e = &m->elements[g->elements[i]];
-    double reach = s->data[w->layout.reach + e->contact];
-    if (reach > 0 && !e->rolling) w->core.bias_size[e->row] += (reach * turning + moving) * turning;
-  }
-  for (int i = 0; i < g->n_contacts; i++) {
-    int row = m->contacts[g->contacts[i]].row_n;
-    double reach = s->data[w->layout.reach + g->contacts[i]];
-    if (row >= 0 && reach > 0) w->core.bias_size[row] += (reach * turning + moving) * turning;
-  }
-}
-
-/* A row that is nothing but rounding of lengths that cancel, as that of a point which other
- * liaisons keep on its line, is zero, and so is the speed it gives. */
-static void drop_rounding(const frot_model *m, frot_work *w, int row, double reach,
-                          const double *v) {
-  const frot_group *g = frot_group_of(m, row);
-  double *entries = frot_entries(m, w->core.rows, row), speed = 0;
-  for (int k = 0; k < g->n_speeds; k++) {
-    double length = m->speed_turns[g->unknowns[k]] ? reach : 1;
-    if (!(fabs(entries[k]) <= FROT_CANCELS * length)) return;
-    speed += length * fabs(v[g->unknowns[k]]);
-  }
-  memset(entries, 0, sizeof(double) * (size_t)g->n_speeds);
-  if (fabs(w->core.rate[row]) <= FROT_CANCELS * speed) w->core.rate[row] = 0;
-}
-
-static void clean_rows(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
-                       const double *v) {
-  const double *reach = s->data + w->layout.reach;
-  for (int k = 0; k < g->n_contacts; k++) {
-    int i = g->contacts[k], row = m->contacts[i].row_n, sliding = m->contacts[i].sliding;
-    if (!(reach[i] > 0)) continue;
-    if (row >= 0 && !m->contacts[i].reduced) drop_rounding(m, w, row, reach[i], v);
-    if (sliding >= 0) drop_rounding(m, w, m->elements[sliding].row, reach[i], v);
   }
 }
 
@@ -305,13 +243,13 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
   if (!frot_call_dynamics(m, s, w, t, q, v, d, wanted)) return FROT_NAN;
-  size_drives(m, s, w, t, q, v, d);
+  frot_size_drives(m, s, w, t, q, v, d);
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_groups && status == FROT_OK; k++) {
     const frot_group *g = &m->groups[now->groups[k]];
     want_rows(m, w, g, modes, wanted);
-    clean_rows(m, s, w, g, v);
-    size_biases(m, s, w, g, v);
+    frot_clean_rows(m, s, w, g, v);
+    frot_size_biases(m, s, w, g, v);
     status = g->general ? general_group(m, w, g) : symmetric_group(m, s, w, g, modes, wanted);
   }
   return status;
@@ -338,7 +276,7 @@ int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, 
   if (status != FROT_OK) return status;
   frot_call_kinematics(m, s, w, t, q, v, d);
   const frot_awake_lists *now = w->awake.now;
-  for (int k = 0; k < now->n_groups; k++) clean_rows(m, s, w, &m->groups[now->groups[k]], v);
+  for (int k = 0; k < now->n_groups; k++) frot_clean_rows(m, s, w, &m->groups[now->groups[k]], v);
   return FROT_OK;
 }
 

@@ -9,6 +9,7 @@
 #include "linear.h"
 #include "orthogonal.h"
 #include "reactions.h"
+#include "roots.h"
 #include "spare.h"
 #include "stages.h"
 
@@ -304,7 +305,7 @@ double frot_lay_step(const frot_model *m, const frot_state *s, const frot_work *
 
 void frot_interpolate_stage(const frot_model *m, frot_work *w, int stage, int reached) {
   int point[POINTS], n = 0;
-  double part[POINTS];
+  double node[POINTS], part[POINTS];
   const double at = dp_c[stage];
   for (int k = 0; k <= COUNT; k++) {
     int i = k < COUNT ? in_order[k] : 0, to = n;
@@ -313,11 +314,8 @@ void frot_interpolate_stage(const frot_model *m, frot_work *w, int stage, int re
       if (to < POINTS) point[to] = point[to - 1];
     if (to < POINTS) point[to] = i, n += n < POINTS;
   }
-  for (int a = 0; a < n; a++) {
-    part[a] = 1;
-    for (int b = 0; b < n; b++)
-      if (b != a) part[a] *= (at - dp_c[point[b]]) / (dp_c[point[a]] - dp_c[point[b]]);
-  }
+  for (int a = 0; a < n; a++) node[a] = dp_c[point[a]];
+  frot_weigh_values(node, n, at, part);
   /* the last of them is the farthest: without it the polynomial would be of a degree less */
   double *slope = frot_stage(w, stage), without = 0;
   double last = n > 1 ? part[n - 1] : 0;

@@ -95,7 +95,7 @@ int frot_may_fall(const frot_state *s, const frot_work *w, int rests) {
     double least = *value, most = *value;
     for (int i = 1; i <= DP_STAGES; i++) {
       value += w->layout.nz;
-      least = fmin(least, *value), most = fmax(most, *value);
+      least = *value < least ? *value : least, most = *value > most ? *value : most;
     }
     double size = s->data[w->layout.scale_g + w->guards.list[k]];
     if (!(least > DIPS * (most - least) && least > FROT_LOCATED * size)) return 1;

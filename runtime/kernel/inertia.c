@@ -16,8 +16,6 @@ int frot_factor(frot_work *w, const frot_group *g) {
   }
   for (int k = 0; k < ns; k++) memcpy(factor + k * ns, mass + k * n, sizeof(double) * (size_t)ns);
   if (frot_cholesky(factor, ns)) return FROT_SINGULAR;
-  double *share = w->core.share + g->vector;
-  for (int k = 0; k < ns; k++) share[k] = 1 / factor[(ns + 1) * k];
   frot_forward(factor, ns, ns, force);
   return FROT_OK;
 }
@@ -44,6 +42,12 @@ static void read_momenta(const frot_work *w, const frot_group *g, double *x) {
   frot_add_columns(w->core.mass + g->matrix + ns, g->n, x, ns, g->n - ns, x + ns);
 }
 
+void frot_begin_responses(frot_work *w, const frot_group *g) {
+  if (g->n_links > 0) return;
+  frot_make_unit(w->core.factor + g->metric, g->n_speeds, w->core.unit + g->metric,
+                 w->core.share + g->vector);
+}
+
 void frot_respond(const frot_work *w, const frot_group *g, double *x) {
   int ns = g->n_speeds;
   const double *factor = w->core.factor + g->metric, *force = w->core.force + g->vector;
@@ -51,10 +55,10 @@ void frot_respond(const frot_work *w, const frot_group *g, double *x) {
     frot_tree_respond(g, w->core.mass + g->matrix, factor, w->core.twist, w->core.motion, force, x);
     return;
   }
-  const double *share = w->core.share + g->vector;
-  frot_forward_by(factor, share, ns, x);
-  for (int k = 0; k < ns; k++) x[k] += force[k];
-  frot_backward_by(factor, share, ns, x);
+  const double *unit = w->core.unit + g->metric, *share = w->core.share + g->vector;
+  frot_forward_unit(unit, ns, x);
+  for (int k = 0; k < ns; k++) x[k] = (x[k] * share[k] + force[k]) * share[k];
+  frot_backward_unit(unit, ns, x);
   read_momenta(w, g, x);
 }
 

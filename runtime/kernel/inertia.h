@@ -13,7 +13,8 @@ void frot_inwards(const frot_work *w, const frot_group *g, double *x);
 void frot_outwards(const frot_work *w, const frot_group *g, double *x);
 
 /* x <- A^-1 (h + x) (n_speeds), of a group that is not general, and behind them what auxiliary
- * unknowns make of their momenta. */
+ * unknowns make of their momenta; one after the other, after frot_begin_responses. */
+void frot_begin_responses(frot_work *w, const frot_group *g);
 void frot_respond(const frot_work *w, const frot_group *g, double *x);
 
 /* column (n_speeds) <- entries of the speeds in the column of the unknown k; returns that of k. */

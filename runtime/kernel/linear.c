@@ -63,7 +63,7 @@ int frot_cholesky(double *a, int n) {
 
 void frot_forward(const double *l, int n, int m, double *x) {
   for (int k = 0; k < m; k++, l += n) {
-    double value = x[k] /= l[k];
+    double value = x[k] *= 1 / l[k]; /* no division waits for another */
     if (value != 0) take_one(x + k + 1, l + k + 1, value, m - k - 1);
   }
 }
@@ -147,34 +147,45 @@ void frot_backward(const double *l, int n, int m, double *x) {
   }
 }
 
-void frot_forward_by(const double *l, const double *share, int n, double *x) {
+void frot_make_unit(const double *l, int n, double *unit, double *share) {
+  for (int k = 0; k < n; k++) share[k] = 1 / l[(size_t)k * (size_t)n + (size_t)k];
+  for (int k = 0; k < n; k++, l += n, unit += n) {
+    const double factor = share[k];
+    int i = k + 1;
+    for (; i + 2 <= n; i += 2) unit[i] = l[i] * factor, unit[i + 1] = l[i + 1] * factor;
+    if (i < n) unit[i] = l[i] * factor;
+  }
+}
+
+/* Two items at a time, each of which waits for the one before as late as can be. */
+void frot_forward_unit(const double *unit, int n, double *x) {
   int i = 0;
   for (; i + 2 <= n; i += 2) {
-    const double *entry = l + i;
+    const double *entry = unit + i;
     double one = x[i], two = x[i + 1];
     for (int k = 0; k < i; k++, entry += n) one -= entry[0] * x[k], two -= entry[1] * x[k];
-    x[i] = one *= share[i];
-    x[i + 1] = (two - entry[1] * one) * share[i + 1];
+    x[i] = one;
+    x[i + 1] = two - entry[1] * one;
   }
   if (i == n) return;
   double last = x[i];
-  for (int k = 0; k < i; k++) last -= AT(l, n, i, k) * x[k];
-  x[i] = last * share[i];
+  for (int k = 0; k < i; k++) last -= AT(unit, n, i, k) * x[k];
+  x[i] = last;
 }
 
-void frot_backward_by(const double *l, const double *share, int n, double *x) {
+void frot_backward_unit(const double *unit, int n, double *x) {
   int i = n - 1;
   for (; i >= 1; i -= 2) {
-    const double *right = l + (size_t)i * (size_t)n, *left = right - n;
+    const double *right = unit + (size_t)i * (size_t)n, *left = right - n;
     double two = x[i], one = x[i - 1];
     for (int k = n - 1; k > i; k--) two -= right[k] * x[k], one -= left[k] * x[k];
-    x[i] = two *= share[i];
-    x[i - 1] = (one - left[i] * two) * share[i - 1];
+    x[i] = two;
+    x[i - 1] = one - left[i] * two;
   }
   if (i < 0) return;
   double first = x[0];
-  for (int k = n - 1; k > 0; k--) first -= l[k] * x[k];
-  x[0] = first * share[0];
+  for (int k = n - 1; k > 0; k--) first -= unit[k] * x[k];
+  x[0] = first;
 }
 
 int frot_lu_solve(double *a, double *b, int n, int *pivot, int *sign) {

@@ -9,10 +9,11 @@ int frot_cholesky(double *a, int n);
 void frot_forward(const double *l, int n, int m, double *x);
 void frot_backward(const double *l, int n, int m, double *x);
 
-/* The same of all of it, with the reciprocals of its diagonal, in the order in which each item
- * waits for the one before as late as can be. */
-void frot_forward_by(const double *l, const double *share, int n, double *x);
-void frot_backward_by(const double *l, const double *share, int n, double *x);
+/* The factor's columns with ones on the diagonal (`unit`, n x n, below it), L = unit / share, by
+ * which one system after the other is solved sooner: x <- unit^-1 x and x <- unit'^-1 x. */
+void frot_make_unit(const double *l, int n, double *unit, double *share);
+void frot_forward_unit(const double *unit, int n, double *x);
+void frot_backward_unit(const double *unit, int n, double *x);
 
 /* Of four vectors abreast, x[4 i + c]: L^-1 of each; the products of a with each; those of each of
  * `a` with each of `b`, product[4 a + b]. */

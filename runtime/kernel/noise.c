@@ -27,13 +27,12 @@ enum { LARGEST, SIZE, MOVED };
 /* How much larger noise has shown itself than it was measured. */
 static double level(const frot_state *s) { return s->noise_level > 1 ? s->noise_level : 1; }
 
-/* What rounding of their terms brings to accelerations at the place z, however small they are:
- * where terms cancel, it is not seen by moving the values. Those with a `largest` above it are
- * left. */
+/* What rounding of their terms brings to accelerations at the place z, right after an evaluation
+ * there, however small they are: where terms cancel, it is not seen by moving the values. Those
+ * with a `largest` above it are left. */
 static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, double t,
                          const double *z, const double *largest) {
   double *noise = s->data + w->layout.noise, *size = w->relations.residual;
-  if (frot_slope(m, s, w, t, z, frot_stage(w, BASE)) != FROT_OK) return;
   frot_acceleration_sizes(m, s, w, t, z, z + m->nq, s->data + w->layout.d, size);
   for (int j = 0; j < w->awake.n - FROT_QUADRATURES; j++) {
     int state = w->awake.now->states[j];
@@ -203,6 +202,7 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
   if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return;
   note_neighbours(m, w, size);
   for (int j = 0; j < n + w->layout.ng; j++) noise[j] *= before;
+  add_rounding(m, s, w, t, w->step.z0, NULL);
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {
       double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
@@ -222,10 +222,10 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
     }
   }
   add_rounding_of_constants(m, s, w, t, base);
-  add_rounding(m, s, w, t, w->step.z0, NULL);
   /* where terms no longer vanish by symmetry: a step that is far too long ends where all is large
    */
-  if (!astray) add_rounding(m, s, w, t, w->step.z1, largest);
+  if (!astray && frot_slope(m, s, w, t, w->step.z1, base) == FROT_OK)
+    add_rounding(m, s, w, t, w->step.z1, largest);
   for (int j = 0; j < m->nq; j++)
     if (m->q_speed[j] >= 0)
       noise[j] = fmax(noise[j], FROT_NUDGE * fabs(w->step.z0[m->nq + m->q_speed[j]]));

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "roots.h"
+
 /* Instants that a polynomial goes through: more amplify what the errors of stages make of it. */
 #define POINTS 4
 /* Two of them are one where they are nearer to each other than this part of the way from the first
@@ -59,13 +61,9 @@ void frot_foretell_friction(const frot_problem *p) {
   int g = (int)(p->g - p->m->groups), near[POINTS];
   const double *at = r->instant + FROT_INSTANTS * g, t = p->w->core.t;
   int n = list_nearest(at, r->instants[g], t, near);
-  double weight[POINTS]; /* J. Lagrange's */
-  for (int i = 0; i < n; i++) {
-    double above = 1, below = 1;
-    for (int j = 0; j < n; j++)
-      if (j != i) above *= t - at[near[j]], below *= at[near[i]] - at[near[j]];
-    weight[i] = above / below;
-  }
+  double instant[POINTS], weight[POINTS];
+  for (int i = 0; i < n; i++) instant[i] = at[near[i]];
+  frot_weigh_values(instant, n, t, weight);
   for (int f = 0; f < p->unknowns && n > 0; f++) {
     const double *noted = r->noted + FROT_INSTANTS * r->owner[f];
     double sum = 0;

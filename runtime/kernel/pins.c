@@ -182,6 +182,7 @@ int frot_follow_in_turn(const frot_problem *p) {
   if (*rate >= 1) return 0; /* they have not settled in a stage before */
   int acting = list_followers(p);
   frot_foretell_friction(p);
+  frot_begin_responses(w, g);
   for (int pass = 0; pass < PASSES; pass++) {
     load_by_friction(p, acting, load);
     memcpy(whole, load, sizeof(double) * (size_t)g->n_speeds);

@@ -72,3 +72,12 @@ double frot_first_fall(const double g[7], double floor) {
   }
   return FROT_NO_ROOT;
 }
+
+void frot_weigh_values(const double *at, int n, double t, double *weight) {
+  for (int i = 0; i < n; i++) {
+    double above = 1, below = 1;
+    for (int j = 0; j < n; j++)
+      if (j != i) above *= t - at[j], below *= at[i] - at[j];
+    weight[i] = above / below;
+  }
+}

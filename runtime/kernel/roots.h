@@ -1,4 +1,4 @@
-/* First zero of a polynomial that is to stay positive. */
+/* Polynomials: the first zero of one that is to stay positive; one through values at instants. */
 #ifndef FROT_ROOTS_H
 #define FROT_ROOTS_H
 
@@ -12,5 +12,8 @@ double frot_first_fall(const double g[7], double floor);
 
 /* Value of the polynomial at theta. */
 double frot_bernstein(const double g[7], double theta);
+
+/* J. Lagrange's weights of the values at n instants in that of the polynomial through them at t. */
+void frot_weigh_values(const double *at, int n, double t, double *weight);
 
 #endif

@@ -19,6 +19,7 @@ void frot_weigh_stages(const frot_work *w, const double *coefficient, int count,
     double a = 0, b = 0, c = 0, d = 0;
     for (int k = 0; k < count; k++, slopes += nz) {
       const double factor = coefficient[k];
+      if (factor == 0) continue;
       a += factor * slopes[0], b += factor * slopes[1];
       c += factor * slopes[2], d += factor * slopes[3];
     }

@@ -147,8 +147,8 @@ static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work 
   TAKE(w->c, nr), TAKE(w->rate, nr), TAKE(w->gap, m->n_contacts);
   TAKE(w->condition, m->n_conditions), TAKE(w->coefficient, 2 * m->n_elements), TAKE(w->power, 1);
   TAKE(w->effect, general * m->n_entries), TAKE(w->metric, general * m->n_metric);
-  TAKE(w->factor, m->n_metric), TAKE(w->share, l->nw), TAKE(w->force, l->nw),
-      TAKE(w->half, m->n_entries);
+  TAKE(w->factor, m->n_metric), TAKE(w->unit, m->n_metric), TAKE(w->share, l->nw),
+      TAKE(w->force, l->nw), TAKE(w->half, m->n_entries);
   TAKE(w->lu, general * m->n_matrix), TAKE(w->lu_scale, general * 2 * l->nw);
   TAKE(w->lu_pivot, general * l->nw);
   TAKE(w->wanted, nr), TAKE(w->formed, m->n_groups), TAKE(w->listed, nr),

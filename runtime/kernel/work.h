@@ -67,7 +67,7 @@ typedef struct {
   double t;
   double *qd, *mass, *h, *given, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
   double *effect, *metric;
-  double *factor, *share, *force, *half, *lu, *lu_scale;
+  double *factor, *unit, *share, *force, *half, *lu, *lu_scale;
   int *lu_pivot;
   unsigned char *wanted, *formed;
   int n_given, *listed, *support, *reach;

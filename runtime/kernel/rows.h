@@ -1,0 +1,18 @@
+/* What rounding leaves in the rows of a group. */
+#ifndef FROT_ROWS_H
+#define FROT_ROWS_H
+
+#include "work.h"
+
+/* Sizes of what drives bring to c, where they may cancel in it; then those of all its terms, into
+ * w->core.bias_size, at the speeds v. */
+void frot_size_drives(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                      const double *v, const double *d);
+void frot_size_biases(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
+                      const double *v);
+
+/* Let rows that are nothing but rounding be zero, and the speeds that they give. */
+void frot_clean_rows(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
+                     const double *v);
+
+#endif
