@@ -97,6 +97,20 @@ def test_what_sleeps_is_not_evaluated(six: frot.Model) -> None:
     assert sum(length > engine.segment_size / 2 for length in lengths) == 1
 
 
+def test_nothing_is_evaluated_inside_steps_where_nobody_looks(six: frot.Model) -> None:
+    """Twelve evaluations a step; what is looked at later is neither counted nor changes the run."""
+    engine = started(six)
+    whole = engine.advance(3.0)
+    made = engine.statistics
+    assert made.evaluations <= 12 * (made.steps + made.rejected) + 20
+    inside = np.linspace(0.0, 3.0, 301)
+    values = engine.sample(whole.segments, inside)
+    assert engine.statistics.evaluations == made.evaluations
+    for t, row in zip(inside[1::50], values[1::50], strict=True):  # what a host is shown there
+        other = started(six)
+        assert np.array_equal(other.sample(other.advance(t).segments, np.array([t]))[0], row)
+
+
 def test_a_load_from_outside_wakes(six: frot.Model) -> None:
     """Pushed by 20 N, block 2 of 2 kg slides down its line; let go, it comes to rest again."""
     engine = started(six)
