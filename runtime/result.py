@@ -36,6 +36,7 @@ KINDS = (
 )
 MODES = ("open", "stick", "slip")
 MOST_EVENTS = 40
+MOST_KEPT = 8
 # Relative residual of the energy balance from which a run is not to be trusted.
 SUSPICIOUS = 1e-4
 ROLLING = ("free", "held", "rolling", "rolling")
@@ -272,7 +273,8 @@ class Result(Mapping[str, "Floats"]):
     def summary(self) -> str:
         """Events, steps, evaluations, wall time and energy balance, in a few lines.
 
-        Of many events the first and the last are shown; `events` holds them all.
+        Of many events the first and the last are shown; `events` holds them all. Of many first
+        integrals, the first; `first_integrals` holds them all.
         """
         figures, balance = self.figures, self.balance
         lines = [f"{self.program.name}: {self._grid[0]:.6g} s to {self._grid[-1]:.6g} s"]
@@ -309,6 +311,9 @@ class Result(Mapping[str, "Floats"]):
             if one.text != "energy"
             for drift in [self._drift(one)]
         ]
+        if len(kept) > MOST_KEPT:
+            more = len(kept) - MOST_KEPT + 1
+            kept[MOST_KEPT - 1 :] = [f"  ... {more} more first integrals in `first_integrals` ..."]
         if not self.program.balanced:
             lines += kept
             if balance.dissipated > 0:

@@ -260,11 +260,15 @@ class _Reader:
         text = self.source.text
         if token.type == "SEMICOLON":
             return token.end
+        # a matrix of another language has its ';' between brackets
+        open_at = token.start if text[token.start : token.end] == "[" else -1
         while True:
             kind, start, end = lexer().next(text, offset, ("IDENT",))
             if kind == END:
                 return start
-            if kind == "SEMICOLON":
+            if text[start:end] in ("[", "]"):
+                open_at = start if text[start:end] == "[" else -1
+            if kind == "SEMICOLON" and (open_at < 0 or "\n" in text[open_at:end]):
                 return end
             if kind == "IDENT":
                 word = text[start:end]

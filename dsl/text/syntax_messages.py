@@ -181,6 +181,9 @@ def unexpected(
     elif word == "*" and previous is not None and text[previous.start : token.end] == "**":
         both = Span(source, previous.start, token.end)
         log.report("E0101", "'**' is no sign of this language", both, help="a power is 'x^2'")
+    elif word == "[" and "LPAR" in expected:
+        help_text = "an array is written '(1, 2, 3)', a matrix '((1, 2), (3, 4))'"
+        log.report("E0101", "unexpected '['", span, help=help_text)
     elif token.type == "COMMA" and statement and statement[0].type in _LIAISON:
         help_text = "the laws of a liaison follow the word 'with': '... with coulomb(0.3);'"
         log.report("E0101", "unexpected ','", span, help=help_text)
@@ -241,7 +244,10 @@ def _junk(log: Log, source: Source, token: Lexeme) -> None:
         )
     elif character in "{}":
         log.report(
-            "E0101", f"unexpected {character!r}", span, help="vectors are written '(x, y, z)'"
+            "E0101",
+            f"unexpected {character!r}",
+            span,
+            help="vectors are written '(x, y, z)', matrices '((a, b), (c, d))'",
         )
     else:
         log.report("E0101", f"unexpected character {_shown(character)!r}", span)

@@ -160,3 +160,10 @@ def test_a_misspelt_section_is_told_once(section: str, remedy: str) -> None:
 
 def test_a_type_of_ones_own_is_no_section() -> None:
     assert told("type Equation = Real;\nmodel M\n Equation x = 1;\nend M;\n") == []
+
+
+@pytest.mark.parametrize("matrix", ["[1, 2; 3, 4]", "[1, 2;\n 3, 4]", "{{1, 2}, {3, 4}}"])
+def test_a_matrix_of_another_language_is_told_with_ours(matrix: str) -> None:
+    found = told(f"model M\n parameter Real A[2, 2] = {matrix};\n Real x = A[1, 1];\nend M;\n")
+    assert "((" in found[0][2]
+    assert len(found) == 1 or "\n" in matrix

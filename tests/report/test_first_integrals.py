@@ -178,3 +178,13 @@ end Eggs;""")
     kept = model.simulate().first_integrals
     assert list(kept) == told
     assert all(x.drift < 1e-9 for x in kept.values())
+
+
+def test_a_summary_tells_the_first_of_many() -> None:
+    """Each particle keeps three momenta of its own."""
+    bodies = "".join(f"  body b{i}: particle(mass = 1 kg);\n" for i in range(6))
+    text = f"planar model Many\n  world(gravity = 0 m/s^2);\n{bodies}end Many;\n"
+    result = frot.compile(text).simulate(stop=1.0)
+    kept = [line for line in result.summary().splitlines() if "kept to" in line]
+    assert len(result.first_integrals) > 12 > len(kept) > 3
+    assert f"{len(result.first_integrals) - 1 - len(kept)} more first integrals" in result.summary()
