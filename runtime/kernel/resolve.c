@@ -5,6 +5,7 @@
 
 #include "blame.h"
 #include "blocks.h"
+#include "components.h"
 #include "core.h"
 #include "frozen.h"
 #include "guards.h"
@@ -13,96 +14,10 @@
 #include "search.h"
 #include "terms.h"
 #include "tolerances.h"
-
-/* The largest speed of a row so far. */
-static double met_speed(const frot_instant *in, int row) {
-  return frot_row_size(in->m, in->w, row, in->s->data + in->l.scale_x + in->m->nq);
-}
-
-/* The speed that a row is measured against. What has never moved has no other than the one that the
- * loads bring it in the next step; what has may never get that, as a light body on a stiff damper.
- */
-static double typical_speed(const frot_instant *in, int row) {
-  double met = met_speed(in, row);
-  return met > 0 ? met : fabs(in->s->h) * in->w->core.row_load[row];
-}
-
-/* The speed that the loads bring what has never moved in a rounding of time: no instant is known
- * better, and at a start there is no step yet. */
-static double speed_unresolved(const frot_instant *in, int row) {
-  if (met_speed(in, row) > 0) return 0;
-  return DBL_EPSILON * frot_size_of_time(in->t, in->s->h_max) * in->w->core.row_load[row];
-}
-
-/* The motion of element e that is none to rounding, against its terms, the sizes it had, the motion
- * as a whole and its usual motion, or that no instant resolves. */
-static double zero_rate(const frot_instant *in, int e, const double *v) {
-  int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
-  double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
-  return FROT_ZERO * fmax(size, typical_speed(in, row)) +
-         FROT_ZERO_OF_MOTION * frot_row_speed(in->m, in->w, row, v) + speed_unresolved(in, row);
-}
-
-/* Whether the motion of element e is zero: its guard fired at zero, as near as events are located
- * (what a landing next to a dead centre leaves of it is a motion: to hold it would stop the
- * mechanism), or before time can move on, or it is zero to rounding. */
-static int is_zero_rate(const frot_instant *in, int e, const double *v, int friction) {
-  int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
-  int slipped = friction > FROT_STICK, way = friction == FROT_SLIP_FORWARD ? 1 : -1;
-  double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
-  double located = FROT_LOCATED * size;
-  if (slipped && in->fired[guard] != 0 && fabs(in->w->core.rate[row]) <= located) return 1;
-  if (slipped && in->fired[guard] == FROT_AT_START && way * in->w->core.rate[row] >= 0) return 1;
-  if (in->m->elements[e].prescribed && fabs(in->w->core.rate[row]) <= FROT_PRESCRIBED_REST)
-    return 1;
-  return fabs(in->w->core.rate[row]) <= zero_rate(in, e, v);
-}
+#include "zeros.h"
 
 /* A reaction that reached its upper bound (first guard) lets the body go backward. */
 static int left_by(const double *fired) { return fired[0] != 0 ? -1 : (fired[1] != 0 ? 1 : 0); }
-
-/* The rows of motion of a contact and its elements into `rows`; returns how many. */
-static int rows_of_contact(const frot_model *m, int i, int *rows) {
-  int n = 0;
-  if (m->contacts[i].row_n >= 0) rows[n++] = m->contacts[i].row_n;
-  for (int e = 0; e < m->n_elements; e++) {
-    if (m->elements[e].contact != i) continue;
-    rows[n++] = m->elements[e].row;
-    for (int k = 0; k < 2; k++)
-      if (m->elements[e].bounded_by[k] >= 0) rows[n++] = m->elements[e].bounded_by[k];
-  }
-  return n;
-}
-
-/* Whether a reaction of contact j changes anything at contact i. */
-static int coupled(const frot_instant *in, int i, int j) {
-  const frot_model *m = in->m;
-  int *a = in->w->relations.rows, count = rows_of_contact(m, i, a), *b = a + count;
-  int others = rows_of_contact(m, j, b);
-  for (int k = 0; k < count; k++)
-    for (int c = 0; c < others; c++)
-      if (!frot_is_reading(m, b[c]) && m->row_group[a[k]] == m->row_group[b[c]] &&
-          in->w->core.wanted[a[k]] && in->w->core.wanted[b[c]] &&
-          frot_effect(m, in->w, a[k], b[c]) != 0)
-        return 1;
-  return 0;
-}
-
-/* Contacts in one component act on each other through the masses. */
-static void find_components(const frot_instant *in) {
-  const frot_model *m = in->m;
-  int *component = in->w->search.component;
-  for (int i = 0; i < m->n_contacts; i++) component[i] = in->w->search.best[i].closed ? i : -1;
-  for (int i = 0; i < m->n_contacts; i++)
-    for (int j = 0; j < i; j++) {
-      if (component[i] < 0 || component[j] < 0 || component[i] == component[j]) continue;
-      if (m->contact_group[i] != m->contact_group[j]) continue;
-      if (!coupled(in, i, j) && !coupled(in, j, i)) continue;
-      int from = component[i], to = component[j];
-      for (int k = 0; k <= i; k++)
-        if (component[k] == from) component[k] = to;
-    }
-}
 
 /* Contacts that may be closed after the instant, into w->search.best: those that were, and open
  * ones whose gap has closed. */
@@ -121,7 +36,7 @@ static int refuse_impacts(const frot_instant *in, double t) {
     if (in->w->search.before[i].closed || !in->w->search.best[i].closed) continue;
     int row = m->contacts[i].row_n;
     double rate = in->w->core.rate[row];
-    if (rate < -FROT_TOUCH * typical_speed(in, row))
+    if (rate < -FROT_TOUCH * frot_typical_speed(in, row))
       return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
   }
   return FROT_OK;
@@ -155,7 +70,7 @@ static int settle_speeds(frot_instant *in, double t, double *q, double *v) {
   for (int e = 0; e < m->n_elements; e++) {
     int friction = frot_element_mode(m, w->search.before, e)->friction;
     in->zero[e] = w->search.best[m->elements[e].contact].closed && frot_bounds_something(m, w, e) &&
-                  is_zero_rate(in, e, v, friction);
+                  frot_is_zero_rate(in, e, v, friction);
     in->at_rest[e] = in->zero[e];
   }
   size_t modes = (size_t)(m->n_contacts + m->n_elements);
@@ -285,7 +200,7 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
   int several = 0, several_at = -1;
   if (first) memset(in->s->data + in->l.several, 0, sizeof(double) * (size_t)m->n_contacts);
   in->s->fleeting = -1;
-  find_components(in);
+  frot_find_components(in);
   for (int root = 0; root < m->n_contacts; root++) {
     int *chosen = w->search.chosen, count = 0, unsearched = 0;
     for (int i = 0; i < m->n_contacts; i++)
@@ -317,6 +232,67 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
   return FROT_OK;
 }
 
+/* The modes of an instant into w->search.best, with what holds put where it holds. */
+static int find_modes(frot_instant *in, double *q, double *v, int first, frot_recorder *recorder) {
+  const frot_model *m = in->m;
+  frot_state *s = in->s;
+  frot_work *w = in->w;
+  const double *d = s->data + in->l.d, t = in->t;
+  int status = settle_speeds(in, t, q, v);
+  if (status == FROT_OK) status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
+  if (status == FROT_OK && frot_find_growth(in, d))
+    status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
+  if (status == FROT_OK) status = frot_metric(m, w);
+  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
+  frot_row_loads(m, s, w, t, q, v, d);
+  return choose_modes(in, t, first, recorder);
+}
+
+/* Whether a slip that is one is no more than a part of what it usually is. */
+static int any_slight(const frot_instant *in, double part) {
+  const frot_model *m = in->m;
+  for (int e = 0; e < m->n_elements; e++) {
+    int row = m->elements[e].row;
+    int acts = in->w->search.closable[m->elements[e].contact].closed && !in->zero[e];
+    if (acts && frot_bounds_something(m, in->w, e) &&
+        fabs(in->w->core.rate[row]) <= part * frot_typical_speed(in, row))
+      return 1;
+  }
+  return 0;
+}
+
+/* The same where a slip runs into an impasse, which would stop it at once (L. Lecornu's tangential
+ * impact): one that is no more than the run tells from rest is rest, if modes are found then that
+ * last. */
+static int find_lasting_modes(frot_instant *in, double *q, double *v, int first,
+                              frot_recorder *recorder) {
+  const frot_model *m = in->m;
+  frot_state *s = in->s;
+  frot_search_work *found = &in->w->search;
+  double *kept = found->moved_from, part = fmax(FROT_TOUCH, s->tolerance);
+  size_t modes = sizeof *found->best * (size_t)(m->n_contacts + m->n_elements);
+  int phase = s->phase;
+  long long events = s->statistics.events, unsearched = s->statistics.unsearched;
+  long long noted = recorder ? recorder->event_count : 0;
+  memcpy(kept, q, sizeof(double) * (size_t)m->nq);
+  memcpy(kept + m->nq, v, sizeof(double) * (size_t)m->nv);
+  memcpy(found->closable, found->best, modes);
+  for (int pass = 0;; pass++) {
+    int status = find_modes(in, q, v, first, recorder);
+    int ended = status == FROT_IMPASSE || (status == FROT_OK && s->fleeting >= 0);
+    if (!ended || pass == 2 || (pass == 0 && !any_slight(in, part))) return status;
+    in->slight = pass == 0 ? part : 0; /* else as they were */
+    s->phase = phase, s->fault = frot_no_fault(in->t);
+    s->statistics.events = events, s->statistics.unsearched = unsearched;
+    if (recorder) recorder->event_count = noted;
+    memcpy(q, kept, sizeof(double) * (size_t)m->nq);
+    memcpy(v, kept + m->nq, sizeof(double) * (size_t)m->nv);
+    memcpy(found->best, found->closable, modes);
+    status = frot_kinematics(m, s, in->w, in->t, q, v, s->data + in->l.d);
+    if (status != FROT_OK) return frot_fail_evaluation(m, s, in->w, status, in->t);
+  }
+}
+
 /* The pins' reactions go on from those of the modes found: friction that follows their size may
  * have solutions in other directions. What passes through zero is turned by its own rule. */
 static void pass_directions(const frot_instant *in) {
@@ -335,7 +311,7 @@ static void size_beginnings(const frot_instant *in) {
   for (int e = 0; e < in->m->n_elements; e++) {
     double *scale = in->s->data + in->l.scale_g + frot_element_guard(in->m, e);
     if (in->zero[e] && frot_element_mode(in->m, modes, e)->friction > FROT_STICK)
-      *scale = fmax(*scale, zero_rate(in, e, in->v) / FROT_LOCATED);
+      *scale = fmax(*scale, frot_zero_rate(in, e, in->v) / FROT_LOCATED);
   }
 }
 
@@ -359,7 +335,8 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
                      w->search.at_rest,
                      t,
                      q,
-                     v};
+                     v,
+                     0};
   memcpy(w->search.before, modes, sizeof *modes * count);
   memcpy(w->search.best, modes, sizeof *modes * count);
   memset(w->search.zero, 0, (size_t)m->n_elements);
@@ -375,15 +352,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   frot_row_loads(m, s, w, t, q, v, d);
   status = refuse_impacts(&in, t);
   if (status != FROT_OK) return status;
-  status = settle_speeds(&in, t, q, v);
-  if (status == FROT_OK) status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
-  if (status == FROT_OK && frot_find_growth(&in, d))
-    status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
-  if (status == FROT_OK) status = frot_metric(m, w);
-  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
-
-  frot_row_loads(m, s, w, t, q, v, d);
-  status = choose_modes(&in, t, first, recorder);
+  status = find_lasting_modes(&in, q, v, first, recorder);
   if (status != FROT_OK) return status;
   if (memcmp(modes, w->search.best, sizeof *modes * count) != 0) s->idle = 0;
   memcpy(modes, w->search.best, sizeof *modes * count);

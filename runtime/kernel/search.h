@@ -19,6 +19,7 @@ typedef struct {
   const unsigned char *resists;
   double t;
   const double *q, *v;
+  double slight; /* part of its usual speed below which a slip is none, 0: rounding says */
 } frot_instant;
 
 /* Whether a law's coefficients can ever bound anything: a constant zero is skipped. */

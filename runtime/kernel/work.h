@@ -216,15 +216,17 @@ typedef struct {
 } frot_event_work;
 
 /* The search for modes (search.h, admissible.c, ahead.c, pivot.c, resolve.c): modes tried, found
- * and before; of contacts: which are decided; of elements: whose motion is zero or at rest, where
- * it would go, and which slips no acceleration starts; of both: what is left of their inequalities
- * where that is little, the rates of coordinates, and accelerations of a little later (lasting.c);
- * of both twice: by how much they do not hold (others.c). */
+ * and before, those that may be closed at the instant; of contacts: which are decided; of elements:
+ * whose motion is zero or at rest, where it would go, and which slips no acceleration starts; of
+ * both: what is left of their inequalities where that is little, the rates of coordinates, and
+ * accelerations of a little later (lasting.c); of both twice: by how much they do not hold
+ * (others.c); the states before they were settled. */
 typedef struct {
-  frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner, *found, *slack;
+  frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner, *found, *slack,
+      *closable;
   unsigned char *certain, *zero, *at_rest, *departs;
   signed char *ahead;
-  double *motions, *pivot_bound, *nothing_frozen, *margin, *rates, *set_out, *beyond;
+  double *motions, *pivot_bound, *nothing_frozen, *margin, *rates, *set_out, *beyond, *moved_from;
   double *along; /* directions of pins' reactions in `best`: there may be solutions in others */
   int *choice, *component, *chosen;
   int exact;   /* whether `best` needs no slack: frot_is_exact */

@@ -37,7 +37,8 @@ SCENES = (
 # a reversal after it; friction of pins is found by passes that end in one rounding; a rest ends
 # because friction leaves its reactions no solution, and passes no bound; of reactions that are not
 # unique those of least friction hold for an instant, where others last; a rest that none of them
-# allows leaves none for a pin that turns back; a slip that loads follow within moments ends
+# allows leaves none for a pin that turns back; a slip that loads follow within moments ends; one
+# that is no more than rounding runs into an impasse
 ONCE_WRONG = (
     (77, "corner", 0, (0,)),
     (77, "stack", 0, (2,)),
@@ -60,6 +61,7 @@ ONCE_WRONG = (
     (8401, "anything", 4, (1,)),
     (8401, "anything", 11, (7,)),
     (8401, "anything", 24, (5,)),
+    (8501, "anything", 35, (12,)),
     (8501, "anything", 36, (9,)),
     (8801, "anything", 34, (0,)),
     (8801, "chain", 0, (19,)),
