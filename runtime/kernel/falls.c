@@ -14,6 +14,7 @@
 #include "tolerances.h"
 
 #define SAMPLES 8 /* places at which a guard that seems to dip may have risen again */
+#define IDLE 10   /* falls to no effect, one after the other, after which one is to be clear */
 /* Part of the step in which a condition moves as its slope at the start says. */
 #define AT_ONCE 1e-6
 /* What a guard of degree five, between values at the stages, dips below them at most, in parts of
@@ -84,7 +85,7 @@ double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_
   floor += FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
   double slack = fmax(FROT_LOCATED * inside, floor);
   if (!is_force(m, s, w, k) || !(fabs(g[0]) <= slack)) slack = 0;
-  return s->idle && is_reaction_or_slip(m, s, w, j)
+  return s->idle > IDLE && is_reaction_or_slip(m, s, w, j)
              ? fmax(slack, 0.5 * FROT_LOCATED * s->data[w->layout.scale_g + j])
              : slack;
 }

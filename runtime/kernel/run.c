@@ -260,7 +260,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
       else if (s->crowded > CROWD)
         status = frot_fail(s, FROT_CHATTER, *g.t1, -1, condition_at_fault(m, s), -1, s->crowded);
       else
-        s->idle = 1, status = happen_at_end(m, s, w, recorder);
+        s->idle++, status = happen_at_end(m, s, w, recorder);
       if (s->statistics.events != events) s->idle = 0;
       s->pending = s->has_slope = 0;
       if (status == FROT_TERMINATED) return end_of_run(m, s, w, recorder);

@@ -45,7 +45,7 @@ struct frot_state {
   int has_slope;   /* slope holds the derivatives at the end of the current segment */
   int changed;     /* parameters or inputs were set since the last frot_settle */
   int crowded;     /* events since the time last moved on */
-  int idle;        /* 1: the last of them changed nothing: falls.h */
+  int idle;        /* the last of them that changed nothing, in a row: falls.h */
   int fleeting;    /* the contact at which no motion lasts at the last event, or -1 */
   int second;      /* the contact whose figures meet at another place too, or -1: nearer.h */
   long long told;  /* events that changed something before that */

@@ -15,10 +15,12 @@ PLAIN = Path(__file__).parents[2] / "models" / "slider_crank.frot"
 CHANGES = {
     "input Torque drive(start = 4 N.m);": (
         "parameter Torque c = 4 N.m, a = 0 N.m;\n"
-        "  parameter Angle start = 30 deg;\n  parameter Real mu_g = 0.08;"
+        "  parameter Angle start = 30 deg;\n  parameter Real mu_g = 0.08;\n"
+        "  parameter AngularVelocity thrown = 0 rad/s;"
     ),
     "value = drive": "value = c + a*sin(5*time/(1 s))",
     "O.angle = 30 deg": "O.angle = start",
+    "O.speed = 0 rad/s": "O.speed = thrown",
     "coulomb(mu = 0.08, mu_s = 0.10)": "coulomb(mu = mu_g, mu_s = 1.25*mu_g)",
 }
 
@@ -164,6 +166,26 @@ def test_a_crank_across_its_rail_sets_out_as_its_couple_grows(
     assert turning.any()
     bound = mu * 0.012 * result["B.normal_force"][turning]
     assert np.abs(np.abs(friction[turning]) - bound).max() < 1e-9 * bound.max()
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize(
+    ("start", "thrown", "l", "mu", "mu_g", "tolerance"),
+    [(0.823, -29, 0.306, 0.0459, 0.00637, 1e-5), (1.19, -51.7, 0.2236, 0.00386, 0.1525, 1e-6)],
+)
+def test_a_crank_that_is_thrown_coasts_through_its_dead_centres(
+    crank: frot.Model,
+    start: float,
+    thrown: float,
+    l: float,  # noqa: E741
+    mu: float,
+    mu_g: float,
+    tolerance: float,
+    way: int,
+) -> None:
+    """Slips turn back there by no change of modes at times; it did not go on."""
+    given = {"start": way * start, "thrown": way * thrown, "l": l, "mu": mu, "mu_g": mu_g}
+    run_exactly(crank, given | {"c": 0, "a": 0}, 2.0, tolerance)
 
 
 def test_a_slip_that_turns_back_next_to_a_dead_centre_does_not_stop_the_crank(
