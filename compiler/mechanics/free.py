@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from frot.compiler.mechanics.liaisons.stated import bodies_of
 from frot.compiler.mechanics.link import Link
 from frot.compiler.mechanics.mechanism import Mechanism, relinked
 from frot.compiler.mechanics.mechanize import link_of
@@ -24,6 +25,7 @@ def free(mechanism: Mechanism, wanted: Collection[Liaison]) -> Mechanism:
     found = (link_of(x, model.planar, log) for x in model.liaisons if x in wanted)
     links = [link.without_friction() for link in found if link is not None]
     held = {body for link in links for body in link.bodies}
+    held |= {b for link in links for x in link.liaison.relations for b in bodies_of(x)}
     own = replace(model, bodies=tuple(b for b in model.bodies if b in held))
     tree = span(own, [x for x in links if x.by_coordinates])
     rows: list[Link] = []

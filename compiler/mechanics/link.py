@@ -92,6 +92,10 @@ class Geometry:
         """A coordinate by the place of its motion, and its rate."""
         raise NotImplementedError
 
+    def rate_of(self, coordinate: str, kinematics: Kinematics) -> ca.SX:
+        """The rate of a coordinate, with what auxiliary speeds add to it."""
+        raise NotImplementedError
+
     def effort(self, coordinate: str, kinematics: Kinematics) -> Effort:
         """One unit along a coordinate, whether coordinates keep the liaison or not."""
         raise NotImplementedError

@@ -125,13 +125,24 @@ class Variables:
         relation = numbered(liaison, coordinate)
         if relation is not None:
             assert link.joint is not None
-            reader = Reader(self.kinematics, self.values.__getitem__, self.of_liaison)
+            reader = Reader(self.kinematics, self.values.__getitem__, self.of_liaison, self.rate_of)
             return unit_of(relation, link.joint, reader)
         return geometry.effort(coordinate, self.kinematics)
 
     def coordinate(self, liaison: Liaison, index: int) -> tuple[ca.SX, ca.SX]:
         """A coordinate of a liaison, by the place of its motion, and its rate."""
         return self.geometry[liaison].coordinate(index, self.kinematics)
+
+    def rate_of(self, liaison: Liaison, coordinate: str) -> ca.SX:
+        """The rate of a coordinate, with what auxiliary speeds add to it."""
+        if liaison not in self.corners:
+            return self.geometry[liaison].rate_of(coordinate, self.kinematics)
+        least = self.of_liaison(liaison, "gap")
+        rate = ca.SX(0)
+        for corner in self.corners[liaison]:
+            is_it = self.of_liaison(corner, "gap") <= least
+            rate = ca.if_else(is_it, self.rate_of(corner, "gap"), rate)
+        return rate
 
     def _drive(self, liaison: Liaison) -> tuple[ca.SX, ca.SX]:
         """Force and couple of the drives of a liaison."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.mechanics.free import free
+from frot.compiler.mechanics.liaisons.stated import bodies_of
 from frot.compiler.mechanics.link import Link
 from frot.compiler.mechanics.mechanism import (
     Mechanism,
@@ -145,8 +146,10 @@ def _count(mechanism: Mechanism) -> int:
     return sum(n for x, n in relations_of(mechanism).items() if not is_unilateral(x))
 
 
-def _ends(liaison: Liaison) -> tuple[Body, Body]:
-    return place_body(liaison.a), place_body(liaison.b)
+def _ends(liaison: Liaison) -> tuple[Body, ...]:
+    """The bodies of its places; a relation of the user may read more of them."""
+    read = (body for relation in liaison.relations for body in bodies_of(relation))
+    return (place_body(liaison.a), place_body(liaison.b), *read)
 
 
 def looped(mechanism: Mechanism) -> list[Liaison]:

@@ -39,7 +39,9 @@ def point_members(planar: bool, turns: bool = True) -> Mapping[str, Type]:
         "acceleration": vector(ACCELERATION, planar),
     }
     if turns:
+        members["angle" if planar else "orientation"] = REAL if planar else Type(shape=(4,))
         members["angular_velocity"] = _turning(ANGULAR_VELOCITY, planar)
+        members["angular_acceleration"] = _turning(ANGULAR_ACCELERATION, planar)
         members["ex"] = members["ey"] = vector(REAL, planar)
         if not planar:
             members["ez"] = vector(REAL, planar)
@@ -48,19 +50,12 @@ def point_members(planar: bool, turns: bool = True) -> Mapping[str, Type]:
 
 def body_members(planar: bool, turns: bool = True) -> Mapping[str, Type]:
     """Variables of a body; those of rotation are left out where `turns` is False."""
-    members = {
+    return {
         **point_members(planar, turns),
         "kinetic_energy": ENERGY,
         "momentum": vector(MOMENTUM, planar),
         "angular_momentum": _turning(ANGULAR_MOMENTUM, planar),
     }
-    if turns:
-        members["angular_acceleration"] = _turning(ANGULAR_ACCELERATION, planar)
-        if planar:
-            members["angle"] = REAL
-        else:
-            members["orientation"] = Type(shape=(4,))
-    return members
 
 
 def liaison_members(kind: LiaisonKind, planar: bool) -> Mapping[str, Type]:

@@ -6,23 +6,26 @@ arguments of a `solid`; a law is checked and then refused by name.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import cast
 
 from frot.dsl import checked
 from frot.dsl.catalogue import SHAPES, LawKind, LiaisonKind
 from frot.dsl.catalogue.types import FORCE, VELOCITY
+from frot.dsl.checked.arrays import scalars
 from frot.dsl.checked.describe import written_unit
 from frot.dsl.declarations.argument_values import nature_of
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.expressions.expression import expect, expression, fitting
 from frot.dsl.expressions.names import place
+from frot.dsl.expressions.structure import sizes
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.names.classes import Class, enter
 from frot.dsl.names.entities import Entity, Instance
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import kind_of
-from frot.dsl.names.types import Kind, find_type
+from frot.dsl.names.types import Kind, find_type, split_type
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree
 
@@ -43,11 +46,9 @@ def stated_liaison(
     complete = True
     for element in of.elements:
         if isinstance(element, tree.Relation):
-            found = _relation(element, at)
-            if found is None:
-                complete = False
-            else:
-                relations.append(found)
+            found = _relations(element, at)
+            complete = complete and found is not None
+            relations.extend(found or ())
         elif not isinstance(element, tree.Import | tree.Definition | tree.Alias | tree.Component):
             complete = False
             scope.log.report(
@@ -69,7 +70,8 @@ def stated_liaison(
     return LiaisonKind(of.name, (), count, count), places, tuple(relations)
 
 
-def _relation(element: tree.Relation, at: Scope) -> checked.StatedRelation | None:
+def _relations(element: tree.Relation, at: Scope) -> list[checked.StatedRelation] | None:
+    """One for each number of what stands on the left."""
     left = expression(element.left, at)
     right = None if left is None else expression(element.right, at)
     if left is None or right is None:
@@ -81,10 +83,10 @@ def _relation(element: tree.Relation, at: Scope) -> checked.StatedRelation | Non
         if fitted is None:
             return None
         right = fitted
-    if left.type.shape:
-        at.log.report("E0301", "a relation is between two numbers", element.span)
-        return None
-    return checked.StatedRelation(left, right, element.kind == "kinematic")
+    lefts = scalars(left)
+    rights = [right] * len(lefts) if zero else scalars(right)
+    kinematic = element.kind == "kinematic"
+    return [checked.StatedRelation(*two, kinematic) for two in zip(lefts, rights, strict=True)]
 
 
 def _place_of(thing: Entity) -> checked.Place | None:
@@ -209,7 +211,27 @@ def _bind(
         if found is None:
             return None
         local[name] = found
+    for formal in _values_inside(of):
+        name = formal.name.text
+        if formal.value is None or name in local:
+            fault = "declared twice" if name in local else "given no value"
+            scope.log.report("E0204", f"{name!r} is {fault} in {of.name!r}", formal.span)
+            return None
+        found = _formal(formal, None, of, span, inner, scope, local)
+        if found is None:
+            return None
+        local[name] = found
     return inner, local
+
+
+def _values_inside(of: Class) -> Iterator[tree.Formal]:
+    """The values that a definition gives names, as `Length way = norm(b.position);`."""
+    for element in of.elements:
+        if not isinstance(element, tree.Component):
+            continue
+        kind, before = split_type(element)
+        for item in element.declared:
+            yield tree.Formal(item.name, kind, item.value, item.span, (*before, *item.subscripts))
 
 
 def _formal(
@@ -248,7 +270,8 @@ def _formal(
             return found.surface
         return found  # type: ignore[return-value]
     kind = find_type(formal.type, inner, True)
-    if kind is None:
+    shape = sizes(formal.sizes, formal.name, inner.inside(**local))
+    if kind is None or shape is None:
         return None
     if not isinstance(kind, Kind):
         scope.log.report(
@@ -258,11 +281,12 @@ def _formal(
     value = expression(node, there)
     if value is None:
         return None
-    value = fitting(value, node, kind.type, there, unit=kind.unit, rate=kind.rate)
+    wanted = kind.type.of_shape((*kind.type.shape, *shape))
+    value = fitting(value, node, wanted, there, unit=kind.unit, rate=kind.rate)
     # A variable of this type stands for the value: the text of the definition is what is checked.
     if value is None:
         return None
-    return checked.Parameter(formal.name.text, kind.type, value, formal.span, constant=True)
+    return checked.Parameter(formal.name.text, wanted, value, formal.span, constant=True)
 
 
 def _is_a(

@@ -115,7 +115,7 @@ def _formal(node: Any, at: Place) -> tree.Formal:
     rest = [c for c in node.children[1:] if getattr(c, "data", "") != "default"]
     value = _default(node, at)
     if rest and getattr(rest[0], "type", "") == "IDENT":
-        return tree.Formal(at.word(rest[0]), first, value, span)
+        return tree.Formal(at.word(rest[0]), first, value, span, _subscripts(node, at))
     kind = expression(rest[0], at) if rest else None
     return tree.Formal(tree.Word(first.span.text, first.span), kind, value, span)
 

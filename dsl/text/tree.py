@@ -256,12 +256,13 @@ class For:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Formal:
-    """A formal argument of a user-defined liaison, law or shape."""
+    """A formal argument of a user-defined liaison, law or shape; `sizes` where it is an array."""
 
     name: Word
     type: Expression | None
     value: Expression | None
     span: Span
+    sizes: tuple[Expression, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

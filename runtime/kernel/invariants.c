@@ -15,7 +15,7 @@
 #define PASSES 5
 
 /* Units in which the changes of the states are measured, into w->relations.unit (nq + nv): their
- * sizes. What is frozen does not change. */
+ * sizes. What is `frozen` (NULL: nothing) does not change. */
 static void find_units(const frot_model *m, frot_work *w, const double *q, const double *v,
                        const double *sizes, const double *frozen) {
   int first = 0, ends[2] = {m->nq, m->nq + m->nv};
@@ -29,9 +29,18 @@ static void find_units(const frot_model *m, frot_work *w, const double *q, const
     for (int k = first; k < ends[kind]; k++) {
       w->relations.unit[k] =
           largest > 0 ? fmax(w->relations.unit[k], FROT_LEAST_SIZE * largest) : 1;
-      if (kind == 1 && frozen[k - m->nq] != 0) w->relations.unit[k] = 0;
+      if (kind == 1 && frozen && frozen[k - m->nq] != 0) w->relations.unit[k] = 0;
     }
   }
+}
+
+void frot_add_sizes(const frot_model *m, frot_work *w, const double *q, const double *v,
+                    double *size) {
+  int nx = m->nq + m->nv;
+  find_units(m, w, q, v, NULL, NULL);
+  for (int i = 0; i < m->n_invariants; i++)
+    for (int k = 0; k < nx; k++)
+      size[i] += fabs(w->relations.jacobian[nx * i + k]) * w->relations.unit[k];
 }
 
 /* One more equation, its row (nq + nv) in `row`: scaled by the units and to length 1. Returns

@@ -12,4 +12,9 @@ int frot_project_jointly(const frot_model *m, frot_state *s, frot_work *w, doubl
                          const unsigned char *stuck, const double *sizes, const double *frozen,
                          int *moved);
 
+/* Adds to the sizes of the invariants' terms what their rows, in w->relations.jacobian, make of the
+ * sizes of the states: terms may vanish where states do not. */
+void frot_add_sizes(const frot_model *m, frot_work *w, const double *q, const double *v,
+                    double *size);
+
 #endif

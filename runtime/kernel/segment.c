@@ -22,13 +22,14 @@ void frot_guess_unknowns(const frot_model *m, frot_work *w, const frot_segment *
   for (int k = 0; k < m->ny; k++) w->blocks.y[k] = g->y0[k] + theta * (g->y1[k] - g->y0[k]);
 }
 
-static void copy_modes(const frot_model *m, frot_state *s, const frot_layout *l,
+static void copy_state(const frot_model *m, frot_state *s, const frot_layout *l,
                        const frot_segment *g) {
   memcpy(g->modes, s->data + l->modes, sizeof *g->modes * (size_t)(m->n_contacts + m->n_elements));
   memcpy(g->along, s->data + l->along, sizeof(double) * 2 * (size_t)m->n_elements);
   memcpy(g->friction, s->data + l->friction, sizeof(double) * (size_t)m->n_elements);
   memcpy(g->d, s->data + l->d, sizeof(double) * (size_t)l->nd);
   memcpy(g->frozen, s->data + l->frozen, sizeof(double) * (size_t)m->nv);
+  memcpy(g->sizes, s->data + l->scale_x, sizeof(double) * (size_t)(g->x0 - g->sizes));
 }
 
 void frot_make_instant(const frot_model *m, frot_state *s, frot_work *w, double t,
@@ -39,7 +40,7 @@ void frot_make_instant(const frot_model *m, frot_state *s, frot_work *w, double 
   s->last_ratio = s->failed_h = 0, s->noise_shown = 0, s->noise_level = 1;
   *g.t0 = *g.t1 = t;
   *g.h = 0;
-  copy_modes(m, s, &l, &g);
+  copy_state(m, s, &l, &g);
   memset(g.spare, 0, sizeof(double) * (size_t)m->n_rows);
   memcpy(s->data + l.y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   memcpy(g.y0, w->blocks.y, sizeof(double) * (size_t)m->ny);
@@ -56,7 +57,7 @@ void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, doub
   *g.t0 = t, *g.t1 = end, *g.h = h;
   const double *spare = s->data + w->layout.spare;
   if (s->asleep == 0 || s->naps != s->kept_naps) { /* what wakes changes modes */
-    copy_modes(m, s, &w->layout, &g);
+    copy_state(m, s, &w->layout, &g);
     memcpy(g.spare, spare, sizeof(double) * (size_t)m->n_rows);
     if (s->asleep > 0) {
       memcpy(g.x0, s->data + w->layout.x, sizeof(double) * (size_t)w->layout.nx);

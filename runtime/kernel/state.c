@@ -7,6 +7,9 @@
 /* A mode fills a double exactly, so that it can lie in an array of doubles. */
 typedef char frot_mode_fills_double[sizeof(frot_contact_mode) == sizeof(double) ? 1 : -1];
 
+/* Sizes of states kept with a segment: they are what its values are projected by. */
+static int sizes_kept(const frot_model *m) { return m->n_invariants > 0 ? m->nq + m->nv : 0; }
+
 frot_layout frot_layout_of(const frot_model *m) {
   frot_layout l;
   l.nw = m->nv + m->na + m->nc;
@@ -15,8 +18,8 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.nf = m->n_contacts + 2 * m->n_elements + m->n_conditions;
   l.nz = l.nx + l.ng;
   l.nd = m->n_conditions + m->n_contacts + m->n_discrete;
-  l.ns = 3 + m->n_contacts + 4 * m->n_elements + l.nd + m->nv + m->n_rows + 2 * m->ny + l.nx +
-         DP_DENSE * l.nx;
+  l.ns = 3 + sizes_kept(m) + m->n_contacts + 4 * m->n_elements + l.nd + m->nv + m->n_rows +
+         2 * m->ny + l.nx + DP_DENSE * l.nx;
   l.early = 0;
   for (int i = 0; i < m->n_blocks; i++)
     if (!m->blocks[i].late) l.early += m->blocks[i].count;
@@ -79,6 +82,7 @@ frot_segment frot_segment_at(const frot_model *m, double *data) {
   s.friction = data, data += m->n_elements;
   s.y0 = data, data += m->ny;
   s.y1 = data, data += m->ny;
+  s.sizes = data, data += sizes_kept(m);
   s.x0 = data, data += m->nq + m->nv + FROT_QUADRATURES;
   s.f = data;
   return s;

@@ -109,6 +109,7 @@ typedef struct {
   double *along;    /* 2 n_elements: where to begin to look for the directions of pins' reactions */
   double *friction; /* n_elements: at its start */
   double *y0, *y1;  /* unknowns of the blocks at its ends */
+  double *sizes;    /* the largest that q and v have been, where there are invariants */
   double *x0;       /* nx: q, v, quadratures */
   double *f;        /* DP_DENSE x nx */
 } frot_segment;

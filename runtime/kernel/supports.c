@@ -7,6 +7,7 @@
 #include "blocks.h"
 #include "core.h"
 #include "guards.h"
+#include "invariants.h"
 #include "record.h"
 #include "terms.h"
 #include "tolerances.h"
@@ -43,7 +44,7 @@ void frot_take_back(const frot_model *m, frot_state *s, frot_work *w) {
   s->changed = 0;
 }
 
-/* Kinematics, places and invariants at the values given now. */
+/* Kinematics, places and invariants, with their sizes, at the values given now. */
 static int look(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                 const double *v, double *place, double *invariant) {
   const double *d = s->data + frot_layout_of(m).d;
@@ -58,6 +59,7 @@ static int look(const frot_model *m, frot_state *s, frot_work *w, double t, cons
     w->call.res[0] = invariant, w->call.res[1] = w->relations.jacobian,
     w->call.res[2] = w->relations.residual;
     frot_call(w, &m->invariants);
+    frot_add_sizes(m, w, q, v, w->relations.residual);
   }
   return FROT_OK;
 }

@@ -51,7 +51,7 @@ def test_its_length_stays_over_a_thousand_periods(run) -> None:
     assert np.abs(ends / 1.3 - 1).max() < 1e-6  # inside the steps: their dense output
     segments = records(result._record)
     assert len(segments) == result.figures.steps
-    first = HEAD + 3 + 2  # q begins after three times and the speeds held
+    first = HEAD + 3 + 2 + 4  # q begins after three times, the speeds held and sizes
     x, y = np.array([segment[first : first + 2] for segment in segments]).T
     assert np.abs(np.hypot(x, y) / 1.3 - 1).max() < 1e-12
     assert result.balance.relative < 1e-5

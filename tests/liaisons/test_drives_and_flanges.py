@@ -79,3 +79,62 @@ def test_flanges_of_points_on_curves_turn_and_push(result: frot.Result) -> None:
     assert np.abs(result["ring.u"] - (0.3 + 3 / (2 * 0.25) * t**2 / 2)).max() < 1e-10
     assert np.abs(result["rail.u"] + 0.5 * t**2 / 2).max() < 1e-10
     assert np.abs(result["slide.position.y"] + 0.5 * t**2 / 2).max() < 1e-10
+
+
+SOURCES = """
+model Motor
+  RotationalFlange flange;
+equation
+  flange.torque = -3 N.m;
+end Motor;
+model M
+  body p: box(mass = 2 kg, size = (0.3, 0.5, 0.7) m);
+  body q: box(mass = 2 kg, size = (0.3, 0.5, 0.7) m);
+  body s: box(mass = 2 kg, size = (0.3, 0.5, 0.7) m);
+  curve bent on ground: parametric((1 m*u, 0.2 m*u^2, 0 m), u = (-3, 3));
+  curve bar on ground: line(through = (0, 0, 0) m, direction = (3, 0, 4));
+  frame high on ground at (0, 0, 0.6) m;
+  Real w;
+  Motor m1, m2, m3;
+  liaison by_time: rotoide(ground, p, axis = y) driven(angle = time^2/(1 s^2));
+  liaison by_text: rotoide(ground, q, axis = y) driven(angle = w);
+  liaison hook: spherique(high, s.top);
+  liaison along: point_courbe(s.bottom, bent);
+  body bead: particle(mass = 1 kg);
+  liaison slide: point_courbe(bead, bar) driven(abscissa = 1 m/s^2*time^2);
+  output Torque one = by_time.torque.y;
+  output Torque other = by_text.torque.y;
+  output Length way = slide.abscissa;
+  output Force push = dot(slide.force, (0.6, 0, 0.8));
+  output Force hold = hook.force;
+  output Force guide = along.force;
+  output Torque effort = along.flange.torque;
+initial
+  guess(along.u = 0.3);
+equation
+  w = time^2/(1 s^2);
+  connect(m1.flange, by_time.flange);
+  connect(m2.flange, by_text.flange);
+  connect(m3.flange, along.flange);
+  experiment(stop = 0.2 s);
+end M;
+"""
+
+
+def test_flanges_push_where_time_drives_and_where_rows_keep_a_curve() -> None:
+    """What a motor gives, a drive need not; along a curve that closes a loop it pushes."""
+    run = frot.compile(SOURCES).simulate(tolerance=1e-9)
+    needed = 2 * (0.3**2 + 0.7**2) / 12 * 2 - 3
+    assert run["one"] == pytest.approx(needed, rel=1e-12)
+    assert run["other"] == pytest.approx(needed, rel=1e-9)
+    assert run["way"] == pytest.approx(run.time**2, abs=1e-15)
+    assert run["push"] == pytest.approx(-(2 + 9.81 * 0.8), rel=1e-12)
+    at = run.at(0.1)
+    hold, guide, gone = (
+        np.array([at[f"{x}.{c}"] for c in "xyz"], dtype=float)
+        for x in ("hold", "guide", "s.acceleration")
+    )
+    u = float(at["along.u"])
+    along = np.array([1, 0.4 * u, 0])
+    left = hold - guide + at["effort"] * along / (along @ along)
+    assert left == pytest.approx(2 * gone + np.array([0, 0, 2 * 9.81]), abs=1e-10)

@@ -80,6 +80,11 @@ class ContactGeometry(Geometry):
         """The parameter of the curve."""
         return self.abscissa, self.effort("u", kinematics).rate
 
+    def rate_of(self, coordinate: str, kinematics: Kinematics) -> ca.SX:
+        """Of a gap, of a thread's length, else along the curve."""
+        apart = {"gap": self.approach, "length": -self.approach}.get(coordinate)
+        return self.effort(coordinate, kinematics).rate if apart is None else apart
+
     def effort(self, coordinate: str, kinematics: Kinematics) -> Effort:
         """A force on the point along the curve."""
         pace = self._pace(kinematics)

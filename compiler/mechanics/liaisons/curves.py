@@ -71,7 +71,9 @@ class Follow(Motion):
     def wrench(self, at: Between) -> tuple[ca.SX, ca.SX]:
         """A force along the tangent."""
         tangent = at.tangent
-        if tangent is None:
+        if at.track is not None and at.track.trace is not None:
+            tangent = at.track.trace.slopes[0]
+        elif tangent is None:
             here = self.curve.parameter(at.way, at.a, at.lower)
             tangent = at.a.direction(slope_at(self.curve, here, at.lower))
         return tangent / ca.sumsqr(tangent), nowhere()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import casadi as ca
 from frot.compiler.lowering.symbols import Rows
 from frot.compiler.mechanics.geometry.touches import Touch
-from frot.compiler.mechanics.liaisons.actions import Action, Between, Effort
+from frot.compiler.mechanics.liaisons.actions import Action, Effort
 from frot.compiler.mechanics.link import Geometry, Reaction
 from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
 from frot.dsl.data.classes import dataclass
@@ -79,6 +79,8 @@ class JointGeometry(Geometry):
         if name in self.coordinates:
             return self.coordinates[name]
         match name:
+            case "abscissa":  # along a line
+                return self.coordinates["u"]
             case "speed":
                 return self.rates_of.get("displacement", self.speed)
             case "speed_angle":
@@ -133,24 +135,46 @@ class JointGeometry(Geometry):
         """As the bodies show it."""
         return kinematics.coordinate(self.joint, index)
 
+    def rate_of(self, coordinate: str, kinematics: Kinematics) -> ca.SX:
+        """As the bodies move; of what is in touch the gap stays."""
+        a, b = kinematics.moving(self.joint.a), kinematics.moving(self.joint.b)
+        match coordinate:
+            case "orientation":
+                turning = ca.vertcat(0, a.pose.axes.T @ self.relative)
+                return product(turning, ca.densify(self.attitude)) / 2
+            case "length":
+                return next(x.rate(a, b) for x in self.actions if x.measure is not None)
+            case "gap" if "gap" not in self.rates_of:
+                return ca.SX(0)
+        return self.effort(coordinate, kinematics).rate
+
     def place(self, kinematics: Kinematics) -> ca.SX:
         """Where figures touch, else b."""
         return kinematics.position(self.joint.b) if self.touch is None else self.touch.place
 
     def effort(self, coordinate: str, kinematics: Kinematics) -> Effort:
-        """Of a gap a force along the normal, else as the motion says."""
+        """Of a gap a force along the normal, else as the motion says.
+
+        Auxiliary speeds add to the rate what makes the power of that force.
+        """
         joint = self.joint
         if coordinate == "gap":
             assert self.touch is not None
             normal, place = self.touch.normal, self.touch.place
             couple = cross(place - kinematics.position(joint.b), normal)
             return Effort(self.rates_of["gap"], normal, couple)
-        index = [motion.name for motion in joint.motions].index(coordinate)
-        rate = kinematics.coordinate(joint, index)[1]
-        tangent = kinematics.tangents.get(joint.liaison)
-        a, b = kinematics.pose(joint.a), kinematics.pose(joint.b)
-        between = Between(a, b, kinematics.fixed.lower, tangent=tangent)
-        return Effort(rate, *joint.motions[index].bare.wrench(between))
+        name = "u" if coordinate == "abscissa" else coordinate
+        index = [motion.name for motion in joint.motions].index(name)
+        between = kinematics.between(joint, ca.SX(1))
+        force, couple = joint.motions[index].bare.wrench(between)
+        rate, auxiliary = kinematics.coordinate(joint, index)[1], kinematics.symbols.sw
+        if auxiliary.numel():
+            a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
+            power = ca.dot(force, b.linear - a.velocity_of(b.pose.origin))
+            power += ca.dot(couple, self.relative)
+            rate = ca.substitute(rate, auxiliary, ca.SX.zeros(auxiliary.shape))
+            rate += ca.jtimes(power, auxiliary, auxiliary)
+        return Effort(rate, force, couple)
 
     def _beside(self, vector: ca.SX, planar: bool) -> ca.SX:
         """The part of a vector along a contact, or along the ways that a liaison leaves.

@@ -7,18 +7,20 @@ by the velocity of the place b and by the angular velocity of its body.
 from __future__ import annotations
 
 import copy
+import itertools
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.lowering.walk import subexpressions
 from frot.compiler.mechanics.liaisons.actions import Action, Effort, RelationGeometry
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.moves import Column
 from frot.compiler.mechanics.link import point_body
 from frot.compiler.mechanics.spatial import Moving, Pose, cross, nowhere, product
 from frot.dsl import Log
-from frot.dsl.checked import Expression, Liaison, Quantity, StatedRelation, Variable
+from frot.dsl.checked import Body, Expression, Liaison, Quantity, StatedRelation, Variable
 from frot.dsl.data.classes import dataclass, replace
 
 if TYPE_CHECKING:
@@ -46,10 +48,11 @@ class Stated(Lock):
 
     def of_relation(self, joint: Joint, kinematics: Kinematics, side: ca.SX) -> RelationGeometry:
         """Left side less right side, and the size of both."""
-        value, size = Reader(kinematics).value(self)
+        reader = Reader(kinematics)
+        value, size = reader.value(self)
         if self.kinematic:
             return RelationGeometry(ca.SX(0), value, ca.SX.ones(3), ca.SX(0))
-        return RelationGeometry(value, kinematics.rate(value), ca.SX.ones(3), size)
+        return RelationGeometry(value, _rate(self, reader), ca.SX.ones(3), size)
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +62,7 @@ class Reader:
     kinematics: Kinematics
     variable: Callable[[Variable], ca.SX] | None = None
     of_liaison: Callable[[Liaison, str], ca.SX] | None = None
+    rate_of: Callable[[Liaison, str], ca.SX] | None = None
 
     def value(self, relation: Stated | StatedRelation) -> tuple[ca.SX, ca.SX]:
         """Left side less right side of a relation, and the size of both."""
@@ -77,15 +81,49 @@ class Reader:
         return ca.densify(value[:2]) if planar else value
 
 
+def bodies_of(relation: Stated | StatedRelation) -> set[Body]:
+    """The bodies whose places or velocities a relation reads."""
+    sides = itertools.chain(*map(subexpressions, (relation.left, relation.right)))
+    owners = (node.owner for node in sides if isinstance(node, Quantity))
+    return {
+        owner if isinstance(owner, Body) else point_body(owner)
+        for owner in owners
+        if not isinstance(owner, Liaison)
+    }
+
+
 def unit_of(relation: StatedRelation, joint: Joint, reader: Reader) -> Effort:
     """What one unit of what keeps a relation does."""
     kinematics = reader.kinematics
     speeds = ca.vertcat(kinematics.symbols.v, kinematics.symbols.sw)
-    value, _ = reader.value(relation)
-    rate = value if relation.kinematic else kinematics.rate(value)
-    along = ca.jacobian(rate, speeds).T
+    along = ca.jacobian(_rate(relation, reader), speeds).T
     force, couple = _wrench(relation, joint, reader)
     return Effort(ca.dot(along, speeds), force, couple, along)
+
+
+def _rate(relation: Stated | StatedRelation, reader: Reader) -> ca.SX:
+    """Rate of left side less right side, to which auxiliary speeds add as they move its bodies."""
+    value, _ = reader.value(relation)
+    if relation.kinematic:
+        return value
+    kinematics, step = reader.kinematics, ca.SX.sym("step")
+    auxiliary, rate = kinematics.symbols.sw, kinematics.rate(value)
+    if not auxiliary.numel():
+        return rate
+    moved = {}
+    for body in bodies_of(relation):
+        own = kinematics.bodies[body]
+        linear, turn = (ca.jtimes(x, auxiliary, auxiliary) for x in (own.linear, own.angular))
+        moved[body] = _displaced(own, step * linear, step * turn)
+
+    def coordinate(liaison: Liaison, name: str) -> ca.SX:
+        assert reader.of_liaison is not None and reader.rate_of is not None
+        apart = ca.jtimes(reader.rate_of(liaison, name), auxiliary, auxiliary)
+        return reader.of_liaison(liaison, name) + step * apart
+
+    gone = replace(_with_bodies(reader, moved), of_liaison=coordinate)
+    slope = ca.jacobian(gone.value(relation)[0], step)
+    return rate + ca.substitute(slope, step, 0)
 
 
 def _unrated(value: ca.SX) -> ca.SX:
@@ -114,16 +152,21 @@ def _wrench(relation: Stated | StatedRelation, joint: Joint, reader: Reader) -> 
     kinematics = reader.kinematics
     body, there = point_body(joint.b), kinematics.position(joint.b)
     way, turn = ca.SX.sym("way", 3), ca.SX.sym("turn", 3)
-    moved = copy.copy(kinematics)
     own = kinematics.bodies[body]
     linear = way + cross(turn, own.pose.origin - there)
     other = _faster(own, linear, turn) if relation.kinematic else _displaced(own, linear, turn)
-    moved.bodies = {**kinematics.bodies, body: other}
-    value, _ = replace(reader, kinematics=moved).value(relation)
+    value, _ = _with_bodies(reader, {body: other}).value(relation)
     slopes = [ca.jacobian(value, x).T for x in (way, turn)]
     zero = ca.SX.zeros(3)
     force, couple = ca.substitute(slopes, [way, turn], [zero, zero])
     return force, couple
+
+
+def _with_bodies(reader: Reader, moved: dict[Body, Moving]) -> Reader:
+    """The reader of the same relation with some bodies elsewhere, or faster."""
+    kinematics = copy.copy(reader.kinematics)
+    kinematics.bodies = {**kinematics.bodies, **moved}
+    return replace(reader, kinematics=kinematics)
 
 
 def _faster(own: Moving, linear: ca.SX, turn: ca.SX) -> Moving:
