@@ -243,7 +243,7 @@ def _length(subject: str, direction: Expression) -> Check:
 
 
 def _sizes(owner: str, given: Mapping[str, Expression]) -> Iterator[Check]:
-    """No direction is zero, and sizes are positive, as far as parameters give them."""
+    """No direction is zero, sizes and intervals are positive, as far as parameters give them."""
     for name, value in given.items():
         if not is_fixed(value):
             continue
@@ -251,6 +251,12 @@ def _sizes(owner: str, given: Mapping[str, Expression]) -> Iterator[Check]:
             yield _length(f"the {name} of {owner}", value)
         elif name in ("radius", "a", "b"):
             yield Check(POSITIVE, f"{name} of {owner}", value, value.span)
+        elif name in ("u", "v"):
+            kind = value.type.item
+            first, last = (Element(value, k, kind, value.span) for k in (0, 1))
+            way = Binary("-", last, first, kind, value.span)
+            long = Call("abs", (way,), kind, value.span)
+            yield Check(POSITIVE, f"length of the interval of {name} of {owner}", long, value.span)
 
 
 def _arguments(

@@ -135,8 +135,11 @@ class Report:
         if m.touching:
             left = m.freedoms - m.independent_at_start - m.touching_independent
             closed = f"  ({left} with the contacts that touch at the start)"
+        counted = self.analysis is not None and not self.analysis.found
+        if counted:
+            closed = "  (where no relation follows from others)"
         yield f"  degrees of freedom      {m.degrees_of_freedom}{closed}"
-        if self.bodies and m.degrees_of_freedom <= 0:
+        if self.bodies and m.degrees_of_freedom <= 0 and not counted:
             names = ", ".join(f"'{x.name}'" for x in self.liaisons)
             yield f"  nothing can move by itself: the liaisons {names} hold all bodies"
         if m.independent_at_start < m.independent:

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 _STEPS = 60
 _HOLDS, _SLIGHT = 1e-10, 1e-3
 _TOUCHES = 1e-9
+_TRIES, _ASIDE = 6, 0.3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,6 +115,16 @@ def find_start(system: Assembled) -> Start | None:
             q = q + step / max(1.0, longest / 0.7)
         return False
 
+    def settle_from_elsewhere(used: NDArray[np.bool_]) -> bool:
+        """From places aside too: where rods lie in a line no small step closes their loop."""
+        nonlocal q
+        begun, aside = q.copy(), np.random.default_rng(0)
+        for k in range(_TRIES):
+            if settle(used):
+                return True
+            q = begun + _ASIDE * (k + 1) * aside.uniform(-1, 1, q.size)
+        return settle(used)
+
     def meet_guesses() -> None:
         nonlocal q
         for _ in range(_STEPS):
@@ -142,11 +153,11 @@ def find_start(system: Assembled) -> Start | None:
     settle(used)
     choose_sides()
     used = kept & ~parts
-    found = settle(used)
+    settle_from_elsewhere(used)
     choose_sides()
     lengths = 1 + np.max(np.abs(q), initial=0.0)
     for _ in range(len(links) + 1):
-        found = settle(used)
+        found = settle_from_elsewhere(used)
         gaps = function(*arguments())[3].ravel()
         below = kept & ~used & (gaps < -_TOUCHES * lengths)
         if not below.any():

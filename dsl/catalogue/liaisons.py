@@ -15,10 +15,9 @@ ANY_TURN = {"orientation": REAL.of_shape((4,)), "angular_velocity": ANGULAR_VELO
 ANY = ("point", "curve", "surface")
 
 
-def _axis(name: str) -> Argument:
-    return Argument(
-        name, REAL, "axis", required=False, default="z", space_only=True, doc="direction, axes of a"
-    )
+def _axis(name: str, default: str = "z", of: str = "a") -> Argument:
+    doc = f"direction, axes of {of}"
+    return Argument(name, REAL, "axis", required=False, default=default, space_only=True, doc=doc)
 
 
 def _liaison(
@@ -104,7 +103,7 @@ _ROWS = (
         (5, None),
         {"angle": REAL},
         (
-            Argument("axis", REAL, "axis", space_only=True, doc="direction, axes of a"),
+            _axis("axis"),
             Argument("pitch", LENGTH, doc="advance per turn"),
         ),
         doc="A screw.",
@@ -116,7 +115,7 @@ _ROWS = (
         POINT,
         (4, None),
         {"angle_a": REAL, "angle_b": REAL},
-        (_axis("axis_a"), _axis("axis_b")),
+        (_axis("axis_a"), _axis("axis_b", "y", "b")),
         doc="Two crossed axes.",
     ),
     _liaison(

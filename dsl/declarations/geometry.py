@@ -7,14 +7,16 @@ from typing import cast
 from frot.dsl import checked
 from frot.dsl.catalogue import SHAPES, Argument, find, spellings, vector
 from frot.dsl.catalogue.types import LENGTH
+from frot.dsl.checked.arrays import vector as checked_vector
 from frot.dsl.checked.describe import describe
-from frot.dsl.checked.evaluation import constant
+from frot.dsl.checked.evaluation import Value, constant
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.declarations.bounds import keep_positive
 from frot.dsl.declarations.user_kinds import stated_shape
 from frot.dsl.expressions.expression import agrees, expect, expression, fitting
 from frot.dsl.expressions.known import known, out_of_bounds
 from frot.dsl.expressions.names import resolve
+from frot.dsl.expressions.structure import settle
 from frot.dsl.names.entities import Array
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import Scope
@@ -194,7 +196,10 @@ def _parametric(
     names: tuple[str, ...],
     scope: Scope,
 ) -> dict[str, checked.Expression] | None:
-    """`parametric((x(u), y(u)), u = (from, to), periodic = true)`; None after a message."""
+    """`parametric((x(u), y(u)), u = (from, to), periodic = true)`; None after a message.
+
+    Of a surface `periodic = (true, false)` is said of each parameter, `true` of both.
+    """
     plain = [a for a in arguments if a.name is None]
     named = {a.name.span.text: a.value for a in arguments if a.name is not None}
     wrong = [n for n in named if n not in (*names, "periodic")]
@@ -217,15 +222,32 @@ def _parametric(
             return None
         values[name] = bounds
         local[name] = checked.Variable(name, bounds.type.item, named[name].span)
-    periodic: checked.Expression | None = checked.Literal(False, BOOLEAN, node.span)
-    if "periodic" in named:
-        periodic = expect(named["periodic"], BOOLEAN, scope)
+    periodic = _periodic(named.get("periodic"), node, names, scope)
     point = expect(plain[0].value, vector(LENGTH, scope.planar), scope.inside(**local))
     if point is None or periodic is None:
         return None
     first = values[names[0]]
     start = checked.Element(first, 0, first.type.item, first.span)
     return {"point": point, "from": start, "periodic": periodic, **values}
+
+
+def _periodic(
+    given: tree.Expression | None, node: tree.Expression, names: tuple[str, ...], scope: Scope
+) -> checked.Expression | None:
+    """Whether the function goes on beyond the bounds of its parameters, which is known; or None."""
+    if given is None:
+        given_here: Value | None = False
+    else:
+        found = expression(given, scope)
+        shape = () if found is None or len(names) == 1 or not found.type.shape else (len(names),)
+        wanted = BOOLEAN.of_shape(shape)
+        found = None if found is None else fitting(found, given, wanted, scope)
+        given_here = None if found is None else settle(found, scope, "what is periodic")
+    if given_here is None:
+        return None
+    values = given_here if isinstance(given_here, tuple) else (given_here,) * len(names)
+    each = [checked.Literal(value is True, BOOLEAN, node.span) for value in values]
+    return each[0] if len(each) == 1 else checked_vector(each, node.span)
 
 
 def _implicit(

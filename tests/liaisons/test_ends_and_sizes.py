@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
 import frot
 
@@ -99,3 +100,49 @@ model Line "A surface that is none"
   liaison L: point_surface(b, c);
 end Line;
 """).simulate()
+
+
+SHEET = """
+model Sheet
+  body b: particle(mass = 1 kg);
+  body s: sphere(mass = 1 kg, radius = 0.1 m);
+  surface low on ground: parametric((1 m*u, 1 m*v, 0.1 m*u^2), u = (1, -1), v = (-1, 2){});
+  surface high on ground: parametric((1 m*u, 1 m*v, 5 m), u = (-1, 1), v = (-9, 9));
+  liaison on: point_surface(b, low);
+  liaison far: contact_ponctuel(s.surface, high, unilateral = false);
+initial
+  b.position = (0, 0.2, 0) m;
+  guess(s.position = (0, 0, 5.1) m);
+  b.velocity.x = {} m/s;
+  b.velocity.y = {} m/s;
+  s.velocity.y = 3 m/s;
+  experiment(stop = 1 s);
+end Sheet;
+"""
+
+# up to x = 1 on z = x^2/10 from 2 m/s, by the energy
+DOWN = quad(lambda x: np.sqrt((1 + 0.04 * x**2) / (4 - 0.2 * 9.81 * x**2)), 0, 1)[0]
+
+
+@pytest.mark.parametrize(
+    ("periodic", "x", "y", "end"),
+    [
+        ("", 0, 3, 0.6),
+        ("", 0, -3, 0.4),
+        (", periodic = (true, false)", 0, 3, 0.6),
+        (", periodic = (false, true)", 0, 3, None),
+        (", periodic = (false, true)", 2, 0, DOWN),
+        (", periodic = true", 2, 3, None),
+    ],
+)
+def test_a_surface_of_points_ends_at_its_bounds(
+    periodic: str, x: float, y: float, end: float | None
+) -> None:
+    """Level along y, so that the speed there stays; a ball stays where its own surface goes on."""
+    model = frot.compile(SHEET.format(periodic, x, y))
+    if end is None:
+        assert model.simulate()["b.position.y"][-1] == pytest.approx(0.2 + y, abs=1e-9)
+        return
+    with pytest.raises(frot.FrotError, match=r"E0906.*liaison 'on' leaves 'low'") as raised:
+        model.simulate()
+    assert raised.value.result.time[-1] == pytest.approx(end, abs=1e-8)

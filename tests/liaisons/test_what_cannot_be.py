@@ -42,6 +42,10 @@ CUBE = "body b: box(mass = 1 kg, size = (1, 1, 1) m); "
             CUBE + "surface s on b: plane(through = (0, 0, 0) m, normal = (0, 0, 0));",
             "the length of the normal of surface 's' is 0",
         ),
+        (
+            CUBE + "surface s on b: parametric((1 m*u, 1 m*v, 0 m), u = (0, 1), v = (2, 2));",
+            "the length of the interval of v of surface 's' is 0",
+        ),
     ],
 )
 def test_inertias_and_directions_are_told_before_anything_runs(given: str, told: str) -> None:

@@ -343,3 +343,24 @@ end Folded;
 """
     ).report()
     assert [x.text for x in found.analysis.integrals] == ["energy"]
+
+
+FOLDED = """
+planar model Folded
+  body a: rod(mass = 1 kg, length = 1 m);
+  body b: rod(mass = 1 kg, length = 1 m);
+  frame far on ground at ({} m, 0 m);
+  liaison A: rotoide(ground, a.start);
+  liaison B: rotoide(a.tip, b.start);
+  liaison C: rotoide(b.tip, far);
+end Folded;
+"""
+
+
+def test_a_loop_is_closed_from_rods_that_lie_in_a_line() -> None:
+    """Folded rods turn about one pin; where a loop cannot be closed nothing is said to be held."""
+    found = frot.compile(FOLDED.format(0)).report()
+    assert (found.mobility.degrees_of_freedom, found.mobility.hyperstatic) == (1, 1)
+    told = str(frot.compile(FOLDED.format(5)).report())
+    assert "0  (where no relation follows from others)" in told
+    assert "nothing can move" not in told

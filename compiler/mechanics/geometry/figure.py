@@ -121,6 +121,10 @@ class Figure:
         """The least and the largest parameter of a curve that has ends."""
         raise NotImplementedError
 
+    def limits(self, lower: Lower) -> Iterator[tuple[int, ca.SX, ca.SX]]:
+        """The parameters of a surface that end: the place of each, its least and its largest."""
+        yield from ()
+
     @property
     def borders(self) -> tuple[tuple[Axis, Expression], ...]:
         """Directions along which a surface ends at half of a length on either side of its place."""

@@ -22,6 +22,7 @@ from frot.dsl.checked import (
     SurfacePlace,
     Variable,
 )
+from frot.dsl.checked.arrays import items_of
 from frot.dsl.messages.source import Span
 
 
@@ -97,6 +98,8 @@ def _surface(surface: Surface, span: Span) -> Placed | None:
                 Implicit(given["value"], _unknowns(given["value"], "xyz")),
             )
         case "parametric":
-            sheet = Sheet(given["point"], _unknowns(given["point"], "uv"), (given["u"], given["v"]))
+            u, v = (_is_true(x) for x in items_of(given["periodic"]))
+            unknowns, bounds = _unknowns(given["point"], "uv"), (given["u"], given["v"])
+            sheet = Sheet(given["point"], unknowns, bounds, (u, v))
             return Placed(_at(surface, "centre", span), sheet)
     return None

@@ -95,11 +95,15 @@ class Path(Figure):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sheet(Figure):
-    """A surface of points that depend on `u` and `v`, None for one that does not occur."""
+    """A surface of points that depend on `u` and `v`, None for one that does not occur.
+
+    `bounds` are as those of a curve, for each, and so is `periodic`.
+    """
 
     points: Expression
     unknowns: tuple[Expression | None, ...]
     bounds: tuple[Expression, Expression]
+    periodic: tuple[bool, bool]
 
     @property
     def parameters(self) -> int:
@@ -109,6 +113,13 @@ class Sheet(Figure):
     def point(self, u: ca.SX, lower: Lower) -> ca.SX:
         """As the text says; `u` has two items."""
         return _put(self.points, self.unknowns, u, lower)
+
+    def limits(self, lower: Lower) -> Iterator[tuple[int, ca.SX, ca.SX]]:
+        """As the text says."""
+        for k, (bounds, periodic) in enumerate(zip(self.bounds, self.periodic, strict=True)):
+            if not periodic:
+                ends = lower(bounds)
+                yield k, ca.mmin(ends), ca.mmax(ends)
 
     def beginnings(self, lower: Lower) -> list[ca.SX]:
         """Over the whole of it."""

@@ -30,7 +30,7 @@ class Leaving:
 
 
 def find_leaving(variables: Variables) -> Iterator[Leaving]:
-    """Both ends of each curve that has some, and the borders of faces."""
+    """Both ends of each curve that has some, the borders of faces, the ends of parameters."""
     kinematics, lower = variables.kinematics, variables.kinematics.fixed.lower
     for liaison, link in variables.links.items():
         parts = liaison.options["unilateral"] if is_unilateral(liaison) else None
@@ -51,6 +51,9 @@ def find_leaving(variables: Variables) -> Iterator[Leaving]:
                 more = "" if straight else " (unless it says `periodic = true`)"
                 yield Leaving(liaison, _text(liaison, name) + more, _past(u, figure, lower), parts)
         for one in own:
+            for k, least, largest in one.figure.limits(lower) if one.parameters.numel() else ():
+                text = f"{_text(liaison, one.name)} (unless it says `periodic = true`)"
+                yield Leaving(liaison, text, _beyond(one.parameters[k], least, largest), parts)
             for axis, long in one.figure.borders:
                 way = ca.dot(axis.unit(lower), local_of(one.pose, one.place))
                 beyond = ca.fabs(way) - (0.5 + AT_END) * lower(long)
@@ -63,7 +66,10 @@ def _text(liaison: Liaison, name: str) -> str:
 
 def _past(u: ca.SX, figure: Figure, lower: Lower) -> ca.SX:
     """How far a parameter is beyond the ends of a curve."""
-    least, largest = figure.ends(lower)
+    return _beyond(u, *figure.ends(lower))
+
+
+def _beyond(u: ca.SX, least: ca.SX, largest: ca.SX) -> ca.SX:
     return ca.fmax(u - largest, least - u) - AT_END * (largest - least)
 
 
