@@ -72,7 +72,6 @@ def test_what_a_relation_cannot_hold_is_told() -> None:
     for relation, said in (
         ("geometric b.velocity.x = 0 m/s", "b.velocity"),
         ("kinematic b.acceleration.x = 0 m/s^2", "b.acceleration"),
-        ("geometric b.position = a.position", "between two numbers"),
     ):
         text = f"""
 liaison Wrong(a: frame, b: frame)
