@@ -246,7 +246,9 @@ def _periodic(
     if given_here is None:
         return None
     values = given_here if isinstance(given_here, tuple) else (given_here,) * len(names)
-    each = [checked.Literal(value is True, BOOLEAN, node.span) for value in values]
+    each: list[checked.Expression] = [
+        checked.Literal(value is True, BOOLEAN, node.span) for value in values
+    ]
     return each[0] if len(each) == 1 else checked_vector(each, node.span)
 
 
