@@ -108,9 +108,10 @@ def _weights(
             places.append((row, k))
             entries.append(item)
     found: list[np.ndarray] = []
+    where = tuple(np.array(places, dtype=int).reshape(-1, 2).T)
     for numbers in _at_random(column(entries)):
         matrix = np.zeros((len(rows), len(unknowns)))
-        matrix[tuple(np.array(places).T)] = numbers.ravel()
+        matrix[where] = numbers.ravel()
         if np.isfinite(matrix).all() and _has_inverse(matrix):
             return None
         sizes = np.abs(matrix).max(axis=0)

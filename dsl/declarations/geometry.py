@@ -9,7 +9,7 @@ from frot.dsl.catalogue import SHAPES, Argument, find, spellings, vector
 from frot.dsl.catalogue.types import LENGTH
 from frot.dsl.checked.arrays import vector as checked_vector
 from frot.dsl.checked.describe import describe
-from frot.dsl.checked.evaluation import Value, constant
+from frot.dsl.checked.evaluation import constant
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.declarations.bounds import keep_positive
 from frot.dsl.declarations.user_kinds import stated_shape
@@ -236,7 +236,7 @@ def _periodic(
 ) -> checked.Expression | None:
     """Whether the function goes on beyond the bounds of its parameters, which is known; or None."""
     if given is None:
-        given_here: Value | None = False
+        given_here: object | None = False
     else:
         found = expression(given, scope)
         shape = () if found is None or len(names) == 1 or not found.type.shape else (len(names),)

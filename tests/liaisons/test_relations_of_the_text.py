@@ -147,3 +147,41 @@ model Wire "A box and a wire"
 end Wire;
 """).report()
     assert told in str(raised.value)
+
+
+def test_equations_without_a_common_highest_derivative() -> None:
+    """Two bodies beside each other, whose relations a decaying variable opens."""
+    run = frot.compile("""
+liaison Slide(a: frame, b: frame, Real z)
+  geometric dot(b.position - a.position, a.ex) = z*(1 m);
+  geometric dot(b.position - a.position, a.ey) = z*(1 m);
+  geometric dot(a.ex, b.ey) = z;
+  geometric dot(a.ey, b.ez) = z;
+  geometric dot(a.ez, b.ex) = z;
+end Slide;
+liaison Cross(a: frame, b: frame, Real z)
+  geometric b.position - a.position = z*(1, 1, 1)*(1 m);
+  geometric dot(a.ex, b.ey) = z;
+end Cross;
+model Two
+  body p: box(mass = 3 kg, size = (0.5, 0.4, 0.5) m);
+  body q: box(mass = 1 kg, size = (0.4, 0.3, 0.4) m);
+  frame f1 on ground at (0.1, -0.3, -0.5) m rotated(axis = (1, 1, 0.3), angle = 0.2);
+  frame f2 on p at (-0.4, 0, 0) m rotated(axis = (-0.9, -0.6, -0.5), angle = 2);
+  frame f3 on ground at (0.5, -0.1, -0.4) m rotated(axis = (-0.6, 0.8, 0), angle = 0.8);
+  frame f4 on q at (-0.1, 0.4, 0.2) m rotated(axis = (0.6, -0.5, -0.8), angle = -2.3);
+  Real z;
+  liaison cross: Cross(f1, f2, z = z);
+  liaison slide: Slide(f4, f3, z = z);
+  output Length apart = f2.position - f1.position;
+  output Real turned = dot(f1.ex, f2.ey);
+  output Real across = dot(f4.ez, f3.ex);
+initial
+  z = 0.1;
+equation
+  der(z) = -z/(1 s);
+  experiment(stop = 0.2 s);
+end Two;
+""").simulate()
+    for name in ("apart.x", "apart.y", "apart.z", "turned", "across"):
+        assert run[name] == pytest.approx(0.1 * np.exp(-run.time), abs=1e-8)
