@@ -76,10 +76,10 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
 }
 
 /* Next to a posture that the step comes from there is far more of it than where the step leads. */
-static void measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
-  if (s->from_posture) return;
-  frot_measure_noise(m, s, w, t);
+static int measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
+  if (s->from_posture) return 0;
   s->heard = s->h;
+  return frot_measure_noise(m, s, w, t);
 }
 
 /* Whether a guard has made the steps ever shorter, each with an error that was within its bound,
@@ -91,9 +91,10 @@ static int shrinks_unheard(const frot_state *s, const frot_work *w, const frot_a
 
 /* The error of the step that ran, over its bound, by rounding that is measured now. */
 static double hear(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
-  measure_noise(m, s, w, t + h);
-  memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-  frot_slope(m, s, w, t + h, w->step.z1, frot_stage(w, DP_STAGES + 1)); /* the end is read later */
+  if (!measure_noise(m, s, w, t + h)) { /* the end is read later */
+    memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
+    frot_slope(m, s, w, t + h, w->step.z1, frot_stage(w, DP_STAGES + 1));
+  }
   return frot_error_ratio(m, s, w, t, h);
 }
 

@@ -77,7 +77,10 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       if (plain) bound = fmax(bound, noise), noise = 0; /* no inertia smooths it */
     } else {
       double largest = FROT_GUARD_LOOSEST * s->data[l->scale_g + w->guards.list[j - n]];
-      for (int k = 0; k <= DP_STAGES; k++) largest = fmax(largest, fabs(frot_stage(w, k)[j]));
+      for (int k = 0; k <= DP_STAGES; k++) {
+        double size = fabs(frot_stage(w, k)[j]);
+        if (size > largest) largest = size;
+      }
       bound = guard_tolerance * h * largest;
       double measured = frot_guard_noise(m, s, w, w->guards.list[j - n], h);
       noise = FROT_NOISE_MARGIN * h * fmax(measured, FROT_GUARD_FLOOR * w->guards.size[j - n]);

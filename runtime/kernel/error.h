@@ -12,8 +12,9 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
 /* What rounding does to the derivatives at time t, into the state: that of the values and of the
  * time, by their influence, and that of the evaluation, by what a second difference leaves where
  * nothing bends so fast. A value whose derivative is nothing but rounding would shrink the step
- * without end. The stages of an explicit step stay, those of its dense output are lost. */
-void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t);
+ * without end. The stages of an explicit step stay, those of its dense output are lost. Returns
+ * whether the last evaluation was at the end of the step, as its own was. */
+int frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t);
 
 /* The same of a state's rate in a step h, where a coordinate is no better than its speed. */
 double frot_noise_of_rate(const frot_model *m, const frot_state *s, const frot_work *w, int state,

@@ -183,7 +183,7 @@ static void add_rounding_of_constants(const frot_model *m, frot_state *s, frot_w
   }
 }
 
-void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
+int frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
   double *base = frot_stage(w, BASE), *forth = frot_stage(w, FORTH), *back = frot_stage(w, BACK);
   double *largest = w->step.f + LARGEST * w->layout.nz, *size = w->step.f + SIZE * w->layout.nz;
   double *z = w->step.f + MOVED * w->layout.nz, *noise = s->data + w->layout.noise;
@@ -199,7 +199,7 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
   double before = s->noise_measured < 0 ? 0 : BEFORE;
   s->noise_shown = 0, s->noise_measured = 1;
   int astray = strays(m, s, w, t);
-  if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return;
+  if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return 0;
   note_neighbours(m, w, size);
   for (int j = 0; j < n + w->layout.ng; j++) noise[j] *= before;
   add_rounding(m, s, w, t, w->step.z0, NULL);
@@ -211,7 +211,7 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
       w->blocks.shaken = moved, w->blocks.pattern = pattern;
       int status = slope_from_start(m, s, w, t * (1 + moved), z, there);
       w->blocks.shaken = 0;
-      if (status != FROT_OK) return;
+      if (status != FROT_OK) return 0;
     }
     for (int j = 0; j < frot_width(w); j++) {
       if (j >= moving && j < packed) continue; /* energies follow */
@@ -222,11 +222,12 @@ void frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double
     }
   }
   add_rounding_of_constants(m, s, w, t, base);
-  /* where terms no longer vanish by symmetry: a step that is far too long ends where all is large
-   */
-  if (!astray && frot_slope(m, s, w, t, w->step.z1, base) == FROT_OK)
-    add_rounding(m, s, w, t, w->step.z1, largest);
   for (int j = 0; j < m->nq; j++)
     if (m->q_speed[j] >= 0)
       noise[j] = fmax(noise[j], FROT_NUDGE * fabs(w->step.z0[m->nq + m->q_speed[j]]));
+  /* where terms no longer vanish by symmetry: a step that is far too long ends where all is large
+   */
+  if (astray || frot_slope(m, s, w, t, w->step.z1, base) != FROT_OK) return 0;
+  add_rounding(m, s, w, t, w->step.z1, largest);
+  return m->ny == 0;
 }

@@ -170,7 +170,7 @@ static void lives_beside_each_other(void) {
   EXPECT(OK, set(other, MASS, 7.0));
   for (int i = 0; i < 10; i++) {
     EXPECT(OK, step(long_steps, 0.5 * i, 0.5));
-    EXPECT(OK, step(other, 0.3 * i, 0.3));
+    EXPECT(OK, step(other, 0.5 * i, 0.5));
     for (int k = 0; k < 2; k++) EXPECT(OK, step(short_steps, 0.5 * i + 0.25 * k, 0.25));
   }
   const double x = get(long_steps, X);
