@@ -89,12 +89,40 @@ FALLS = FALLS.replace("at (2 m, 0 m)", "at (2 m*cos(lean), 2 m*sin(lean))")
 FALLS = FALLS.replace("t.angle = 0", "t.angle = lean")
 
 
-def test_one_that_leans_falls_through_its_flat_postures() -> None:
+def fallen(start: float, w: float, end: float) -> float:
+    """The angle at `end`."""
+    return solve_ivp(
+        lambda _, y: (y[1], -1.2 * 9.81 * np.cos(y[0])),
+        (0, end),
+        (start, w),
+        "DOP853",
+        rtol=2.3e-14,
+        atol=1e-15,
+    ).y[0, -1]
+
+
+@pytest.fixture(scope="module")
+def leaning() -> frot.Model:
+    return frot.compile(FALLS)
+
+
+def test_what_ends_next_to_a_posture_is_kept_up_to_there(leaning: frot.Model) -> None:
+    """It turns back a little before it is flat, where rounding decides which way. The last step,
+    whose end cannot be put onto the relations, was told by the one before it, to 7e-7."""
+    start, w = -1.0407282713016985, 4.506238157044091
+    with pytest.raises(frot.FrotError) as told:
+        leaning.simulate(tolerance=1e-8, parameters={"lean": 0.0, "th": start, "w": w})
+    assert told.value.diagnostics[0].code == "E0910"
+    end = told.value.result.time[-1]
+    assert 1.5 < end < 1.7
+    assert abs(told.value.result["l.angle"][-1] - fallen(start, w, end)) < 3e-8
+
+
+def test_one_that_leans_falls_through_its_flat_postures(leaning: frot.Model) -> None:
     """5/3 th'' = -2 g cos(th): runs that ended in a posture, or lost digits there, and others.
 
     Of the rows of its loop now one, now the other is the weak one as they turn with its bodies.
     """
-    model = frot.compile(FALLS)
     given = [
         (3.0987787754, 2.9800392117, 0.3344379228, 1e-5),
         (0.1900364993, -0.2174152092, 5.7698521105, 1e-6),
@@ -115,16 +143,8 @@ def test_one_that_leans_falls_through_its_flat_postures() -> None:
     passed = 0
     for lean, start, w, tolerance in given:
         parameters = {"lean": lean, "th": start, "w": w}
-        result = model.simulate(stop=1.0, tolerance=tolerance, parameters=parameters)
-        exact = solve_ivp(
-            lambda _, y: (y[1], -1.2 * 9.81 * np.cos(y[0])),
-            (0, 1),
-            (start, w),
-            "DOP853",
-            rtol=2.3e-14,
-            atol=1e-15,
-        ).y[0, -1]
-        assert abs(result.at(1.0)["l.angle"] - exact) < tolerance + 3e-11
+        result = leaning.simulate(stop=1.0, tolerance=tolerance, parameters=parameters)
+        assert abs(result.at(1.0)["l.angle"] - fallen(start, w, 1.0)) < tolerance + 3e-11
         passed += result.figures.crossings > 0
     assert passed > 25
 
