@@ -1,21 +1,33 @@
-"""Functions that equal islands share, and the numbers in which those differ."""
+"""Functions that equal islands or parts share, and the numbers in which those differ."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Protocol
 
 import casadi as ca
-from frot.compiler.lowering.islands import Island
 from frot.dsl.data.classes import dataclass
+
+
+class Owner(Protocol):
+    """What has functions of its own: their arguments, and their results by their names."""
+
+    @property
+    def arguments(self) -> list[ca.SX]:
+        """Of all of them."""
+
+    @property
+    def results(self) -> dict[str, list[ca.SX]]:
+        """Of each."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Kind:
-    """The functions of islands that are equal but for numbers, by their names in the contract.
+    """The functions of islands or parts that are equal but for numbers, by their names.
 
     `varying`, of each function: the places of its finite constants, in the order of its operations,
-    that are read from the island's table, and the place there.
+    that are read from the owner's table, and the place there.
     """
 
     functions: dict[str, ca.Function]
@@ -24,24 +36,23 @@ class Kind:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Member:
-    """An island, its kind and its table of numbers."""
+    """Of an island or a part its kind and its table of numbers."""
 
-    island: Island
     kind: int
     numbers: tuple[float, ...]
 
 
-def share_functions(islands: Sequence[Island]) -> tuple[tuple[Kind, ...], tuple[Member, ...]]:
-    """The kinds of the islands, and these in their order."""
+def share_functions(owners: Sequence[Owner]) -> tuple[tuple[Kind, ...], tuple[Member, ...]]:
+    """The kinds of the owners, and these in their order."""
     classes: dict[tuple[object, ...], list[int]] = {}
     made: list[dict[str, ca.Function]] = []
     constants: list[list[tuple[str, int, float]]] = []
-    for k, island in enumerate(islands):
+    for k, owner in enumerate(owners):
         functions = {
             name: ca.Function(
-                f"frot_{name}_of_{k}", island.arguments, [ca.densify(x) for x in ca.cse(results)]
+                f"frot_{name}_of_{k}", owner.arguments, [ca.densify(x) for x in ca.cse(results)]
             )
-            for name, results in island.results.items()
+            for name, results in owner.results.items()
         }
         shape: list[object] = []
         own: list[tuple[str, int, float]] = []
@@ -63,8 +74,8 @@ def share_functions(islands: Sequence[Island]) -> tuple[tuple[Kind, ...], tuple[
             varying[name][at] = place
         kinds.append(Kind(made[equal[0]], varying))
         for k, row in zip(equal, rows, strict=True):
-            members[k] = Member(islands[k], number, tuple(row[i] for i in columns))
-    return tuple(kinds), tuple(members[k] for k in range(len(islands)))
+            members[k] = Member(number, tuple(row[i] for i in columns))
+    return tuple(kinds), tuple(members[k] for k in range(len(owners)))
 
 
 def _read(function: ca.Function) -> tuple[tuple[object, ...], list[float]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
 import casadi as ca
@@ -116,12 +115,13 @@ def guessed_places(
 
 def guessed_speeds(
     system: Assembled, guesses: Sequence[Guess], known: Mapping[int, ca.SX]
-) -> list[ca.SX]:
+) -> tuple[list[ca.SX], tuple[Dimension, ...]]:
     """The guesses of `initial` of what follows from the speeds that are not `known`.
 
-    By how much each is missed, what that is measured by, as for places; the slopes (nv x n), those
-    of all items of the vector that it is an item of (nv x 3 n), both zero but for speeds that
-    nothing but these guesses speaks of; 1 for each of these speeds. Nothing where nothing asks.
+    By how much each is missed, the square of both its sides; the slopes (nv x n), those of all
+    items of the vector that it is an item of (nv x 3 n), both zero but for speeds that nothing but
+    these guesses speaks of; 1 for each of these speeds; with the dimension of each. Nothing where
+    nothing asks.
     """
     alone = {g.left.element_hash() for g in guesses if g.left.is_symbolic() and not g.start}
     speeds = [(s, s.element_hash()) for s in scalars_of(system.v)]
@@ -132,14 +132,17 @@ def guessed_speeds(
     moves = column(ca.SX(key not in known and key not in alone) for _, key in speeds)
     vectors = (g.whole if g.whole.numel() <= 3 else g.left for g in found)
     wholes = [scalars(ca.vertcat(x, ca.SX.zeros(3 - x.numel()))) for x in vectors]
-    missed, sizes = _measured(found)
+    missed, squares = (
+        column(g.missed for g in found),
+        column(g.left**2 + g.right**2 for g in found),
+    )
     slopes, all_slopes = (
         ca.sparsify(ca.jacobian(x, system.v) @ ca.diag(moves)).T
         for x in (missed, column(x for w in wholes for x in w))
     )
     if not found or not (slopes.nnz() or system.reduced.mechanism.contacts):
-        return []
-    return [missed, sizes, slopes, all_slopes, moves]
+        return [], ()
+    return [missed, squares, slopes, all_slopes, moves], tuple(g.dimension for g in found)
 
 
 def _guesses_of(guesses: Sequence[Guess], free: ca.SX, others: ca.SX) -> list[Guess]:
@@ -152,17 +155,6 @@ def _guesses_of(guesses: Sequence[Guess], free: ca.SX, others: ca.SX) -> list[Gu
         and ca.depends_on(g.missed, free)
         and not (others.numel() and ca.depends_on(g.missed, others))
     ]
-
-
-def _measured(found: Sequence[Guess]) -> tuple[ca.SX, ca.SX]:
-    """By how much guesses are missed, and the size of all of the same dimension; of numbers 1."""
-    squares = defaultdict[Dimension, ca.SX](lambda: ca.SX(0))
-    for g in found:
-        squares[g.dimension] += g.left**2 + g.right**2
-    sizes = (
-        ca.SX(1) if g.dimension == Dimension() else ca.sqrt(squares[g.dimension]) for g in found
-    )
-    return column(g.missed for g in found), column(sizes)
 
 
 def move_by(

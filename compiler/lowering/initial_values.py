@@ -26,6 +26,7 @@ from frot.dsl import Log
 from frot.dsl.checked import InitialEquation
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
+from frot.dsl.quantities.dimensions import Dimension
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +44,7 @@ class Initial:
 
     `direct`: the scalar equations on positions that hold where the search begins, whatever is
     guessed. `vectors`: of each guessed scalar the first item of its vector.
+    `guessed_dimensions`: of each guess of a speed.
     """
 
     start: list[ca.SX]
@@ -56,6 +58,7 @@ class Initial:
     guessed: list[ca.SX]
     vectors: tuple[int, ...]
     guessed_speeds: list[ca.SX]
+    guessed_dimensions: tuple[Dimension, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -102,6 +105,7 @@ def lower_initial(
     v = _with(system.v, ca.SX.zeros(system.v.shape), direct)
     v = move_by(system, [g for g in guesses if g.left.is_symbolic()], system.v, v, known)
     guessed, vectors = guessed_places(system, guesses, stated)
+    moved, dimensions = guessed_speeds(system, guesses, direct)
     turns = system.reduced.symbols.turns
     kept = all(link.reduced for link in system.reduced.mechanism.contacts)
     relations = turns or not kept or system.invariants.origins
@@ -144,7 +148,8 @@ def lower_initial(
         direct=tuple(r.statement < 0 or r.direct for r in position),
         guessed=guessed,
         vectors=vectors,
-        guessed_speeds=guessed_speeds(system, guesses, direct),
+        guessed_speeds=moved,
+        guessed_dimensions=dimensions,
     )
 
 

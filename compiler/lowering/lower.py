@@ -12,7 +12,7 @@ from frot.compiler.lowering.equals import Kind, Member, share_functions
 from frot.compiler.lowering.explicit import make_explicit
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.finite import watch_numbers
-from frot.compiler.lowering.groups import Grouping, Parts, make_parts
+from frot.compiler.lowering.groups import Grouping
 from frot.compiler.lowering.initial_values import Statement, lower_initial
 from frot.compiler.lowering.islands import Island, divide
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, too_full, why_explicit
@@ -20,6 +20,7 @@ from frot.compiler.lowering.listing import Listed, list_variables
 from frot.compiler.lowering.lower_events import lower_update
 from frot.compiler.lowering.lower_parameters import lower_parameters, parameters_needed
 from frot.compiler.lowering.pace import make_pace
+from frot.compiler.lowering.parts import Part, Scene
 from frot.compiler.lowering.symbols import column
 from frot.compiler.lowering.timing import sort_conditions
 from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
@@ -40,10 +41,11 @@ class Lowered:
 
     `position_statement` and `velocity_statement` give, for each scalar initial equation, the index
     of its statement in `statements`, ~index of one that is none of the text. `n_guessed`: scalars
-    whose places are guessed, `n_guessed_speeds`: and speeds. `parts`: what is put together alone.
+    whose places are guessed. `direct`: scalar equations on positions that hold where the search
+    begins. `parts` and `speed_parts`: what of places and of speeds is put together alone.
     `n_followed`: unknowns of places that are followed, if one may be of an open contact.
     `blocks` are the functions of the blocks of `system`.
-    Where there are `islands`, each is of one of the `kinds`. `conditions`: the values of all.
+    Islands and parts are each of one of the `kinds`. `conditions`: the values of all.
     """
 
     reduced: Reduced
@@ -51,7 +53,9 @@ class Lowered:
     grouping: Grouping
     functions: dict[str, ca.Function]
     kinds: tuple[Kind, ...]
-    islands: tuple[Member, ...]
+    islands: tuple[tuple[Island, Member], ...]
+    parts: tuple[tuple[Part, Member], ...]
+    speed_parts: tuple[tuple[Part, Member], ...]
     conditions: ca.SX
     blocks: tuple[ca.Function, ...]
     carried: tuple[Carried, ...]
@@ -62,8 +66,7 @@ class Lowered:
     position_statement: tuple[int, ...]
     velocity_statement: tuple[int, ...]
     n_guessed: int
-    n_guessed_speeds: int
-    parts: Parts
+    direct: tuple[bool, ...]
     n_followed: int
     row_depends: tuple[tuple[bool, ...], ...]
     dependent: tuple[bool, ...]
@@ -123,9 +126,6 @@ def lower(
         ),
         "start": ([s.t, s.u, s.p], initial.start),
         "beginning": (state, initial.beginning),
-        "initial_position": (state, initial.position),
-        "initial_velocity": (state, initial.velocity),
-        "sides": (state, list(_sides(system))),
         "sizes": (
             state,
             [system.force_size, _without_reactions(resolve(reduced.load_sizes), system)],
@@ -133,10 +133,6 @@ def lower(
         "variables": ([*solution, s.energy], [values]),
         "energy": (state, [resolve(reduced.kinetic), resolve(reduced.potential)]),
     }
-    if initial.guessed:
-        outputs["guessed"] = (state, initial.guessed)
-    if initial.guessed_speeds:
-        outputs["guessed_speeds"] = (state, initial.guessed_speeds)
     if not islands:
         outputs |= _whole(system, grouping, unsolved(conditions, system), state)
     if reduced.conditions.sensed:
@@ -178,8 +174,6 @@ def lower(
         outputs["rates"] = (solution, [system.rates, system.power])
     if system.invariants.origins:
         outputs["invariants"] = (state, _invariants(system))
-    if system.early:
-        outputs["block_slopes"] = (state, _block_slopes(system))
     if update is not None:
         events = reduced.events
         outputs["update"] = ([*solution, column(events.fired), column(events.before)], update)
@@ -191,14 +185,19 @@ def lower(
         name: ca.Function(f"frot_{name}_at", arguments, _clean(results))
         for name, (arguments, results) in outputs.items()
     }
-    kinds, members = share_functions(islands)
+    scene = Scene(system, grouping, islands, initial, _sides(system), state)
+    places, speeds = scene.places(), scene.speeds()
+    kinds, members = share_functions([*islands, *places, *speeds])
+    own = iter(members)
     return Lowered(
         reduced=reduced,
         system=system,
         grouping=grouping,
         functions=functions,
         kinds=kinds,
-        islands=members,
+        islands=tuple((x, next(own)) for x in islands),
+        parts=tuple((x, next(own)) for x in places),
+        speed_parts=tuple((x, next(own)) for x in speeds),
         conditions=conditions,
         blocks=tuple(_block(k, b, system) for k, b in enumerate(system.blocks)),
         carried=carried,
@@ -209,10 +208,7 @@ def lower(
         position_statement=initial.position_statement,
         velocity_statement=initial.velocity_statement,
         n_guessed=initial.guessed[0].numel() if initial.guessed else 0,
-        n_guessed_speeds=initial.guessed_speeds[0].numel() if initial.guessed_speeds else 0,
-        parts=make_parts(
-            system, grouping, initial.position, initial.guessed, initial.direct, initial.vectors
-        ),
+        direct=initial.direct,
         n_followed=beginnings[0].numel() if beginnings else 0,
         row_depends=_row_depends(system),
         dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
@@ -339,12 +335,6 @@ def _beginnings_of_open(system: Assembled) -> list[ca.SX]:
     if not any(is_unilateral(liaison) for liaison in tracks):
         return []
     return [column(x.start if x.elsewhere is None else x.elsewhere for x in tracks.values())]
-
-
-def _block_slopes(system: Assembled) -> list[ca.SX]:
-    residual = column(b.residual for b in system.blocks if not b.late)
-    y = system.y[: system.early, :]
-    return [residual, *(ca.jacobian(residual, x).T for x in (system.q, system.v, y))]
 
 
 def _invariants(system: Assembled) -> list[ca.SX]:

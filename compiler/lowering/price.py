@@ -25,7 +25,7 @@ def price_of_implicit(lowered: Lowered) -> float:
     jacobian, system = lowered.jacobian, lowered.system
     if jacobian is None:
         return 0.0
-    kinds = [lowered.kinds[member.kind].functions for member in lowered.islands]
+    kinds = [lowered.kinds[member.kind].functions for _, member in lowered.islands]
     own = [*kinds, lowered.functions]
     once = float(_KERNEL)
     once += sum(f["dynamics"].n_instructions() for f in own if "dynamics" in f)

@@ -24,6 +24,8 @@ MECHANICAL_TABLES = (
         "elements",
         "groups",
         "islands",
+        "parts",
+        "speed_parts",
         "row_reads",
         "row_beside",
         "row_group",

@@ -18,7 +18,12 @@ from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import callable_record as _callable
 from frot.compiler.product.c_tables import record as _record
 from frot.compiler.product.c_tables import text as _text
-from frot.compiler.product.islands import island_arrays, read_numbers, shared_functions
+from frot.compiler.product.islands import (
+    island_arrays,
+    part_arrays,
+    read_numbers,
+    shared_functions,
+)
 from frot.compiler.product.split import split_functions
 
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
@@ -44,6 +49,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
     arrays = [
         *mechanical_arrays(lowered),
         *island_arrays(lowered),
+        *part_arrays(lowered),
         *(_array(kind, name, items) for name, (kind, items) in tables.items()),
         *_pattern_arrays(lowered),
     ]
@@ -115,8 +121,9 @@ def _counts(lowered: Lowered) -> dict[str, float | str]:
         "n_position": len(lowered.position_statement),
         "n_velocity": len(lowered.velocity_statement),
         "n_guessed": lowered.n_guessed,
-        "n_parts": lowered.parts.count,
-        "n_guessed_speeds": lowered.n_guessed_speeds,
+        "n_parts": len(lowered.parts),
+        "n_speed_parts": len(lowered.speed_parts),
+        "n_guessed_speeds": sum(len(x.guessed) for x, _ in lowered.speed_parts),
         "n_followed": lowered.n_followed,
         "n_statements": len(lowered.statements),
         "n_variables": len(lowered.variables),

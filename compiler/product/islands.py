@@ -1,4 +1,4 @@
-"""The islands of a model in C: their tables, and the functions that equal ones share."""
+"""The islands and parts of a model in C: their tables, and the functions that equal ones share."""
 
 from __future__ import annotations
 
@@ -12,7 +12,11 @@ from frot.compiler.product.c_tables import array, callable_record, number, recor
 
 # The functions of an island in the order of frot_island.
 _FUNCTIONS = ("kinematics", "dynamics", "spread", "sizes")
-# The argument of a shared function that is the island's table of numbers.
+# Those of a part in the order of frot_part, and its lists.
+_OF_PARTS = ("stating", "guessing", "sides", "slopes")
+_LISTS = ("turns", "groups", "islands", "contacts", "stated", "guessed", "vectors", "blocks")
+_READS = ("q", "v", "u", "p", "d", "y")
+# The argument of a shared function that is the owner's table of numbers.
 _NUMBERS = 7
 _CONSTANT = re.compile(r"^(  a\d+=)-?[\d.]+(?:e[-+]?\d+)?;$")
 
@@ -24,7 +28,7 @@ def shared_functions(lowered: Lowered) -> Iterator[ca.Function]:
 
 
 def read_numbers(text: str, lowered: Lowered) -> str:
-    """The C text of the functions, with the constants in which equal islands differ read."""
+    """The C text of the functions, with the constants in which equal ones differ read."""
     lines = text.split("\n")
     heads = {line.split(":", 1)[0]: k for k, line in enumerate(lines) if line.startswith("/* ")}
     for kind in lowered.kinds:
@@ -53,8 +57,7 @@ def island_arrays(lowered: Lowered) -> list[str]:
     """The tables of frot_island."""
     arrays: list[str] = []
     records: list[str] = []
-    for k, member in enumerate(lowered.islands):
-        island = member.island
+    for k, (island, member) in enumerate(lowered.islands):
         lists = (island.q, island.v, island.u, island.p, island.d, island.conditions)
         names = [f"island_{k}_{name}" for name in ("q", "v", "u", "p", "d", "conditions")]
         arrays += [
@@ -74,3 +77,32 @@ def island_arrays(lowered: Lowered) -> list[str]:
             )
         )
     return [*arrays, array("frot_island", "islands", records)]
+
+
+def part_arrays(lowered: Lowered) -> list[str]:
+    """The tables of frot_part: of places, of speeds."""
+    arrays: list[str] = []
+    for name, prefix, parts in (
+        ("parts", "place", lowered.parts),
+        ("speed_parts", "speed", lowered.speed_parts),
+    ):
+        records: list[str] = []
+        for k, (part, member) in enumerate(parts):
+            lists = {x: getattr(part, x) for x in (*_LISTS, *_READS)}
+            names = {x: f"{prefix}_{k}_{x}" if own else "0" for x, own in lists.items()}
+            for x, own in lists.items():
+                arrays += [array("int", names[x], [str(i) for i in own])] if own else []
+            numbers = f"{prefix}_{k}_numbers" if member.numbers else "0"
+            if member.numbers:
+                arrays.append(array("double", numbers, [number(x) for x in member.numbers]))
+            functions = lowered.kinds[member.kind].functions
+            records.append(
+                record(
+                    *(part.n_unknowns, *(len(lists[x]) for x in _LISTS if x != "vectors")),
+                    *(part.n_own, *(len(lists[x]) for x in _READS)),
+                    *(*names.values(), numbers),
+                    *(callable_record(functions.get(f"{prefix}_{x}")) for x in _OF_PARTS),
+                )
+            )
+        arrays.append(array("frot_part", name, records))
+    return arrays

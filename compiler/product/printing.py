@@ -44,9 +44,12 @@ def print_cost(lowered: Lowered) -> str:
     counted = [*lowered.functions.items(), *((f.name(), f) for f in lowered.blocks)]
     lines += [f"  {name:<18}{f.n_instructions():>6}" for name, f in counted]
     for k, kind in enumerate(lowered.kinds):
-        equal = sum(member.kind == k for member in lowered.islands)
+        islands = sum(member.kind == k for _, member in lowered.islands)
+        parts = sum(member.kind == k for _, member in (*lowered.parts, *lowered.speed_parts))
         counts = ", ".join(f"{name} {f.n_instructions()}" for name, f in kind.functions.items())
-        lines.append(f"  {equal} islands of a kind: {counts}")
+        what = "islands" if islands else "parts of the start"
+        if counts:
+            lines.append(f"  {islands or parts} {what} of a kind: {counts}")
     lines += [
         f"  states {system.q.numel() + system.nv} (of these speeds {system.nv}), auxiliary speeds "
         f"{system.na} (reactions that a law or an expression reads), rows {system.lam.numel()}, "

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "changes.h"
 #include "core.h"
 #include "damped.h"
 #include "elsewhere.h"
@@ -26,23 +25,25 @@ typedef struct {
 } left_open;
 
 static left_open find_open(const frot_opening *p) {
-  const frot_model *m = p->m;
+  const frot_contact *contacts = p->m->contacts;
   const double *reach = p->w->opening.reach, *gap = p->w->core.gap;
   left_open worst = {-1, 0, 0, 0};
-  for (int i = 0; i < m->n_contacts; i++) {
-    if (!frot_is_of_part(p, m->contact_part[i])) continue;
+  for (int a = 0; a < p->part->n_contacts; a++) {
+    int i = p->part->contacts[a];
     double square = 0;
-    for (int k = i; k < m->n_contacts && p->use[i]; k++)
-      if (p->use[k] && !m->contacts[k].kinematic && (reach[k] == 1) == (reach[i] == 1) &&
-          strcmp(m->contacts[k].name, m->contacts[i].name) == 0)
+    for (int b = a; b < p->part->n_contacts && p->use[i]; b++) {
+      int k = p->part->contacts[b];
+      if (frot_is_equation(p, k) && (reach[k] == 1) == (reach[i] == 1) &&
+          strcmp(contacts[k].name, contacts[i].name) == 0)
         square += gap[k] * gap[k];
+    }
     double by = sqrt(square), part = by > 0 ? by / reach[i] : 0;
     if (part > worst.part) worst = (left_open){i, reach[i] == 1, part, by};
   }
   return worst;
 }
 
-/* p->q <- the place near it at which the liaisons hold best, and the one that is left open there;
+/* p->x <- the place near it at which the liaisons hold best, and the one that is left open there;
  * no number where none is found. */
 static left_open close_best(frot_opening *p) {
   double before = INFINITY, missed = INFINITY;
@@ -50,24 +51,25 @@ static left_open close_best(frot_opening *p) {
     missed = frot_missed_square(p);
     if (!(missed < before)) break;
     before = missed;
+    frot_put(p);
     frot_normalise(p->m, p->q);
+    frot_take_part(p, p->part);
   }
   int found = isfinite(before) && frot_evaluate_statements(p) == FROT_OK;
   return found ? find_open(p) : (left_open){-1, 0, NAN, NAN};
 }
 
 void frot_tell_apart(frot_opening *p) {
-  const frot_model *m = p->m;
   frot_fault fault = p->s->fault;
   double *start = p->w->opening.begin;
-  size_t bytes = sizeof(double) * (size_t)m->nq;
+  size_t bytes = sizeof(double) * (size_t)p->n_own;
   left_open best = {-1, 0, INFINITY, 0};
   frot_take_liaisons(p);
   p->alike = 1;
-  memcpy(start, p->q, bytes);
+  memcpy(start, p->x, bytes);
   for (int k = 0; k < PLACES; k++) {
     frot_clear_opening(p);
-    memcpy(p->q, start, bytes);
+    memcpy(p->x, start, bytes);
     frot_begin_units(p);
     if (k > 0 && frot_opening_metric(p) == FROT_OK) frot_begin_elsewhere(p, k - 1, 1);
     left_open found = close_best(p);
@@ -86,11 +88,30 @@ void frot_tell_apart(frot_opening *p) {
 static int missed_by_most(const frot_opening *p) {
   const double *residual = p->w->relations.residual;
   int most = -1;
-  for (int i = 0; i < p->m->n_position && i < p->n; i++)
-    if (p->m->position_statement[i] >= 0 && !frot_statement_agrees(p, i, 0) &&
+  for (int i = 0; i < p->part->n_stated && i < p->n; i++)
+    if (frot_statement_of(p, i) >= 0 && !frot_statement_agrees(p, i, 0) &&
         (most < 0 || fabs(residual[i]) > fabs(residual[most])))
       most = i;
   return most;
+}
+
+/* What is left open when the motion goes on: a liaison, or a statement that holds at any time. */
+typedef struct {
+  left_open liaison;
+  int statement;
+  double missed;
+} kept_apart;
+
+/* The same with what is left open of a part, if that is more. */
+static void look_at_part(frot_opening *p, kept_apart *most) {
+  frot_take_liaisons(p);
+  if (frot_look_at_part(p) != FROT_OK) return;
+  frot_look_at_sides(p);
+  left_open found = close_best(p);
+  int missed = isfinite(found.part) ? missed_by_most(p) : -1; /* else nothing is known there */
+  if (found.contact >= 0 && found.part > most->liaison.part) most->liaison = found;
+  double by = missed >= 0 ? fabs(p->w->relations.residual[missed]) : 0;
+  if (by > most->missed) most->statement = frot_statement_of(p, missed), most->missed = by;
 }
 
 int frot_name_reach(const frot_model *m, frot_state *s, frot_work *w, int status) {
@@ -104,25 +125,21 @@ int frot_name_reach(const frot_model *m, frot_state *s, frot_work *w, int status
   memcpy(q, s->data + w->layout.x, sizeof(double) * (size_t)m->nq);
   memcpy(p.v, s->data + w->layout.x + m->nq, sizeof(double) * (size_t)m->nv);
   memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
-  frot_name_changes(&p);
-  frot_take_part(&p, -1);
-  frot_take_liaisons(&p);
   p.alike = p.timeless = 1;
-  left_open found = {-1, 0, 0, 0};
-  int missed = -1;
-  if (frot_kinematics(m, s, w, p.t, p.q, p.v, p.d) == FROT_OK) {
-    frot_look_at_sides(&p);
-    found = close_best(&p);
-    if (isfinite(found.part)) missed = missed_by_most(&p); /* else nothing is known there */
+  kept_apart found = {{-1, 0, 0, 0}, -1, 0};
+  for (int i = 0; i < m->n_parts; i++) {
+    frot_take_part(&p, &m->parts[i]);
+    look_at_part(&p, &found);
   }
+  frot_leave_parts(&p);
   s->fault = fault, s->phase = phase;
-  if (found.contact >= 0 && found.part > FROT_TOUCH)
-    frot_fail(s, FROT_DIVERGE, fault.t, found.contact, 1, -1, found.by);
-  else if (missed >= 0 && fault.contact >= 0)
-    frot_fail(s, FROT_DIVERGE, fault.t, fault.contact, 1, m->position_statement[missed],
-              fabs(w->relations.residual[missed]));
+  left_open open = found.liaison;
+  if (open.contact >= 0 && open.part > FROT_TOUCH)
+    frot_fail(s, FROT_DIVERGE, fault.t, open.contact, 1, -1, open.by);
+  else if (found.statement >= 0 && fault.contact >= 0)
+    frot_fail(s, FROT_DIVERGE, fault.t, fault.contact, 1, found.statement, found.missed);
   else
     return status;
-  s->fault.where[0] = later, s->fault.where[1] = found.turned;
+  s->fault.where[0] = later, s->fault.where[1] = open.turned;
   return FROT_DIVERGE;
 }

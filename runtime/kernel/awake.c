@@ -58,6 +58,17 @@ void frot_sleep_as(const frot_model *m, frot_work *w, const double *asleep) {
   use(w, &w->awake.some);
 }
 
+void frot_look_at_some(frot_work *w, const int *islands, int n_islands, const int *groups,
+                       int n_groups) {
+  frot_awake_lists *a = &w->awake.some;
+  memcpy(a->islands, islands, sizeof *islands * (size_t)n_islands);
+  memcpy(a->groups, groups, sizeof *groups * (size_t)n_groups);
+  a->n = a->n_contacts = a->n_elements = a->n_located = 0;
+  a->n_islands = n_islands, a->n_groups = n_groups;
+  w->awake.known = 0;
+  use(w, a);
+}
+
 void frot_let_sleep(const frot_model *m, const frot_state *s, frot_work *w) {
   if (s->asleep == 0) return;
   w->awake.filled = w->awake.known != s->asleep;

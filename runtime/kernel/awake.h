@@ -15,6 +15,10 @@ void frot_list_all(const frot_model *m, frot_work *w);
 void frot_let_sleep(const frot_model *m, const frot_state *s, frot_work *w);
 void frot_wake(frot_work *w);
 
+/* Evaluations look at these islands and groups alone, until all are awake again. */
+void frot_look_at_some(frot_work *w, const int *islands, int n_islands, const int *groups,
+                       int n_groups);
+
 /* Nothing sleeps in the steps that follow. */
 void frot_wake_state(const frot_model *m, frot_state *s, frot_work *w);
 

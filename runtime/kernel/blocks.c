@@ -158,7 +158,9 @@ static void shake(const problem *p) {
 static int solve(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                  const double *v, const double *d, int late) {
   w->blocks.failed = -1;
-  for (int i = 0; i < m->n_blocks; i++) {
+  const int *some = late ? NULL : w->blocks.some;
+  for (int k = 0; k < (some ? w->blocks.n_some : m->n_blocks); k++) {
+    int i = some ? some[k] : k;
     const frot_block *block = &m->blocks[i];
     if (block->late != late) continue;
     problem p = {w, block, w->blocks.y + block->first};

@@ -5,13 +5,6 @@
 
 #include "turns.h"
 
-void frot_name_changes(const frot_opening *p) {
-  const frot_model *m = p->m;
-  memcpy(p->w->opening.behind, m->q_speed, sizeof(int) * (size_t)m->nq);
-  for (int i = 0; i < m->n_turns; i++)
-    for (int k = 0; k < 3; k++) p->w->opening.behind[m->turns[i].at + 1 + k] = m->turns[i].speed[k];
-}
-
 /* The directions of a turn's changes: along the quaternion r, then half of what unit turns make. */
 static void directions(const frot_turn *turn, const double *q, double d[4][4]) {
   const double *r = q + turn->at;
@@ -25,33 +18,31 @@ static void directions(const frot_turn *turn, const double *q, double d[4][4]) {
 }
 
 void frot_over_changes(const frot_opening *p, const double *row, double *out) {
-  const frot_model *m = p->m;
-  memcpy(out, row, sizeof(double) * (size_t)frot_opening_count(p));
-  for (int i = 0; i < m->n_turns && !p->velocity; i++) {
+  memcpy(out, row, sizeof(double) * (size_t)p->n_own);
+  for (int i = 0; i < p->part->n_turns && !p->velocity; i++) {
     double d[4][4];
-    const double *own = row + m->turns[i].at;
-    directions(&m->turns[i], p->basis, d);
+    const frot_turn *turn = &p->w->opening.turns[i];
+    const double *own = row + turn->at;
+    directions(turn, p->basis, d);
     for (int j = 0; j < 4; j++)
-      out[m->turns[i].at + j] =
-          d[j][0] * own[0] + d[j][1] * own[1] + d[j][2] * own[2] + d[j][3] * own[3];
+      out[turn->at + j] = d[j][0] * own[0] + d[j][1] * own[1] + d[j][2] * own[2] + d[j][3] * own[3];
   }
 }
 
 void frot_from_changes(const frot_opening *p, const double *changes, double *x) {
-  const frot_model *m = p->m;
-  memcpy(x, changes, sizeof(double) * (size_t)frot_opening_count(p));
-  for (int i = 0; i < m->n_turns && !p->velocity; i++) {
+  memcpy(x, changes, sizeof(double) * (size_t)p->n_own);
+  for (int i = 0; i < p->part->n_turns && !p->velocity; i++) {
     double d[4][4];
-    int at = m->turns[i].at;
-    directions(&m->turns[i], p->basis, d);
+    const frot_turn *turn = &p->w->opening.turns[i];
+    const double *own = changes + turn->at;
+    directions(turn, p->basis, d);
     for (int k = 0; k < 4; k++)
-      x[at + k] = d[0][k] * changes[at] + d[1][k] * changes[at + 1] + d[2][k] * changes[at + 2] +
-                  d[3][k] * changes[at + 3];
+      x[turn->at + k] = d[0][k] * own[0] + d[1][k] * own[1] + d[2][k] * own[2] + d[3][k] * own[3];
   }
 }
 
 void frot_into_changes(const frot_opening *p, const double *apart, double *changes) {
   frot_over_changes(p, apart, changes);
-  for (int i = 0; i < p->m->n_turns && !p->velocity; i++)
-    for (int k = 1; k < 4; k++) changes[p->m->turns[i].at + k] *= 4;
+  for (int i = 0; i < p->part->n_turns && !p->velocity; i++)
+    for (int k = 1; k < 4; k++) changes[p->w->opening.turns[i].at + k] *= 4;
 }

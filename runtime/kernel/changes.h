@@ -5,9 +5,6 @@
 
 #include "statements.h"
 
-/* Note which speed each change is a displacement of (w->opening.behind), once a search. */
-void frot_name_changes(const frot_opening *p);
-
 /* out <- what a unit of each change, from p->basis on, does to a row over the unknowns. */
 void frot_over_changes(const frot_opening *p, const double *row, double *out);
 /* x <- the change of the unknowns; and the other way round, of unknowns that are `apart`. */

@@ -30,26 +30,26 @@
 void frot_measure_by_beginning(frot_opening *p) {
   p->factor = p->w->opening.first_factor, p->order = p->attached;
   p->basis = p->w->opening.begin;
-  memcpy(p->w->relations.unit, p->w->opening.first_unit, sizeof(double) * (size_t)p->m->nq);
+  memcpy(p->w->relations.unit, p->w->opening.first_unit, sizeof(double) * (size_t)p->n_own);
 }
 
 int frot_note_beginning(frot_opening *p) {
   frot_work *w = p->w;
-  size_t bytes = sizeof(double) * (size_t)p->m->nq;
-  memcpy(w->opening.found, p->q, bytes);
-  memcpy(p->q, w->opening.begin, bytes);
+  size_t bytes = sizeof(double) * (size_t)p->n_own;
+  memcpy(w->opening.found, p->x, bytes);
+  memcpy(p->x, w->opening.begin, bytes);
   frot_begin_units(p);
   int status = frot_opening_metric(p);
   memcpy(w->opening.first_unit, w->relations.unit, bytes);
   memcpy(w->opening.first_factor, w->opening.factor,
          sizeof(double) * (size_t)(p->attached * p->attached));
-  memcpy(p->q, w->opening.found, bytes);
+  memcpy(p->x, w->opening.found, bytes);
   return status;
 }
 
 /* a.b of two changes, measured at the beginning. */
 static double product(frot_opening *p, const double *a, const double *b) {
-  double *scratch = p->w->opening.scratch, *first = scratch, *second = scratch + p->m->nq;
+  double *scratch = p->w->opening.scratch, *first = scratch, *second = scratch + p->n_own;
   double sum = 0;
   frot_measure_by_beginning(p);
   frot_measure_change(p, a, first);
@@ -59,12 +59,12 @@ static double product(frot_opening *p, const double *a, const double *b) {
 }
 
 static void between(const frot_opening *p, const double *x, const double *x0, double *apart) {
-  for (int k = 0; k < p->m->nq; k++) apart[k] = x[k] - x0[k];
+  for (int k = 0; k < p->n_own; k++) apart[k] = x[k] - x0[k];
 }
 
 double frot_change_size(frot_opening *p) {
   double *apart = p->w->opening.apart;
-  between(p, p->q, p->w->opening.begin, apart);
+  between(p, p->x, p->w->opening.begin, apart);
   return sqrt(fmax(product(p, apart, apart), 0));
 }
 
@@ -72,13 +72,12 @@ void frot_unwind(frot_opening *p) {
   if (frot_evaluate_statements(p) != FROT_OK) return;
   frot_weigh_equations(p);
   double missed = frot_missed_square(p) * UNNOTICED + FROT_NOTHING_MISSED;
-  for (int k = 0; k < p->m->nq; k++) {
-    if (!frot_is_own(p, k)) continue;
-    double here = p->q[k], turns = round((p->w->opening.begin[k] - here) / WHOLE_TURN);
+  for (int k = 0; k < p->n_own; k++) {
+    double here = p->x[k], turns = round((p->w->opening.begin[k] - here) / WHOLE_TURN);
     if (turns == 0) continue;
-    p->q[k] = here + turns * WHOLE_TURN;
+    p->x[k] = here + turns * WHOLE_TURN;
     if (frot_evaluate_statements(p) != FROT_OK || !(frot_missed_square(p) <= missed))
-      p->q[k] = here;
+      p->x[k] = here;
   }
 }
 
@@ -90,12 +89,10 @@ static double far_off(frot_opening *p) {
 /* The longest part of a way that no angle turns too far on. */
 static double first_part(const frot_opening *p, const double *d) {
   double most = 0;
-  for (int j = 0; j < p->m->nv; j++) {
-    int k = frot_angle_of(p->m, j);
-    if (k >= 0) most = fmax(most, fabs(d[k]));
-  }
-  for (int i = 0; i < p->m->n_turns; i++) {
-    const double *four = d + p->m->turns[i].at;
+  for (int k = 0; k < p->n_own; k++)
+    if (frot_is_angle(p, k)) most = fmax(most, fabs(d[k]));
+  for (int i = 0; i < p->part->n_turns; i++) {
+    const double *four = d + p->w->opening.turns[i].at;
     most = fmax(most, 2 * sqrt(frot_dot(four, four, 4)));
   }
   return most > MOST_TURN ? MOST_TURN / most : 1;
@@ -104,7 +101,7 @@ static double first_part(const frot_opening *p, const double *d) {
 int frot_come_closest(frot_opening *p) {
   frot_opening_work *w = &p->w->opening;
   double *x = w->found, *d = w->way, before = INFINITY, left = 0;
-  size_t bytes = sizeof(double) * (size_t)p->m->nq;
+  size_t bytes = sizeof(double) * (size_t)p->n_own;
   if (p->n_rows > 0 && !p->aim) frot_unwind(p);
   double far = far_off(p);
   int moved = 0, status = FROT_OK, some = p->n_rows > 0 || p->aim;
@@ -113,15 +110,15 @@ int frot_come_closest(frot_opening *p) {
     if (status != FROT_OK || left <= DBL_EPSILON * far) break;
     if (left <= SETTLED * far && left > SHRINKS * before) break;
     before = left;
-    memcpy(x, p->q, bytes);
+    memcpy(x, p->x, bytes);
     double now = INFINITY, part = first_part(p, d);
     for (; part >= LEAST_PART; part *= 0.25) {
-      for (int i = 0; i < p->m->nq; i++) p->q[i] = x[i] + part * d[i];
+      for (int i = 0; i < p->n_own; i++) p->x[i] = x[i] + part * d[i];
       if (frot_solve_nearest(p) == FROT_OK && (now = far_off(p)) < far * NO_FARTHER) break;
       frot_clear_opening(p);
     }
     if (part < LEAST_PART) {
-      memcpy(p->q, x, bytes);
+      memcpy(p->x, x, bytes);
       break;
     }
     moved = 1, far = fmin(far, now);

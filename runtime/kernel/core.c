@@ -282,10 +282,9 @@ int frot_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t, 
 
 void frot_note_reaches(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                        const double *v, const double *d) {
-  if (m->n_contacts == 0) return;
-  frot_inputs(m, s, w, &t, q, v, d);
-  w->call.res[0] = w->opening.witness, w->call.res[1] = s->data + w->layout.reach;
-  frot_call(w, &m->sides);
+  double *reach = s->data + w->layout.reach;
+  for (int k = 0; k < m->n_parts; k++)
+    frot_call_sides(s, w, &m->parts[k], t, q, v, d, w->opening.witness, reach);
 }
 
 int frot_metric(const frot_model *m, frot_work *w) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "linear.h"
+#include "parts.h"
 
 #define PASSES 60
 /* Damping, relative to rows of length 1: at first, how it falls and grows, and where no way is. */
@@ -25,14 +26,12 @@ double frot_missed_square(const frot_opening *p) {
 
 /* What the angles do to an equation, whatever the masses, squared. */
 static double square_of_arm(const frot_opening *p, int i) {
-  const double *row = p->w->relations.jacobian + p->m->nq * i;
+  const double *row = p->w->relations.jacobian + p->n_own * i;
   double square = 0;
-  for (int j = 0; j < p->m->nv; j++) {
-    int k = frot_angle_of(p->m, j);
-    if (k >= 0) square += row[k] * row[k];
-  }
-  for (int j = 0; j < p->m->n_turns; j++) {
-    const double *four = row + p->m->turns[j].at;
+  for (int k = 0; k < p->n_own; k++)
+    if (frot_is_angle(p, k)) square += row[k] * row[k];
+  for (int j = 0; j < p->part->n_turns; j++) {
+    const double *four = row + p->w->opening.turns[j].at;
     square += frot_dot(four, four, 4) / 4;
   }
   return square;
@@ -42,27 +41,29 @@ static double square_of_arm(const frot_opening *p, int i) {
  * directions (of reach 1), of one liaison and those of one guessed vector by the mean of theirs: so
  * that it does not matter where the scene stands, nor along which axes it is seen. */
 static void weigh_alike(const frot_opening *p) {
-  const frot_model *m = p->m;
+  const frot_contact *contacts = p->m->contacts;
+  const frot_part *part = p->part;
   const double *reach = p->w->opening.reach;
   double *weight = p->w->opening.row_weight, *arm = p->w->opening.off_at_first;
-  int n = m->n_position;
+  int n = part->n_stated;
   for (int i = 0; i < p->n; i++) arm[i] = weight[i] = square_of_arm(p, i);
-  for (int i = 0; i < m->n_contacts; i++) {
+  for (int a = 0; a < part->n_contacts; a++) {
+    int i = part->contacts[a], at = part->n_stated;
     double square = 0, count = 0;
-    if (!p->use[i] || m->contacts[i].kinematic) continue;
-    for (int k = 0, at = m->n_position; k < m->n_contacts; k++) {
-      if (!p->use[k] || m->contacts[k].kinematic) continue;
-      if (strcmp(m->contacts[k].name, m->contacts[i].name) == 0 &&
-          (reach[k] == 1) == (reach[i] == 1))
+    if (!frot_is_equation(p, i)) continue;
+    for (int b = 0; b < part->n_contacts; b++) {
+      int k = part->contacts[b];
+      if (!frot_is_equation(p, k)) continue;
+      if (strcmp(contacts[k].name, contacts[i].name) == 0 && (reach[k] == 1) == (reach[i] == 1))
         square += arm[at], count++;
       at++;
     }
     weight[n++] = square / count;
   }
-  for (int i = 0; i < m->n_guessed && p->guessed; i++, n++) {
+  for (int i = 0; i < part->n_guessed && p->guessed; i++, n++) {
     double square = 0, count = 0;
-    for (int k = 0; k < m->n_guessed; k++)
-      if (m->guess_vector[k] == m->guess_vector[i]) square += arm[n - i + k], count++;
+    for (int k = 0; k < part->n_guessed; k++)
+      if (part->vectors[k] == part->vectors[i]) square += arm[n - i + k], count++;
     weight[n] = square / count / (SHARE * SHARE);
   }
   for (int i = 0; i < p->n; i++) {
@@ -83,11 +84,11 @@ void frot_weigh_equations(const frot_opening *p) {
   }
 }
 
-/* The rows at p->q over the unknowns of the part into w->linear.matrix, weighed; changes are
+/* The rows at p->x over the unknowns of the part into w->linear.matrix, weighed; changes are
  * measured by the most that they have moved so far (J. More 1978), in w->relations.unit. */
 static void scale_rows(const frot_opening *p) {
   frot_work *w = p->w;
-  int nx = p->m->nq, own = p->n_own, n = p->n_rows;
+  int nx = p->n_own, own = p->n_own, n = p->n_rows;
   const int *rows = w->opening.rows;
   double *y = w->linear.matrix;
   for (int a = 0; a < own; a++) {
@@ -122,7 +123,6 @@ static int damped_change(const frot_opening *p, double damping, double *step) {
   for (int i = 0; i < n; i++)
     for (int a = 0; a < own; a++) change[a] += w->linear.matrix[own * i + a] * b[i];
   for (int a = 0; a < own; a++) largest = fmax(largest, fabs(change[a]));
-  memset(step, 0, sizeof(double) * (size_t)p->m->nq);
   for (int a = 0; a < own; a++) {
     double unit = w->relations.unit[w->opening.own[a]];
     step[w->opening.own[a]] = unit > 0 ? change[a] / unit / fmax(largest, 1) : 0;
@@ -133,7 +133,7 @@ static int damped_change(const frot_opening *p, double damping, double *step) {
 int frot_follow_damped(frot_opening *p) {
   frot_work *w = p->w;
   double damping = DAMPING, *x0 = w->opening.way, *step = w->relations.step;
-  int nx = p->m->nq;
+  int nx = p->n_own;
   if (frot_evaluate_statements(p) != FROT_OK) return 0;
   frot_weigh_equations(p);
   memset(w->relations.unit, 0, sizeof(double) * (size_t)nx);
@@ -144,16 +144,16 @@ int frot_follow_damped(frot_opening *p) {
     for (int j = 0; j < p->n_rows; j++)
       w->linear.right[p->n_rows + j] =
           w->relations.residual[rows[j]] * w->opening.row_weight[rows[j]];
-    memcpy(x0, p->q, sizeof(double) * (size_t)nx);
-    memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)p->m->ny);
+    memcpy(x0, p->x, sizeof(double) * (size_t)nx);
+    frot_keep_blocks(p, w->step.y_end);
     for (; damping < STUCK && !(after < before); damping *= HARDER) {
-      memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)p->m->ny);
+      frot_return_blocks(p, w->step.y_end);
       if (!damped_change(p, damping, step)) continue;
-      for (int k = 0; k < nx; k++) p->q[k] = x0[k] + step[k];
+      for (int k = 0; k < nx; k++) p->x[k] = x0[k] + step[k];
       after = frot_evaluate_statements(p) == FROT_OK ? frot_missed_square(p) : INFINITY;
     }
     if (!(after < before)) {
-      memcpy(p->q, x0, sizeof(double) * (size_t)nx);
+      memcpy(p->x, x0, sizeof(double) * (size_t)nx);
       return frot_evaluate_statements(p) == FROT_OK;
     }
     damping *= EASIER / HARDER;

@@ -8,6 +8,7 @@
 #include "linear.h"
 #include "orthogonal.h"
 #include "nearest.h"
+#include "parts.h"
 #include "tolerances.h"
 
 #define STEPS 60       /* of conjugate gradients */
@@ -30,7 +31,7 @@ typedef struct {
 
 static descent begin(const frot_opening *p) {
   frot_work *w = p->w;
-  int nx = p->m->nq;
+  int nx = p->n_own;
   double *at = w->opening.descent;
   return (descent){
       nx, p->n_own, 0,           w->linear.pivot, w->linear.matrix, w->opening.multiplier,
@@ -47,9 +48,10 @@ static void turn_rows(const frot_opening *p, const descent *s, int rank, double 
     double by = s->multiplier[i] * weight[s->row[i]];
     for (int k = 0; k < s->nx; k++) row[k] -= by * own[k];
   }
-  for (int j = 0; p->aim && j < p->m->n_guessed; j++) {
+  for (int j = 0; p->aim && j < p->part->n_guessed; j++) {
     int i = p->n + j;
-    double unit = p->w->opening.guess_weight[j], by = p->w->relations.residual[i] * unit * unit;
+    double unit = p->w->opening.guess_weight[p->part->guessed[j]],
+           by = p->w->relations.residual[i] * unit * unit;
     for (int k = 0; k < s->nx && by != 0; k++) row[k] += by * slopes[s->nx * i + k];
   }
 }
@@ -137,7 +139,7 @@ static int curve(frot_opening *p, const descent *s) {
   for (int k = 0; k < nx; k++) moved[k] -= s->x[k];
   double most = most_moved(p, s, moved), part = most > 0 ? LITTLE / most : 0;
   for (int side = 1; side >= -1 && part > 0; side -= 2) {
-    for (int k = 0; k < nx; k++) p->q[k] = s->x[k] + side * part * moved[k];
+    for (int k = 0; k < nx; k++) p->x[k] = s->x[k] + side * part * moved[k];
     int status = frot_evaluate_statements(p);
     if (status != FROT_OK) return status;
     turn_rows(p, s, s->rank, side > 0 ? other : s->turned);
@@ -182,7 +184,7 @@ static void find_slope(frot_opening *p, const descent *s) {
     frot_row_in_metric(p, s->turned, s->slope);
     return;
   }
-  for (int k = 0; k < s->nx; k++) apart[k] = p->q[k] - p->w->opening.begin[k];
+  for (int k = 0; k < s->nx; k++) apart[k] = p->x[k] - p->w->opening.begin[k];
   frot_measure_change(p, apart, s->slope);
 }
 
@@ -190,11 +192,11 @@ int frot_way_down(frot_opening *p, double *slope) {
   frot_work *w = p->w;
   descent s = begin(p);
   double *d = w->opening.way, *apart = w->opening.apart, none;
-  size_t bytes = sizeof(double) * (size_t)s.nx, y_bytes = sizeof(double) * (size_t)p->m->ny;
+  size_t bytes = sizeof(double) * (size_t)s.nx;
   int status = frot_evaluate_statements(p);
   if (status != FROT_OK) return status;
-  memcpy(s.x, p->q, bytes);
-  memcpy(w->step.y_end, w->blocks.y, y_bytes);
+  memcpy(s.x, p->x, bytes);
+  frot_keep_blocks(p, w->step.y_end);
   frot_measure_by_beginning(p);
   span_rows(p, &s);
   find_slope(p, &s);
@@ -205,8 +207,8 @@ int frot_way_down(frot_opening *p, double *slope) {
   *slope = s.rank < s.ny ? sqrt(frot_dot(s.left, s.left, s.ny)) : 0;
   if (*slope == 0) return FROT_OK;
   status = follow(p, &s, d);
-  memcpy(p->q, s.x, bytes);
-  memcpy(w->blocks.y, w->step.y_end, y_bytes);
+  memcpy(p->x, s.x, bytes);
+  frot_return_blocks(p, w->step.y_end);
   if (status != FROT_OK) return status;
   frot_backward(p->factor, p->order, p->attached, d);
   frot_move_opening(p, d, s.x, 1, apart, &none);

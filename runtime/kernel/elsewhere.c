@@ -45,30 +45,26 @@ static double unit_of(const frot_opening *p, int i, const double *span, int alik
 }
 
 void frot_begin_elsewhere(frot_opening *p, int k, int alike) {
-  const frot_model *m = p->m;
   double span[2], *changes = p->w->opening.scratch;
   span_turns(p, span);
-  memset(changes, 0, sizeof(double) * (size_t)m->nq);
-  for (int i = 0, own = 0; i < m->nq; i++) {
-    if (!frot_is_own(p, i)) continue;
-    double part = fmod((k / 2 + 1) * (0.3819660112501051 + 0.6180339887498949 * own++), 1);
+  memset(changes, 0, sizeof(double) * (size_t)p->n_own);
+  for (int i = 0; i < p->n_own; i++) {
+    double part = fmod((k / 2 + 1) * (0.3819660112501051 + 0.6180339887498949 * i), 1);
     changes[i] = (k % 2 ? -1 : 1) * 3 * (0.1 + 0.9 * part) * unit_of(p, i, span, alike);
   }
   /* an orientation stays of length 1 */
-  for (int i = 0; i < m->n_turns; i++) changes[m->turns[i].at] = 0;
+  for (int i = 0; i < p->part->n_turns; i++) changes[p->w->opening.turns[i].at] = 0;
   p->basis = p->w->opening.begin;
-  frot_from_changes(p, changes, p->q);
-  for (int i = 0; i < m->nq; i++) p->q[i] += p->w->opening.begin[i];
-  frot_begin_values(p, NULL, p->w->blocks.y);
+  frot_from_changes(p, changes, p->x);
+  for (int i = 0; i < p->n_own; i++) p->x[i] += p->w->opening.begin[i];
+  frot_begin_blocks(p);
 }
 
 /* The most that an angle changed from w->opening.begin. */
 static double most_turned(const frot_opening *p) {
   double most = 0;
-  for (int j = 0; j < p->m->nv; j++) {
-    int k = frot_angle_of(p->m, j);
-    if (k >= 0) most = fmax(most, fabs(p->q[k] - p->w->opening.begin[k]));
-  }
+  for (int k = 0; k < p->n_own; k++)
+    if (frot_is_angle(p, k)) most = fmax(most, fabs(p->x[k] - p->w->opening.begin[k]));
   return most;
 }
 
@@ -81,25 +77,24 @@ static void keep_nearer(frot_opening *p, nearest_found *best) {
   double far = frot_change_size(p);
   if (!(far < (1 - FROT_NEARER) * best->far)) return;
   best->far = far, best->turned = most_turned(p);
-  memcpy(p->w->opening.nearest, p->q, sizeof(double) * (size_t)p->m->nq);
-  memcpy(p->w->opening.nearest + p->m->nq, p->w->blocks.y, sizeof(double) * (size_t)p->m->ny);
+  memcpy(p->w->opening.nearest, p->x, sizeof(double) * (size_t)p->n_own);
+  frot_keep_blocks(p, p->w->opening.nearest + p->n_own);
 }
 
 static void begin_again(const frot_opening *p) {
   frot_clear_opening(p);
-  memcpy(p->q, p->w->opening.begin, sizeof(double) * (size_t)p->m->nq);
-  memcpy(p->w->blocks.y, p->w->opening.begin_y, sizeof(double) * (size_t)p->m->ny);
+  memcpy(p->x, p->w->opening.begin, sizeof(double) * (size_t)p->n_own);
+  frot_return_blocks(p, p->w->opening.begin_y);
 }
 
 int frot_solve_widely(frot_opening *p) {
   frot_work *w = p->w;
-  size_t bytes = sizeof(double) * (size_t)p->m->nq;
-  size_t y_bytes = sizeof(double) * (size_t)p->m->ny;
+  size_t bytes = sizeof(double) * (size_t)p->n_own;
   nearest_found best = {INFINITY, INFINITY};
-  memcpy(w->opening.begin, p->q, bytes);
-  memcpy(w->opening.begin_y, w->blocks.y, y_bytes);
+  memcpy(w->opening.begin, p->x, bytes);
+  frot_keep_blocks(p, w->opening.begin_y);
   int found = frot_solve_nearest(p);
-  if (found == FROT_OK && memcmp(w->opening.begin, p->q, bytes) == 0) return found;
+  if (found == FROT_OK && memcmp(w->opening.begin, p->x, bytes) == 0) return found;
   if (found != FROT_OK && (found != FROT_INITIAL || !p->wide)) return found;
   int status = frot_note_beginning(p);
   if (status != FROT_OK) return frot_no_number(p, status);
@@ -118,7 +113,7 @@ int frot_solve_widely(frot_opening *p) {
   }
   frot_clear_opening(p);
   const double *end = isfinite(best.far) ? w->opening.nearest : w->opening.begin;
-  const double *end_y = isfinite(best.far) ? end + p->m->nq : w->opening.begin_y;
-  memcpy(p->q, end, bytes), memcpy(w->blocks.y, end_y, y_bytes);
+  memcpy(p->x, end, bytes);
+  frot_return_blocks(p, isfinite(best.far) ? end + p->n_own : w->opening.begin_y);
   return frot_solve_nearest(p);
 }

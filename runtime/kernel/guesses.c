@@ -21,33 +21,28 @@
  * guesses, for its guess to say more. */
 #define SAYS_MORE 0.1
 
-int frot_has_guesses(const frot_opening *p) {
-  for (int j = 0; j < p->m->n_guessed; j++)
-    if (p->m->guess_part[j] == p->part) return 1;
-  return 0;
-}
+int frot_has_guesses(const frot_opening *p) { return !p->velocity && p->part->n_guessed > 0; }
 
-/* What each guess counts: the items of a vector alike, by the effective mass of the vector at p->q.
+/* What each guess counts: the items of a vector alike, by the effective mass of the vector at p->x.
  * Returns the largest part that one of them changed by, INFINITY where something is no number. */
 static double weigh_guesses(frot_opening *p) {
-  const frot_model *m = p->m;
-  double *weight = p->w->opening.guess_weight, *square = weight + m->n_guessed, most = 0;
+  const frot_part *part = p->part;
+  double *weights = p->w->opening.guess_weight, *square = weights + p->m->n_guessed, most = 0;
   frot_begin_units(p);
   p->aim = 1;
   int status = frot_opening_metric(p);
   if (status == FROT_OK) status = frot_evaluate_statements(p);
   p->aim = 0;
   if (status != FROT_OK) return INFINITY;
-  for (int j = 0; j < m->n_guessed; j++) {
-    if (m->guess_part[j] != p->part) continue;
-    double length = frot_row_length(p, p->n + j), *whole = square + m->guess_vector[j];
-    *whole = (m->guess_vector[j] == j ? 0 : *whole) + length * length;
+  for (int j = 0; j < part->n_guessed; j++) {
+    double length = frot_row_length(p, p->n + j), *whole = square + part->vectors[j];
+    *whole = (part->vectors[j] == j ? 0 : *whole) + length * length;
   }
-  for (int j = 0; j < m->n_guessed; j++) {
-    if (m->guess_part[j] != p->part) continue;
-    double whole = square[m->guess_vector[j]], before = weight[j];
-    weight[j] = whole > 0 && isfinite(1 / whole) ? 1 / sqrt(whole) : 0;
-    if (weight[j] != before) most = fmax(most, fabs(weight[j] - before) / fmax(weight[j], before));
+  for (int j = 0; j < part->n_guessed; j++) {
+    double whole = square[part->vectors[j]], *weight = weights + part->guessed[j];
+    double before = *weight;
+    *weight = whole > 0 && isfinite(1 / whole) ? 1 / sqrt(whole) : 0;
+    if (*weight != before) most = fmax(most, fabs(*weight - before) / fmax(*weight, before));
   }
   return most;
 }
@@ -58,8 +53,9 @@ double frot_guesses_missed(frot_opening *p) {
   p->aim = 1;
   int status = frot_evaluate_statements(p);
   p->aim = aims;
-  for (int j = 0; j < p->m->n_guessed && status == FROT_OK; j++) {
-    double part = p->w->relations.residual[p->n + j] * p->w->opening.guess_weight[j];
+  for (int j = 0; j < p->part->n_guessed && status == FROT_OK; j++) {
+    double weight = p->w->opening.guess_weight[p->part->guessed[j]];
+    double part = p->w->relations.residual[p->n + j] * weight;
     sum += part * part;
   }
   return status == FROT_OK && isfinite(sum) ? sqrt(sum) : INFINITY;
@@ -69,12 +65,12 @@ int frot_are_guesses_met(frot_opening *p) {
   int met = 1;
   p->aim = 1;
   if (frot_evaluate_statements(p) != FROT_OK) met = 0;
-  for (int j = 0; j < p->m->n_guessed && met; j++) met = frot_statement_agrees(p, p->n + j, 0);
+  for (int j = 0; j < p->part->n_guessed && met; j++) met = frot_statement_agrees(p, p->n + j, 0);
   p->aim = 0;
   return met;
 }
 
-/* p->q <- the place at which guesses and equations hold best together near it, by damped least
+/* p->x <- the place at which guesses and equations hold best together near it, by damped least
  * squares, then the equations. Returns 0 if there is none. */
 static int compromise(frot_opening *p) {
   p->guessed = p->alike = 1;
@@ -98,7 +94,7 @@ static void aim(frot_opening *p) {
 }
 
 double frot_least_missed(frot_opening *p) {
-  memcpy(p->w->opening.begin, p->q, sizeof(double) * (size_t)p->m->nq);
+  memcpy(p->w->opening.begin, p->x, sizeof(double) * (size_t)p->n_own);
   if (frot_note_beginning(p) != FROT_OK) return INFINITY;
   aim(p);
   return frot_are_guesses_met(p) ? 0 : frot_guesses_missed(p);
@@ -111,16 +107,16 @@ static void unwind(frot_opening *p) {
   p->guessed = p->alike = 0;
 }
 
-/* p->q <- of compromises near w->opening.begin and near places elsewhere the one that misses the
+/* p->x <- of compromises near w->opening.begin and near places elsewhere the one that misses the
  * guesses least, the first that meets them. Returns 0 if there is none. */
 static int compromise_widely(frot_opening *p) {
   frot_opening_work *w = &p->w->opening;
-  double least = INFINITY, *y = p->w->blocks.y, *best = w->near, *best_y = best + p->m->nq;
-  size_t bytes = sizeof(double) * (size_t)p->m->nq, y_bytes = sizeof(double) * (size_t)p->m->ny;
+  double least = INFINITY, *best = w->near, *best_y = best + p->n_own;
+  size_t bytes = sizeof(double) * (size_t)p->n_own;
   for (int k = 0, met = 0; k < BEGINNINGS && !met; k++) {
     frot_clear_opening(p);
-    memcpy(p->q, w->begin, bytes);
-    frot_begin_values(p, NULL, y);
+    memcpy(p->x, w->begin, bytes);
+    frot_begin_blocks(p);
     frot_begin_units(p);
     if (frot_opening_metric(p) != FROT_OK) continue;
     if (k > 0) frot_begin_elsewhere(p, k - 1, k % 3 == 0);
@@ -128,28 +124,28 @@ static int compromise_widely(frot_opening *p) {
     double missed = frot_guesses_missed(p);
     met = frot_are_guesses_met(p);
     if (met || missed < (1 - FROT_NEARER) * least)
-      least = missed, memcpy(best, p->q, bytes), memcpy(best_y, y, y_bytes);
+      least = missed, memcpy(best, p->x, bytes), frot_keep_blocks(p, best_y);
   }
   frot_clear_opening(p);
   if (!isfinite(least)) return 0;
-  memcpy(p->q, best, bytes);
-  memcpy(y, best_y, y_bytes);
+  memcpy(p->x, best, bytes);
+  frot_return_blocks(p, best_y);
   return 1;
 }
 
 /* The same for one part. */
 static void meet_part(frot_opening *p) {
   frot_opening_work *w = &p->w->opening;
-  size_t bytes = sizeof(double) * (size_t)p->m->nq;
-  if (!frot_has_guesses(p) || !isfinite(weigh_guesses(p))) return;
-  memcpy(w->begin, p->q, bytes);
+  size_t bytes = sizeof(double) * (size_t)p->n_own;
+  if (!isfinite(weigh_guesses(p))) return;
+  memcpy(w->begin, p->x, bytes);
   if (frot_note_beginning(p) != FROT_OK) return;
   p->guessed = 1;
   int met = frot_solve_nearest(p) == FROT_OK && frot_come_closest(p) == FROT_OK;
   p->guessed = 0;
   frot_clear_opening(p);
   if (met) return;
-  if (!compromise_widely(p)) memcpy(p->q, w->begin, bytes);
+  if (!compromise_widely(p)) memcpy(p->x, w->begin, bytes);
   unwind(p);
   aim(p);
 }
@@ -159,20 +155,18 @@ void frot_meet_guesses(frot_opening *p) {
   memset(p->w->opening.guess_weight, 0, sizeof(double) * (size_t)p->m->n_guessed);
   p->direct = p->w->blocks.unwanted = 1;
   for (int part = 0; part < p->m->n_parts && p->m->n_guessed > 0; part++) {
-    frot_take_part(p, part);
+    if (p->m->parts[part].n_guessed == 0) continue;
+    frot_take_part(p, &p->m->parts[part]);
     meet_part(p);
+    frot_put(p);
   }
   p->direct = p->w->blocks.unwanted = 0;
-  frot_take_part(p, -1);
+  frot_leave_parts(p);
 }
 
 void frot_begin_as_met(const frot_opening *p) {
-  double *begin = p->w->opening.begin;
-  memcpy(begin, p->q, sizeof(double) * (size_t)p->m->nq);
-  for (int a = 0; a < p->n_own; a++) {
-    int k = p->w->opening.own[a];
-    begin[k] = p->w->opening.met[k];
-  }
+  frot_opening_work *w = &p->w->opening;
+  for (int k = 0; k < p->n_own; k++) w->begin[k] = w->met[p->part->q[k]];
 }
 
 int frot_find_other(frot_opening *p) {
@@ -184,25 +178,27 @@ int frot_find_other(frot_opening *p) {
 
 /* The factor of the metric of the speeds marked in `moves`, which come first; returns how many. */
 static int factor_moving(frot_opening *p, const double *moves, int *list) {
+  const int *speed = p->part->v;
   int n = 0;
-  for (int k = 0; k < p->m->nv; k++)
+  for (int k = 0; k < p->n_own; k++)
     if (moves[k] != 0) list[n++] = k;
   double *factor = p->w->opening.factor;
   for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) factor[n * j + i] = frot_metric_entry(p->m, p->w, list[i], list[j]);
+    for (int j = 0; j < n; j++)
+      factor[n * j + i] = frot_metric_entry(p->m, p->w, speed[list[i]], speed[list[j]]);
   return frot_cholesky(factor, n) ? 0 : n;
 }
 
 int frot_look_at_guessed_speeds(const frot_opening *p) {
   frot_work *w = p->w;
-  int n = p->m->n_guessed_speeds, nv = p->m->nv;
-  frot_inputs(p->m, p->s, w, &p->t, p->q, p->v, p->d);
+  int n = p->part->n_guessed, nx = p->n_own;
+  frot_put(p);
   w->call.res[0] = w->relations.residual, w->call.res[1] = w->relations.size;
-  w->call.res[2] = w->relations.jacobian, w->call.res[3] = w->relations.jacobian + n * nv;
+  w->call.res[2] = w->relations.jacobian, w->call.res[3] = w->relations.jacobian + n * nx;
   w->call.res[4] = w->opening.scratch;
-  frot_call(w, &p->m->guessed_speeds);
+  frot_evaluate_part(p, &p->part->guessing);
   return frot_all_finite(w->relations.residual, n) &&
-         frot_all_finite(w->relations.jacobian, 4 * n * nv);
+         frot_all_finite(w->relations.jacobian, 4 * n * nx);
 }
 
 /* y <- L^-1 of the slope of a guess in the speeds that move; returns its square. */
@@ -214,22 +210,21 @@ static double half_of_slope(const frot_work *w, const double *slope, const int *
 }
 
 int frot_follow_guessed_speeds(frot_opening *p) {
-  const frot_model *m = p->m;
   frot_work *w = p->w;
-  int n = m->n_guessed_speeds, *list = w->linear.pivot + m->nv;
+  int n = p->part->n_guessed, nx = p->n_own, *list = w->linear.pivot + nx;
   if (n == 0) return FROT_OK;
   int status = frot_opening_metric(p);
   if (status != FROT_OK) return frot_no_number(p, status);
   if (!frot_look_at_guessed_speeds(p)) return FROT_OK;
   double *missed = w->relations.residual, *slopes = w->relations.jacobian;
-  double *items = slopes + n * m->nv;
+  double *items = slopes + n * nx;
   int count = factor_moving(p, w->opening.scratch, list);
   double *a = w->linear.matrix, *b = w->linear.right, *y = w->relations.step, most = 0;
   for (int i = 0; i < n; i++) {
     double whole = 0;
     for (int c = 3 * i; c < 3 * i + 3; c++)
-      whole += half_of_slope(w, items + c * m->nv, list, count, y);
-    double own = half_of_slope(w, slopes + i * m->nv, list, count, y);
+      whole += half_of_slope(w, items + c * nx, list, count, y);
+    double own = half_of_slope(w, slopes + i * nx, list, count, y);
     double weight = whole > 0 ? 1 / sqrt(whole) : 0;
     most = fmax(most, own * weight * weight);
     for (int k = 0; k < count; k++) a[k * n + i] = weight * y[k];
@@ -238,6 +233,6 @@ int frot_follow_guessed_speeds(frot_opening *p) {
   if (most < SAYS_MORE * SAYS_MORE) return FROT_OK;
   frot_least_norm(a, b, n, count, SAYS_MORE, y, w->linear.scratch, w->linear.pivot);
   frot_backward(w->opening.factor, count, count, y);
-  for (int k = 0; k < count; k++) p->v[list[k]] += y[k];
+  for (int k = 0; k < count; k++) p->x[list[k]] += y[k];
   return FROT_OK;
 }

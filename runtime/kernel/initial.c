@@ -5,7 +5,6 @@
 
 #include "apart.h"
 #include "branch.h"
-#include "changes.h"
 #include "closest.h"
 #include "core.h"
 #include "elsewhere.h"
@@ -24,6 +23,15 @@ static void set_conditions(const frot_model *m, const frot_work *w, double *d) {
     d[j] = m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;
 }
 
+/* v and y <- where the search for speeds and for the unknowns of the blocks begins at the places as
+ * they are. */
+static void begin_values(const frot_opening *p, double *v, double *y) {
+  frot_work *w = p->w;
+  frot_inputs(p->m, p->s, w, &p->t, p->q, p->v, p->d);
+  w->call.res[0] = v, w->call.res[1] = y;
+  frot_call(w, &p->m->beginning);
+}
+
 /* Where the text says that the search begins. */
 static void guess(frot_opening *p) {
   const frot_model *m = p->m;
@@ -35,23 +43,22 @@ static void guess(frot_opening *p) {
   w->call.arg[0] = &p->t, w->call.arg[1] = p->s->data + l.u, w->call.arg[2] = p->s->data + l.p;
   w->call.res[0] = p->q, w->call.res[1] = discrete;
   frot_call(w, &m->start);
-  frot_begin_values(p, p->v, w->blocks.y);
+  begin_values(p, p->v, w->blocks.y);
   frot_meet_guesses(p);
   memcpy(w->opening.met, p->q, sizeof(double) * (size_t)m->nq);
-  frot_begin_values(p, p->v, w->blocks.y);
+  begin_values(p, p->v, w->blocks.y);
 }
 
 /* The part again where its search begins. */
 static void begin_part(const frot_opening *p) {
   frot_begin_as_met(p);
-  memcpy(p->q, p->w->opening.begin, sizeof(double) * (size_t)p->m->nq);
-  frot_begin_values(p, NULL, p->w->blocks.y);
+  memcpy(p->x, p->w->opening.begin, sizeof(double) * (size_t)p->n_own);
+  frot_begin_blocks(p);
 }
 
 /* Take no contact of the part for an equation. */
 static void leave_contacts(const frot_opening *p) {
-  for (int i = 0; i < p->m->n_contacts; i++)
-    if (frot_is_of_part(p, p->m->contact_part[i])) p->use[i] = 0;
+  for (int i = 0; i < p->part->n_contacts; i++) p->use[p->part->contacts[i]] = 0;
 }
 
 /* Whether the statements on the part hold where the search begins, with the sides of that place:
@@ -67,10 +74,9 @@ static int hold_already(frot_opening *p) {
  * a side before: that of the guess if the statements hold there, else the natural one or, if the
  * statements contradict that, the one of the guess. */
 static int solve_statements(frot_opening *p, double *side) {
-  const frot_model *m = p->m;
   frot_state *s = p->s;
   leave_contacts(p);
-  int status = frot_kinematics(m, s, p->w, p->t, p->q, p->v, p->d);
+  int status = frot_look_at_part(p);
   if (status != FROT_OK) return frot_no_number(p, status);
   frot_choose_sides(p, side, 0);
   if (!hold_already(p)) frot_choose_sides(p, side, 1);
@@ -78,8 +84,8 @@ static int solve_statements(frot_opening *p, double *side) {
   if (status != FROT_INITIAL && status != FROT_ALGEBRAIC) return status;
   frot_fault first = s->fault;
   begin_part(p);
-  int again = frot_kinematics(m, s, p->w, p->t, p->q, p->v, p->d) == FROT_OK &&
-              frot_choose_sides(p, side, 0) > 0 && frot_solve_widely(p) == FROT_OK;
+  int again = frot_look_at_part(p) == FROT_OK && frot_choose_sides(p, side, 0) > 0 &&
+              frot_solve_widely(p) == FROT_OK;
   s->fault = again ? frot_no_fault(p->t) : first;
   s->phase = again ? FROT_CLEARED : FROT_FAULTED;
   return again ? FROT_OK : status;
@@ -89,8 +95,8 @@ static int solve_statements(frot_opening *p, double *side) {
  * contacts. Leaves w->core.gap there. */
 static int put_together(frot_opening *p, double *side) {
   const frot_model *m = p->m;
+  const frot_part *part = p->part;
   frot_work *w = p->w;
-  int nc = m->n_contacts;
   int status;
   frot_choose_sides(p, side, 0);
   frot_take_liaisons(p);
@@ -103,37 +109,34 @@ static int put_together(frot_opening *p, double *side) {
     if (status != FROT_OK) return status;
     frot_look_at_sides(p);
     int added = 0;
-    for (int i = 0; i < nc; i++) {
+    for (int k = 0; k < part->n_contacts; k++) {
+      int i = part->contacts[k];
       if (p->use[i] || m->contacts[i].reduced || !frot_has_normal(&m->contacts[i])) continue;
-      if (!frot_is_of_part(p, m->contact_part[i])) continue;
       if (w->core.gap[i] < -FROT_TOUCH * frot_length_size(m, w, i, p->q)) p->use[i] = 1, added = 1;
     }
     if (!added) return FROT_OK;
   }
 }
 
-/* Keep the place that is found, or take it again. */
-static int keep_place(frot_opening *p, double *side, int again) {
-  frot_work *w = p->w;
-  int nq = p->m->nq, ny = p->m->ny, nc = p->m->n_contacts;
-  struct {
-    double *here;
-    int count;
-  } parts[] = {{p->q, nq}, {w->blocks.y, ny}, {side, nc}};
-  double *kept = w->opening.first;
-  for (int k = 0; k < 3; kept += parts[k++].count) {
-    size_t bytes = sizeof(double) * (size_t)parts[k].count;
-    memcpy(again ? parts[k].here : kept, again ? kept : parts[k].here, bytes);
-  }
-  memcpy(again ? p->use : w->opening.first_use, again ? w->opening.first_use : p->use, (size_t)nc);
-  return again ? frot_kinematics(p->m, p->s, w, p->t, p->q, p->v, p->d) : FROT_OK;
-}
-
 /* Keep coordinates and unknowns of blocks, or take them again. */
 static void copy_place(const frot_opening *p, double *kept, int again) {
-  double *y = p->w->blocks.y, *kept_y = kept + p->m->nq;
-  memcpy(again ? p->q : kept, again ? kept : p->q, sizeof(double) * (size_t)p->m->nq);
-  memcpy(again ? y : kept_y, again ? kept_y : y, sizeof(double) * (size_t)p->m->ny);
+  size_t bytes = sizeof(double) * (size_t)p->n_own;
+  memcpy(again ? p->x : kept, again ? kept : p->x, bytes);
+  again ? frot_return_blocks(p, kept + p->n_own) : frot_keep_blocks(p, kept + p->n_own);
+}
+
+/* The same with the sides of the contacts and which of them are equations. */
+static void keep_place(const frot_opening *p, double *side, int again) {
+  frot_opening_work *w = &p->w->opening;
+  double *kept = w->first + p->n_own + p->part->ny;
+  copy_place(p, w->first, again);
+  for (int k = 0; k < p->part->n_contacts; k++) {
+    int i = p->part->contacts[k];
+    if (again)
+      side[i] = kept[k], p->use[i] = w->first_use[k];
+    else
+      kept[k] = side[i], w->first_use[k] = p->use[i];
+  }
 }
 
 /* Whether another place of the part, put together with its own sides, misses its guesses by far
@@ -142,10 +145,8 @@ static int put_elsewhere(frot_opening *p, double *side, double missed) {
   frot_take_liaisons(p);
   int found = frot_find_other(p);
   leave_contacts(p);
-  if (!found || frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d) != FROT_OK ||
-      put_together(p, side) != FROT_OK)
-    return 0;
-  double *best = p->w->opening.other, *nearest = best + p->m->nq + p->m->ny;
+  if (!found || frot_look_at_part(p) != FROT_OK || put_together(p, side) != FROT_OK) return 0;
+  double *best = p->w->opening.other, *nearest = best + p->n_own + p->part->ny;
   double other = frot_least_missed(p);
   if (!(other < sqrt(FROT_GUESS_LESS) * missed)) return 0;
   copy_place(p, best, 0);
@@ -170,7 +171,8 @@ static int look_elsewhere(frot_opening *p, double *side, int status) {
   int found = missed > 0 ? put_elsewhere(p, side, missed) : frot_solve_nearest(p) == FROT_OK;
   if (found) return FROT_OK;
   frot_clear_opening(p);
-  int kept = keep_place(p, side, 1);
+  keep_place(p, side, 1);
+  int kept = frot_look_at_part(p);
   if (status == FROT_OK && kept != FROT_OK) return frot_no_number(p, kept);
   if (status != FROT_OK) p->s->fault = fault, p->s->phase = FROT_FAULTED;
   return status;
@@ -194,45 +196,52 @@ static int solve_part(frot_opening *p, double *side) {
   return several ? look_elsewhere(p, side, status) : status;
 }
 
-/* All coordinates, part by part: what stands beside a part does nothing to it. */
-static int solve_positions(frot_opening *p, double *side, int stay) {
-  p->velocity = 0;
-  for (int part = 0; part < p->m->n_parts; part++) {
-    frot_take_part(p, part);
-    if (!stay) begin_part(p);
-    int status = solve_part(p, side);
-    if (status == FROT_INITIAL) {
-      frot_clear_opening(p);
-      begin_part(p);
-      p->wide = 1;
-      status = solve_part(p, side);
-      p->wide = 0;
-      if (status == FROT_INITIAL && p->s->fault.item < 0) frot_tell_apart(p);
-    }
-    if (status != FROT_OK) return status;
-  }
-  frot_take_part(p, -1);
-  int status = frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
-  if (status != FROT_OK) return frot_no_number(p, status);
-  frot_look_at_sides(p);
-  return FROT_OK;
+/* The coordinates of a part, from where its search begins or, to `stay`, from where they are. */
+static int place_part(frot_opening *p, double *side, int stay) {
+  if (!stay) begin_part(p);
+  int status = solve_part(p, side);
+  if (status != FROT_INITIAL) return status;
+  frot_clear_opening(p);
+  begin_part(p);
+  p->wide = 1;
+  status = solve_part(p, side);
+  p->wide = 0;
+  if (status == FROT_INITIAL && p->s->fault.item < 0) frot_tell_apart(p);
+  return status;
 }
 
-/* Speeds; opens contacts that separate. */
-static int solve_speeds(frot_opening *p, frot_contact_mode *modes) {
+/* All coordinates, part by part: what stands beside a part does nothing to it. */
+static int solve_positions(frot_opening *p, double *side, int stay) {
+  int status = FROT_OK;
+  p->velocity = 0;
+  for (int i = 0; i < p->m->n_parts && status == FROT_OK; i++) {
+    const frot_part *part = &p->m->parts[i];
+    if (part->n_stated + part->n_contacts + part->n_guessed == 0) continue;
+    frot_take_part(p, part);
+    status = place_part(p, side, stay);
+    frot_put(p);
+    frot_look_at_sides(p);
+  }
+  frot_leave_parts(p);
+  if (status == FROT_OK) {
+    status = frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
+    if (status != FROT_OK) frot_no_number(p, status);
+  }
+  return status;
+}
+
+/* Speeds of a part; opens contacts that separate. */
+static int move_part(frot_opening *p, frot_contact_mode *modes) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
-  p->velocity = 1;
-  frot_take_part(p, -1);
-  frot_begin_values(p, p->v, NULL);
   int status = frot_follow_guessed_speeds(p);
   for (; status == FROT_OK;) {
     status = frot_solve_nearest(p);
     if (status != FROT_OK) return status;
     int added = 0;
-    for (int i = 0; i < m->n_contacts; i++) {
+    for (int k = 0; k < p->part->n_contacts; k++) {
+      int i = p->part->contacts[k], row = m->contacts[i].row_n;
       const frot_contact *contact = &m->contacts[i];
-      int row = contact->row_n;
       if (p->use[i] || contact->reduced || !frot_has_normal(contact) || !modes[i].closed) continue;
       double size = DBL_EPSILON * frot_row_size(m, w, row, p->v) +
                     FROT_NO_DIGIT * frot_row_speed(m, w, row, p->v);
@@ -242,6 +251,27 @@ static int solve_speeds(frot_opening *p, frot_contact_mode *modes) {
         p->use[i] = 1, added = 1;
     }
     if (!added) return FROT_OK;
+  }
+  return status;
+}
+
+/* All speeds, part by part. */
+static int solve_speeds(frot_opening *p, frot_contact_mode *modes) {
+  int status = FROT_OK;
+  begin_values(p, p->v, p->w->opening.fresh);
+  p->velocity = 1;
+  for (int i = 0; i < p->m->n_speed_parts && status == FROT_OK; i++) {
+    const frot_part *part = &p->m->speed_parts[i];
+    if (part->n_stated + part->n_contacts + part->n_guessed == 0) continue;
+    frot_take_part(p, part);
+    status = move_part(p, modes);
+    if (status == FROT_OK) status = frot_choose_ways(p);
+    frot_put(p);
+  }
+  frot_leave_parts(p);
+  if (status == FROT_OK) {
+    status = frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
+    if (status != FROT_OK) frot_no_number(p, status);
   }
   return status;
 }
@@ -280,7 +310,6 @@ static int solve_once(frot_opening *p, int stay) {
     p->use[i] = touches && unilateral[i] == 0 && !contact->reduced;
   }
   status = solve_speeds(p, modes);
-  if (status == FROT_OK) status = frot_choose_ways(p);
   if (status != FROT_OK) return status;
   set_conditions(m, w, d);
   return FROT_OK;
@@ -304,8 +333,7 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
   p.d = s->data + l.d, p.use = w->opening.use;
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
   size_t size = sizeof(double) * (size_t)m->n_conditions;
-  frot_name_changes(&p);
-  frot_take_part(&p, -1);
+  frot_leave_parts(&p);
   if (m->n_conditions > 0) guess(&p), look_at_conditions(&p);
   int failed = FROT_OK;
   frot_fault told = s->fault;

@@ -232,3 +232,31 @@ void frot_call_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
     }
   }
 }
+
+void frot_call_part(const frot_state *s, frot_work *w, const frot_part *part,
+                    const frot_callable *function, const double *t, const double *q,
+                    const double *v, const double *d) {
+  const double **arg = w->call.arg;
+  double *at = w->opening.read;
+  arg[0] = t;
+  arg[1] = at, at = gather(q, part->q, part->nq, at);
+  arg[2] = at, at = gather(v, part->v, part->nv, at);
+  arg[3] = at, at = gather(s->data + w->layout.u, part->u, part->nu, at);
+  arg[4] = at, at = gather(s->data + w->layout.p, part->p, part->np, at);
+  arg[5] = at, at = gather(d, part->d, part->nd, at);
+  arg[6] = at, at = gather(w->blocks.y, part->y, part->ny, at);
+  arg[7] = part->numbers;
+  frot_call(w, function);
+}
+
+void frot_call_sides(const frot_state *s, frot_work *w, const frot_part *part, double t,
+                     const double *q, const double *v, const double *d, double *witness,
+                     double *reach) {
+  int n = part->n_contacts;
+  if (n == 0) return;
+  double *own = w->opening.sides;
+  w->call.res[0] = own, w->call.res[1] = own + 3 * n;
+  frot_call_part(s, w, part, &part->sides, &t, q, v, d);
+  for (int i = 0; i < n; i++) memcpy(witness + 3 * part->contacts[i], own + 3 * i, 3 * sizeof *own);
+  scatter(own + 3 * n, part->contacts, n, reach);
+}

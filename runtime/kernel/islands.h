@@ -20,4 +20,14 @@ void frot_call_kinematics(const frot_model *m, frot_state *s, frot_work *w, doub
 void frot_call_sizes(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                      const double *v, const double *d);
 
+/* The results of `sides` of a part into those of all contacts: witness (3 each) and reach. */
+void frot_call_sides(const frot_state *s, frot_work *w, const frot_part *part, double t,
+                     const double *q, const double *v, const double *d, double *witness,
+                     double *reach);
+
+/* A function of a part, the results of which are set. */
+void frot_call_part(const frot_state *s, frot_work *w, const frot_part *part,
+                    const frot_callable *function, const double *t, const double *q,
+                    const double *v, const double *d);
+
 #endif

@@ -49,7 +49,7 @@ typedef struct {
   int has_jacobian;   /* 1: the implicit method can run: q' not late */
   double implicit_price;           /* explicit steps that cost what an implicit one does */
   int n_guessed, n_guessed_speeds; /* guesses of places, and of speeds */
-  int n_parts;    /* what is put together at the start without regard to the rest */
+  int n_parts, n_speed_parts;
   int n_followed; /* unknowns of places that are followed, where a contact of them may be open */
   int n_checks, n_position, n_velocity, n_statements, n_variables, n_loads;
   /* the first variables are the modes of the contacts that have one, the others are real */
@@ -62,30 +62,13 @@ typedef struct {
   frot_callable start;
   /* beginning(t, q, v, u, p, d, y) -> v and y where the search for them begins, at these places */
   frot_callable beginning;
-  /* The functions of the state take (t, q, v, u, p, d, y).
-   * initial_position -> residual (n_position), its transposed Jacobian in q (nq x n_position), size
-   *   of its terms (n_position), its transposed Jacobian in y (ny x n_position) */
-  frot_callable initial_position;
-  /* guessed -> by how much each guess of a place is missed (n_guessed), its transposed Jacobian in
-   * q (nq x n_guessed), the size of its terms */
-  frot_callable guessed;
-  /* guessed_speeds -> by how much each guess of a speed is missed (n_guessed_speeds), the size that
-   * it is measured by, its slopes in the speeds that may follow it (nv x n_guessed_speeds), those
-   * of all items of the vector that it is an item of (three for each); 1 for each speed that may
-   * (nv) */
-  frot_callable guessed_speeds;
-  /* initial_velocity -> the same in v: (nv x n_velocity), (ny x n_velocity) */
-  frot_callable initial_velocity;
+  /* The functions of the state take (t, q, v, u, p, d, y). */
+
   /* kinematics, dynamics, spread and sizes: islands have their own, and then only `sizes` is called
    * for the whole, for the second of its results.
    * kinematics -> gap (n_contacts), rows J (as given), rate (n_rows), conditions
    * (n_conditions; -1 for those that `sensed` gives) */
   frot_callable kinematics;
-  /* sides -> what chooses the side of each contact at the start (3 x n_contacts): height of its
-   * point or rim's centre over the line, then what tells where that is zero: the part of the normal
-   * that is against gravity, and the height of the body's G. A side chosen once is kept.
-   * -> sizes of the lengths that each gap is made of beside the coordinates (n_contacts) */
-  frot_callable sides;
   /* beginnings -> where the search for each place that is followed begins (n_followed, the first of
    * y): at the nearest of some places all along the figures. Called where n_followed > 0. */
   frot_callable beginnings;
@@ -123,9 +106,6 @@ typedef struct {
    *   n_invariants), size of its terms (n_invariants): relations between states that index
    *   reduction brought to light and that every accepted step is projected onto */
   frot_callable invariants;
-  /* block_slopes -> residual of the blocks that are not late (ny_early), its transposed Jacobians
-   * in q (nq x ny_early), in v (nv x ny_early), in y (ny_early x ny_early): for initial values */
-  frot_callable block_slopes;
   /* update(..., y, z (nw), lam (n_rows), fired (n_whens: 1 for each `when` that fires), before
    *   (n_discrete)) -> q (nq) and v (nv) after reinit, discrete values (n_discrete), outcomes
    *   (n_outcomes: 1 where asked). In d stand the discrete values after the event as far as they
@@ -157,7 +137,8 @@ typedef struct {
   const frot_turn *turns; /* n_turns */
   const frot_element *elements;
   const frot_group *groups;
-  const frot_island *islands; /* n_islands */
+  const frot_island *islands;           /* n_islands */
+  const frot_part *parts, *speed_parts; /* of places, of speeds */
   const int *row_reads;  /* n_rows: the auxiliary unknown whose place a reading takes, else -1 */
   const int *row_beside; /* n_rows: the row of the normal where this is the slip on it, else -1 */
   /* n_rows, nv: the group of a row, of a speed, and its number among the rows, the unknowns there
@@ -177,11 +158,7 @@ typedef struct {
    */
   const int *position_statement;
   const int *velocity_statement;
-  /* the part of each coordinate, unknown of the blocks (-1: of none, or of several), contact,
-   * statement on positions (n_position) and guess of a place (n_guessed); of each guess the first
-   * item of its vector; 1 where a statement holds where the search begins, whatever is guessed
-   * (n_position) */
-  const int *q_part, *y_part, *contact_part, *position_part, *guess_part, *guess_vector;
+  /* n_position: 1 where a statement holds where the search begins, whatever is guessed */
   const unsigned char *position_direct;
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;      /* np: frot_type */

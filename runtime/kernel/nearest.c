@@ -49,46 +49,43 @@ static void copy_metric(const frot_opening *p) {
 
 /* Turn what turns of the part, the same in every run. */
 static void turn_aside(const frot_opening *p) {
-  const frot_model *m = p->m;
-  for (int i = 0; i < m->n_turns; i++) {
-    double *four = p->q + m->turns[i].at, turned[4];
-    if (!frot_is_own(p, m->turns[i].at)) continue;
-    frot_turned(&m->turns[i], ASIDE, four, turned);
-    memcpy(four, turned, sizeof turned);
+  for (int i = 0; i < p->part->n_turns; i++) {
+    const frot_turn *turn = &p->w->opening.turns[i];
+    double turned[4];
+    frot_turned(turn, ASIDE, p->x + turn->at, turned);
+    memcpy(p->x + turn->at, turned, sizeof turned);
   }
-  for (int j = 0; j < m->nv; j++) {
-    int k = frot_angle_of(m, j);
-    if (k >= 0 && frot_is_own(p, k)) p->q[k] += 1;
-  }
+  for (int k = 0; k < p->n_own; k++)
+    if (frot_is_angle(p, k)) p->x[k] += 1;
 }
 
 static int find_metric(frot_opening *p) {
   frot_work *w = p->w;
   int count = p->attached;
+  frot_put(p);
   int status = frot_inertia(p->m, p->s, w, p->t, p->q, p->v, p->d);
   if (status != FROT_OK) return status;
   copy_metric(p);
   if (!frot_all_finite(w->opening.factor, count * count)) return FROT_NAN;
-  for (int i = 0; i < p->m->n_turns && !p->velocity; i++)
-    if (frot_is_own(p, p->m->turns[i].at))
-      w->relations.unit[p->m->turns[i].at] = unit_of_length(p, &p->m->turns[i]);
+  for (int i = 0; i < p->part->n_turns && !p->velocity; i++)
+    w->relations.unit[w->opening.turns[i].at] = unit_of_length(p, &w->opening.turns[i]);
   return frot_cholesky(w->opening.factor, count) ? FROT_SINGULAR : FROT_OK;
 }
 
 int frot_opening_metric(frot_opening *p) {
-  size_t bytes = sizeof(double) * (size_t)p->m->nq;
-  memcpy(p->w->opening.here, p->q, bytes);
+  size_t bytes = sizeof(double) * (size_t)p->n_own;
+  memcpy(p->w->opening.here, p->x, bytes);
   p->factor = p->w->opening.factor, p->order = p->attached, p->basis = p->w->opening.here;
   int status = find_metric(p);
   if (status != FROT_NAN || !p->direct) return status;
   turn_aside(p);
   status = find_metric(p);
-  memcpy(p->q, p->w->opening.here, bytes);
+  memcpy(p->x, p->w->opening.here, bytes);
   return status;
 }
 
 void frot_row_in_metric(const frot_opening *p, const double *x, double *y) {
-  double *over = p->w->opening.scratch + 2 * frot_opening_count(p);
+  double *over = p->w->opening.scratch + 2 * p->n_own;
   const int *own = p->w->opening.own;
   frot_over_changes(p, x, over);
   for (int a = 0; a < p->n_own; a++)
@@ -98,12 +95,12 @@ void frot_row_in_metric(const frot_opening *p, const double *x, double *y) {
 
 double frot_row_length(const frot_opening *p, int i) {
   double *y = p->w->relations.step;
-  frot_row_in_metric(p, p->w->relations.jacobian + frot_opening_count(p) * i, y);
+  frot_row_in_metric(p, p->w->relations.jacobian + p->n_own * i, y);
   return sqrt(frot_dot(y, y, p->n_own));
 }
 
 void frot_measure_change(const frot_opening *p, const double *apart, double *y) {
-  double *over = p->w->opening.scratch + 2 * frot_opening_count(p);
+  double *over = p->w->opening.scratch + 2 * p->n_own;
   const int *own = p->w->opening.own;
   int n = p->attached;
   frot_into_changes(p, apart, over);
@@ -118,17 +115,16 @@ void frot_measure_change(const frot_opening *p, const double *apart, double *y) 
 
 double frot_move_opening(const frot_opening *p, const double *y, const double *x0, double part,
                          double *x, double *size) {
-  double *changes = p->w->opening.scratch, *moved = changes + frot_opening_count(p);
+  double *changes = p->w->opening.scratch, *moved = changes + p->n_own;
   const int *own = p->w->opening.own;
   double largest = 0;
   *size = 0;
-  memset(changes, 0, sizeof(double) * (size_t)frot_opening_count(p));
+  memset(changes, 0, sizeof(double) * (size_t)p->n_own);
   for (int a = 0; a < p->n_own; a++)
     changes[own[a]] = part * (a < p->attached ? y[a] : y[a] * p->w->relations.unit[own[a]]);
   frot_from_changes(p, changes, moved);
-  for (int k = 0; k < frot_opening_count(p); k++) {
+  for (int k = 0; k < p->n_own; k++) {
     x[k] = x0[k] + moved[k];
-    if (!frot_is_own(p, k)) continue;
     largest = fmax(largest, fabs(moved[k])), *size = fmax(*size, fabs(x[k]));
   }
   return largest;
@@ -136,9 +132,9 @@ double frot_move_opening(const frot_opening *p, const double *y, const double *x
 
 void frot_begin_units(const frot_opening *p) {
   double *unit = p->w->relations.unit;
-  for (int k = 0; k < p->m->nq; k++) unit[k] = p->q[k] != 0 ? fabs(p->q[k]) : 1;
-  for (int i = 0; i < p->m->n_turns; i++)
-    for (int k = 0; k < 4; k++) unit[p->m->turns[i].at + k] = 1;
+  for (int k = 0; k < p->n_own; k++) unit[k] = p->x[k] != 0 ? fabs(p->x[k]) : 1;
+  for (int i = 0; i < p->part->n_turns; i++)
+    for (int k = 0; k < 4; k++) unit[p->w->opening.turns[i].at + k] = 1;
 }
 
 /* Sum of the squares of the residuals, each as the change that would remove it alone, so that units
@@ -159,7 +155,7 @@ static double square(const frot_opening *p, int *close) {
  * Each row is divided by its length in the metric. */
 static void least_change(const frot_opening *p) {
   frot_work *w = p->w;
-  int nx = frot_opening_count(p), own = p->n_own, n = p->n_rows;
+  int nx = p->n_own, own = p->n_own, n = p->n_rows;
   double *a = w->linear.matrix, *b = w->linear.right, *y = w->relations.step;
   for (int j = 0; j < n; j++) {
     int i = w->opening.rows[j];
@@ -178,35 +174,33 @@ static void least_change(const frot_opening *p) {
  * half a turn, of which a linear equation knows nothing, are limited alone. */
 static void limit_turns(const frot_opening *p, const double *x0, double *x) {
   double largest = 0;
-  for (int j = 0; j < p->m->nv && !p->velocity; j++) {
-    int k = frot_angle_of(p->m, j);
-    if (k < 0) continue;
+  for (int k = 0; k < p->n_own; k++) {
+    if (!frot_is_angle(p, k)) continue;
     double turned = x[k] - x0[k];
     if (fabs(turned) > HALF_TURN) turned = copysign(MOST_TURN, turned);
     x[k] = x0[k] + turned, largest = fmax(largest, fabs(turned));
   }
   if (largest <= MOST_TURN) return;
-  for (int k = 0; k < frot_opening_count(p); k++)
-    x[k] = x0[k] + MOST_TURN / largest * (x[k] - x0[k]);
+  for (int k = 0; k < p->n_own; k++) x[k] = x0[k] + MOST_TURN / largest * (x[k] - x0[k]);
 }
 
 /* Take the change of w->relations.step, or the part of it that improves the residuals. Returns
  * whether the values have come to rest: nothing improves, or nothing moves any more. */
 static int take(frot_opening *p) {
   frot_work *w = p->w;
-  double *x = frot_opening_unknown(p), *x0 = w->step.z, size, moved;
+  double *x = p->x, *x0 = w->step.z, size, moved;
   int close;
   double before = square(p, &close);
-  size_t bytes = sizeof(double) * (size_t)frot_opening_count(p);
+  size_t bytes = sizeof(double) * (size_t)p->n_own;
   memcpy(x0, x, bytes);
-  memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)p->m->ny);
+  frot_keep_blocks(p, w->step.y_end);
   for (double part = 1; part > FROT_LEAST_DAMPING_AT_START; part *= 0.5) {
     moved = frot_move_opening(p, w->relations.step, x0, part, x, &size);
     if (part == 1 && moved > FROT_FAR * p->scene) break;
     limit_turns(p, x0, x);
     if (moved <= 4 * DBL_EPSILON * size) return 1;
     if (frot_evaluate_statements(p) == FROT_OK && (square(p, &close) <= before || close)) return 0;
-    memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)p->m->ny);
+    frot_return_blocks(p, w->step.y_end);
   }
   memcpy(x, x0, bytes);
   return 1;
@@ -214,9 +208,8 @@ static int take(frot_opening *p) {
 
 /* The size of what is stated and of the values where the search begins. */
 static double scene_of(const frot_opening *p) {
-  const double *x = frot_opening_unknown(p);
   double scene = 0;
-  for (int a = 0; a < p->n_own; a++) scene = fmax(scene, fabs(x[p->w->opening.own[a]]));
+  for (int k = 0; k < p->n_own; k++) scene = fmax(scene, fabs(p->x[k]));
   for (int i = 0; i < p->n; i++)
     scene = fmax(scene, fmax(fabs(p->w->relations.residual[i]), p->w->relations.size[i]));
   return scene;
@@ -235,13 +228,13 @@ static int look_at_statements(frot_opening *p) {
 static int solve(frot_opening *p) {
   frot_work *w = p->w;
   double last = INFINITY;
-  if (frot_opening_count(p) == 0) return look_at_statements(p);
+  if (p->n_own == 0) return look_at_statements(p);
   if (!p->velocity) frot_begin_units(p);
   p->n = 0;
-  int status = p->velocity ? frot_opening_metric(p) : FROT_OK; /* speeds do not change it */
-  if (status != FROT_OK) return frot_no_number(p, status);
   for (int pass = 0;; pass++) {
-    status = frot_evaluate_statements(p);
+    int status = frot_evaluate_statements(p);
+    /* where the inertia is no number either, no statement is to blame */
+    if (status != FROT_OK && p->velocity && frot_opening_metric(p) != FROT_OK) p->n = 0;
     if (status != FROT_OK) return frot_no_number(p, status);
     int good = 1;
     double largest = 0; /* relative to the terms */
@@ -256,7 +249,7 @@ static int solve(frot_opening *p) {
     if (good || p->n_rows == 0) return FROT_OK;
     if (pass > 3 && largest >= last && largest <= FROT_AGREES) return FROT_OK;
     last = largest;
-    if (!p->velocity) status = frot_opening_metric(p);
+    if (pass == 0 || !p->velocity) status = frot_opening_metric(p); /* speeds do not change it */
     if (status != FROT_OK) return frot_no_number(p, status);
     least_change(p);
     if (!take(p) && pass < PASSES - 1) continue;
@@ -274,7 +267,7 @@ enum { KEPT = 1, NOW = 2 };
  * or none. */
 static int only_left(const frot_opening *p, int i) {
   const int *bounds = p->w->relations.bounds + 2 * i;
-  const double *row = p->w->relations.jacobian + frot_opening_count(p) * i;
+  const double *row = p->w->relations.jacobian + p->n_own * i;
   int only = -1;
   for (int k = bounds[0]; k < bounds[1]; k++) {
     if (row[k] == 0 || p->w->opening.kept[k] == KEPT) continue;
@@ -287,10 +280,10 @@ static int only_left(const frot_opening *p, int i) {
 /* What is stated or guessed of one unknown alone holds to the last digit, and then what is of one
  * more: the least change, which moves all of them, leaves it with rounding. */
 static int keep_stated(frot_opening *p) {
-  double *x = frot_opening_unknown(p);
+  double *x = p->x;
   unsigned char *kept = p->w->opening.kept;
-  int nx = frot_opening_count(p), own = p->velocity ? p->m->n_velocity : p->m->n_position;
-  int guesses = p->guessed ? p->n - p->m->n_guessed : p->n;
+  int nx = p->n_own, own = p->part->n_stated;
+  int guesses = p->guessed ? p->n - p->part->n_guessed : p->n;
   memset(kept, 0, (size_t)nx);
   for (int found = 1; found;) {
     double *by = p->w->step.z;
@@ -315,8 +308,8 @@ static int keep_stated(frot_opening *p) {
 
 int frot_solve_nearest(frot_opening *p) {
   int status = solve(p);
-  if (status == FROT_OK && frot_opening_count(p) > 0) status = keep_stated(p);
+  if (status == FROT_OK && p->n_own > 0) status = keep_stated(p);
   if (status != FROT_OK) return status;
-  status = frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
+  status = frot_look_at_part(p);
   return status == FROT_OK ? FROT_OK : frot_no_number(p, status);
 }

@@ -2,31 +2,80 @@
 
 #include <string.h>
 
-void frot_take_part(frot_opening *p, int part) {
+#include "awake.h"
+#include "core.h"
+#include "islands.h"
+
+static const frot_part nothing = {0};
+
+/* Which speed each change is a displacement of, or none (changes.h), and the orientations of the
+ * part. */
+static void name_changes(frot_opening *p) {
+  const frot_model *m = p->m;
+  const frot_part *part = p->part;
   frot_opening_work *w = &p->w->opening;
-  int nx = frot_opening_count(p);
-  p->part = part, p->n_own = 0;
-  for (int k = 0; k < nx; k++)
-    w->is_own[k] = (unsigned char)(p->velocity || part < 0 || p->m->q_part[k] == part);
-  for (int k = 0; k < nx; k++)
-    if (w->is_own[k] && frot_is_attached(p, k)) w->own[p->n_own++] = k;
-  p->attached = p->n_own;
-  for (int k = 0; k < nx; k++)
-    if (w->is_own[k] && !frot_is_attached(p, k)) w->own[p->n_own++] = k;
+  const int *list = p->velocity ? part->v : part->q;
+  for (int k = 0; k < part->n_unknowns; k++) {
+    w->number[list[k]] = k;
+    w->behind[k] = p->velocity ? list[k] : m->q_speed[list[k]];
+  }
+  for (int i = 0; i < part->n_turns; i++) {
+    frot_turn turn = m->turns[part->turns[i]];
+    turn.at = w->number[turn.at];
+    w->turns[i] = turn;
+    for (int k = 0; k < 3; k++) w->behind[turn.at + 1 + k] = turn.speed[k];
+  }
 }
 
-void frot_leave_others(frot_opening *p, int count) {
-  frot_relation_work *r = &p->w->relations;
-  int nx = frot_opening_count(p);
-  p->n_rows = 0;
-  for (int i = 0; i < count; i++) {
-    int part = p->w->opening.row_part[i];
-    if (part != FROT_NO_PART && (p->velocity || frot_is_of_part(p, part))) {
-      if (i < p->n) p->w->opening.rows[p->n_rows++] = i;
-      continue;
-    }
-    r->residual[i] = r->size[i] = 0;
-    memset(r->jacobian + nx * i, 0, sizeof(double) * (size_t)nx);
-    r->bounds[2 * i] = r->bounds[2 * i + 1] = 0;
-  }
+/* The unknowns, first the ones that have a speed. */
+static void put_in_order(frot_opening *p) {
+  frot_opening_work *w = &p->w->opening;
+  int count = p->part->n_unknowns;
+  p->n_own = 0;
+  for (int k = 0; k < count; k++)
+    if (w->behind[k] >= 0) w->own[p->n_own++] = k;
+  p->attached = p->n_own;
+  for (int k = 0; k < count; k++)
+    if (w->behind[k] < 0) w->own[p->n_own++] = k;
+}
+
+void frot_take_part(frot_opening *p, const frot_part *part) {
+  frot_opening_work *w = &p->w->opening;
+  const double *all = p->velocity ? p->v : p->q;
+  const int *list = p->velocity ? part->v : part->q;
+  p->part = part, p->x = w->x, p->n = p->n_rows = 0;
+  for (int k = 0; k < part->n_unknowns; k++) p->x[k] = all[list[k]];
+  name_changes(p);
+  put_in_order(p);
+  p->w->blocks.some = part->blocks, p->w->blocks.n_some = part->n_blocks;
+  frot_look_at_some(p->w, part->islands, part->n_islands, part->groups, part->n_groups);
+}
+
+void frot_leave_parts(frot_opening *p) {
+  p->part = &nothing, p->x = p->w->opening.x, p->n = p->n_rows = p->n_own = p->attached = 0;
+  p->w->blocks.some = NULL;
+  frot_wake(p->w);
+}
+
+void frot_put(const frot_opening *p) {
+  double *all = p->velocity ? p->v : p->q;
+  const int *list = p->velocity ? p->part->v : p->part->q;
+  for (int k = 0; k < p->part->n_unknowns; k++) all[list[k]] = p->x[k];
+}
+
+int frot_look_at_part(const frot_opening *p) {
+  frot_put(p);
+  return frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
+}
+
+void frot_keep_blocks(const frot_opening *p, double *kept) {
+  for (int k = 0; k < p->part->ny; k++) kept[k] = p->w->blocks.y[p->part->y[k]];
+}
+
+void frot_return_blocks(const frot_opening *p, const double *kept) {
+  for (int k = 0; k < p->part->ny; k++) p->w->blocks.y[p->part->y[k]] = kept[k];
+}
+
+void frot_evaluate_part(const frot_opening *p, const frot_callable *function) {
+  frot_call_part(p->s, p->w, p->part, function, &p->t, p->q, p->v, p->d);
 }

@@ -49,7 +49,8 @@ static void list_rows(box *b, const int *chosen, int count) {
   }
 }
 
-/* Bounds by the reactions as they are; returns the largest relative change. */
+/* Bounds by the reactions as they are; returns the largest relative change of those that are felt.
+ */
 static double follow(const box *b, const int *chosen, int count) {
   const frot_model *m = b->m;
   frot_work *w = b->w;
@@ -82,8 +83,10 @@ static double follow(const box *b, const int *chosen, int count) {
     b->least[r] = -bound, b->most[r] = bound;
     if (!rests && w->core.rate[r] > 0) b->most[r] = -bound;
     if (!rests && w->core.rate[r] < 0) b->least[r] = bound;
-    double change = fabs(fabs(b->least[r]) - fabs(before));
-    if (change > 0) largest = fmax(largest, change / fmax(bound, fabs(before)));
+    /* a reaction inside its bounds, old and new, does not feel where they are */
+    double change = fabs(fabs(b->least[r]) - fabs(before)), lam = fabs(w->core.lam[r]);
+    if (change > 0 && (!rests || lam >= (1 - DOUBT) * fmin(bound, fabs(before))))
+      largest = fmax(largest, change / fmax(bound, fabs(before)));
   }
   return largest;
 }

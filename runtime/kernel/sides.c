@@ -1,13 +1,12 @@
 #include "sides.h"
 
 #include "core.h"
-#include "parts.h"
+#include "islands.h"
 #include "tolerances.h"
 
 void frot_look_at_sides(const frot_opening *p) {
-  frot_inputs(p->m, p->s, p->w, &p->t, p->q, p->v, p->d);
-  p->w->call.res[0] = p->w->opening.witness, p->w->call.res[1] = p->w->opening.reach;
-  frot_call(p->w, &p->m->sides);
+  frot_opening_work *w = &p->w->opening;
+  frot_call_sides(p->s, p->w, p->part, p->t, p->q, p->v, p->d, w->witness, w->reach);
 }
 
 static int sign_beyond(double x, double rounding) {
@@ -18,8 +17,9 @@ int frot_choose_sides(const frot_opening *p, double *side, int natural) {
   const frot_model *m = p->m;
   int changes = 0;
   frot_look_at_sides(p);
-  for (int i = 0; i < m->n_contacts; i++) {
-    if (!frot_has_normal(&m->contacts[i]) || !frot_is_of_part(p, m->contact_part[i])) continue;
+  for (int k = 0; k < p->part->n_contacts; k++) {
+    int i = p->part->contacts[k];
+    if (!frot_has_normal(&m->contacts[i])) continue;
     const double *witness = p->w->opening.witness + 3 * i;
     double rounding = FROT_TOUCH * frot_length_size(m, p->w, i, p->q);
     int sign = natural ? 0 : sign_beyond(witness[0], rounding);

@@ -4,11 +4,12 @@
 
 #include "statements.h"
 
-/* Values of `sides` at the coordinates at which kinematics was evaluated last. */
+/* Values of `sides` of the part at the coordinates at which kinematics was evaluated last. */
 void frot_look_at_sides(const frot_opening *p);
 
-/* The sides of the contacts: where the point is or, if `natural` or where that is on the line,
- * against gravity, else where the body's G is, else to the left. Returns how many change. */
+/* The sides of the contacts of the part: where the point is or, if `natural` or where that is on
+ * the line, against gravity, else where the body's G is, else to the left. Returns how many change.
+ */
 int frot_choose_sides(const frot_opening *p, double *side, int natural);
 
 #endif

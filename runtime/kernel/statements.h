@@ -5,22 +5,24 @@
 
 #include "work.h"
 
-/* One system to solve: for coordinates, or for speeds. */
+/* One system to solve: for coordinates, or for speeds, of a part of the scene (parts.h). */
 typedef struct {
   const frot_model *m;
   frot_state *s;
   frot_work *w;
-  double t, *q, *v;
+  double t, *q, *v; /* of the scene */
+  double *x;        /* the unknowns of the part */
+  const frot_part *part;
   const double *d;
-  unsigned char *use;   /* per contact: its gap or its normal speed is to be zero */
+  unsigned char *use;   /* per contact of the scene: its gap or its normal speed is to be zero */
   int velocity, n;      /* for speeds; equations of the last evaluation */
   const double *factor; /* of the metric of the changes that have a speed, of the given order */
   const double *basis;  /* the coordinates from which changes are counted (changes.h) */
   int order, attached;
-  int part, n_own, n_rows; /* what is put together, its unknowns and equations: parts.h */
-  double scene;            /* largest value, term and residual where the search begins */
-  int wide;                /* the search may begin elsewhere too */
-  int guessed;             /* the guesses of places are equations too, after the others */
+  int n_own, n_rows; /* unknowns; equations that are not left out */
+  double scene;      /* largest value, term and residual where the search begins */
+  int wide;          /* the search may begin elsewhere too */
+  int guessed;       /* the guesses of places are equations too, after the others */
   int alike;    /* what holds by one liaison counts alike, by the arms of the angles (damped.h) */
   int aim;      /* they are no equations, but what is to be missed least (descend.h) */
   int direct;   /* of the statements those alone that hold where the search begins */
@@ -29,34 +31,32 @@ typedef struct {
   int ways;     /* speeds are to begin a motion in singular postures too (ways.h) */
 } frot_opening;
 
-static inline double *frot_opening_unknown(const frot_opening *p) {
-  return p->velocity ? p->v : p->q;
-}
-static inline int frot_opening_count(const frot_opening *p) {
-  return p->velocity ? p->m->nv : p->m->nq;
-}
-/* The speed that moves change k, -1 where there is none. */
+/* The speed of the scene that moves change k, -1 where there is none. */
 static inline int frot_speed_behind(const frot_opening *p, int k) {
-  return p->velocity ? k : p->w->opening.behind[k];
+  return p->w->opening.behind[k];
 }
 /* The coordinate that is the angle which speed j turns, -1 where it turns none. */
 static inline int frot_angle_of(const frot_model *m, int j) {
   return m->speed_turns[j] ? m->speed_coordinate[j] : -1;
 }
-static inline int frot_is_attached(const frot_opening *p, int k) {
-  return frot_speed_behind(p, k) >= 0;
-}
 
 /* Residuals (w->relations.residual), the rows of the Jacobian (w->relations.jacobian) and the sizes
- * of the terms (w->relations.size); sets p->n. FROT_OK or the status of a failed evaluation. */
+ * of the terms (w->relations.size), of the part, at p->x; sets p->n. FROT_OK or the status of a
+ * failed evaluation. */
 int frot_evaluate_statements(frot_opening *p);
 
-/* v and y, if they are not NULL, <- where the search for speeds and for the unknowns of the blocks
- * begins at the places as they are; of those of other parts nothing. */
-void frot_begin_values(const frot_opening *p, double *v, double *y);
+/* The unknowns of the blocks of the part <- where the search for them begins at the places as they
+ * are. */
+void frot_begin_blocks(const frot_opening *p);
 
-/* Take the liaisons that cannot part for equations, with the sides of the place as it is. */
+/* Take the liaisons of the part that cannot part for equations, with the sides of the place as it
+ * is. */
 void frot_take_liaisons(const frot_opening *p);
+
+/* Whether contact i of the scene is an equation. */
+static inline int frot_is_equation(const frot_opening *p, int i) {
+  return p->use[i] && (p->velocity || !p->m->contacts[i].kinematic);
+}
 
 /* Whether equation i, which no unknown moves, holds: to rounding of lengths `reach`. */
 int frot_is_still(const frot_opening *p, int i, double reach);

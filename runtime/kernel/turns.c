@@ -68,6 +68,14 @@ void frot_drift(const frot_model *m, double *q, const double *rates, double part
     if (m->q_speed[j] < 0 && !is_turned(m, j)) q[j] += part * rates[j];
 }
 
+void frot_over_turn(const frot_model *m, const frot_turn *turn, const double *entries,
+                    const double *r, double *items) {
+  double by[4] = {0, 0, 0, 0};
+  items_of(m, turn, entries, by + 1);
+  frot_turned(turn, by, r, items);
+  for (int k = 0; k < 4; k++) items[k] *= 2;
+}
+
 void frot_over_coordinates(const frot_model *m, const frot_group *g, const double *entries,
                            const double *q, double *row) {
   memset(row, 0, sizeof(double) * (size_t)m->nq);
@@ -77,11 +85,7 @@ void frot_over_coordinates(const frot_model *m, const frot_group *g, const doubl
   }
   for (int i = 0; i < m->n_turns; i++) {
     const frot_turn *turn = &m->turns[i];
-    if (!is_of_group(m, turn, g)) continue;
-    double by[4] = {0, 0, 0, 0}, out[4];
-    items_of(m, turn, entries, by + 1);
-    frot_turned(turn, by, q + turn->at, out);
-    for (int k = 0; k < 4; k++) row[turn->at + k] = 2 * out[k];
+    if (is_of_group(m, turn, g)) frot_over_turn(m, turn, entries, q + turn->at, row + turn->at);
   }
 }
 

@@ -22,6 +22,10 @@ void frot_drift(const frot_model *m, double *q, const double *rates, double part
 void frot_over_coordinates(const frot_model *m, const frot_group *g, const double *entries,
                            const double *q, double *row);
 
+/* items (4) <- what entries over the speeds of its group make of a turn at the quaternion r. */
+void frot_over_turn(const frot_model *m, const frot_turn *turn, const double *entries,
+                    const double *r, double *items);
+
 /* Give all quaternions the length 1 again. Returns whether one was off by more than rounding. */
 int frot_normalise(const frot_model *m, double *q);
 

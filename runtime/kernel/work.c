@@ -60,33 +60,11 @@ static extent extent_of(const frot_model *m, const frot_layout *l) {
 
 /* The scratch that any of the generated functions needs. */
 static frot_callable scratch_of_all(const frot_model *m) {
-  const frot_callable *calls[] = {&m->parameters,
-                                  &m->start,
-                                  &m->beginning,
-                                  &m->initial_position,
-                                  &m->initial_velocity,
-                                  &m->guessed,
-                                  &m->guessed_speeds,
-                                  &m->kinematics,
-                                  &m->sides,
-                                  &m->beginnings,
-                                  &m->places,
-                                  &m->pace,
-                                  &m->dynamics,
-                                  &m->drives,
-                                  &m->spread,
-                                  &m->rates,
-                                  &m->jacobian,
-                                  &m->invariants,
-                                  &m->block_slopes,
-                                  &m->update,
-                                  &m->sizes,
-                                  &m->variables,
-                                  &m->energy,
-                                  &m->timers,
-                                  &m->sensed,
-                                  &m->watched,
-                                  &m->vanishing};
+  const frot_callable *calls[] = {
+      &m->parameters, &m->start,    &m->beginning, &m->kinematics, &m->beginnings, &m->places,
+      &m->pace,       &m->dynamics, &m->drives,    &m->spread,     &m->rates,      &m->jacobian,
+      &m->invariants, &m->update,   &m->sizes,     &m->variables,  &m->energy,     &m->timers,
+      &m->sensed,     &m->watched,  &m->vanishing};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
   for (int i = 0; i < count + m->n_blocks; i++) {
@@ -97,6 +75,12 @@ static frot_callable scratch_of_all(const frot_model *m) {
   for (int i = 0; i < m->n_islands; i++) {
     const frot_island *k = &m->islands[i];
     const frot_callable *own[] = {&k->kinematics, &k->dynamics, &k->spread, &k->sizes};
+    for (int j = 0; j < 4; j++)
+      most.n_iw = larger(most.n_iw, own[j]->n_iw), most.n_w = larger(most.n_w, own[j]->n_w);
+  }
+  for (int i = 0; i < m->n_parts + m->n_speed_parts; i++) {
+    const frot_part *k = i < m->n_parts ? &m->parts[i] : &m->speed_parts[i - m->n_parts];
+    const frot_callable *own[] = {&k->stating, &k->guessing, &k->sides, &k->slopes};
     for (int j = 0; j < 4; j++)
       most.n_iw = larger(most.n_iw, own[j]->n_iw), most.n_w = larger(most.n_w, own[j]->n_w);
   }
@@ -205,28 +189,42 @@ static void bind_relations(const frot_model *m, const frot_layout *l, const exte
   TAKE(r->bounds, 2 * e->equations);
 }
 
-static void bind_opening(const frot_model *m, const frot_layout *l, const extent *e,
-                         frot_opening_work *w, arena *a) {
-  int early = m->n_position + m->n_velocity > 0 ? l->early : 0;
+/* The most that a part takes: unknowns, unknowns of blocks that follow from these, all that its
+ * functions read. */
+static frot_part largest_part(const frot_model *m) {
+  frot_part most = {0};
+  for (int i = 0; i < m->n_parts + m->n_speed_parts; i++) {
+    const frot_part *k = i < m->n_parts ? &m->parts[i] : &m->speed_parts[i - m->n_parts];
+    int read = k->nq + k->nv + k->nu + k->np + k->nd + k->ny;
+    most.n_unknowns = larger(most.n_unknowns, k->n_unknowns);
+    most.n_turns = larger(most.n_turns, k->n_turns), most.ny = larger(most.ny, k->ny);
+    most.n_own = larger(most.n_own, k->n_own), most.nq = larger(most.nq, read);
+    most.n_stated = larger(most.n_stated, k->n_stated);
+    most.n_contacts = larger(most.n_contacts, k->n_contacts);
+  }
+  return most;
+}
+
+static void bind_opening(const frot_model *m, const extent *e, frot_opening_work *w, arena *a) {
+  frot_part most = largest_part(m);
+  int nx = most.n_unknowns, own = most.n_own, ny = most.ny;
   TAKE(w->use, m->n_contacts), TAKE(w->witness, 3 * m->n_contacts), TAKE(w->reach, m->n_contacts);
-  TAKE(w->residual_y, m->ny * e->equations), TAKE(w->slopes, (m->nq + m->nv) * early);
-  TAKE(w->slopes_y, early * early + 3 * early), TAKE(w->slopes_pivot, early);
-  TAKE(w->factor, m->nv * m->nv), TAKE(w->row_weight, e->equations);
-  TAKE(w->off_at_first, e->equations), TAKE(w->begin, e->states),
-      TAKE(w->nearest, e->states + m->ny);
-  TAKE(w->behind, m->nq), TAKE(w->here, m->nq), TAKE(w->first_factor, m->nv * m->nv),
-      TAKE(w->first_unit, m->nq);
-  TAKE(w->found, m->nq), TAKE(w->way, larger(m->nq, m->nv)), TAKE(w->next_way, m->nq),
-      TAKE(w->apart, larger(m->nq, m->nv));
-  TAKE(w->scratch, 3 * larger(m->nq, m->nv));
-  TAKE(w->left, e->equations), TAKE(w->met, m->nq), TAKE(w->guess_weight, 2 * m->n_guessed);
-  TAKE(w->begin_y, m->ny), TAKE(w->fresh, m->ny), TAKE(w->other, 2 * (m->nq + m->ny)),
-      TAKE(w->own, larger(m->nq, m->nv)), TAKE(w->rows, e->equations),
-      TAKE(w->row_part, e->equations), TAKE(w->is_own, larger(m->nq, m->nv)),
-      TAKE(w->kept, larger(m->nq, m->nv)), TAKE(w->first, m->nq + m->ny + m->n_contacts),
-      TAKE(w->near, m->nq + m->ny);
-  TAKE(w->first_use, m->n_contacts), TAKE(w->start, m->nv), TAKE(w->second, m->nv);
-  TAKE(w->descent, 6 * m->nq), TAKE(w->multiplier, e->equations);
+  TAKE(w->residual_y, own * most.n_stated), TAKE(w->slopes, nx * own);
+  TAKE(w->slopes_y, own * own + 3 * own), TAKE(w->slopes_pivot, own);
+  TAKE(w->factor, nx * nx), TAKE(w->row_weight, e->equations);
+  /* found, begin and apart are also of all coordinates: ways.c, branch.c */
+  TAKE(w->off_at_first, e->equations), TAKE(w->begin, e->states), TAKE(w->found, e->states),
+      TAKE(w->apart, e->states);
+  TAKE(w->nearest, nx + ny), TAKE(w->second, nx), TAKE(w->way, nx), TAKE(w->next_way, nx);
+  TAKE(w->behind, nx), TAKE(w->here, nx), TAKE(w->first_factor, nx * nx), TAKE(w->first_unit, nx);
+  TAKE(w->scratch, larger(3 * nx, m->nv)), TAKE(w->left, e->equations), TAKE(w->met, m->nq);
+  TAKE(w->guess_weight, 2 * m->n_guessed), TAKE(w->begin_y, ny), TAKE(w->fresh, m->ny);
+  TAKE(w->other, 2 * (nx + ny)), TAKE(w->near, nx + ny), TAKE(w->x, nx), TAKE(w->read, most.nq);
+  TAKE(w->own, nx), TAKE(w->rows, e->equations), TAKE(w->number, larger(m->nq, m->nv));
+  TAKE(w->turns, most.n_turns), TAKE(w->left_out, most.n_stated), TAKE(w->kept, nx);
+  TAKE(w->sides, 4 * most.n_contacts), TAKE(w->start, m->nv);
+  TAKE(w->first, larger(m->nq, nx + ny + most.n_contacts)), TAKE(w->first_use, most.n_contacts);
+  TAKE(w->descent, 6 * nx), TAKE(w->multiplier, e->equations);
 }
 
 static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, arena *a) {
@@ -289,7 +287,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   bind_core(m, &l, &w->core, a);
   bind_reactions(m, &e, w, a);
   bind_relations(m, &l, &e, w, a);
-  bind_opening(m, &l, &e, &w->opening, a);
+  bind_opening(m, &e, &w->opening, a);
   bind_step(m, &l, w, a);
   bind_events(m, &w->events, a);
   bind_search(m, &w->search, a);

@@ -46,10 +46,12 @@ typedef struct {
 
 /* blocks.h: y is the guess before, the solution after; the block that failed last, or -1, and
  * whether it was singular. Solutions are `shaken` by that part of themselves, up or down by bit
- * `pattern` of their index: error.h. The rest is the system of one block. */
+ * `pattern` of their index: error.h. If `some` is not NULL, of those that are not late only these
+ * are solved. The rest is the system of one block. */
 typedef struct {
   double *y, shaken;
-  int failed, singular, pattern, unwanted;
+  int failed, singular, pattern, unwanted, n_some;
+  const int *some;
   double *r, *j, *lu, *size, *step, *scale;
   int *pivot;
 } frot_block_work;
@@ -143,7 +145,7 @@ typedef struct {
  * contacts are equations (statements.h). */
 typedef struct {
   unsigned char *use;
-  double *witness, *reach;
+  double *witness, *reach, *sides;
   double *residual_y, *slopes, *slopes_y;
   int *slopes_pivot;
   double *factor, *row_weight, *off_at_first, *begin, *nearest;
@@ -153,8 +155,10 @@ typedef struct {
   double *left;                                     /* gradual.h */
   double *near, *met, *guess_weight;                /* guesses.h; near: q, y; weights, squares */
   double *begin_y, *fresh, *other; /* unknowns of the blocks at `begin`; initial.c: q, y */
-  int *own, *rows, *row_part;      /* parts.h */
-  unsigned char *is_own, *kept;    /* kept: nearest.c */
+  double *x, *read;                /* parts.h: the unknowns; arguments of its functions */
+  int *own, *rows, *number;        /* own: in order, parts.c; number: frot_number_here */
+  frot_turn *turns;                /* of the part, among its unknowns */
+  unsigned char *left_out, *kept;  /* left_out: equations, statements.c; kept: nearest.c */
   double *descent, *multiplier;    /* descend.c */
   double *start, *second;          /* branch.c: speeds */
   double *first; /* initial.c: q, y and the sides of the place found first, its `use` */

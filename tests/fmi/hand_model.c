@@ -37,14 +37,14 @@ static int beginning(const double **arg, double **res, long long *iw, double *w,
   return 0;
 }
 
-static int initial_position(const double **arg, double **res, long long *iw, double *w, int mem) {
+static int stated_place(const double **arg, double **res, long long *iw, double *w, int mem) {
   (void)iw, (void)w, (void)mem;
   res[0][0] = arg[1][0] - arg[4][2];
   if (res[1]) res[1][0] = 1.0;
   return 0;
 }
 
-static int initial_velocity(const double **arg, double **res, long long *iw, double *w, int mem) {
+static int stated_speed(const double **arg, double **res, long long *iw, double *w, int mem) {
   (void)iw, (void)w, (void)mem;
   res[0][0] = arg[2][0];
   if (res[1]) res[1][0] = 1.0;
@@ -136,6 +136,14 @@ static const int q_speed[1] = {0};
 
 #define CALL(f) {f, 16, 16, 1, 1}
 
+#define ALL all, all, all, all, all, all, all, all, all, all, all, all, all, all
+static const int all[NP] = {0, 1, 2, 3, 4, 5, 6};
+static const frot_part parts[1] = {{1,   0,           1,  0,  1, 1, 0,   0, 0,
+                                    1,   1,           1,  NP, 1, 0, ALL, 0, CALL(stated_place),
+                                    {0}, CALL(sides), {0}}};
+static const frot_part speed_parts[1] = {
+    {1, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 1, NP, 1, 0, ALL, 0, CALL(stated_speed), {0}, {0}, {0}}};
+
 extern const frot_model frot_the_model;
 const frot_model frot_the_model = {
     .name = "Hand",
@@ -161,10 +169,7 @@ const frot_model frot_the_model = {
     .parameters = CALL(parameters),
     .start = CALL(start),
     .beginning = CALL(beginning),
-    .initial_position = CALL(initial_position),
-    .initial_velocity = CALL(initial_velocity),
     .kinematics = CALL(kinematics),
-    .sides = CALL(sides),
     .dynamics = CALL(dynamics),
     .sizes = CALL(sizes),
     .variables = CALL(variables),
@@ -186,10 +191,9 @@ const frot_model frot_the_model = {
     .checks = checks,
     .statements = statements,
     .n_parts = 1,
-    .q_part = none,
-    .y_part = none,
-    .contact_part = none,
-    .position_part = none,
+    .n_speed_parts = 1,
+    .parts = parts,
+    .speed_parts = speed_parts,
     .position_direct = held_at_start,
     .position_statement = position_statement,
     .velocity_statement = velocity_statement,

@@ -186,6 +186,7 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
     rates = of(m.rates) if m.rates else s.v
     invariants, position, velocity = of(m.invariants, 0), of(m.position, 0), of(m.velocity, 0)
     states = ca.vertcat(s.q, s.v)
+    own_y = s.y[: _early(m)]
     out: dict[str, tuple[list[ca.SX], list[object]]] = {
         "parameters": (
             [s.p, ca.SX.sym("set", s.p.numel()), s.u],
@@ -193,22 +194,22 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
         ),
         "start": ([s.t, s.u, s.p], [numbers[0], numbers[3]]),
         "beginning": (s.state, numbers[1:3]),
-        "initial_position": (
+        "place_stating": (
             s.state,
             [
                 position,
                 ca.jacobian(position, s.q).T,
                 _size(position, s.q),
-                ca.jacobian(position, s.y).T,
+                ca.jacobian(position, own_y).T,
             ],
         ),
-        "initial_velocity": (
+        "speed_stating": (
             s.state,
             [
                 velocity,
                 ca.jacobian(velocity, s.v).T,
                 _size(velocity, s.v),
-                ca.jacobian(velocity, s.y).T,
+                ca.jacobian(velocity, own_y).T,
             ],
         ),
         "kinematics": (s.state, [gaps, rows.T, row_rates, conditions]),
@@ -248,9 +249,8 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
     early = [b for b in m.blocks if not b.late]
     if early:
         r = column(*(ca.vertcat(*b.residual(s)) for b in early))
-        own = s.y[: r.numel()]
-        slopes = [ca.jacobian(r, x).T for x in (s.q, s.v, own)]
-        out["block_slopes"] = (s.state, [r, *slopes])
+        out["place_slopes"] = (s.state, [ca.jacobian(r, x).T for x in (s.q, own_y)])
+        out["speed_slopes"] = (s.state, [ca.jacobian(r, x).T for x in (s.v, own_y)])
     if m.update:
         values = [ca.vertcat(x) if isinstance(x, list) else x for x in m.update(s)]
         # what an update reads of the discrete values is what they were before
@@ -290,6 +290,7 @@ def source(m: Small, folder: Path) -> str:
     readings = [r for e in m.elements if e.reduced for r in (e.normal, e.second) if r >= 0]
     reads = [m.nv + readings.index(r) if r in readings else -1 for r in range(m.n_rows)]
     kinds = {"terminate": 0, "fail": 1, "warn": 2}
+    n_position, n_velocity = (made[f"{x}_stating"].numel_out(0) for x in ("place", "speed"))
     tables = {
         ("double", "p_default"): list(m.parameters.values()),
         ("double", "u_default"): list(m.inputs.values()),
@@ -328,16 +329,12 @@ def source(m: Small, folder: Path) -> str:
         ("frot_statement", "statements"): [
             f'{{"statement {i + 1}", "small:{i + 1}:1", "1"}}' for i in range(_statements(m))
         ],
-        ("int", "q_part"): [0] * m.nq,
-        ("int", "y_part"): [0] * m.ny,
-        ("int", "contact_part"): [0] * len(m.elements),
-        ("int", "position_part"): [0] * made["initial_position"].numel_out(0),
-        ("unsigned char", "position_direct"): [0] * made["initial_position"].numel_out(0),
-        ("int", "position_statement"): range(made["initial_position"].numel_out(0)),
-        ("int", "velocity_statement"): [
-            made["initial_position"].numel_out(0) + i
-            for i in range(made["initial_velocity"].numel_out(0))
-        ],
+        ("int", "all_whole"): range(max(m.nq, m.nv, len(m.inputs), len(m.parameters), m.ny, 99)),
+        ("frot_part", "parts"): [_part(m, made, "place", n_position)],
+        ("frot_part", "speed_parts"): [_part(m, made, "speed", n_velocity)],
+        ("unsigned char", "position_direct"): [0] * n_position,
+        ("int", "position_statement"): range(n_position),
+        ("int", "velocity_statement"): [n_position + i for i in range(n_velocity)],
         ("int", "p_dependent"): [0] * len(m.parameters),
         ("int", "p_type"): [0] * len(m.parameters),
         ("unsigned char", "row_depends"): _row_depends(m),
@@ -368,14 +365,12 @@ def source(m: Small, folder: Path) -> str:
         "n_invariants": made["invariants"].numel_out(0) if m.invariants else 0,
         "n_whens": len(m.whens), "n_outcomes": len(m.outcomes), "general": int(m.general),
         "late_rates": int(m.late_rates is not None), "time_dependent": int(m.time_dependent),
-        "n_position": made["initial_position"].numel_out(0),
-        "n_velocity": made["initial_velocity"].numel_out(0), "n_statements": _statements(m),
-        "n_parts": 1,
+        "n_position": n_position, "n_velocity": n_velocity, "n_statements": _statements(m),
+        "n_parts": 1, "n_speed_parts": 1,
         "n_variables": len(m.elements) + len(m.variables),
     }  # fmt: skip
-    calls = {name: _call(f) for name, f in made.items() if not name.startswith("block_")}
-    if "block_slopes" in made:
-        calls["block_slopes"] = _call(made["block_slopes"])
+    of_parts = ("block_", "place_", "speed_", "sides")
+    calls = {name: _call(f) for name, f in made.items() if not name.startswith(of_parts)}
     fields = {"name": f'"{m.name}"', "key": f'"small-{m.name}"', **sizes, **calls}
     fields |= {name: name for _, name in tables if not name.startswith("all_")}
     return (
@@ -386,6 +381,27 @@ def source(m: Small, folder: Path) -> str:
         + "".join(f"  .{name} = {value},\n" for name, value in fields.items())
         + "};\n"
     )
+
+
+def _early(m: Small) -> int:
+    """The number of unknowns of the blocks that are not late."""
+    return sum(b.count for b in m.blocks if not b.late)
+
+
+def _part(m: Small, made: Mapping[str, ca.Function], of: str, stated: int) -> str:
+    """All places, or all speeds, of a model."""
+    early = sum(not b.late for b in m.blocks)
+    counts = {
+        "unknowns": m.nq if of == "place" else m.nv, "turns": 0, "groups": 1, "islands": 0,
+        "contacts": len(m.elements), "stated": stated, "guessed": 0, "blocks": early,
+        "own": _early(m),
+    }  # fmt: skip
+    d = m.n_conditions + len(m.elements) + m.n_discrete
+    reads = (m.nq, m.nv, len(m.inputs), len(m.parameters), d, m.ny)
+    names = (f"{of}_stating", "none", "sides" if of == "place" else "none", f"{of}_slopes")
+    calls = (_call(made[x]) if x in made else "{0}" for x in names)
+    lists = ["all_whole"] * (8 + len(reads))
+    return f"{{{', '.join(map(str, (*counts.values(), *reads, *lists, '0', *calls)))}}}"
 
 
 def _prescribed(m: Small, laws: dict[int, int]) -> list[bool]:
