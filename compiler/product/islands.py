@@ -81,7 +81,7 @@ def island_arrays(lowered: Lowered) -> list[str]:
 
 def part_arrays(lowered: Lowered) -> list[str]:
     """The tables of frot_part: of places, of speeds."""
-    arrays: list[str] = []
+    arrays = [array("int", "of_no_part", [])]
     for name, prefix, parts in (
         ("parts", "place", lowered.parts),
         ("speed_parts", "speed", lowered.speed_parts),
@@ -89,7 +89,7 @@ def part_arrays(lowered: Lowered) -> list[str]:
         records: list[str] = []
         for k, (part, member) in enumerate(parts):
             lists = {x: getattr(part, x) for x in (*_LISTS, *_READS)}
-            names = {x: f"{prefix}_{k}_{x}" if own else "0" for x, own in lists.items()}
+            names = {x: f"{prefix}_{k}_{x}" if own else "of_no_part" for x, own in lists.items()}
             for x, own in lists.items():
                 arrays += [array("int", names[x], [str(i) for i in own])] if own else []
             numbers = f"{prefix}_{k}_numbers" if member.numbers else "0"

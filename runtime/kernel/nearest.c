@@ -308,8 +308,5 @@ static int keep_stated(frot_opening *p) {
 
 int frot_solve_nearest(frot_opening *p) {
   int status = solve(p);
-  if (status == FROT_OK && p->n_own > 0) status = keep_stated(p);
-  if (status != FROT_OK) return status;
-  status = frot_look_at_part(p);
-  return status == FROT_OK ? FROT_OK : frot_no_number(p, status);
+  return status == FROT_OK ? keep_stated(p) : status;
 }

@@ -40,22 +40,58 @@ static void *take(arena *a, size_t count, size_t size) {
 typedef struct {
   int equations; /* relations at once: statements, contacts, held rows, invariants */
   int states;    /* unknowns of these relations */
-  int square;    /* of the largest linear system */
+  int square;    /* of the largest linear system: of a group, a part, or of all where equations of
+                    the text bind them together */
+  int across;    /* unknowns of the largest of these */
+  int slopes;    /* items of the rows of the largest at the start, or of the invariants */
   int widest;    /* unknowns of the largest group */
   int block;     /* of the largest block */
 } extent;
 
 static int larger(int a, int b) { return a > b ? a : b; }
 
+/* Of the parts of places and of speeds, one after the other. */
+static const frot_part *part_of(const frot_model *m, int i) {
+  return i < m->n_parts ? &m->parts[i] : &m->speed_parts[i - m->n_parts];
+}
+
 static extent extent_of(const frot_model *m, const frot_layout *l) {
-  extent e = {0, m->n_invariants > 0 ? m->nq + m->nv : m->nq, 0, 0, 0};
+  extent e = {.states = m->n_invariants > 0 ? m->nq + m->nv : m->nq};
   e.equations = larger(m->n_position, m->n_velocity) + m->n_rows + m->n_contacts + m->n_invariants +
                 larger(m->n_guessed, 4 * m->n_guessed_speeds);
   e.states = larger(e.states, l->nw);
-  e.square = larger(e.equations, l->nw);
-  for (int k = 0; k < m->n_groups; k++) e.widest = larger(e.widest, m->groups[k].n);
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    e.widest = larger(e.widest, g->n), e.across = larger(e.across, g->n);
+    e.square = larger(e.square, g->n + g->n_rows + g->n_contacts);
+  }
+  for (int i = 0; i < m->n_parts + m->n_speed_parts; i++) {
+    const frot_part *part = part_of(m, i);
+    int count = part->n_stated + part->n_contacts + 4 * part->n_guessed;
+    for (int k = 0; k < part->n_groups; k++) count += m->groups[part->groups[k]].n_rows;
+    e.square = larger(e.square, count), e.across = larger(e.across, part->n_unknowns);
+    e.slopes = larger(e.slopes, count * part->n_unknowns);
+  }
+  if (m->n_invariants > 0)
+    e.square = larger(e.equations, l->nw), e.across = e.states, e.slopes = e.states * e.equations;
   for (int i = 0; i < m->n_blocks; i++) e.block = larger(e.block, m->blocks[i].count);
   return e;
+}
+
+/* The most that a part takes: unknowns, unknowns of blocks that follow from these, all that its
+ * functions read. */
+static frot_part largest_part(const frot_model *m) {
+  frot_part most = {0};
+  for (int i = 0; i < m->n_parts + m->n_speed_parts; i++) {
+    const frot_part *k = part_of(m, i);
+    int read = k->nq + k->nv + k->nu + k->np + k->nd + k->ny;
+    most.n_unknowns = larger(most.n_unknowns, k->n_unknowns);
+    most.n_turns = larger(most.n_turns, k->n_turns), most.ny = larger(most.ny, k->ny);
+    most.n_own = larger(most.n_own, k->n_own), most.nq = larger(most.nq, read);
+    most.n_stated = larger(most.n_stated, k->n_stated);
+    most.n_contacts = larger(most.n_contacts, k->n_contacts);
+  }
+  return most;
 }
 
 /* The scratch that any of the generated functions needs. */
@@ -79,7 +115,7 @@ static frot_callable scratch_of_all(const frot_model *m) {
       most.n_iw = larger(most.n_iw, own[j]->n_iw), most.n_w = larger(most.n_w, own[j]->n_w);
   }
   for (int i = 0; i < m->n_parts + m->n_speed_parts; i++) {
-    const frot_part *k = i < m->n_parts ? &m->parts[i] : &m->speed_parts[i - m->n_parts];
+    const frot_part *k = part_of(m, i);
     const frot_callable *own[] = {&k->stating, &k->guessing, &k->sides, &k->slopes};
     for (int j = 0; j < 4; j++)
       most.n_iw = larger(most.n_iw, own[j]->n_iw), most.n_w = larger(most.n_w, own[j]->n_w);
@@ -179,30 +215,14 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
 static void bind_relations(const frot_model *m, const frot_layout *l, const extent *e, frot_work *w,
                            arena *a) {
   frot_relation_work *r = &w->relations;
-  int big = e->square, wide = e->states, least = big < wide ? big : wide;
-  TAKE(w->linear.matrix, big * larger(big, wide)), TAKE(w->linear.right, 2 * big);
-  TAKE(w->linear.scratch, 2 * big * big + 6 * big + 4 * wide + least * wide);
+  int wide = e->states, big = e->square, across = e->across, least = big < across ? big : across;
+  TAKE(w->linear.matrix, big * larger(big, across)), TAKE(w->linear.right, 2 * big);
+  TAKE(w->linear.scratch, 2 * big * big + 6 * big + 4 * across + least * across);
   TAKE(w->linear.pivot, 2 * larger(big, wide));
-  TAKE(r->jacobian, wide * e->equations), TAKE(r->residual, e->equations + l->nw);
+  TAKE(r->jacobian, e->slopes), TAKE(r->residual, e->equations + l->nw);
   TAKE(r->size, e->equations), TAKE(r->step, wide + l->nw + e->equations);
   TAKE(r->unit, wide), TAKE(r->rows, m->n_rows + m->n_contacts + m->n_elements);
   TAKE(r->bounds, 2 * e->equations);
-}
-
-/* The most that a part takes: unknowns, unknowns of blocks that follow from these, all that its
- * functions read. */
-static frot_part largest_part(const frot_model *m) {
-  frot_part most = {0};
-  for (int i = 0; i < m->n_parts + m->n_speed_parts; i++) {
-    const frot_part *k = i < m->n_parts ? &m->parts[i] : &m->speed_parts[i - m->n_parts];
-    int read = k->nq + k->nv + k->nu + k->np + k->nd + k->ny;
-    most.n_unknowns = larger(most.n_unknowns, k->n_unknowns);
-    most.n_turns = larger(most.n_turns, k->n_turns), most.ny = larger(most.ny, k->ny);
-    most.n_own = larger(most.n_own, k->n_own), most.nq = larger(most.nq, read);
-    most.n_stated = larger(most.n_stated, k->n_stated);
-    most.n_contacts = larger(most.n_contacts, k->n_contacts);
-  }
-  return most;
 }
 
 static void bind_opening(const frot_model *m, const extent *e, frot_opening_work *w, arena *a) {
@@ -269,8 +289,14 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
 static void bind_share(const frot_model *m, const frot_layout *l, const extent *e,
                        frot_share_work *w, arena *a) {
   /* of a contact four edges at most, of another row two columns */
-  int columns = 4 * m->n_contacts + 2 * m->n_rows, rows = e->widest + m->n_contacts;
-  TAKE(w->tableau, rows * (columns + 1)), TAKE(w->columns, rows * columns);
+  int columns = 0, rows = 0, items = 0;
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    int own = 4 * g->n_contacts + 2 * g->n_rows, across = g->n + g->n_contacts;
+    columns = larger(columns, own), rows = larger(rows, across);
+    items = larger(items, across * (own + 1));
+  }
+  TAKE(w->tableau, items), TAKE(w->columns, items);
   TAKE(w->growth, l->nw), TAKE(w->normal, e->widest), TAKE(w->basic, rows);
   TAKE(w->contact, columns), TAKE(w->edge, columns), TAKE(w->read, m->n_contacts);
   TAKE(w->before, m->n_contacts + m->n_elements);
