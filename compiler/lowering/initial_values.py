@@ -348,13 +348,13 @@ def _depends(value: ca.SX, system: Assembled, on: ca.SX) -> bool:
 
 def _outputs(residuals: list[_Residual], unknown: ca.SX, y: ca.SX) -> list[ca.SX]:
     values = column(r.value for r in residuals)
-    slopes = ca.jacobian(values, unknown)
+    slopes, by_y = ca.jacobian(values, unknown), ca.jacobian(values, y)
     for i, residual in enumerate(residuals):
         if residual.only is not None:
-            slopes[i, :] = -ca.jacobian(residual.only, unknown)
+            slopes[i, :], by_y[i, :] = -ca.jacobian(residual.only, unknown), 0
     return [
         values,
         ca.sparsify(slopes).T,
         column(r.size for r in residuals),
-        ca.jacobian(values, y).T,
+        ca.sparsify(by_y).T,
     ]

@@ -155,8 +155,9 @@ class Scene:
     ) -> tuple[Part, ...]:
         """The parts that are left when the items of each of `joined`, statement and guess are."""
         count = int(kind.unknown.numel())
-        slopes = ca.jacobian(kind.stated[0], kind.unknown).T  # of a counter its own say less
-        stated = _rows_read(slopes, kind.stated[3], kind.through)
+        # the slopes of a counter speak of itself alone
+        whole = (ca.jacobian(kind.stated[0], x).T for x in (kind.unknown, self._system.y))
+        stated = _rows_read(*whole, kind.through)
         guessed = self._guessed(kind)
         sets = Sets(count)
         for bound in (*joined, *stated, *guessed):

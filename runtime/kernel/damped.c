@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "in_turn.h"
 #include "linear.h"
 #include "parts.h"
 
@@ -94,9 +95,10 @@ static void scale_rows(const frot_opening *p) {
   for (int a = 0; a < own; a++) {
     int k = w->opening.own[a];
     double sum = 0, *unit = w->relations.unit + k;
+    int stays = p->some && w->opening.state[k] != FROT_MOVES_NOW;
     for (int j = 0; j < n; j++) {
       double entry = w->relations.jacobian[nx * rows[j] + k] * w->opening.row_weight[rows[j]];
-      y[own * j + a] = entry, sum += entry * entry;
+      y[own * j + a] = stays ? 0 : entry, sum += stays ? 0 : entry * entry;
     }
     *unit = fmax(*unit, sqrt(sum));
     for (int j = 0; j < n && *unit > 0; j++) y[own * j + a] /= *unit;
@@ -136,6 +138,8 @@ int frot_follow_damped(frot_opening *p) {
   int nx = p->n_own;
   if (frot_evaluate_statements(p) != FROT_OK) return 0;
   frot_weigh_equations(p);
+  for (int i = 0; i < p->n && p->some; i++)
+    if (!w->opening.chosen[i]) w->opening.row_weight[i] = 0;
   memset(w->relations.unit, 0, sizeof(double) * (size_t)nx);
   for (int pass = 0; pass < PASSES; pass++) {
     double before = frot_missed_square(p), after = INFINITY;

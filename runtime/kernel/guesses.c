@@ -8,14 +8,15 @@
 #include "core.h"
 #include "damped.h"
 #include "elsewhere.h"
+#include "in_turn.h"
 #include "linear.h"
 #include "orthogonal.h"
 #include "nearest.h"
 #include "parts.h"
 #include "tolerances.h"
 
-#define BEGINNINGS 9 /* of the search for another place near the guesses */
-#define ROUNDS 40    /* of the weights of guesses, until none changes by more than this part */
+#define BEGINNINGS 10 /* of the search for another place near the guesses */
+#define ROUNDS 40     /* of the weights of guesses, until none changes by more than this part */
 #define SETTLED 1e-12
 /* Part of the length of a slope that is its own, beside the vector it is an item of and the other
  * guesses, for its guess to say more. */
@@ -119,7 +120,8 @@ static int compromise_widely(frot_opening *p) {
     frot_begin_blocks(p);
     frot_begin_units(p);
     if (frot_opening_metric(p) != FROT_OK) continue;
-    if (k > 0) frot_begin_elsewhere(p, k - 1, k % 3 == 0);
+    if (k == 1) frot_meet_in_turn(p);
+    if (k > 1) frot_begin_elsewhere(p, k - 2, (k - 1) % 3 == 0);
     if (!compromise(p)) continue;
     double missed = frot_guesses_missed(p);
     met = frot_are_guesses_met(p);

@@ -158,6 +158,7 @@ typedef struct {
   double *x, *read;                /* parts.h: the unknowns; arguments of its functions */
   int *own, *rows, *number;        /* own: in order, parts.c; number: frot_number_here */
   frot_turn *turns;                /* of the part, among its unknowns */
+  unsigned char *state, *chosen;   /* of unknowns, of equations: in_turn.c */
   unsigned char *left_out, *kept;  /* left_out: equations, statements.c; kept: nearest.c */
   double *descent, *multiplier;    /* descend.c */
   double *start, *second;          /* branch.c: speeds */

@@ -1,0 +1,89 @@
+#include "in_turn.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "damped.h"
+#include "elsewhere.h"
+#include "nearest.h"
+#include "tolerances.h"
+
+#define BEGINNINGS 9 /* of the unknowns of one vector */
+
+/* How many unknowns that are not taken the guesses of a vector follow from; those with `mark` are
+ * marked, of an orientation all. */
+static int count_new(const frot_opening *p, int vector, int mark) {
+  const frot_part *part = p->part;
+  unsigned char *state = p->w->opening.state;
+  int first = p->n - part->n_guessed, nx = p->n_own, count = 0;
+  for (int j = 0; j < part->n_guessed; j++) {
+    const double *row = p->w->relations.jacobian + nx * (first + j);
+    for (int k = 0; k < nx && part->vectors[j] == vector; k++)
+      if (row[k] != 0 && state[k] == 0) state[k] = FROT_MOVES_NOW, count++;
+  }
+  for (int i = 0; i < part->n_turns && mark; i++) {
+    unsigned char *four = state + p->w->opening.turns[i].at;
+    for (int k = 0; k < 4; k++)
+      if (memchr(four, FROT_MOVES_NOW, 4) && four[k] == 0) four[k] = FROT_MOVES_NOW;
+  }
+  for (int k = 0; k < nx && !mark; k++)
+    if (state[k] == FROT_MOVES_NOW) state[k] = 0;
+  return count;
+}
+
+/* Mark the unknowns of the vector that follows from the fewest; returns 0 where all are taken. */
+static int mark_next(const frot_opening *p) {
+  int fewest = 0, next = -1;
+  for (int j = 0; j < p->part->n_guessed; j++) {
+    int count = p->part->vectors[j] == j ? count_new(p, j, 0) : 0;
+    if (count > 0 && (next < 0 || count < fewest)) fewest = count, next = j;
+  }
+  return next >= 0 && count_new(p, next, 1) > 0;
+}
+
+/* Leave of the equations those that the unknowns marked move, and none that are to come. */
+static void choose_rows(const frot_opening *p) {
+  const unsigned char *state = p->w->opening.state;
+  for (int i = 0; i < p->n; i++) {
+    const double *row = p->w->relations.jacobian + p->n_own * i;
+    int moved = 0, open = 0;
+    for (int k = 0; k < p->n_own; k++)
+      if (row[k] != 0) moved |= state[k] == FROT_MOVES_NOW, open |= state[k] == 0;
+    p->w->opening.chosen[i] = (unsigned char)(moved && !open);
+  }
+}
+
+/* Move the unknowns marked to where the equations chosen are missed least, from several beginnings.
+ */
+static void meet_next(frot_opening *p) {
+  frot_opening_work *w = &p->w->opening;
+  size_t bytes = sizeof(double) * (size_t)p->n_own;
+  double *before = w->nearest, *best = w->second, least = INFINITY;
+  memcpy(before, p->x, bytes), memcpy(best, p->x, bytes);
+  for (int k = 0; k < BEGINNINGS && least > FROT_NOTHING_MISSED; k++) {
+    memcpy(p->x, before, bytes);
+    frot_begin_units(p);
+    if (k > 0 && frot_opening_metric(p) != FROT_OK) continue;
+    if (k > 0) frot_begin_elsewhere(p, k - 1, k % 3 == 0);
+    for (int i = 0; i < p->n_own; i++)
+      if (w->state[i] != FROT_MOVES_NOW) p->x[i] = before[i];
+    if (!frot_follow_damped(p)) continue;
+    double missed = frot_missed_square(p);
+    if (missed < (1 - FROT_NEARER) * least) least = missed, memcpy(best, p->x, bytes);
+  }
+  memcpy(p->x, best, bytes);
+}
+
+void frot_meet_in_turn(frot_opening *p) {
+  unsigned char *state = p->w->opening.state;
+  memset(state, 0, (size_t)p->n_own);
+  p->guessed = p->alike = 1;
+  while (frot_evaluate_statements(p) == FROT_OK && mark_next(p)) {
+    choose_rows(p);
+    p->some = 1;
+    meet_next(p);
+    p->some = 0;
+    for (int k = 0; k < p->n_own; k++) state[k] = state[k] != 0 ? FROT_TAKEN : 0;
+  }
+  p->guessed = p->alike = 0;
+}
