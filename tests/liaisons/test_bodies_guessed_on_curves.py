@@ -1,0 +1,57 @@
+"""Bodies on curves of each other, guessed where all liaisons hold, start there.
+
+The place on a curve is looked for; what counts its turns follows it and moves nothing else.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import frot
+
+SCENE = """
+model OnCurves
+  world(gravity = 0 m/s^2);
+  parameter Real x[2] = (0, 0);
+  parameter Real y[2] = (0, 0);
+  parameter Real a[2] = (0, 0);
+  body b: box(mass = 0.6 kg, size = (0.3, 0.2, 0.1) m);
+  liaison flat: appui_plan(ground, b);
+  body c: rod(mass = 0.1 kg, length = 0.6 m);
+  liaison other: appui_plan(ground, c);
+  curve path on b: parametric((0.6 m*u, 0.3 m*u^2 - 0.2 m*sin(u), 0 m), u = (-9, 9));
+  frame f on c at (0.32, 0.13, 0) m;
+  liaison point: point_courbe(f, path);
+initial
+  guess(b.position = (x[1], y[1], 0)*(1 m));
+  guess(b.orientation = (cos(a[1]/2), 0, 0, sin(a[1]/2)));
+  guess(c.position = (x[2], y[2], 0)*(1 m));
+  guess(c.orientation = (cos(a[2]/2), 0, 0, sin(a[2]/2)));
+end OnCurves;
+"""
+
+
+@cache
+def on_curves() -> frot.Model:
+    return frot.compile(SCENE)
+
+
+def rotated(angle: float, x: tuple[float, float]) -> np.ndarray:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([c * x[0] - s * x[1], s * x[0] + c * x[1]])
+
+
+@pytest.mark.parametrize("u", [1.8, -1.3, 2.6, 0.2])
+@pytest.mark.parametrize("turned", [0.9, -2.8])
+def test_they_start_where_they_are_guessed(u: float, turned: float) -> None:
+    first, second = np.array([-0.02, -0.42]), 1.77
+    on_path = (0.6 * u, 0.3 * u**2 - 0.2 * np.sin(u))
+    at = first + rotated(turned, on_path) - rotated(second, (0.32, 0.13))
+    parameters = {"x": [first[0], at[0]], "y": [first[1], at[1]], "a": [turned, second]}
+    result = on_curves().simulate(stop=1e-6, parameters=parameters)
+    found = [result[f"{body}.position.{x}"][0] for body in "bc" for x in "xyz"]
+    assert np.allclose(found, [*first, 0, *at, 0], rtol=0, atol=1e-14)
+    assert result["point.u"][0] == pytest.approx(u, abs=1e-13)
