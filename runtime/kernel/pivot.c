@@ -22,6 +22,7 @@
 #define AGREE 1e-12 /* part of a reaction by which bounds and reactions agree */
 #define PAST 1e-8   /* part by which a bound is lowered where a rest ends */
 #define DOUBT 1e-7  /* part of its size within which a reaction is at its bound, a motion none */
+#define APART 1e-4  /* what the others leave at least of the motion that each reaction makes */
 #define SOFT 1e-14  /* part of its diagonal added to a singular system */
 
 /* The rows that take part, w->relations.rows[0 .. n), with the bounds least and most of their
@@ -104,6 +105,22 @@ static void sweep(const box *b) {
   }
 }
 
+/* x <- the least solution of the symmetric system of n reactions, each in its own unit: by its
+ * factor where none of them depends on others. */
+static void solve_inside(const frot_work *w, int n, double *x) {
+  double *a = w->linear.matrix, *factor = w->linear.scratch, least = 1;
+  memcpy(factor, a, sizeof(double) * (size_t)(n * n));
+  int singular = frot_cholesky(factor, n);
+  for (int i = 0; i < n && !singular; i++) least = fmin(least, fabs(factor[i * n + i]));
+  if (singular || !(least > APART)) {
+    frot_least_norm(a, w->linear.right, n, n, FROT_RANK, x, factor, w->linear.pivot);
+    return;
+  }
+  memcpy(x, w->linear.right, sizeof(double) * (size_t)n);
+  frot_forward(factor, n, n, x);
+  frot_backward(factor, n, n, x);
+}
+
 /* Newton's step on the reactions inside their bounds, to the first bound it meets. Returns the part
  * of it that was taken. */
 static double step_inside(const box *b) {
@@ -123,8 +140,7 @@ static double step_inside(const box *b) {
                                        sqrt(own_effect(b, rows[j])) * (i == j ? 1 + SOFT : 1);
     w->linear.right[i] = -scale * frot_acceleration(b->m, w, rows[i], &size);
   }
-  frot_least_norm(w->linear.matrix, w->linear.right, free, free, FROT_RANK, step, w->linear.scratch,
-                  w->linear.pivot);
+  solve_inside(w, free, step);
   for (int i = 0; i < free; i++) {
     int r = rows[i];
     step[i] /= sqrt(own_effect(b, r));
