@@ -156,8 +156,9 @@ class Scene:
         """The parts that are left when the items of each of `joined`, statement and guess are."""
         count = int(kind.unknown.numel())
         # the slopes of a counter speak of itself alone
-        whole = (ca.jacobian(kind.stated[0], x).T for x in (kind.unknown, self._system.y))
-        stated = _rows_read(*whole, kind.through)
+        slopes = ca.jacobian(kind.stated[0], kind.unknown).T
+        by_y = ca.jacobian(kind.stated[0], self._system.y).T
+        stated = _rows_read(slopes, by_y, kind.through)
         guessed = self._guessed(kind)
         sets = Sets(count)
         for bound in (*joined, *stated, *guessed):

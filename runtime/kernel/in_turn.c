@@ -1,12 +1,10 @@
 #include "in_turn.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "damped.h"
 #include "elsewhere.h"
 #include "nearest.h"
-#include "tolerances.h"
 
 #define BEGINNINGS 9 /* of the unknowns of one vector */
 
@@ -53,37 +51,37 @@ static void choose_rows(const frot_opening *p) {
   }
 }
 
-/* Move the unknowns marked to where the equations chosen are missed least, from several beginnings.
- */
-static void meet_next(frot_opening *p) {
+/* Move the unknowns marked to where the equations chosen hold, from several beginnings; returns
+ * whether they do. */
+static int meet_next(frot_opening *p) {
   frot_opening_work *w = &p->w->opening;
   size_t bytes = sizeof(double) * (size_t)p->n_own;
-  double *before = w->nearest, *best = w->second, least = INFINITY;
-  memcpy(before, p->x, bytes), memcpy(best, p->x, bytes);
-  for (int k = 0; k < BEGINNINGS && least > FROT_NOTHING_MISSED; k++) {
+  double *before = w->nearest;
+  memcpy(before, p->x, bytes);
+  for (int k = 0; k < BEGINNINGS; k++) {
     memcpy(p->x, before, bytes);
     frot_begin_units(p);
     if (k > 0 && frot_opening_metric(p) != FROT_OK) continue;
     if (k > 0) frot_begin_elsewhere(p, k - 1, k % 3 == 0);
     for (int i = 0; i < p->n_own; i++)
       if (w->state[i] != FROT_MOVES_NOW) p->x[i] = before[i];
-    if (!frot_follow_damped(p)) continue;
-    double missed = frot_missed_square(p);
-    if (missed < (1 - FROT_NEARER) * least) least = missed, memcpy(best, p->x, bytes);
+    if (frot_follow_damped(p) && frot_missed_square(p) <= FROT_NOTHING_MISSED) return 1;
   }
-  memcpy(p->x, best, bytes);
+  return 0;
 }
 
-void frot_meet_in_turn(frot_opening *p) {
+int frot_meet_in_turn(frot_opening *p) {
   unsigned char *state = p->w->opening.state;
+  int met = 1;
   memset(state, 0, (size_t)p->n_own);
   p->guessed = p->alike = 1;
-  while (frot_evaluate_statements(p) == FROT_OK && mark_next(p)) {
+  while (met && frot_evaluate_statements(p) == FROT_OK && mark_next(p)) {
     choose_rows(p);
     p->some = 1;
-    meet_next(p);
+    met = meet_next(p);
     p->some = 0;
     for (int k = 0; k < p->n_own; k++) state[k] = state[k] != 0 ? FROT_TAKEN : 0;
   }
   p->guessed = p->alike = 0;
+  return met;
 }

@@ -10,7 +10,9 @@ enum { FROT_TAKEN = 1, FROT_MOVES_NOW = 2 };
 /* p->x, from w->opening.begin on <- where the guesses of the part are met in turn: the vector that
  * follows from the fewest unknowns first, by these alone and from several beginnings, then the one
  * that follows from the fewest others. What is guessed of each body of a tree is met so from the
- * ground outwards. */
-void frot_meet_in_turn(frot_opening *p);
+ * ground outwards. Returns 0 where one is not met: what contradicts itself is missed least
+ * together.
+ */
+int frot_meet_in_turn(frot_opening *p);
 
 #endif
