@@ -10,7 +10,6 @@ from pathlib import Path
 
 import casadi as ca
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.lowering.price import price_of_implicit
 from frot.compiler.lowering.symbols import column
 from frot.compiler.product.c_arrays import tables_of
 from frot.compiler.product.c_mechanics import MECHANICAL_TABLES, mechanical_arrays, packed_sizes
@@ -24,6 +23,7 @@ from frot.compiler.product.islands import (
     read_numbers,
     shared_functions,
 )
+from frot.compiler.product.price import price_of_implicit
 from frot.compiler.product.split import split_functions
 
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}

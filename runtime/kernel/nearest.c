@@ -224,6 +224,47 @@ static int look_at_statements(frot_opening *p) {
   return FROT_OK;
 }
 
+enum { KEPT = 1, NOW = 2 };
+
+/* The unknown that equation i alone speaks of beside those that are kept, -1 if there are several
+ * or none. */
+static int only_left(const frot_opening *p, int i) {
+  const int *bounds = p->w->relations.bounds + 2 * i;
+  const double *row = p->w->relations.jacobian + p->n_own * i;
+  int only = -1;
+  for (int k = bounds[0]; k < bounds[1]; k++) {
+    if (row[k] == 0 || p->w->opening.kept[k] == KEPT) continue;
+    if (only >= 0) return -1;
+    only = k;
+  }
+  return only;
+}
+
+/* An angle that an equation alone gives, or that follows from others so given, is many turns away
+ * at once: the way there says nothing. Leaves the equations evaluated. */
+static int turn_far(frot_opening *p) {
+  unsigned char *kept = p->w->opening.kept;
+  int status = FROT_OK;
+  memset(kept, 0, (size_t)p->n_own);
+  for (int found = 1; found && status == FROT_OK;) {
+    found = 0;
+    for (int i = 0; i < p->n && status == FROT_OK; i++) {
+      int only = only_left(p, i);
+      if (only < 0) continue;
+      double before = p->x[only];
+      double by = -p->w->relations.residual[i] / p->w->relations.jacobian[p->n_own * i + only];
+      kept[only] = KEPT, found = 1;
+      if (!frot_is_angle(p, only) || !(fabs(by) > HALF_TURN)) continue;
+      p->x[only] += by;
+      status = frot_evaluate_statements(p);
+      if (status == FROT_OK && frot_statement_agrees(p, i, 0)) continue;
+      p->x[only] = before;
+      status = frot_evaluate_statements(p);
+    }
+  }
+  return status;
+}
+
 /* Damped Gauss-Newton to the nearest values in the metric. */
 static int solve(frot_opening *p) {
   frot_work *w = p->w;
@@ -233,6 +274,7 @@ static int solve(frot_opening *p) {
   p->n = 0;
   for (int pass = 0;; pass++) {
     int status = frot_evaluate_statements(p);
+    if (status == FROT_OK && pass == 0 && !p->velocity) status = turn_far(p);
     /* where the inertia is no number either, no statement is to blame */
     if (status != FROT_OK && p->velocity && frot_opening_metric(p) != FROT_OK) p->n = 0;
     if (status != FROT_OK) return frot_no_number(p, status);
@@ -259,22 +301,6 @@ static int solve(frot_opening *p) {
       if (!frot_statement_agrees(p, i, w->opening.off_at_first[i])) return frot_contradiction(p);
     return FROT_OK;
   }
-}
-
-enum { KEPT = 1, NOW = 2 };
-
-/* The unknown that equation i alone speaks of beside those that are kept, -1 if there are several
- * or none. */
-static int only_left(const frot_opening *p, int i) {
-  const int *bounds = p->w->relations.bounds + 2 * i;
-  const double *row = p->w->relations.jacobian + p->n_own * i;
-  int only = -1;
-  for (int k = bounds[0]; k < bounds[1]; k++) {
-    if (row[k] == 0 || p->w->opening.kept[k] == KEPT) continue;
-    if (only >= 0) return -1;
-    only = k;
-  }
-  return only;
 }
 
 /* What is stated or guessed of one unknown alone holds to the last digit, and then what is of one

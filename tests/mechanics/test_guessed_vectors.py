@@ -109,3 +109,17 @@ def test_what_nothing_binds_together_is_put_together_for_itself() -> None:
     for k in range(4):
         for c in "xy":
             assert float(near[f"b{k}.position.{c}"]) == float(far[f"b{k}.position.{c}"])
+
+
+def test_angles_guessed_many_turns_away_are_met_there() -> None:
+    """Beside a place a million metres away, of a rod of a millimetre; and along a chain."""
+    text = (
+        "planar model A body a: rod(mass = 1 kg, length = 1 mm);"
+        "body b: rod(mass = 1 kg, length = 1 m); body c: rod(mass = 1 kg, length = 1 m);"
+        "liaison p: rotoide(ground, b.start); liaison q: rotoide(b.tip, c.start);"
+        "initial guess(a.tip.position = (1e6, 2e5) m); guess(a.angle = 1e4 rad);"
+        "guess(b.angle = -629.63 rad); guess(c.angle = 2e4 rad); end A;"
+    )
+    start = frot.compile(text).simulate(stop=1e-9).at(0)
+    assert [start[f"{body}.angle"] for body in "abc"] == [1e4, -629.63, 2e4]
+    assert start["a.position.x"] == pytest.approx(1e6 - 5e-4 * np.cos(1e4), rel=1e-15)
