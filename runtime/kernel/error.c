@@ -3,8 +3,10 @@
 #include <math.h>
 
 #include "blur.h"
+#include "groups.h"
 #include "implicit.h"
 #include "jacobian.h"
+#include "rows.h"
 #include "sizes.h"
 #include "stages.h"
 #include "tolerances.h"
@@ -48,6 +50,16 @@ static void size_own_states(const frot_model *m, const frot_state *s, frot_work 
   frot_state_sizes(m, s, w);
 }
 
+/* What guard j may be off by at the end of the step, where its row comes to be more than rounding
+ * of lengths. */
+static double dropped(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
+  int e = (j - m->n_contacts) / 2;
+  if (j < m->n_contacts || j >= frot_condition_guard(m) || j != frot_element_guard(m, e)) return 0;
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  if (frot_element_mode(m, modes, e)->friction <= FROT_STICK) return 0;
+  return frot_dropped_rate(m, s, e, w->step.z1 + m->nq);
+}
+
 /* The worst estimate of the local error over its bound, and in w->step.worst the value it is of. */
 static double worst_error(const frot_model *m, const frot_state *s, frot_work *w, double h) {
   const frot_layout *l = &w->layout;
@@ -83,6 +95,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       }
       bound = guard_tolerance * h * largest;
       double measured = frot_guard_noise(m, s, w, w->guards.list[j - n], h);
+      measured = fmax(measured, dropped(m, s, w, w->guards.list[j - n]));
       noise = FROT_NOISE_MARGIN * h * fmax(measured, FROT_GUARD_FLOOR * w->guards.size[j - n]);
     }
     double joint = sqrt(fifth * fifth + 0.01 * third * third);

@@ -15,4 +15,7 @@ void frot_size_biases(const frot_model *m, const frot_state *s, frot_work *w, co
 void frot_clean_rows(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
                      const double *v);
 
+/* The slip of an element at the speeds v below which it may be dropped with its row. */
+double frot_dropped_rate(const frot_model *m, const frot_state *s, int element, const double *v);
+
 #endif
