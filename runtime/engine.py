@@ -30,9 +30,9 @@ VANISHED = 32
 REFUSALS = {10: "E0401", 24: "E0908"}
 INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
 _TEXT = 1024
-# Doubles of the first and of the longest chunk of recorded steps; in a recorded step, the place of
-# the time at which it begins.
-_CHUNK, _LARGEST_CHUNK = 2**16, 2**24
+# Doubles of the first and of the longest chunk of recorded steps: pages that the system must give
+# first cost more than a short run; in a recorded step, the place of the time at which it begins.
+_CHUNK, _LARGEST_CHUNK = 2**13, 2**24
 _BEGIN = 3
 # Bytes of recorded steps after which a run is told to be too long.
 MOST_MEMORY = 2**30
