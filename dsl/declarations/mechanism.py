@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import cast
 
 from frot.dsl import checked
-from frot.dsl.catalogue import FORCES, LAWS, LIAISONS, find, spellings
+from frot.dsl.catalogue import FORCES, LAWS, LIAISONS, LiaisonKind, find, spellings
 from frot.dsl.checked.describe import quantity
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.declarations.bounds import keep_positive
@@ -44,6 +44,7 @@ def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison
             "E0506", f"{name!r} is a liaison of space models; this model is planar", callee.span
         )
         return None
+    arguments = (*arguments, *_told_by_drives(node, kind, arguments))
     found = bind(arguments, kind.arguments, name, node.kind.span, scope)
     if not found.complete:
         return None
@@ -54,6 +55,16 @@ def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison
     options = cast("dict[str, checked.Expression]", found.values)
     keep_positive(options, kind.arguments, f"liaison '{full_name}'", scope)
     return checked.Liaison(full_name, kind, a, b, options, (), node.span, node.doc)
+
+
+def _told_by_drives(
+    node: tree.Liaison, kind: LiaisonKind, arguments: tuple[tree.Argument, ...]
+) -> list[tree.Argument]:
+    """Arguments that are coordinates and not given: what drives them says what they are."""
+    plain = sum(x.name is None for x in arguments)
+    given = {x.name.span.text for x in arguments if x.name is not None}
+    open_ = {x.name for x in kind.arguments[plain:] if x.name in kind.coordinates} - given
+    return [x for x in node.driven or () if x.name is not None and x.name.span.text in open_]
 
 
 def _stated(
@@ -102,6 +113,9 @@ def _driven(
             message = f"{name!r} of liaison {made.name!r} is driven twice"
             scope.log.report("E0204", message, argument.span)
             return {}
+        own_option = made.options.get(name)
+        if own_option is not None and own_option.span == argument.value.span:
+            continue  # it says what the argument of that name is
         value = expect(argument.value, known_coordinates[name], scope)
         if value is None:
             return {}

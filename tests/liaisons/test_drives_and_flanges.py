@@ -138,3 +138,23 @@ def test_flanges_push_where_time_drives_and_where_rows_keep_a_curve() -> None:
     along = np.array([1, 0.4 * u, 0])
     left = hold - guide + at["effort"] * along / (along @ along)
     assert left == pytest.approx(2 * gone + np.array([0, 0, 2 * 9.81]), abs=1e-10)
+
+
+@pytest.mark.parametrize("kind", ["planar model", "model"])
+@pytest.mark.parametrize("length", ["", ", length = 1 m"])
+def test_a_drive_says_how_long_a_rod_is(kind: str, length: str) -> None:
+    """With a length and without one, which a rod that is not driven needs."""
+    text = f"""
+{kind} Rod
+  body p: particle(mass = 1 kg);
+  liaison rod: tige(ground, p{length}) driven(length = 1 m + 0.1 m*sin(time/(1 s)));
+initial
+  guess(p.position.x = 1 m);
+  experiment(stop = 0.3 s);
+end Rod;
+"""
+    run = frot.compile(text).simulate()
+    assert run["rod.length"] == pytest.approx(1 + 0.1 * np.sin(run.time), abs=1e-12)
+    if not length:
+        with pytest.raises(frot.FrotError, match=r"E0204.*'tige' needs 'length'"):
+            frot.compile(text.replace("driven(length", "driven(gap"))
