@@ -103,8 +103,8 @@ _ROWS = (
         (5, None),
         {"angle": REAL},
         (
-            _axis("axis"),
             Argument("pitch", LENGTH, doc="advance per turn"),
+            _axis("axis"),
         ),
         doc="A screw.",
     ),
