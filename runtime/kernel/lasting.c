@@ -201,9 +201,7 @@ static int has_ended(const frot_instant *in, const int *chosen, int count) {
     if (trial[chosen[c]].closed != before[chosen[c]].closed) return 0;
     int own[FROT_LAWS_OF_CONTACT], laws = frot_laws_of(m, chosen[c], own);
     for (int k = 0; k < laws; k++)
-      if (frot_element_mode(m, trial, own[k])->friction !=
-          frot_element_mode(m, before, own[k])->friction)
-        return 0;
+      if (!frot_same_element(in, own[k])) return 0;
   }
   return 1;
 }

@@ -10,14 +10,15 @@
 #include "reactions.h"
 #include "tolerances.h"
 
-/* Whether a contact, or an element, goes on as before. Of one that is held all round the side
- * follows from the reaction: it is no choice. */
+/* Whether a contact goes on as before. Of one that is held all round the side follows from the
+ * reaction: it is no choice. */
 static int same_contact(const frot_instant *in, int i) {
   const frot_contact_mode *a = &in->w->search.trial[i], *b = &in->w->search.before[i];
   int follows = in->unilateral[i] == 0 && frot_all_held(in, i);
   return a->closed == b->closed && (!a->closed || follows || a->side == b->side);
 }
-static int same_element(const frot_instant *in, int e) {
+
+int frot_same_element(const frot_instant *in, int e) {
   return frot_element_mode(in->m, in->w->search.trial, e)->friction ==
          frot_element_mode(in->m, in->w->search.before, e)->friction;
 }
@@ -43,7 +44,7 @@ static long long preference(const frot_instant *in, const int *chosen, int count
       moves &= !stays_beyond(in, own[k]);
       const frot_contact_mode *mode = frot_element_mode(m, in->w->search.trial, own[k]);
       rest += mode->friction == FROT_STICK && mode->at_bound == 0;
-      kept += same_element(in, own[k]);
+      kept += frot_same_element(in, own[k]);
     }
   }
   long long big = (1 + FROT_LAWS_OF_CONTACT) * m->n_contacts + 1;
