@@ -6,7 +6,8 @@
 #include "elsewhere.h"
 #include "nearest.h"
 
-#define BEGINNINGS 9 /* of the unknowns of one vector */
+#define AROUND 8 /* beginnings of the unknowns of one vector beside the given one, */
+#define ROUNDS 4 /* each round twice as far off as the one before */
 
 /* How many unknowns that are not taken the guesses of a vector follow from; those with `mark` are
  * marked, of an orientation all. */
@@ -39,15 +40,27 @@ static int mark_next(const frot_opening *p) {
   return next >= 0 && count_new(p, next, 1) > 0;
 }
 
+/* Whether an unknown that is to come moves row i or, of a guess, any item of its vector. */
+static int is_open(const frot_opening *p, int i) {
+  const frot_part *part = p->part;
+  int first = p->n - part->n_guessed;
+  for (int j = i < first ? i : first; j < (i < first ? i + 1 : p->n); j++) {
+    const double *row = p->w->relations.jacobian + p->n_own * j;
+    if (i >= first && part->vectors[j - first] != part->vectors[i - first]) continue;
+    for (int k = 0; k < p->n_own; k++)
+      if (row[k] != 0 && p->w->opening.state[k] == 0) return 1;
+  }
+  return 0;
+}
+
 /* Leave of the equations those that the unknowns marked move, and none that are to come. */
 static void choose_rows(const frot_opening *p) {
   const unsigned char *state = p->w->opening.state;
   for (int i = 0; i < p->n; i++) {
     const double *row = p->w->relations.jacobian + p->n_own * i;
-    int moved = 0, open = 0;
-    for (int k = 0; k < p->n_own; k++)
-      if (row[k] != 0) moved |= state[k] == FROT_MOVES_NOW, open |= state[k] == 0;
-    p->w->opening.chosen[i] = (unsigned char)(moved && !open);
+    int moved = 0;
+    for (int k = 0; k < p->n_own; k++) moved |= row[k] != 0 && state[k] == FROT_MOVES_NOW;
+    p->w->opening.chosen[i] = (unsigned char)(moved && !is_open(p, i));
   }
 }
 
@@ -58,13 +71,17 @@ static int meet_next(frot_opening *p) {
   size_t bytes = sizeof(double) * (size_t)p->n_own;
   double *before = w->nearest;
   memcpy(before, p->x, bytes);
-  for (int k = 0; k < BEGINNINGS; k++) {
+  for (int k = 0; k <= AROUND * ROUNDS; k++) {
+    double farther = k > AROUND ? 1 << ((k - 1) / AROUND) : 1;
     memcpy(p->x, before, bytes);
     frot_begin_units(p);
     if (k > 0 && frot_opening_metric(p) != FROT_OK) continue;
-    if (k > 0) frot_begin_elsewhere(p, k - 1, k % 3 == 0);
+    if (k > 0) frot_begin_elsewhere(p, (k - 1) % AROUND, k % 3 == 0);
     for (int i = 0; i < p->n_own; i++)
-      if (w->state[i] != FROT_MOVES_NOW) p->x[i] = before[i];
+      if (w->state[i] != FROT_MOVES_NOW)
+        p->x[i] = before[i];
+      else if (p->m->q_speed[p->part->q[i]] >= 0) /* of no orientation */
+        p->x[i] = before[i] + farther * (p->x[i] - before[i]);
     if (frot_follow_damped(p) && frot_missed_square(p) <= FROT_NOTHING_MISSED) return 1;
   }
   return 0;

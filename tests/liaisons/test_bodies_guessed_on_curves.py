@@ -55,3 +55,30 @@ def test_they_start_where_they_are_guessed(u: float, turned: float) -> None:
     found = [result[f"{body}.position.{x}"][0] for body in "bc" for x in "xyz"]
     assert np.allclose(found, [*first, 0, *at, 0], rtol=0, atol=1e-14)
     assert result["point.u"][0] == pytest.approx(u, abs=1e-13)
+
+
+@cache
+def on_a_helix() -> frot.Model:
+    return frot.compile(
+        "model OnAHelix parameter Real p[3] = (0, 0, 0); parameter Real o[4] = (1, 0, 0, 0);"
+        "body b: ellipsoid(mass = 54 kg, semi_axes = (0.29 m, 0.23 m, 0.17 m));"
+        "curve helix on ground: "
+        "parametric((0.7 m*cos(u), 0.9 m*sin(u), 0.26 m*u), u = (-12, 12));"
+        "frame f on b at (0.18, -0.17, 0.15) m; liaison point: point_courbe(f, helix);"
+        "initial guess(b.position = (p[1], p[2], p[3])*(1 m));"
+        "guess(b.orientation = (o[1], o[2], o[3], o[4])); end OnAHelix;"
+    )
+
+
+@pytest.mark.parametrize("u", [-4.6, 5.2, -9.0, 0.5])
+def test_the_turn_of_a_helix_is_the_one_that_is_guessed(u: float) -> None:
+    o = np.array([0.12, 0.27, 0.91, -0.29])
+    o /= np.linalg.norm(o)
+    arm, way = np.array([0.18, -0.17, 0.15]), o[1:]
+    turned = arm + 2 * np.cross(way, np.cross(way, arm) + o[0] * arm)
+    at = np.array([0.7 * np.cos(u), 0.9 * np.sin(u), 0.26 * u]) - turned
+    parameters = {"p": [float(x) for x in at], "o": [float(x) for x in o]}
+    result = on_a_helix().simulate(stop=1e-6, parameters=parameters)
+    assert result["point.u"][0] == pytest.approx(u, abs=1e-13)
+    found = [result[f"b.position.{x}"][0] for x in "xyz"]
+    assert np.allclose(found, at, rtol=0, atol=1e-13)
