@@ -73,6 +73,7 @@ class Statistics(ct.Structure):
         ("blurred", ct.c_double),
         ("crossings", ct.c_longlong),
         ("free", ct.c_longlong),
+        ("masked", ct.c_double),
     )
 
 

@@ -37,6 +37,7 @@ KINDS = (
 MODES = ("open", "stick", "slip")
 MOST_EVENTS = 40
 MOST_KEPT = 8
+MASKED = 1e-10  # part of an acceleration that rounding may make, from which on it is told
 # Relative residual of the energy balance from which a run is not to be trusted.
 SUSPICIOUS = 1e-4
 ROLLING = ("free", "held", "rolling", "rolling")
@@ -99,7 +100,8 @@ class Figures:
     not looked for. `crossings`: steps through postures in which the relations of a loop depend on
     each other: the motion goes straight on there. `blurred`: the largest error of a step there,
     relative, that rounding made beyond the tolerance. `free`: speeds at the start that no liaison
-    holds.
+    holds. `masked`: what part of an acceleration may be rounding, at the start, where a light body
+    is held between heavy ones and its own inertia is lost among those that its joint carries.
     """
 
     steps: int
@@ -110,6 +112,7 @@ class Figures:
     crossings: int = 0
     blurred: float = 0.0
     free: int = -1
+    masked: float = 0.0
 
 
 class Values(Mapping[str, "Floats"]):
@@ -300,6 +303,11 @@ class Result(Mapping[str, "Floats"]):
             )
         if figures.blurred:
             lines.append(f"  rounding made errors of {figures.blurred:.1e} there")
+        if figures.masked > MASKED:
+            lines.append(
+                f"  warning: rounding may make {figures.masked:.0e} of accelerations and "
+                "reactions, whatever the tolerance: a body is held between ones so much heavier"
+            )
         if figures.unsearched:
             lines.append(
                 f"  at {_counted(figures.unsearched, 'instant')} one motion was found; with so "

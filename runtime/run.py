@@ -147,10 +147,11 @@ def simulate(
         counts.rejected,
         counts.evaluations,
         wall,
-        counts.unsearched,
-        counts.crossings,
-        counts.blurred,
-        counts.free,
+        unsearched=counts.unsearched,
+        crossings=counts.crossings,
+        blurred=counts.blurred,
+        free=counts.free,
+        masked=counts.masked,
     )
     events = tuple(_event(engine, raw) for raw in run.events if raw.t <= reached)
     result = None

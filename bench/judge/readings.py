@@ -7,12 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from judge.mechanics import Floats, Joint, Mechanics, left
-from judge.motions import parts
 from judge.scene import Contact, Pin, Scene
 
 FORMED = 1e-4
 PLACED = 1e-6  # an arm is the difference of places, and known to 1e-14 of them: see `check.EXACT`
-SHARED = 1e-6  # what bodies share is known to 1e-14 of the largest force in it: see `check.EXACT`
 NOTHING = 1e-30  # part of the largest force of a scene below which one is none
 
 
@@ -44,16 +42,11 @@ class Loads:
                 push = joint.rows[word].jacobian * z
                 rest += push
                 size += joint.rows[word].reach * abs(z)
-        # a reaction between a light body and a heavy one, which falls nearly freely, is the small
-        # difference of the heavy one's terms
         # forces of a body are known as its largest one is, moments as that with the longest arm
         arms = np.zeros(now.n)
         for joint in now.joints.values():
             for r in joint.rows.values():
                 arms[2::3] = np.maximum(arms[2::3], r.reach[2::3] * (r.reach[::3] > 0))
-        for places, _ in parts(now):
-            forces = places[:, :2]
-            size[forces] = np.maximum(size[forces], SHARED * np.max(size[forces]))
         for b in now.scene.bodies:
             k = now.at[b.name]
             arms[k + 2] = max(arms[k + 2], PLACED * float(np.linalg.norm(now.origin(b))))

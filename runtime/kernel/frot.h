@@ -112,6 +112,7 @@ typedef struct {
   double blurred; /* largest error of a step, relative, that rounding made there beyond its bound */
   long long crossings; /* steps through postures in which rows that hold depend on each other */
   long long free;      /* speeds at the start that no permanent row holds */
+  double masked;       /* part of an acceleration that rounding of the inertias may make there */
 } frot_statistics;
 
 /* The model compiled together with the kernel. */

@@ -1,5 +1,6 @@
 #include "inertia.h"
 
+#include <float.h>
 #include <string.h>
 
 #include "linear.h"
@@ -109,6 +110,19 @@ void frot_own_inertias(const frot_work *w, const frot_group *g, double *own) {
     frot_tree_diagonal(g, mass, w->core.inertia, own);
   else
     for (int k = 0; k < g->n; k++) own[k] = own_inertia(g, mass, k);
+}
+
+double frot_masked_part(frot_work *w, const frot_group *g) {
+  double most = 0, *x = w->core.rest, *own = w->core.column;
+  frot_own_inertias(w, g, own);
+  for (int k = 0; k < g->n_speeds; k++) {
+    memset(x, 0, sizeof(double) * (size_t)g->n_speeds);
+    x[k] = 1;
+    frot_inwards(w, g, x);
+    double loss = own[k] * frot_dot(x, x, g->n_speeds);
+    if (loss > most) most = loss;
+  }
+  return DBL_EPSILON * most;
 }
 
 void frot_whole_column(const frot_work *w, const frot_group *g, int k, double *column) {

@@ -6,6 +6,7 @@
 #include "crossing.h"
 #include "ends.h"
 #include "groups.h"
+#include "inertia.h"
 #include "jacobian.h"
 #include "lost.h"
 #include "pace.h"
@@ -50,6 +51,10 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   int status = frot_start_slope(m, s, w, s->t);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0);
   s->statistics.free = frot_free_speeds(m, s, w);
+  for (int i = 0; i < w->awake.now->n_groups; i++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[i]];
+    if (!g->general) s->statistics.masked = fmax(s->statistics.masked, frot_masked_part(w, g));
+  }
   double h = FIRST_PART * s->h_max;
   double leaves = INFINITY;
   unsigned char *lost = w->opening.use;
