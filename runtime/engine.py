@@ -44,8 +44,8 @@ class Run:
 
     The kernel's status, the segments one after the other as the kernel records them, the events,
     and the time at which the last segment begins. Status FULL: the steps take more than
-    MOST_MEMORY; the run has not come to its end. Status STOPPED: by `watch`, or by Ctrl-C where
-    `interrupted`.
+    MOST_MEMORY, or Ctrl-C came as those of a call had no more room; the run has not come to its
+    end. Status STOPPED: by `watch`, or by Ctrl-C. After Ctrl-C `interrupted`.
     """
 
     status: int
@@ -218,7 +218,9 @@ class Engine:
             if any(not isinstance(error, KeyboardInterrupt) for error in interrupted):
                 raise interrupted[0]
             if interrupted:
-                return Run(STOPPED, _joined(chunks), events, last, True)
+                # where there was no more room too, the run is told up to its last segment
+                told = FULL if status == FULL else STOPPED
+                return Run(told, _joined(chunks), events, last, True)
             taken = 8 * sum(len(chunk) for chunk in chunks)
             if status != FULL or taken > MOST_MEMORY:
                 return Run(status, _joined(chunks), events, last)

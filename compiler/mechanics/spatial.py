@@ -64,10 +64,11 @@ def axes_of(quaternion: ca.SX) -> ca.SX:
     """R (3 x 3) of a quaternion (w, x, y, z), of whatever length.
 
     Between the stages of a step the length is no longer one to the order of the turn's square; axes
-    of unit length at right angles leave no trace of it.
+    of unit length at right angles leave no trace of it. Of none, which is told as no orientation,
+    they are those of the base.
     """
     w, x, y, z = ca.vertsplit(quaternion)
-    two = 2 / (w * w + x * x + y * y + z * z)
+    two = 2 / ca.fmax(w * w + x * x + y * y + z * z, _NO_LENGTH)
     return ca.blockcat(
         [
             [1 - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y)],
@@ -124,6 +125,8 @@ def beside_moving(axis: ca.SX) -> tuple[ca.SX, ca.SX]:
 
 # At the jump itself there is one direction too.
 _NEAR_JUMP = 1e-300
+# The square of a quaternion's length, where it has none.
+_NO_LENGTH = 1e-300
 
 
 @dataclass(frozen=True, slots=True, eq=False)
