@@ -305,8 +305,8 @@ class Result(Mapping[str, "Floats"]):
             lines.append(f"  rounding made errors of {figures.blurred:.1e} there")
         if figures.masked > MASKED:
             lines.append(
-                f"  warning: rounding may make {figures.masked:.0e} of accelerations and "
-                "reactions, whatever the tolerance: a body is held between ones so much heavier"
+                f"  warning: rounding may make {figures.masked:.0e} of an acceleration, whatever "
+                "the tolerance: a body is held between ones so much heavier"
             )
         if figures.unsearched:
             lines.append(
