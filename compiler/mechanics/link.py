@@ -131,7 +131,8 @@ class Link:
     which it has. `opens`: its mode says whether it is closed, and on which side it pushes; `ruled`:
     it has a mode at all. `has_normal`: its reaction is one number along a normal. `rolls`: figures
     touch without slip, whatever acts on them. `kinematic`: a relation between velocities.
-    `cancels`: its row may be rounding alone, where it keeps what others keep.
+    `cancels`: its row may be rounding alone, where it keeps what others keep. `turns`: its gap is
+    an angle.
     """
 
     __slots__ = ()
@@ -143,6 +144,7 @@ class Link:
     rolls = False
     kinematic = False
     cancels = False
+    turns = False
     frictions: tuple[Friction, ...] = ()
 
     @property

@@ -58,9 +58,9 @@ def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
     sliding = {e.contact: k for k, e in enumerate(lowered.grouping.elements) if not e.rolling}
 
     def one(name: str, span: Span | None, *fields: int) -> str:
-        row, kept, slides, mode, kinematic, followed = fields
+        row, kept, slides, mode, kinematic, *rest = fields
         told = places.get(f"{name}.power", -1), places[f"{name}.mode"] if mode else -1
-        what = row, kept, slides, *told, kinematic, followed
+        what = row, kept, slides, *told, kinematic, *rest
         return _record(_text(name), _text(_place(span)), *what)
 
     links = reduced.mechanism.contacts
@@ -70,10 +70,10 @@ def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
         slides = _NEVER_SLIPS if never else sliding.get(k, -1)
         row = rows.reaction[0] if link.has_normal else -1
         follows = blocks.get(link.liaison, -1)
-        told = (row, int(link.reduced), slides, int(link.first), int(link.kinematic), follows)
-        yield one(link.liaison.name, link.liaison.span, *told)
+        told = (row, int(link.reduced), slides, int(link.first), int(link.kinematic))
+        yield one(link.liaison.name, link.liaison.span, *told, follows, int(link.turns))
     for k, element in enumerate(lowered.system.elements, len(links)):
-        told = (-1, 1, sliding.get(k, -1), 1, 0, -1)
+        told = (-1, 1, sliding.get(k, -1), 1, 0, -1, 0)
         yield one(element.name, element.span, *told)
 
 

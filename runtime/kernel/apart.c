@@ -33,12 +33,12 @@ static left_open find_open(const frot_opening *p) {
     double square = 0;
     for (int b = a; b < p->part->n_contacts && p->use[i]; b++) {
       int k = p->part->contacts[b];
-      if (frot_is_equation(p, k) && (reach[k] == 1) == (reach[i] == 1) &&
+      if (frot_is_equation(p, k) && contacts[k].turns == contacts[i].turns &&
           strcmp(contacts[k].name, contacts[i].name) == 0)
         square += gap[k] * gap[k];
     }
     double by = sqrt(square), part = by > 0 ? by / reach[i] : 0;
-    if (part > worst.part) worst = (left_open){i, reach[i] == 1, part, by};
+    if (part > worst.part) worst = (left_open){i, contacts[i].turns, part, by};
   }
   return worst;
 }

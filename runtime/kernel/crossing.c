@@ -65,14 +65,14 @@ int frot_has_loops(const frot_model *m, const frot_state *s, const frot_work *w)
   return 0;
 }
 
-/* The length by which rows of lengths are measured beside those of angles, whose reach is 1: the
- * longest of a group. */
+/* The length by which rows of lengths are measured beside those of angles: the longest of a group.
+ */
 static double arm_of(const frot_model *m, const frot_state *s, const frot_work *w,
                      const frot_group *g) {
   const double *reach = s->data + w->layout.reach;
   double longest = 0;
   for (int i = 0; i < g->n_contacts; i++)
-    if (reach[g->contacts[i]] != 1 && frot_is_loop(m, s, w, g->contacts[i]))
+    if (!m->contacts[g->contacts[i]].turns && frot_is_loop(m, s, w, g->contacts[i]))
       longest = fmax(longest, reach[g->contacts[i]]);
   return longest > 0 ? longest : 1;
 }
@@ -89,7 +89,7 @@ static void order_rows(const frot_model *m, const frot_state *s, frot_work *w, c
     int row = m->contacts[g->contacts[i]].row_n;
     if (frot_is_spare(w, row)) continue;
     const double *half = frot_entries(m, w->core.half, row);
-    double unit = s->data[w->layout.reach + g->contacts[i]] == 1 ? arm : 1;
+    double unit = m->contacts[g->contacts[i]].turns ? arm : 1;
     for (int j = 0; j < ns; j++) rest[ns * n + j] = unit * half[j];
     order[n++] = row;
   }

@@ -39,12 +39,11 @@ static double square_of_arm(const frot_opening *p, int i) {
 }
 
 /* By their arms, or their sizes where no angle moves them; those between lengths, or between
- * directions (of reach 1), of one liaison and those of one guessed vector by the mean of theirs: so
+ * directions, of one liaison and those of one guessed vector by the mean of theirs: so
  * that it does not matter where the scene stands, nor along which axes it is seen. */
 static void weigh_alike(const frot_opening *p) {
   const frot_contact *contacts = p->m->contacts;
   const frot_part *part = p->part;
-  const double *reach = p->w->opening.reach;
   double *weight = p->w->opening.row_weight, *arm = p->w->opening.off_at_first;
   int n = part->n_stated;
   for (int i = 0; i < p->n; i++) arm[i] = weight[i] = square_of_arm(p, i);
@@ -55,7 +54,7 @@ static void weigh_alike(const frot_opening *p) {
     for (int b = 0; b < part->n_contacts; b++) {
       int k = part->contacts[b];
       if (!frot_is_equation(p, k)) continue;
-      if (strcmp(contacts[k].name, contacts[i].name) == 0 && (reach[k] == 1) == (reach[i] == 1))
+      if (strcmp(contacts[k].name, contacts[i].name) == 0 && contacts[k].turns == contacts[i].turns)
         square += arm[at], count++;
       at++;
     }

@@ -44,7 +44,8 @@ double frot_time_of_turn(const frot_model *m, const frot_state *s, const frot_gr
                          const double *v) {
   frot_layout l = frot_layout_of(m);
   double reach = 0, pace = 0;
-  for (int i = 0; i < g->n_contacts; i++) reach = fmax(reach, s->data[l.reach + g->contacts[i]]);
+  for (int i = 0; i < g->n_contacts; i++)
+    if (!m->contacts[g->contacts[i]].turns) reach = fmax(reach, s->data[l.reach + g->contacts[i]]);
   for (int i = 0; i < g->n_speeds; i++) {
     int speed = g->unknowns[i];
     double by = m->speed_turns[speed] ? 1 : reach > 0 ? 1 / reach : 0;

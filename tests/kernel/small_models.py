@@ -297,7 +297,7 @@ def source(m: Small, folder: Path) -> str:
         ("frot_contact", "contacts"): [
             f'{{"element {i + 1}", "small:{i + 1}:1", '
             f"{e.normal if e.bound == 'normal' else -1}, {int(e.reduced)}, {laws.get(i, -1)}, "
-            f"-1, {i}, 0, -1}}"
+            f"-1, {i}, 0, -1, 0}}"
             for i, e in enumerate(m.elements)
         ],
         ("frot_element", "elements"): [

@@ -94,6 +94,7 @@ class Action:
 
     `own` is the rate of the gap while neither moves. `at`: where the force acts, None for the place
     b. `touch`: how the figures stand that touch. `measure`: a distance that the lock keeps.
+    `length`: what the gap is made of beside distances.
     """
 
     force: ca.SX
@@ -104,6 +105,7 @@ class Action:
     at: ca.SX | None = None
     touch: Touch | None = None
     measure: ca.SX | None = None
+    length: ca.SX = field(default_factory=lambda: ca.SX(0))
 
     def moves(self, a: Moving, b: Moving) -> ca.SX:
         """Velocity (3) of b relative to a where the force acts."""

@@ -113,7 +113,8 @@ class Lock(Part):
             (point_body(joint.a), kinematics.local_point(joint.a)),
             (point_body(joint.b), kinematics.local_point(joint.b)),
         )
-        reach = ca.SX(1) if self.turns else ca.dot(ca.fabs(action.force), sizes)
+        lengths = ca.dot(ca.fabs(action.force), sizes) + ca.fabs(action.length)
+        reach = ca.SX(1) if self.turns else lengths
         witness = ca.SX.ones(3)
         if action.touch is not None:
             reach, witness[0] = reach + action.touch.size, action.touch.witness

@@ -127,7 +127,7 @@ class Apart(Lock):
         way, size = at.way, at.lower(self.length)
         long = ca.sqrt(ca.sumsqr(way))
         way = way / ca.if_else(long > 0, long, 1)
-        return replace(push(way, long - size), measure=long)
+        return replace(push(way, long - size), measure=long, length=size)
 
 
 def _along(pose: Pose, axis: Axis, lower: Lower, side: int | None) -> ca.SX:

@@ -63,6 +63,11 @@ class Relation(Link):
         return self.lock.kinematic
 
     @property
+    def turns(self) -> bool:  # type: ignore[override]
+        """Whether its lock keeps from turning."""
+        return self.lock.turns
+
+    @property
     def cancels(self) -> bool:  # type: ignore[override]
         """What the text says in its own words is its own affair."""
         return not self.lock.stated
