@@ -70,8 +70,9 @@ def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
         slides = _NEVER_SLIPS if never else sliding.get(k, -1)
         row = rows.reaction[0] if link.has_normal else -1
         follows = blocks.get(link.liaison, -1)
-        told = (row, int(link.reduced), slides, int(link.first), int(link.kinematic))
-        yield one(link.liaison.name, link.liaison.span, *told, follows, int(link.turns))
+        modes = row, int(link.reduced), slides, int(link.first)
+        told = *modes, int(link.kinematic), follows, int(link.turns)
+        yield one(link.liaison.name, link.liaison.span, *told)
     for k, element in enumerate(lowered.system.elements, len(links)):
         told = (-1, 1, sliding.get(k, -1), 1, 0, -1, 0)
         yield one(element.name, element.span, *told)

@@ -235,6 +235,10 @@ static int move_part(frot_opening *p, frot_contact_mode *modes) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   int status = frot_follow_guessed_speeds(p);
+  if (status == FROT_OK && p->part->n_contacts > 0) { /* what speeds are measured by below */
+    status = frot_opening_metric(p);
+    if (status != FROT_OK) return frot_no_number(p, status);
+  }
   for (; status == FROT_OK;) {
     status = frot_solve_nearest(p);
     if (status != FROT_OK) return status;

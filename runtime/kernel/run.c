@@ -53,12 +53,19 @@ int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, dou
 }
 
 /* Kinetic and potential energy together; NaN where the blocks have no solution. */
-static double energy_now(const frot_model *m, frot_state *s, frot_work *w, const double *x) {
+static double energy_at(const frot_model *m, frot_state *s, frot_work *w, const double *x,
+                        double *kinetic) {
   double energy[2];
   int status = frot_energies(m, s, w, s->t, x, x + m->nq, s->data + frot_layout_of(m).d, energy);
-  if (status != FROT_OK) return NAN;
-  s->energy_scale = fmax(s->energy_scale, fabs(energy[0]));
-  return energy[0] + energy[1];
+  *kinetic = status == FROT_OK ? fabs(energy[0]) : 0;
+  return status == FROT_OK ? energy[0] + energy[1] : NAN;
+}
+
+/* The same, where the run goes on from. */
+static double energy_now(const frot_model *m, frot_state *s, frot_work *w, const double *x) {
+  double kinetic, energy = energy_at(m, s, w, x, &kinetic);
+  s->energy_scale = fmax(s->energy_scale, kinetic);
+  return energy;
 }
 
 static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
@@ -289,11 +296,11 @@ int frot_energy(const frot_model *m, frot_state *s, frot_work *w, double balance
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   frot_interpolate(m, &g, s->t, w->step.z1);
   frot_guess_unknowns(m, w, &g, s->t);
-  double mechanical = energy_now(m, s, w, w->step.z1);
+  double kinetic, mechanical = energy_at(m, s, w, w->step.z1, &kinetic);
   double dissipated = w->step.z1[m->nq + m->nv], work = w->step.z1[m->nq + m->nv + 1];
   balance[0] = mechanical - s->energy + dissipated - work;
-  balance[1] =
-      fmax(fmax(s->energy_scale, fabs(mechanical - s->energy)), fmax(fabs(dissipated), fabs(work)));
+  balance[1] = fmax(fmax(s->energy_scale, fmax(kinetic, fabs(mechanical - s->energy))),
+                    fmax(fabs(dissipated), fabs(work)));
   balance[2] = mechanical;
   balance[3] = dissipated;
   balance[4] = work;

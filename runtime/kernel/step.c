@@ -117,6 +117,7 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   s->has_slope = !moved && !s->pending && !s->spare_loops && w->nearer.count == 0;
   if (s->has_slope) frot_turn_at_end(m, s, w, s->data + l->slope);
   if (!s->implicit) frot_keep_crossings(m, s, w, a->t, a->h);
+  if (s->tied > 0) s->has_slope = 0; /* stages are put onto relations by the inertia at the start */
   if (!s->pending && !s->implicit && frot_note_still(m, s, w, x))
     s->has_slope = 0; /* other guards are listed */
   return FROT_OK;
