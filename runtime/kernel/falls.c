@@ -17,9 +17,9 @@
 #define IDLE 10   /* falls to no effect, one after the other, after which one is to be clear */
 /* Part of the step in which a condition moves as its slope at the start says. */
 #define AT_ONCE 1e-6
-/* What a guard of degree five, between values at the stages, dips below them at most, in parts of
- * what it changes by (by a linear program: 0.386). */
-#define DIPS 0.4
+/* What the polynomial of a guard, of degree six, dips at most below its values at the stages, in
+ * parts of what they change by (by a linear program: 1.68). */
+#define DIPS 1.7
 
 void frot_guard_polynomial(const frot_state *s, const frot_work *w, int guard, double h,
                            double g[7]) {
