@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 import casadi as ca
 from frot.compiler.lowering.equals import Kind
@@ -14,8 +14,9 @@ from frot.compiler.product.c_tables import array, callable_record, number, recor
 _FUNCTIONS = ("kinematics", "dynamics", "spread", "sizes")
 # Those of a part in the order of frot_part, and its lists.
 _OF_PARTS = ("stating", "guessing", "sides", "slopes")
-_LISTS = ("turns", "groups", "islands", "contacts", "stated", "guessed", "vectors", "blocks")
-_READS = ("q", "v", "u", "p", "d", "y")
+_LISTS = ("turns", "groups", "islands", "contacts", "stated", "guessed", "vectors", "blocks", "y")
+# The places that frot_reads gives.
+_READS = ("q", "v", "u", "p", "d")
 # The argument of a shared function that is the owner's table of numbers.
 _NUMBERS = 7
 _CONSTANT = re.compile(r"^(  a\d+=)-?[\d.]+(?:e[-+]?\d+)?;$")
@@ -53,26 +54,29 @@ def _read_in_function(lines: list[str], at: int, kind: Kind, name: str) -> None:
         raise RuntimeError(f"CasADi wrote the constants of {name} in a way that is not known")
 
 
+def _reads(lists: Mapping[str, Sequence[int]], names: Mapping[str, str], numbers: str) -> str:
+    """A frot_reads: the lists of these names, and the table of numbers."""
+    counts, places = (len(lists[x]) for x in _READS), (names[x] for x in _READS)
+    return record(*counts, *places, numbers)
+
+
 def island_arrays(lowered: Lowered) -> list[str]:
     """The tables of frot_island."""
     arrays: list[str] = []
     records: list[str] = []
     for k, (island, member) in enumerate(lowered.islands):
-        lists = (island.q, island.v, island.u, island.p, island.d, island.conditions)
-        names = [f"island_{k}_{name}" for name in ("q", "v", "u", "p", "d", "conditions")]
-        arrays += [
-            array("int", name, [str(i) for i in items])
-            for name, items in zip(names, lists, strict=True)
-        ]
-        arrays.append(array("double", f"island_{k}_numbers", [number(x) for x in member.numbers]))
+        lists = {x: getattr(island, x) for x in (*_READS, "conditions")}
+        names = {x: f"island_{k}_{x}" for x in lists}
+        arrays += [array("int", names[x], [str(i) for i in own]) for x, own in lists.items()]
+        numbers = f"island_{k}_numbers"
+        arrays.append(array("double", numbers, [number(x) for x in member.numbers]))
         located = sum(i < lowered.reduced.conditions.located for i in island.conditions)
         functions = lowered.kinds[member.kind].functions
         records.append(
             record(
                 *(int(island.sleeps), min(island.groups, default=0), len(island.groups)),
-                *(*map(len, lists), located),
-                *names,
-                f"island_{k}_numbers",
+                *(len(island.conditions), located, names["conditions"]),
+                _reads(lists, names, numbers),
                 *(callable_record(functions.get(name)) for name in _FUNCTIONS),
             )
         )
@@ -98,9 +102,13 @@ def part_arrays(lowered: Lowered) -> list[str]:
             functions = lowered.kinds[member.kind].functions
             records.append(
                 record(
-                    *(part.n_unknowns, *(len(lists[x]) for x in _LISTS if x != "vectors")),
-                    *(part.n_own, *(len(lists[x]) for x in _READS)),
-                    *(*names.values(), numbers),
+                    *(
+                        part.n_unknowns,
+                        *(len(lists[x]) for x in _LISTS if x not in ("vectors", "y")),
+                    ),
+                    *(part.n_own, len(part.y)),
+                    *(names[x] for x in _LISTS),
+                    _reads(lists, names, numbers),
                     *(callable_record(functions.get(f"{prefix}_{x}")) for x in _OF_PARTS),
                 )
             )

@@ -15,8 +15,8 @@
 
 #define PLACES 8 /* from which the best is looked for */
 #define ROUNDS 4 /* of it until nothing moves */
-#define SOON \
-  0.01 /* part of the longest step after which it is looked whether a loop still closes */
+/* Part of the longest step after which it is looked whether a loop still closes. */
+#define SOON 0.01
 
 /* The liaison that is left farthest open, its first contact. */
 typedef struct {
@@ -31,11 +31,9 @@ static left_open find_open(const frot_opening *p) {
   for (int a = 0; a < p->part->n_contacts; a++) {
     int i = p->part->contacts[a];
     double square = 0;
-    for (int b = a; b < p->part->n_contacts && p->use[i]; b++) {
+    for (int b = a; b < p->part->n_contacts; b++) {
       int k = p->part->contacts[b];
-      if (frot_is_equation(p, k) && contacts[k].turns == contacts[i].turns &&
-          strcmp(contacts[k].name, contacts[i].name) == 0)
-        square += gap[k] * gap[k];
+      if (frot_are_alike(p, i, k)) square += gap[k] * gap[k];
     }
     double by = sqrt(square), part = by > 0 ? by / reach[i] : 0;
     if (part > worst.part) worst = (left_open){i, contacts[i].turns, part, by};

@@ -17,8 +17,8 @@ static void fill(const frot_model *m, frot_work *w, frot_awake_lists *a, const d
     const frot_island *island = &m->islands[i];
     if (asleep && asleep[i] != 0) continue;
     a->islands[a->n_islands++] = i;
-    for (int k = 0; k < island->nq; k++) state[island->q[k]] = 1;
-    for (int k = 0; k < island->nv; k++) state[m->nq + island->v[k]] = 1;
+    for (int k = 0; k < island->reads.nq; k++) state[island->reads.q[k]] = 1;
+    for (int k = 0; k < island->reads.nv; k++) state[m->nq + island->reads.v[k]] = 1;
     for (int k = 0; k < island->n_groups; k++) group[island->first_group + k] = 1;
     for (int k = 0; k < island->n_located; k++) condition[island->conditions[k]] = 1;
   }
@@ -138,11 +138,12 @@ int frot_note_still_at_start(const frot_model *m, frot_state *s, frot_work *w) {
     const frot_island *island = &m->islands[now->islands[k]];
     int still = island->sleeps && w->awake.power[now->islands[k]] == 0 && island->n_located == 0;
     for (int j = 0; j < island->n_groups && still; j++) still = !falls[island->first_group + j];
-    for (int j = 0; j < island->nv && still; j++) {
-      int state = m->nq + island->v[j];
+    for (int j = 0; j < island->reads.nv && still; j++) {
+      int state = m->nq + island->reads.v[j];
       still = w->step.z0[state] == 0 && slope[now->place[state]] == 0;
     }
-    for (int j = 0; j < island->nq && still; j++) still = slope[now->place[island->q[j]]] == 0;
+    for (int j = 0; j < island->reads.nq && still; j++)
+      still = slope[now->place[island->reads.q[j]]] == 0;
     if (!still || dissipates(m, s, w, island)) continue;
     s->data[w->layout.asleep + now->islands[k]] = 1;
     found++;
@@ -159,12 +160,12 @@ int frot_note_still(const frot_model *m, frot_state *s, frot_work *w, const doub
   for (int k = 0; k < now->n_islands; k++) {
     const frot_island *island = &m->islands[now->islands[k]];
     int still = island->sleeps && w->awake.power[now->islands[k]] == 0;
-    for (int j = 0; j < island->nv && still; j++) {
-      int state = m->nq + island->v[j], at = now->place[state];
+    for (int j = 0; j < island->reads.nv && still; j++) {
+      int state = m->nq + island->reads.v[j], at = now->place[state];
       still = x[state] == 0 && w->step.z0[state] == 0 && start[at] == 0 && end[at] == 0;
     }
-    for (int j = 0; j < island->nq && still; j++) {
-      int state = island->q[j], at = now->place[state];
+    for (int j = 0; j < island->reads.nq && still; j++) {
+      int state = island->reads.q[j], at = now->place[state];
       still = x[state] == w->step.z0[state] && start[at] == 0 && end[at] == 0;
     }
     if (!still || dissipates(m, s, w, island)) continue;

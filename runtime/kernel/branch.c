@@ -48,7 +48,7 @@ static int look(frot_opening *p, const frot_group *g) {
 /* Distance of speeds, by the kinetic energy of their difference. */
 static double between(const frot_opening *p, const double *x, const double *other) {
   double *apart = p->w->opening.apart, sum = 0;
-  for (int k = 0; k < p->n_own; k++) apart[p->part->v[k]] = x[k] - other[k];
+  for (int k = 0; k < p->n_own; k++) apart[p->part->reads.v[k]] = x[k] - other[k];
   for (int k = 0; k < p->part->n_groups; k++)
     sum += frot_square_of(p->w, &p->m->groups[p->part->groups[k]], apart);
   return sqrt(sum);
@@ -127,11 +127,11 @@ static int tell(frot_opening *p, int contact, const two_ways *found) {
   for (int turning = 1; turning >= 0 && differs < 0 && isfinite(found->missed[1]); turning--) {
     for (int k = 0; k < p->n_own; k++) {
       double apart = fabs(first[k] - second[k]);
-      if (turning && frot_angle_of(p->m, p->part->v[k]) < 0) continue;
+      if (turning && frot_angle_of(p->m, p->part->reads.v[k]) < 0) continue;
       if (apart > (1 + SAME) * most) most = apart, differs = k;
     }
   }
-  int speed = differs >= 0 ? p->part->v[differs] : -1;
+  int speed = differs >= 0 ? p->part->reads.v[differs] : -1;
   if (differs >= 0) {
     memcpy(p->x, p->w->opening.start, sizeof(double) * (size_t)p->n_own);
     int own = contact_with_ways(p, &p->m->groups[p->m->speed_group[speed]]);

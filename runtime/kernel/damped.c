@@ -39,10 +39,9 @@ static double square_of_arm(const frot_opening *p, int i) {
 }
 
 /* By their arms, or their sizes where no angle moves them; those between lengths, or between
- * directions, of one liaison and those of one guessed vector by the mean of theirs: so
- * that it does not matter where the scene stands, nor along which axes it is seen. */
+ * directions, of one liaison and those of one guessed vector by the mean of theirs: so that it does
+ * not matter where the scene stands, nor along which axes it is seen. */
 static void weigh_alike(const frot_opening *p) {
-  const frot_contact *contacts = p->m->contacts;
   const frot_part *part = p->part;
   double *weight = p->w->opening.row_weight, *arm = p->w->opening.off_at_first;
   int n = part->n_stated;
@@ -54,8 +53,7 @@ static void weigh_alike(const frot_opening *p) {
     for (int b = 0; b < part->n_contacts; b++) {
       int k = part->contacts[b];
       if (!frot_is_equation(p, k)) continue;
-      if (strcmp(contacts[k].name, contacts[i].name) == 0 && contacts[k].turns == contacts[i].turns)
-        square += arm[at], count++;
+      if (frot_are_alike(p, i, k)) square += arm[at], count++;
       at++;
     }
     weight[n++] = square / count;

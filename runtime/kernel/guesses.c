@@ -168,7 +168,7 @@ void frot_meet_guesses(frot_opening *p) {
 
 void frot_begin_as_met(const frot_opening *p) {
   frot_opening_work *w = &p->w->opening;
-  for (int k = 0; k < p->n_own; k++) w->begin[k] = w->met[p->part->q[k]];
+  for (int k = 0; k < p->n_own; k++) w->begin[k] = w->met[p->part->reads.q[k]];
 }
 
 int frot_find_other(frot_opening *p) {
@@ -180,7 +180,7 @@ int frot_find_other(frot_opening *p) {
 
 /* The factor of the metric of the speeds marked in `moves`, which come first; returns how many. */
 static int factor_moving(frot_opening *p, const double *moves, int *list) {
-  const int *speed = p->part->v;
+  const int *speed = p->part->reads.v;
   int n = 0;
   for (int k = 0; k < p->n_own; k++)
     if (moves[k] != 0) list[n++] = k;

@@ -80,7 +80,7 @@ static int meet_next(frot_opening *p) {
     for (int i = 0; i < p->n_own; i++)
       if (w->state[i] != FROT_MOVES_NOW)
         p->x[i] = before[i];
-      else if (p->m->q_speed[p->part->q[i]] >= 0) /* of no orientation */
+      else if (p->m->q_speed[p->part->reads.q[i]] >= 0) /* of no orientation */
         p->x[i] = before[i] + farther * (p->x[i] - before[i]);
     if (frot_follow_damped(p) && frot_missed_square(p) <= FROT_NOTHING_MISSED) return 1;
   }

@@ -19,25 +19,32 @@ static const double *scatter(const double *from, const int *places, int count, d
   return from + count;
 }
 
-/* Point w->call.arg at the arguments of an island; returns what is free of w->awake.values. */
+/* Point w->call.arg at what functions read, but for y; returns what is free behind `at`. */
+static double *take_reads(const frot_state *s, frot_work *w, const frot_reads *reads,
+                          const double *t, const double *q, const double *v, const double *d,
+                          double *at) {
+  const double **arg = w->call.arg;
+  arg[0] = t;
+  arg[1] = at, at = gather(q, reads->q, reads->nq, at);
+  arg[2] = at, at = gather(v, reads->v, reads->nv, at);
+  arg[3] = at, at = gather(s->data + w->layout.u, reads->u, reads->nu, at);
+  arg[4] = at, at = gather(s->data + w->layout.p, reads->p, reads->np, at);
+  arg[5] = at, at = gather(d, reads->d, reads->nd, at);
+  arg[7] = reads->numbers;
+  return at;
+}
+
+/* The arguments of an island; returns what is free of w->awake.values. */
 static double *take_inputs(const frot_state *s, frot_work *w, const frot_island *island,
                            const double *t, const double *q, const double *v, const double *d) {
-  const double **arg = w->call.arg;
-  double *at = w->awake.values;
-  arg[0] = t;
-  arg[1] = at, at = gather(q, island->q, island->nq, at);
-  arg[2] = at, at = gather(v, island->v, island->nv, at);
-  arg[3] = at, at = gather(s->data + w->layout.u, island->u, island->nu, at);
-  arg[4] = at, at = gather(s->data + w->layout.p, island->p, island->np, at);
-  arg[5] = at, at = gather(d, island->d, island->nd, at);
-  arg[6] = w->blocks.y, arg[7] = island->numbers;
-  return at;
+  w->call.arg[6] = w->blocks.y;
+  return take_reads(s, w, &island->reads, t, q, v, d, w->awake.values);
 }
 
 static results divide(const frot_island *island, const frot_island_extent *size, double *at,
                       int n_conditions) {
   results r;
-  r.qd = at, at += island->nq;
+  r.qd = at, at += island->reads.nq;
   r.h = at, at += size->unknowns;
   r.c = at, at += size->rows;
   r.rate = at, at += size->rows;
@@ -87,7 +94,7 @@ static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, 
   memcpy(w->call.res, res, sizeof res);
   frot_call(w, &island->dynamics);
   /* what is no number is put there too, where it is looked for */
-  scatter(r.qd, island->q, island->nq, w->core.qd);
+  scatter(r.qd, island->reads.q, island->reads.nq, w->core.qd);
   scatter(r.condition, island->conditions, island->n_located, w->core.condition);
   spread_results(m, w, island, &r);
   int finite = frot_all_finite(matrix, size->matrices) && frot_all_finite(given, size->given);
@@ -236,16 +243,9 @@ void frot_call_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
 void frot_call_part(const frot_state *s, frot_work *w, const frot_part *part,
                     const frot_callable *function, const double *t, const double *q,
                     const double *v, const double *d) {
-  const double **arg = w->call.arg;
-  double *at = w->opening.read;
-  arg[0] = t;
-  arg[1] = at, at = gather(q, part->q, part->nq, at);
-  arg[2] = at, at = gather(v, part->v, part->nv, at);
-  arg[3] = at, at = gather(s->data + w->layout.u, part->u, part->nu, at);
-  arg[4] = at, at = gather(s->data + w->layout.p, part->p, part->np, at);
-  arg[5] = at, at = gather(d, part->d, part->nd, at);
-  arg[6] = at, at = gather(w->blocks.y, part->y, part->ny, at);
-  arg[7] = part->numbers;
+  double *at = take_reads(s, w, &part->reads, t, q, v, d, w->opening.read);
+  w->call.arg[6] = at;
+  gather(w->blocks.y, part->y, part->ny, at);
   frot_call(w, function);
 }
 

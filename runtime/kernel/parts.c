@@ -14,7 +14,7 @@ static void name_changes(frot_opening *p) {
   const frot_model *m = p->m;
   const frot_part *part = p->part;
   frot_opening_work *w = &p->w->opening;
-  const int *list = p->velocity ? part->v : part->q;
+  const int *list = p->velocity ? part->reads.v : part->reads.q;
   for (int k = 0; k < part->n_unknowns; k++) {
     w->number[list[k]] = k;
     w->behind[k] = p->velocity ? list[k] : m->q_speed[list[k]];
@@ -42,7 +42,7 @@ static void put_in_order(frot_opening *p) {
 void frot_take_part(frot_opening *p, const frot_part *part) {
   frot_opening_work *w = &p->w->opening;
   const double *all = p->velocity ? p->v : p->q;
-  const int *list = p->velocity ? part->v : part->q;
+  const int *list = p->velocity ? part->reads.v : part->reads.q;
   p->part = part, p->x = w->x, p->n = p->n_rows = 0;
   for (int k = 0; k < part->n_unknowns; k++) p->x[k] = all[list[k]];
   name_changes(p);
@@ -59,7 +59,7 @@ void frot_leave_parts(frot_opening *p) {
 
 void frot_put(const frot_opening *p) {
   double *all = p->velocity ? p->v : p->q;
-  const int *list = p->velocity ? p->part->v : p->part->q;
+  const int *list = p->velocity ? p->part->reads.v : p->part->reads.q;
   for (int k = 0; k < p->part->n_unknowns; k++) all[list[k]] = p->x[k];
 }
 

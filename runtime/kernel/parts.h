@@ -24,7 +24,7 @@ static inline int frot_number_here(const frot_opening *p, int k) { return p->w->
 /* Whether unknown k is an angle that a speed turns. */
 static inline int frot_is_angle(const frot_opening *p, int k) {
   int speed = p->w->opening.behind[k];
-  return !p->velocity && speed >= 0 && frot_angle_of(p->m, speed) == p->part->q[k];
+  return !p->velocity && speed >= 0 && frot_angle_of(p->m, speed) == p->part->reads.q[k];
 }
 /* The statement of equation i, ~s of one that is none of the text. */
 static inline int frot_statement_of(const frot_opening *p, int i) {

@@ -90,47 +90,52 @@ typedef struct {
   const frot_link *links;
 } frot_group;
 
+/* What functions of a part of the scene read: of q, v, u, p and d the places given here, and the
+ * `numbers` by which its owner differs from others with the same functions. */
+typedef struct {
+  int nq, nv, nu, np, nd;
+  const int *q, *v, *u, *p, *d;
+  const double *numbers;
+} frot_reads;
+
 /* Groups and states that depend on each other: their functions read no state of others. They take
- * (t, q, v, u, p, d, y, numbers), of q, v, u, p and d the places given here, y whole; their results
- * are those of the whole model's functions of these names over what is the island's: coordinates
- * and conditions in the order given, what belongs to groups one group after the other. `numbers`
- * are those by which it differs from others with the same functions. What has no group (states,
+ * (t, q, v, u, p, d, y, numbers), what `reads` says and y whole; their results are those of the
+ * whole model's functions of these names over what is the island's: coordinates and conditions in
+ * the order given, what belongs to groups one group after the other. What has no group (states,
  * conditions, power) is one more island. Groups of an island follow each other.
  * `sleeps`: it depends neither on time nor on blocks. The first n_located conditions are located.
  */
 typedef struct {
-  int sleeps, first_group, n_groups;
-  int nq, nv, nu, np, nd, n_conditions, n_located;
-  const int *q, *v, *u, *p, *d, *conditions;
-  const double *numbers;
+  int sleeps, first_group, n_groups, n_conditions, n_located;
+  const int *conditions;
+  frot_reads reads;
   frot_callable kinematics, dynamics, spread, sizes;
 } frot_island;
 
 /* What is put together at the start without regard to the rest: places, or speeds, that no speed,
- * relation, statement or guess binds to others. The unknowns are the first n_unknowns of `q`, or of
- * `v`, ascending. Of it are these orientations, groups, contacts, scalar statements and guesses
- * (for each of the latter the first item here of the vector that it is an item of), and the blocks
- * of equations that anything here follows from; of `y`, their unknowns, the first n_own follow from
- * the unknowns of the part. The islands are those of its groups.
- * The functions take (t, q, v, u, p, d, y, numbers), of all but t the places given here, as those
- * of an island; x are the unknowns. stating -> residual (n_stated), its transposed Jacobian in x
- * (n_unknowns x n_stated), size of its terms (n_stated), its transposed Jacobian in the first n_own
- * of y (n_own x n_stated) guessing -> of places by how much each guess is missed (n_guessed), its
- * transposed Jacobian in x, the size of its terms; of speeds by how much, the size that it is
- * measured by, its slopes in the speeds that may follow it (n_unknowns x n_guessed), those of all
- * items of the vector that it is an item of (three for each), 1 for each speed that may
- * (n_unknowns) sides (of places) -> what chooses the side of each contact at the start (3 x
- * n_contacts): height of its point or rim's centre over the line, then what tells where that is
- * zero: the part of the normal that is against gravity, and the height of the body's G; sizes of
- * the lengths that each gap is made of beside the coordinates (n_contacts) slopes -> of the
- * equations of the own blocks the transposed Jacobians in x (n_unknowns x n_own), in the first
- * n_own of y (n_own x n_own). Each where there is anything to give. */
+ * relation, statement or guess binds to others. The unknowns are the first n_unknowns of `reads.q`,
+ * or of `reads.v`, ascending. Of it are these orientations, groups, contacts, scalar statements and
+ * guesses (for each of the latter the first item here of the vector that it is an item of), and the
+ * blocks of equations that anything here follows from; of `y`, their unknowns, the first n_own
+ * follow from the unknowns of the part. The islands are those of its groups. The functions take (t,
+ * q, v, u, p, d, y, numbers) as those of an island, but of y the places given here; x are the
+ * unknowns. stating -> residual (n_stated), its transposed Jacobian in x (n_unknowns x n_stated),
+ * size of its terms (n_stated), its transposed Jacobian in the first n_own of y (n_own x n_stated)
+ * guessing -> of places by how much each guess is missed (n_guessed), its transposed Jacobian in x,
+ * the size of its terms; of speeds by how much, the size that it is measured by, its slopes in the
+ * speeds that may follow it (n_unknowns x n_guessed), those of all items of the vector that it is
+ * an item of (three for each), 1 for each speed that may (n_unknowns) sides (of places) -> what
+ * chooses the side of each contact at the start (3 x n_contacts): height of its point or rim's
+ * centre over the line, then what tells where that is zero: the part of the normal that is against
+ * gravity, and the height of the body's G; sizes of the lengths that each gap is made of beside the
+ * coordinates (n_contacts) slopes -> of the equations of the own blocks the transposed Jacobians in
+ * x (n_unknowns x n_own), in the first n_own of y (n_own x n_own). Each where there is anything to
+ * give. */
 typedef struct {
-  int n_unknowns, n_turns, n_groups, n_islands, n_contacts, n_stated, n_guessed, n_blocks, n_own;
-  int nq, nv, nu, np, nd, ny;
-  const int *turns, *groups, *islands, *contacts, *stated, *guessed, *vectors, *blocks;
-  const int *q, *v, *u, *p, *d, *y;
-  const double *numbers;
+  int n_unknowns, n_turns, n_groups, n_islands, n_contacts, n_stated, n_guessed, n_blocks, n_own,
+      ny;
+  const int *turns, *groups, *islands, *contacts, *stated, *guessed, *vectors, *blocks, *y;
+  frot_reads reads;
   frot_callable stating, guessing, sides, slopes;
 } frot_part;
 

@@ -224,7 +224,7 @@ static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
 /* The text has ended the run: its last instant is a segment of its own. */
 static int end_of_run(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
   if (recorder && recorder->segments && !s->ended_recorded) {
-    if (!frot_has_room(m, w, recorder)) return FROT_FULL;
+    if (!frot_has_room(m, recorder)) return FROT_FULL;
     frot_record(m, s, w, recorder, FROT_VECTORS);
     s->ended_recorded = 1;
   }
@@ -251,7 +251,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
   }
   while (*g.t1 <= t + FROT_SAME_INSTANT(t)) {
     if (recorder && (recorder->event_count + frot_events_at_once(m) > recorder->event_capacity ||
-                     !frot_has_room(m, w, recorder)))
+                     !frot_has_room(m, recorder)))
       return FROT_FULL;
     frot_tell(m, s, recorder);
     int status = FROT_OK;

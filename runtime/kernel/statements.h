@@ -3,6 +3,8 @@
 #ifndef FROT_STATEMENTS_H
 #define FROT_STATEMENTS_H
 
+#include <string.h>
+
 #include "work.h"
 
 /* One system to solve: for coordinates, or for speeds, of a part of the scene (parts.h). */
@@ -57,6 +59,13 @@ void frot_take_liaisons(const frot_opening *p);
 /* Whether contact i of the scene is an equation. */
 static inline int frot_is_equation(const frot_opening *p, int i) {
   return p->use[i] && (p->velocity || !p->m->contacts[i].kinematic);
+}
+
+/* Whether contacts i and k are equations between lengths, or between directions, of one liaison. */
+static inline int frot_are_alike(const frot_opening *p, int i, int k) {
+  const frot_contact *a = &p->m->contacts[i], *b = &p->m->contacts[k];
+  return frot_is_equation(p, i) && frot_is_equation(p, k) && a->turns == b->turns &&
+         strcmp(a->name, b->name) == 0;
 }
 
 /* Whether equation i, which no unknown moves, holds: to rounding of lengths `reach`. */

@@ -9,8 +9,7 @@
 /* Instants t0, t1 and length h of a segment. */
 #define TIMES 3
 
-int frot_has_room(const frot_model *m, const frot_work *w, const frot_recorder *recorder) {
-  (void)w;
+int frot_has_room(const frot_model *m, const frot_recorder *recorder) {
   long long size = frot_segment_size(m);
   return !recorder->segments || recorder->segment_used + size <= recorder->segment_capacity;
 }

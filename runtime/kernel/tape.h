@@ -12,7 +12,7 @@
 enum frot_inside { FROT_VECTORS = 0, FROT_INSIDE = 1 };
 
 /* Whether the recorder takes one more segment; one without room for segments takes any. */
-int frot_has_room(const frot_model *m, const frot_work *w, const frot_recorder *recorder);
+int frot_has_room(const frot_model *m, const frot_recorder *recorder);
 
 /* Append the current segment, with those awake that are in its step; there is room. FROT_INSIDE:
  * the step is in the scratch memory still. */

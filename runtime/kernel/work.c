@@ -78,16 +78,18 @@ static extent extent_of(const frot_model *m, const frot_layout *l) {
   return e;
 }
 
+static int count_reads(const frot_reads *r) { return r->nq + r->nv + r->nu + r->np + r->nd; }
+
 /* The most that a part takes: unknowns, unknowns of blocks that follow from these, all that its
  * functions read. */
 static frot_part largest_part(const frot_model *m) {
   frot_part most = {0};
   for (int i = 0; i < m->n_parts + m->n_speed_parts; i++) {
     const frot_part *k = part_of(m, i);
-    int read = k->nq + k->nv + k->nu + k->np + k->nd + k->ny;
+    int read = count_reads(&k->reads) + k->ny;
     most.n_unknowns = larger(most.n_unknowns, k->n_unknowns);
     most.n_turns = larger(most.n_turns, k->n_turns), most.ny = larger(most.ny, k->ny);
-    most.n_own = larger(most.n_own, k->n_own), most.nq = larger(most.nq, read);
+    most.n_own = larger(most.n_own, k->n_own), most.reads.nq = larger(most.reads.nq, read);
     most.n_stated = larger(most.n_stated, k->n_stated);
     most.n_contacts = larger(most.n_contacts, k->n_contacts);
   }
@@ -138,7 +140,7 @@ static void bind_awake(const frot_model *m, const frot_layout *l, frot_awake_wor
   int most = 0;
   for (int i = 0; i < m->n_islands; i++) {
     const frot_island *k = &m->islands[i];
-    most = larger(most, 2 * k->nq + k->nv + k->nu + k->np + k->nd + k->n_conditions);
+    most = larger(most, k->reads.nq + count_reads(&k->reads) + k->n_conditions);
   }
   if (m->n_islands > 0) most += l->nw + 2 * m->n_rows + m->n_contacts + 2 * m->n_elements + 1;
   TAKE(w->values, most);
@@ -239,7 +241,8 @@ static void bind_opening(const frot_model *m, const extent *e, frot_opening_work
   TAKE(w->behind, nx), TAKE(w->here, nx), TAKE(w->first_factor, nx * nx), TAKE(w->first_unit, nx);
   TAKE(w->scratch, larger(3 * nx, m->nv)), TAKE(w->left, e->equations), TAKE(w->met, m->nq);
   TAKE(w->guess_weight, 2 * m->n_guessed), TAKE(w->begin_y, ny), TAKE(w->fresh, m->ny);
-  TAKE(w->other, 2 * (nx + ny)), TAKE(w->near, nx + ny), TAKE(w->x, nx), TAKE(w->read, most.nq);
+  TAKE(w->other, 2 * (nx + ny)), TAKE(w->near, nx + ny), TAKE(w->x, nx),
+      TAKE(w->read, most.reads.nq);
   TAKE(w->own, nx), TAKE(w->rows, e->equations), TAKE(w->number, larger(m->nq, m->nv));
   TAKE(w->turns, most.n_turns), TAKE(w->left_out, most.n_stated), TAKE(w->kept, nx);
   TAKE(w->state, nx), TAKE(w->chosen, e->equations);

@@ -136,13 +136,13 @@ static const int q_speed[1] = {0};
 
 #define CALL(f) {f, 16, 16, 1, 1}
 
-#define ALL all, all, all, all, all, all, all, all, all, all, all, all, all, all
+#define LISTS all, all, all, all, all, all, all, all, all
+#define READS {1, 1, 1, NP, 1, all, all, all, all, all, 0}
 static const int all[NP] = {0, 1, 2, 3, 4, 5, 6};
-static const frot_part parts[1] = {{1,   0,           1,  0,  1, 1, 0,   0, 0,
-                                    1,   1,           1,  NP, 1, 0, ALL, 0, CALL(stated_place),
-                                    {0}, CALL(sides), {0}}};
+static const frot_part parts[1] = {
+    {1, 0, 1, 0, 1, 1, 0, 0, 0, 0, LISTS, READS, CALL(stated_place), {0}, CALL(sides), {0}}};
 static const frot_part speed_parts[1] = {
-    {1, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 1, NP, 1, 0, ALL, 0, CALL(stated_speed), {0}, {0}, {0}}};
+    {1, 0, 1, 0, 1, 1, 0, 0, 0, 0, LISTS, READS, CALL(stated_speed), {0}, {0}, {0}}};
 
 extern const frot_model frot_the_model;
 const frot_model frot_the_model = {

@@ -394,14 +394,15 @@ def _part(m: Small, made: Mapping[str, ca.Function], of: str, stated: int) -> st
     counts = {
         "unknowns": m.nq if of == "place" else m.nv, "turns": 0, "groups": 1, "islands": 0,
         "contacts": len(m.elements), "stated": stated, "guessed": 0, "blocks": early,
-        "own": _early(m),
+        "own": _early(m), "y": m.ny,
     }  # fmt: skip
     d = m.n_conditions + len(m.elements) + m.n_discrete
-    reads = (m.nq, m.nv, len(m.inputs), len(m.parameters), d, m.ny)
+    reads = (m.nq, m.nv, len(m.inputs), len(m.parameters), d, *["all_whole"] * 5, 0)
     names = (f"{of}_stating", "none", "sides" if of == "place" else "none", f"{of}_slopes")
     calls = (_call(made[x]) if x in made else "{0}" for x in names)
-    lists = ["all_whole"] * (8 + len(reads))
-    return f"{{{', '.join(map(str, (*counts.values(), *reads, *lists, '0', *calls)))}}}"
+    inside = f"{{{', '.join(map(str, reads))}}}"
+    lists = ["all_whole"] * 9
+    return f"{{{', '.join(map(str, (*counts.values(), *lists, inside, *calls)))}}}"
 
 
 def _prescribed(m: Small, laws: dict[int, int]) -> list[bool]:
