@@ -9,32 +9,52 @@
 
 #define GOLDEN 0.6180339887498949
 
-/* What the unknowns weigh, into w->reactions.weight: friction so much more than normal reactions
- * that rest is not lost for want of it. Elements side by side that values bound share a load in
- * proportion to their bounds, so that they reach them together: sum of lam^2 g / bound is least,
- * where g, the size of the row, makes a gear between them count. */
+/* The least and the largest of what a unit of each reaction that is no friction does to the group;
+ * of friction itself where there is no other. */
+static void list_sizes(const frot_problem *p, double *least, double *largest) {
+  const frot_work *w = p->w;
+  for (int frictions = 0; frictions < 2; frictions++) {
+    *least = INFINITY, *largest = 0;
+    for (int c = 0; c < p->held; c++) {
+      if ((w->reactions.friction[c] != 0) != frictions) continue;
+      *least = fmin(*least, 1 / w->reactions.unit_of[c]);
+      *largest = fmax(*largest, 1 / w->reactions.unit_of[c]);
+    }
+    if (*largest > 0) return;
+  }
+  *least = *largest = 1;
+}
+
+/* What the unknowns weigh, into w->reactions.weight: friction so much more than other reactions
+ * that rest is not lost for want of it. Elements side by side share a load in proportion to their
+ * bounds, so that they reach them together: sum of lam^2 g / bound is least, where g, the size of
+ * the row, makes a gear between them count, and makes forces of couples, whatever the lengths.
+ * What bounds most of them is unknown, and the same for all; of those that values bound the most
+ * is a force as the others have. Friction that follows is one too. */
 static void weigh_sparingly(const frot_problem *p) {
   frot_work *w = p->w;
-  double largest = 0;
+  double least, largest, most = 0, unit = 0;
+  list_sizes(p, &least, &largest);
   for (int c = 0; c < p->unknowns; c++) {
-    w->reactions.weight[c] = 1;
-    if (c >= p->held || w->reactions.friction[c] < 2) continue;
-    double size =
-        sqrt(fabs(frot_effect(p->m, w, w->reactions.unknown[c], w->reactions.unknown[c])));
-    w->reactions.weight[c] =
-        size > 0 ? sqrt(w->core.coefficient[2 * w->reactions.owner[c] + 1] / size) : 1;
-    largest = fmax(largest, w->reactions.weight[c]);
+    double size = 1 / w->reactions.unit_of[c];
+    w->reactions.weight[c] = c < p->held ? 1 : largest / size;
+    if (c >= p->held || w->reactions.friction[c] == 0) continue;
+    w->reactions.weight[c] = sqrt(w->core.coefficient[2 * w->reactions.owner[c] + 1] / size);
+    if (w->reactions.friction[c] == 2 && w->reactions.weight[c] > most)
+      most = w->reactions.weight[c], unit = least / size / most;
   }
   for (int c = 0; c < p->held; c++) {
     if (w->reactions.friction[c] == 0) continue;
-    if (w->reactions.friction[c] == 2 && largest > 0) w->reactions.weight[c] /= largest;
+    w->reactions.weight[c] *= w->reactions.friction[c] == 2 ? unit : sqrt(least);
+    w->reactions.weight[c] = fmin(w->reactions.weight[c], largest * w->reactions.unit_of[c]);
     w->reactions.weight[c] *= FROT_FRICTION_WEIGHT;
   }
 }
 
 /* Other weights, all alike but so that no two reactions are weighed in a simple ratio: others.c. */
 static void weigh_evenly(const frot_problem *p) {
-  for (int c = 0; c < p->unknowns; c++) p->w->reactions.weight[c] = 1 + fmod(GOLDEN * (c + 1), 1);
+  for (int c = 0; c < p->unknowns; c++)
+    p->w->reactions.weight[c] = (1 + fmod(GOLDEN * (c + 1), 1)) * p->w->reactions.unit_of[c];
 }
 
 /* Passes: what friction the weights leave in the place of normal reactions, 1e-10 of them, is more

@@ -95,6 +95,18 @@ static void size_vectors(frot_opening *p, int n) {
   }
 }
 
+/* The size of the terms in which the unknowns of statement i cancel out. All of a residual of
+ * velocities that nothing moves yet is what is stated. */
+static double terms_of(const frot_opening *p, int i) {
+  const double *off = p->w->relations.residual;
+  int own = frot_statement_of(p, i), first = i;
+  double stated = 0;
+  while (first > 0 && frot_statement_of(p, first - 1) == own) first--;
+  for (int k = first; p->velocity && k < p->part->n_stated && frot_statement_of(p, k) == own; k++)
+    stated = fmax(stated, fabs(off[k]));
+  return p->w->relations.size[i] - stated;
+}
+
 /* What speeds are to meet in singular postures, as equations from n on; returns their end. */
 static int append_ways(const frot_opening *p, int n) {
   const frot_model *m = p->m;
@@ -144,7 +156,7 @@ static int evaluate_stated(frot_opening *p) {
     w->opening.left_out[i] = (unsigned char)is_left_out(p, i);
     if (w->opening.left_out[i]) r->residual[i] = r->size[i] = 0;
     /* slopes that are rounding of what cancels out tell no way */
-    if (w->opening.left_out[i] || reach_of(p, i) <= FROT_CONSTANT * r->size[i])
+    if (w->opening.left_out[i] || reach_of(p, i) <= FROT_CONSTANT * terms_of(p, i))
       memset(row, 0, sizeof(double) * (size_t)nx);
   }
   return FROT_OK;

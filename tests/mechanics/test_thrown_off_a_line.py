@@ -59,3 +59,11 @@ def test_into_the_line_it_cannot_be_thrown(scene: tuple[str, str], y: float, m: 
     values = {"m": m, "y": y, "u": 0.5, "v": -1.0}
     with pytest.raises(frot.FrotError, match="E0601"):
         thrown(*scene).simulate(parameters=values)
+
+
+@pytest.mark.parametrize("u", [1e-9, 1.0, 1e12, 3e13, -1e20])
+def test_along_the_line_it_goes_however_fast(u: float) -> None:
+    carried = "particle(mass = m)", "liaison c: point_courbe(b, ground.line) with coulomb(0.3);"
+    end = {"stop": f"{0.1 / max(1, abs(u))!r} s"}
+    result = thrown(*carried).simulate(parameters={"u": u, "v": 0.0}, **end)
+    assert result["b.velocity.x"][0] == pytest.approx(u, rel=1e-12)
