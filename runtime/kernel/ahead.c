@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "components.h"
 #include "core.h"
 #include "projection.h"
 #include "reactions.h"
@@ -72,7 +73,7 @@ int frot_look_ahead(const frot_instant *in, const frot_group *g) {
   const double *d = in->s->data + in->l.d;
   double *q = w->step.z1, *v = q + m->nq;
   memset(w->search.ahead, 0, (size_t)m->n_elements);
-  frot_accelerations(m, w, w->search.nothing_frozen);
+  frot_move_beside_others(in, g);
   if (frot_group_rests(in, g) && !frot_sets_out(in, g)) return FROT_OK;
   double dt = frot_time_of_way(in, g);
   if (!(dt > 0)) return FROT_OK;

@@ -1,6 +1,9 @@
 #include "components.h"
 
+#include <string.h>
+
 #include "core.h"
+#include "reactions.h"
 
 /* The rows of motion of a contact and its elements into `rows`; returns how many. */
 static int rows_of_contact(const frot_model *m, int i, int *rows) {
@@ -42,4 +45,36 @@ void frot_find_components(const frot_instant *in) {
       for (int k = 0; k <= i; k++)
         if (component[k] == from) component[k] = to;
     }
+}
+
+void frot_note_others(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
+  double *others = w->search.others;
+  int more = 0;
+  memset(others, 0, sizeof(double) * (size_t)m->n_rows);
+  for (int i = 0; i < g->n_contacts; i++) {
+    int component = w->search.component[g->contacts[i]];
+    more |= component >= 0 && component != w->search.component[chosen[0]];
+  }
+  if (!more) return;
+  memcpy(w->reactions.along, in->s->data + in->l.along, sizeof(double) * 2 * (size_t)m->n_elements);
+  if (frot_group_reactions(m, w, g, w->search.best, NULL)) return;
+  for (int i = 0; i < g->n_rows; i++)
+    if (!frot_is_reading(m, g->rows[i])) others[g->rows[i]] = w->core.lam[g->rows[i]];
+  for (int c = 0; c < count; c++) {
+    if (m->contacts[chosen[c]].row_n >= 0) others[m->contacts[chosen[c]].row_n] = 0;
+    for (int e = 0; e < m->n_elements; e++)
+      if (m->elements[e].contact == chosen[c]) others[m->elements[e].row] = 0;
+  }
+}
+
+void frot_move_beside_others(const frot_instant *in, const frot_group *g) {
+  frot_work *w = in->w;
+  for (int i = 0; i < g->n_rows; i++)
+    if (w->search.others[g->rows[i]] != 0) w->core.lam[g->rows[i]] = w->search.others[g->rows[i]];
+  frot_accelerations(in->m, w, w->search.nothing_frozen);
+  for (int i = 0; i < g->n_rows; i++)
+    if (w->search.others[g->rows[i]] != 0) w->core.lam[g->rows[i]] = 0;
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "blocks.h"
+#include "components.h"
 #include "core.h"
 #include "guards.h"
 #include "mechanics.h"
@@ -208,11 +209,11 @@ static int has_ended(const frot_instant *in, const int *chosen, int count) {
 
 /* The accelerations of the instant and the rates of what has no speeds. Returns whether there are
  * any. */
-static int note_rates(const frot_instant *in) {
+static int note_rates(const frot_instant *in, const frot_group *g) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   const double *d = in->s->data + in->l.d;
-  frot_accelerations(m, w, w->search.nothing_frozen);
+  frot_move_beside_others(in, g);
   if (m->late_rates && (frot_solve_late(m, in->s, w, in->t, in->q, in->v, d) != FROT_OK ||
                         frot_late_rates(m, in->s, w, in->t, in->q, in->v, d) != FROT_OK))
     return 0;
@@ -241,7 +242,7 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count) {
   double *q = w->step.z, *v = q + m->nq;
   w->search.falls = 0;
   if (has_ended(in, chosen, count)) return 0;
-  if (!note_margins(in, chosen, count) || !note_rates(in)) return 1;
+  if (!note_margins(in, chosen, count) || !note_rates(in, g)) return 1;
   double way = frot_time_of_way(in, g);
   int lasts = 1, slow = 1;
   for (double part = LATER; lasts && slow && part <= LATEST; part *= 10) {
@@ -266,12 +267,12 @@ int frot_sets_out(const frot_instant *in, const frot_group *g) {
   double *lam = w->search.motions + (size_t)(FROT_MOTIONS - 1) * (size_t)m->n_rows;
   int sets_out = 0;
   memcpy(lam, w->core.lam, sizeof(double) * (size_t)m->n_rows);
-  if (!note_rates(in)) return 0;
+  if (!note_rates(in, g)) return 0;
   for (double part = LATER; !sets_out && part <= LATEST; part *= 10) {
     double dt = later_by(in, part, 0);
     if (move_on(in, g, dt, q, v) != FROT_OK || evaluate(in, in->t + dt, q, v) != FROT_OK) break;
     if (frot_group_reactions(m, w, g, w->search.trial, in->resists)) break;
-    frot_accelerations(m, w, w->search.nothing_frozen);
+    frot_move_beside_others(in, g);
     sets_out = !frot_group_rests(in, g);
     memcpy(w->search.set_out, w->core.a, sizeof(double) * (size_t)m->nv);
   }

@@ -206,6 +206,7 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
     for (int i = 0; i < m->n_contacts; i++)
       if (w->search.component[i] == root) chosen[count++] = i;
     if (count == 0) continue;
+    frot_note_others(in, chosen, count);
     int motions = look_for_motions(in, chosen, count, &unsearched);
     in->s->statistics.unsearched += unsearched;
     if (!w->search.lasts) in->s->fleeting = chosen[0];

@@ -286,6 +286,7 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
   TAKE(w->choice, 4 * nc + 4 * ne), TAKE(w->component, nc), TAKE(w->chosen, nc);
   TAKE(w->nothing_frozen, m->nv), TAKE(w->margin, nc + ne);
   TAKE(w->rates, m->nq), TAKE(w->along, 2 * m->n_elements), TAKE(w->set_out, m->nv);
+  TAKE(w->others, m->n_rows);
   TAKE(w->beyond, 2 * (nc + ne)), TAKE(w->closable, nc + ne), TAKE(w->moved_from, m->nq + m->nv);
   for (int k = 0; a->base && k < m->nv; k++) w->nothing_frozen[k] = 0;
 }

@@ -231,7 +231,8 @@ typedef struct {
       *closable;
   unsigned char *certain, *zero, *at_rest, *departs;
   signed char *ahead;
-  double *motions, *pivot_bound, *nothing_frozen, *margin, *rates, *set_out, *beyond, *moved_from;
+  double *motions, *pivot_bound, *nothing_frozen, *margin, *rates, *set_out, *others, *beyond,
+      *moved_from;
   double *along; /* directions of pins' reactions in `best`: there may be solutions in others */
   int *choice, *component, *chosen;
   int exact;   /* whether `best` needs no slack: frot_is_exact */

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from math import cos, sin
 
@@ -87,3 +88,52 @@ end Wound;
         lets_go = next(e for e in result.events if e.liaison == "brake")
         assert lets_go.time == pytest.approx(wanted, rel=1e-9, abs=1e-12)
         assert way * float(result.at(wanted + 0.1)["held.speed"]) > 0
+
+
+@functools.cache
+def beside() -> frot.Model:
+    """A wheel that its dry pin slows, and a particle on the floor far under it that is lifted the
+    more the slower the wheel turns, but for a lift that falls with time by itself."""
+    return frot.compile("""
+planar model Beside
+  parameter Mass heavy = 1 kg;
+  parameter Angle turn = 0 rad;
+  parameter AngularAcceleration slower = 1 rad/s^2;
+  world(gravity = 0 m/s^2);
+  body wheel: disc(mass = 2*heavy, radius = 0.5 m);
+  body b: particle(mass = heavy);
+  curve floor on ground: line(through = (0, 0) m, direction = (cos(turn), sin(turn)));
+  frame hub on ground at 9 m*(-sin(turn), cos(turn));
+  liaison pin: rotoide(hub, wheel) with coulomb(0.2, radius = 0.1 m);
+  liaison lies: contact_ponctuel(b, floor) with coulomb(0.3);
+  liaison far: contact_ponctuel(b, wheel.rim);
+  Real lifted = (19 rad/s - wheel.angular_velocity - slower*time)/(1 rad/s);
+  force lift: on(b, value = heavy*(20 m/s^2*lifted - 10 m/s^2)*(-sin(turn), cos(turn)));
+  force weight: on(wheel, value = 2*heavy*10 m/s^2*(sin(turn), -cos(turn)));
+initial
+  wheel.angular_velocity = 20 rad/s;
+  b.position = (0, 0) m;
+  b.velocity = (0, 0) m/s;
+  experiment(stop = 3.5 s);
+end Beside;
+""")
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-12])
+@pytest.mark.parametrize("slower", [0.9, 0.5])
+@pytest.mark.parametrize(("heavy", "turn"), [(1.0, 0.0), (1e-6, 2.1), (1e6, -0.7)])
+def test_what_acts_beside_it_drives_what_departs(
+    heavy: float, turn: float, slower: float, tolerance: float
+) -> None:
+    """w' = -mu r m g / J: the lift passes the weight at t, and the particle goes up with its cube.
+
+    Without the pin's friction, which does nothing to the particle, it would lie on."""
+    grows = 0.2 * 0.1 * 10 / 0.125 - slower
+    wanted = (20 - 19 + 0.5) / grows
+    values = {"heavy": heavy, "turn": turn, "slower": slower}
+    result = beside().simulate(parameters=values, tolerance=tolerance, stop=wanted + 1)
+    (gone,) = [e.time for e in result.events]
+    assert gone == pytest.approx(wanted, rel=10 * tolerance + 1e-12)
+    at = result.at(wanted + 1)
+    height = at["b.position.y"] * cos(turn) - at["b.position.x"] * sin(turn)
+    assert height == pytest.approx(20 * grows / 6, rel=100 * tolerance + 1e-10)
