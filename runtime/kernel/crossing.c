@@ -225,12 +225,21 @@ int frot_meets_posture(const frot_model *m, const frot_state *s, const frot_work
   return status;
 }
 
+/* Whether nothing of a group moves where the step begins. */
+static int rests_at_first(const frot_model *m, const frot_work *w, const frot_group *g) {
+  const double *v = w->step.z0 + m->nq;
+  for (int i = 0; i < g->n_speeds; i++)
+    if (v[g->unknowns[i]] != 0) return 0;
+  return 1;
+}
+
 /* Where row becomes dependent, as a part of the step, found now or known from before; NAN if
- * nowhere. */
+ * nowhere. What has come to rest meets nothing that was foreseen of it. */
 static double locate(const frot_model *m, frot_state *s, const frot_work *w, int row, int reached,
                      double t, double h) {
   double far, *posture = s->data + w->layout.posture + row;
   double at = find_zero(m, w, row, reached, &far), known = (*posture - t) / h;
+  if (!s->from_posture && rests_at_first(m, w, frot_group_of(m, row))) known = NAN;
   if (s->from_posture && fabs(at) < NEAR) at = 0;
   double seen = t + h * (isnan(at) ? far : at);
   if (!(fabs(seen - t) >= fabs(s->foreseen - t))) s->foreseen = seen;
