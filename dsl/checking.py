@@ -27,6 +27,7 @@ from frot.dsl.statements.settings import (
     default_world,
     experiment,
     initial_statement,
+    same_experiment,
     same_world,
     world,
 )
@@ -78,13 +79,15 @@ def _model(
     for instance in made:
         _complete_liaisons(instance)
     statements = root.statements
-    the_world = [world(call, scope) for call, scope in statements.worlds]
-    holds = the_world[-1] if the_world else default_world(planar)
+    the_world = [world(call, scope) for call, scope in statements.worlds[:1]]
+    holds = the_world[0] if the_world else default_world(planar)
     for instance in made:
-        for call, scope in instance.statements.worlds if instance.name else ():
+        for call, scope in instance.statements.worlds[0 if instance.name else 1 :]:
             same_world(world(call, scope), holds, instance.name, scope)
     equations = _equations(made, build)
-    experiments = [experiment(call, scope) for call, scope in statements.experiments]
+    experiments = [experiment(call, scope) for call, scope in statements.experiments[:1]]
+    for call, scope in statements.experiments[1:]:
+        same_experiment(call, statements.experiments[0][0], scope)
     found = [*_constants(build), *entities(root)]
 
     def of_kind(kind: type) -> tuple[Entity, ...]:
@@ -106,7 +109,7 @@ def _model(
         liaisons=of_kind(checked.Liaison),  # type: ignore[arg-type]
         forces=of_kind(checked.Force),  # type: ignore[arg-type]
         initial=tuple(build.initial),
-        experiment=experiments[-1] if experiments else default_experiment(),
+        experiment=experiments[0] if experiments else default_experiment(),
         files=tuple(libraries.sources),
         span=definition.span,
         doc=definition.doc,

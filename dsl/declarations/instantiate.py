@@ -88,7 +88,13 @@ def _part(
     def declaration(element: tree.Element) -> None:
         _declaration(element, made, modifiers, role, scope)
 
+    told = (made.statements.worlds, made.statements.experiments)
+    before = [len(calls) for calls in told]
     sort(of, scope, made.statements, extends, declaration)
+    for calls, count in zip(told, before, strict=True):
+        # What the class itself says counts; that of its bases gives way.
+        own = [call for call in calls[count:] if call[1] is scope]
+        calls[count:] = own or calls[count:]
 
 
 def _base(element: tree.Extends, derived: tuple[Class, ...], scope: Scope) -> Class | None:

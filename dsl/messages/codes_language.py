@@ -141,8 +141,9 @@ _STRUCTURE = {
         "end C;\nmodel Example\n  extends B;\n  extends C;\nend Example;\n",
     ),
     "E0521": (
-        "world of a component",
-        "Gravity is one for all: a component cannot have a world other than that of the model.",
+        "world of a component or a base",
+        "Gravity is one for all: a component cannot have a world other than that of the model, and "
+        "bases of a model that has none itself cannot have different ones.",
         "Write 'world(...)' in the model itself.",
         "planar model Part\n  world(gravity = 0 m/s^2);\nend Part;\nplanar model Example\n"
         "  Part part;\nend Example;\n",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from frot.dsl import checked
 from frot.dsl.names.build import settled
-from frot.dsl.names.classes import Class, Namespace, enter
+from frot.dsl.names.classes import Class, Imported, Namespace, enter
 from frot.dsl.names.entities import Entity, Instance, Refused
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import Scope
@@ -20,16 +20,34 @@ def constant_around(node: tree.Name, scope: Scope) -> Thing | None:
         places = [space.constants[node.text]] if node.text in space.constants else []
         if space.owner is not None and space.owner.kind == "package":
             places.append((space.owner, node.text))
-        stars = [s.target for s in space.stars if s.target is not None]
-        places += [(s, node.text) for s in stars if s.kind == "package"]
         for package, name in places:
             found = constant(package, name, scope)
             if found is not None:
-                for star in space.stars:
-                    star.used = star.used or star.target is package
                 return None if isinstance(found, Refused) else as_thing(found, node, scope)
+        found = _by_stars(node.text, space, scope)
+        if found is not None:
+            return None if isinstance(found, Refused) else as_thing(found, node, scope)
         space = space.outer
     return None
+
+
+def _by_stars(name: str, space: Namespace, scope: Scope) -> Entity | Refused | None:
+    """A constant of a package of which all is imported; that another has one too is noted."""
+    first: Imported | None = None
+    result: Entity | Refused | None = None
+    for star in space.stars:
+        package = star.target
+        if package is None or package.kind != "package":
+            continue
+        found = constant(package, name, scope)
+        if found is None:
+            continue
+        star.used = True
+        if first is None:
+            first, result = star, found
+        elif found is not result:
+            star.clashes.setdefault(name, first)
+    return result
 
 
 def constant(package: Class, name: str, scope: Scope) -> Entity | Refused | None:

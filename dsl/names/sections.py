@@ -173,9 +173,10 @@ def _in_equations(
 
 
 def _once(call: tree.Call, found: list[tuple[tree.Call, Scope]], name: str, scope: Scope) -> None:
-    # A model has its own world and experiment beside those of its base, which give way.
-    if found and found[-1][1].space is scope.space:
-        first = Label(found[-1][0].span, "first here")
+    # A model may have its own world and experiment beside those of its bases.
+    own = [known for known, where in found if where is scope]
+    if own:
+        first = Label(own[0].span, "first here")
         scope.log.report("E0503", f"a second {name!r}", call.span, labels=(first,))
         return
     found.append((call, scope))

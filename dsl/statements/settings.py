@@ -68,19 +68,21 @@ def world(call: tree.Call, scope: Scope) -> checked.World:
 
 
 def same_world(found: checked.World, holds: checked.World, component: str, scope: Scope) -> None:
-    """Tell a component whose world is not that of the model: there is one world for all."""
+    """Tell a component, or another base, whose world is not that of the model: there is one."""
     gravities = [
         _STANDARD if w.gravity is None else known(w.gravity, scope) for w in (found, holds)
     ]
     if found.down == holds.down and gravities[0] == gravities[1]:
         return
     assert found.span is not None
+    whose = f"component {component!r}" if component else "this base"
+    other = "that of the model" if component else "that of another base"
     scope.log.report(
         "E0521",
-        f"the world of component {component!r} is not that of the model",
+        f"the world of {whose} is not {other}",
         found.span,
-        labels=(Label(holds.span, "that of the model"),) if holds.span is not None else (),
-        help="write this 'world(...)' in the model itself, or take it away here",
+        labels=(Label(holds.span, other),) if holds.span is not None else (),
+        help="write the 'world(...)' that is meant in the model itself, or take this one away",
     )
 
 
@@ -98,6 +100,18 @@ def _direction(node: tree.Expression, scope: Scope) -> str | None:
 
 
 # ------------------------------------------------------------------ experiment
+
+
+def same_experiment(call: tree.Call, first: tree.Call, scope: Scope) -> None:
+    """Tell a base whose experiment is not, word for word, that of another base."""
+    if call.span.text != first.span.text:
+        scope.log.report(
+            "E0503",
+            "the experiment of this base is not that of another base",
+            call.span,
+            labels=(Label(first.span, "that of another base"),),
+            help="write the 'experiment(...)' that is meant in the model itself",
+        )
 
 
 def default_experiment() -> checked.Experiment:
