@@ -11,6 +11,7 @@ from frot.dsl.expressions.array_calls import array_call
 from frot.dsl.expressions.events import event_call
 from frot.dsl.expressions.expression import NUMERIC, expression, is_whole
 from frot.dsl.expressions.functions import expand
+from frot.dsl.expressions.rates import all_alike
 from frot.dsl.expressions.records import construct
 from frot.dsl.names.entities import Record
 from frot.dsl.names.near import did_you_mean
@@ -60,7 +61,10 @@ def call(node: tree.Call, scope: Scope) -> checked.Expression | Record | None:
     if len(known) < len(operands):
         return None
     kind = _call_type(function, node, known, scope)
-    return None if kind is None else checked.Call(name, tuple(known), kind, node.span)
+    if kind is None:
+        return None
+    alike = all_alike(known, scope) if function.rule is not None and function.rule.alike else known
+    return None if alike is None else checked.Call(name, tuple(alike), kind, node.span)
 
 
 def _knows(node: tree.Member, scope: Scope) -> bool:

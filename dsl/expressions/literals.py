@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe, pair, written_unit
 from frot.dsl.expressions.expression import NUMERIC, expression
+from frot.dsl.expressions.rates import all_alike
 from frot.dsl.expressions.structure import span_of
 from frot.dsl.messages.source import Span
 from frot.dsl.names.build import Rule
@@ -66,8 +67,8 @@ def _tuple(node: tree.Tuple, scope: Scope) -> checked.Expression | None:
         if item.type.base != first.base and item.type.base not in NUMERIC:
             scope.log.report("E0303", f"a tuple cannot hold {describe(item.type)}", written.span)
             return None
-        alike = item.type.enumeration == first.enumeration and item.type.shape == first.shape
-        if item.type.dimension != first.dimension or not alike:
+        same = item.type.enumeration == first.enumeration and item.type.shape == first.shape
+        if item.type.dimension != first.dimension or not same:
             units = written_unit(found[0]), written_unit(item)
             before, now = pair(first, item.type, *units)
             scope.log.report(
@@ -78,9 +79,12 @@ def _tuple(node: tree.Tuple, scope: Scope) -> checked.Expression | None:
                 help="give each item its unit, or one unit after the tuple: '(0, 1) m'",
             )
             return None
+    alike = all_alike(found, scope)
+    if alike is None:
+        return None
     base = "real" if any(i.type.base == "real" for i in found) else first.base
     kind = Type(base, first.dimension, (len(found), *first.shape), first.enumeration)
-    return checked.Vector(tuple(found), kind, node.span)
+    return checked.Vector(tuple(alike), kind, node.span)
 
 
 def _with_unit(

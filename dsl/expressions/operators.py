@@ -9,7 +9,7 @@ from frot.dsl import checked
 from frot.dsl.checked.describe import describe, pair, written_unit
 from frot.dsl.expressions.array_calls import product
 from frot.dsl.expressions.expression import NUMERIC, agrees, expect, expression, is_whole
-from frot.dsl.expressions.rates import rates_alike
+from frot.dsl.expressions.rates import all_alike
 from frot.dsl.names.build import Rule
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
@@ -47,8 +47,12 @@ def _infix(node: tree.Infix, scope: Scope) -> checked.Expression | None:
     kind = _infix_type(node, left, right, scope)
     if kind is None:
         return None
-    sides = rates_alike(left, right, scope) if node.op not in ("*", "/", "^") else (left, right)
-    return None if sides is None else checked.Binary(node.op, *sides, kind, node.span)
+    if node.op not in ("*", "/", "^"):
+        sides = all_alike((left, right), scope)
+        if sides is None:
+            return None
+        left, right = sides
+    return checked.Binary(node.op, left, right, kind, node.span)
 
 
 def _is_celsius(node: checked.Expression) -> bool:
@@ -188,7 +192,8 @@ def _conditional(node: tree.Conditional, scope: Scope) -> checked.Expression | N
         )
         return None
     kind = yes.type if yes.type.base != "integer" else no.type
-    return checked.If(condition, yes, no, kind, node.span)
+    branches = all_alike((yes, no), scope)
+    return None if branches is None else checked.If(condition, *branches, kind, node.span)
 
 
 OPERATORS: Mapping[type, Rule] = {

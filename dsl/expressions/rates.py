@@ -1,11 +1,14 @@
 """Rates of turning and frequencies: both are in 1/s, but 1 Hz is one turn a second, 2 pi rad/s.
 
 A number in Hz where an angular velocity is meant, or in rpm where a frequency is, is the same rate
-in other words: it is converted. What is no number with its unit, but surely the other kind of rate
-(`w = f`), is a fault: the factor 2 pi is the author's to write.
+in other words: it is converted, alone, in sums, or times a number. What is no number with its unit,
+but surely the other kind of rate (`w = f`), is a fault: the factor 2 pi is the author's to write.
 """
 
 from __future__ import annotations
+
+import math
+from collections.abc import Sequence
 
 from frot.dsl import checked
 from frot.dsl.data.classes import replace
@@ -21,42 +24,94 @@ from frot.dsl.quantities.turns import (
 
 _QUANTITIES = {"angular_velocity": TURNING, "speed": TURNING}
 _ANGLE_NAMES = ("Angle", "angle")
+_ANGLE_UNITS = ("rad", "mrad", "deg", "°", "rev", "tr", "tour")
 _HELP = {CYCLES: "a frequency is 'w/(2*pi)'", TURNING: "an angular velocity is '2*pi*f'"}
+# Functions whose value is of the kind of their last operand, as that of any other they take.
+_KEEPING = ("abs", "max", "min", "mod", "norm", "hypot", "noEvent", "smooth")
+_DEEP = 8  # operands of operands that are looked at
+_PARTS = 60  # of pi, and multiples, that are taken for one
 
 
-def rate_of(node: checked.Expression) -> str:
-    """The kind of rate that an expression surely is; products may hold the factor 2 pi."""
-    for _ in range(20):
-        if node.type.dimension != RATE:
-            return ""
-        match node:
-            case checked.Literal(unit=unit):
-                return rate_of_unit(unit, RATE)
-            case checked.Reference(target=target):
-                return rate_of_kind(target.quantity, target.unit, RATE)
-            case checked.Quantity(name=name):
-                return _QUANTITIES.get(name, "")
-            case checked.Derivative(operand=checked.Reference(target=target)):
-                return TURNING if target.quantity in _ANGLE_NAMES else ""
-            case checked.Derivative(operand=checked.Quantity(name=name)):
-                return TURNING if name in _ANGLE_NAMES else ""
-            case checked.Unary(operand=inner) | checked.Element(operand=inner):
-                node = inner
-            case checked.Binary(op="+" | "-", left=left, right=right):
-                found = rate_of(left)
-                if found:
-                    return found
-                node = right
-            case checked.If(yes=yes, no=no):
-                found = rate_of(yes)
-                if found:
-                    return found
-                node = no
-            case checked.Vector(items=items) if items:
-                node = items[0]
-            case _:
-                return ""
-    return ""
+def rate_of(node: checked.Expression, depth: int = _DEEP) -> str:
+    """The kind of rate that an expression surely is.
+
+    A product with a number keeps it, unless that number may hold the factor 2 pi.
+    """
+    if node.type.dimension != RATE or depth == 0:
+        return ""
+    match node:
+        case checked.Literal(unit=unit):
+            return rate_of_unit(unit, RATE)
+        case checked.Reference(target=target):
+            return rate_of_kind(target.quantity, target.unit, RATE)
+        case checked.Quantity(name=name):
+            return _QUANTITIES.get(name, "")
+        case checked.Derivative(operand=operand):
+            return TURNING if _is_angle(operand) else ""
+    inner = _alike(node)
+    if not inner and isinstance(node, checked.Binary) and node.op == "/" and _is_angle(node.left):
+        return TURNING
+    return next((found for each in inner if (found := rate_of(each, depth - 1))), "")
+
+
+def _alike(node: checked.Expression) -> tuple[checked.Expression, ...]:
+    """The operands that are of one kind of rate with the expression."""
+    match node:
+        case checked.Unary(operand=inner) | checked.Element(operand=inner):
+            return (inner,)
+        case checked.Binary(op="+" | "-", left=left, right=right):
+            return left, right
+        case checked.Binary(op="*", left=left, right=right):
+            # The unit of a tuple is a factor in the place of its item.
+            if left.span is right.span or _is_plain(left):
+                return (right,)
+            return (left,) if _is_plain(right) else ()
+        case checked.Binary(op="/", left=left, right=right) if _is_plain(right):
+            return (left,)
+        case checked.If(yes=yes, no=no):
+            return yes, no
+        case checked.Vector(items=items):
+            return items
+        case checked.Call(function=function, arguments=arguments) if function in _KEEPING:
+            return tuple(a for a in arguments if a.type.dimension == RATE)
+    return ()
+
+
+def _is_angle(node: checked.Expression) -> bool:
+    match node:
+        case checked.Literal(unit=unit):
+            return unit in _ANGLE_UNITS
+        case checked.Reference(target=target):
+            return target.quantity in _ANGLE_NAMES
+        case checked.Quantity(name=name):
+            return name in _ANGLE_NAMES
+    return False
+
+
+def _is_plain(node: checked.Expression, depth: int = _DEEP) -> bool:
+    """Whether it is a number without unit that does not hold pi: no factor between the rates."""
+    if depth == 0 or not (node.type.is_scalar and node.type.dimension.is_one):
+        return False
+    match node:
+        case checked.Literal(value=value, unit=""):
+            return not _holds_pi(float(value))
+        case checked.Reference(target=checked.Parameter(value=value, quantity=quantity)):
+            return quantity not in _ANGLE_NAMES and _is_plain(value, depth - 1)
+        case checked.Unary(operand=inner):
+            return _is_plain(inner, depth - 1)
+        case checked.Binary(left=left, right=right):
+            return _is_plain(left, depth - 1) and _is_plain(right, depth - 1)
+    return node.type.base == "integer"
+
+
+def _holds_pi(value: float) -> bool:
+    """Whether a number is, to three digits, a multiple of pi or 1/pi, or a part of one."""
+    for part in (abs(value) / math.pi, abs(value) * math.pi):
+        for multiple in (part, 1 / part if part else 0.0):
+            near = round(multiple)
+            if 1 <= near <= _PARTS and abs(multiple - near) < 1e-3 * near:
+                return True
+    return False
 
 
 def as_rate(found: checked.Expression, wanted: str, scope: Scope) -> checked.Expression | None:
@@ -77,36 +132,41 @@ def as_rate(found: checked.Expression, wanted: str, scope: Scope) -> checked.Exp
     return converted
 
 
-def rates_alike(
-    left: checked.Expression, right: checked.Expression, scope: Scope
-) -> tuple[checked.Expression, checked.Expression] | None:
-    """Both sides of a sum or comparison as one kind of rate; None after a message."""
-    first, second = rate_of(left), rate_of(right)
-    if not (first and second) or first == second:
-        return left, right
-    turned = _converted(left, factor_between(first, second))
-    if turned is not None and _converted(right, 1) is None:
-        return turned, right
-    found = as_rate(right, first, scope)
-    return None if found is None else (left, found)
+def all_alike(items: Sequence[checked.Expression], scope: Scope) -> list[checked.Expression] | None:
+    """Operands, branches or items as one kind of rate; None after a message."""
+    kinds = [rate_of(item) for item in items]
+    if len({kind for kind in kinds if kind}) < 2:
+        return list(items)
+    # What is no number with its unit decides.
+    fixed = (k for k, item in zip(kinds, items, strict=True) if k and _converted(item, 1) is None)
+    wanted = next(fixed, "") or next(kind for kind in kinds if kind)
+    made = [as_rate(item, wanted, scope) for item in items]
+    found = [item for item in made if item is not None]
+    return found if len(found) == len(made) else None
 
 
 def _converted(node: checked.Expression, factor: float) -> checked.Expression | None:
     """Numbers with their units in the other rate; None for what holds anything else."""
+    if isinstance(node, checked.Literal):
+        unit = "Hz" if factor < 1 else "rad/s"
+        return replace(node, value=float(node.value) * factor, unit=unit)
+    alike = _alike(node)
+    made = {id(item): _converted(item, factor) for item in alike}
+    if not alike or None in made.values():
+        return None
+
+    def turned(item: checked.Expression) -> checked.Expression:
+        return made.get(id(item)) or item
+
     match node:
-        case checked.Literal(value=value):
-            unit = "Hz" if factor < 1 else "rad/s"
-            return replace(node, value=float(value) * factor, unit=unit)
-        case checked.Unary(op="-", operand=operand):
-            inner = _converted(operand, factor)
-            return None if inner is None else replace(node, operand=inner)
-        case checked.Binary(op="+" | "-", left=left, right=right):
-            first, second = _converted(left, factor), _converted(right, factor)
-            if first is None or second is None:
-                return None
-            return replace(node, left=first, right=second)
+        case checked.Unary(operand=inner) | checked.Element(operand=inner):
+            return replace(node, operand=turned(inner))
+        case checked.Binary(left=left, right=right):
+            return replace(node, left=turned(left), right=turned(right))
+        case checked.If(yes=yes, no=no):
+            return replace(node, yes=turned(yes), no=turned(no))
         case checked.Vector(items=items):
-            made = [_converted(item, factor) for item in items]
-            found = tuple(item for item in made if item is not None)
-            return replace(node, items=found) if len(found) == len(items) else None
+            return replace(node, items=tuple(turned(item) for item in items))
+        case checked.Call(arguments=arguments):
+            return replace(node, arguments=tuple(turned(item) for item in arguments))
     return None

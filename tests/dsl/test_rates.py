@@ -33,10 +33,35 @@ def values(*declarations: str) -> dict[str, object]:
         ("parameter AngularVelocity x = 2*pi*(1 Hz);", 2 * pi),
         ("parameter AngularVelocity x = 1 Hz + 60 rpm;", 4 * pi),
         ("parameter Boolean x = 61 rpm > 1 Hz and 59 rpm < 1 Hz;", True),
+        ("parameter Frequency x = 2*(60 rpm);", 2.0),
+        ("parameter Frequency x = (60 rpm)/4*3;", 0.75),
+        ("parameter AngularVelocity x = -2*(1 Hz);", -4 * pi),
+        ("parameter AngularVelocity x = 6.283*(1 Hz);", 6.283),
+        ("parameter AngularVelocity x = (1 Hz)*2*pi;", 2 * pi),
+        ("parameter Frequency x = max(30 rpm, 60 rpm);", 1.0),
+        ("parameter AngularVelocity x = max(30 rpm, 1 Hz);", 2 * pi),
+        ("parameter Frequency x = abs(-60 rpm);", 1.0),
+        ("parameter Frequency x = if 61 rpm > 1 Hz then 60 rpm else 2 Hz;", 1.0),
+        ("parameter Frequency x = sum((60 rpm, 3 Hz));", 4.0),
+        ("parameter Frequency x = hypot(180 rpm, 4 Hz);", 5.0),
+        ("parameter Angle x = (60 rpm + 1 Hz)*(1 s);", 4 * pi),
     ],
 )
 def test_a_rate_is_what_its_declaration_says(declaration: str, si: object) -> None:
     assert values(declaration)["x"] == pytest.approx(si, rel=1e-15)
+
+
+def test_a_number_that_may_be_the_factor_between_them_converts_nothing() -> None:
+    found = values(
+        "constant Real tau = 2*pi;",
+        "parameter Real k = 3;",
+        "parameter Frequency f = k*(60 rpm);",
+        "parameter AngularVelocity w = tau*f;",
+        "parameter AngularVelocity v = k*w + 60*(1 Hz);",
+        "parameter Frequency g = k*f + 30 rpm;",
+    )
+    assert (found["f"], found["g"]) == pytest.approx((3.0, 9.5))
+    assert (found["w"], found["v"]) == pytest.approx((6 * pi, 138 * pi))
 
 
 def test_the_items_of_an_array_are_converted() -> None:
@@ -51,6 +76,10 @@ def test_the_items_of_an_array_are_converted() -> None:
         "parameter Frequency f = 1 Hz;\n AngularVelocity w;\nequation\n w = f;",
         "parameter Frequency f = 1 Hz;\n AngularVelocity w;\nequation\n w = f + 1 rad/s;",
         "parameter Frequency f = 1 Hz;\n Angle a;\nequation\n der(a) = f;",
+        "parameter Frequency f = 1 Hz;\n parameter AngularVelocity w = 3*f;",
+        "parameter Frequency f = 1 Hz;\n parameter AngularVelocity w = max(f, 1 rad/s);",
+        "parameter Angle a = 1;\n parameter Frequency f = a/(2 s);",
+        "parameter AngularVelocity w = 1 Hz;\n parameter Frequency f[2] = (w, 2 Hz);",
     ],
 )
 def test_one_kind_of_rate_is_not_taken_for_the_other(text: str) -> None:
