@@ -159,12 +159,15 @@ def parameter_value(info: ParameterInfo, value: object) -> float:
             number = float(value)
         else:
             raise ValueError(f"{value!r} is not a number")
+        if not math.isfinite(number):
+            raise ValueError(f"{value!r} is not a finite number")
         if info.type == "boolean" and number not in (0.0, 1.0):
             raise ValueError(f"{value!r} is not true or false")
         if info.type == "integer" and number != round(number):
             raise ValueError(f"{value!r} is not an integer")
-        if not math.isfinite(number):
-            raise ValueError(f"{value!r} is not a finite number")
+    except OverflowError:
+        told = f"bad value of '{info.name}': a number of so many digits is too large"
+        raise fail("E0806", told, help=_expected(info)) from None
     except ValueError as error:
         raise fail("E0806", f"bad value of '{info.name}': {error}", help=_expected(info)) from None
     return number

@@ -15,6 +15,7 @@ from frot.dsl.quantities.dimensions import Type
 from frot.dsl.quantities.turns import factor_between, rate_of_kind, rate_of_unit
 from frot.dsl.quantities.units import Unit, UnknownUnit, parse_unit
 
+_COMMA = re.compile(r"([+-]?\d+),(\d+)")
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S*)\s*")
 
 
@@ -66,6 +67,9 @@ def parse_value(text: str, kind: Type, quantity: str = "", si: str = "") -> Valu
     if not kind.is_scalar:
         return _vector(text, kind, quantity, si)
     found = _NUMBER.fullmatch(text)
+    comma = _COMMA.match(text)
+    if comma is not None:
+        raise ValueError(f"the decimal sign is a point, '{comma[1]}.{comma[2]}': found {text!r}")
     if found is None:
         raise ValueError(f"expected {describe(kind)}, found {text!r}")
     value = float(found[1])

@@ -25,6 +25,7 @@ from frot.dsl.expressions.expression import (
 )
 from frot.dsl.expressions.known import computed
 from frot.dsl.expressions.rates import as_rate
+from frot.dsl.expressions.seconds import seconds_missing
 from frot.dsl.expressions.structure import sizes
 from frot.dsl.names.modifiers import Modifier
 from frot.dsl.names.scope import Scope
@@ -185,6 +186,7 @@ def _output(what: Declared, kind: Kind, scope: Scope) -> checked.Output | None:
             f"expected {wanted}, found {shown}",
             item.value.span,
             caret=shown,
+            help=seconds_missing(kind.type, value),
         )
         return None
     unit = author_unit(item.value, value) or kind.unit

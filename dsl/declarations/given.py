@@ -6,7 +6,7 @@ from frot.dsl import checked
 from frot.dsl.checked.arrays import element
 from frot.dsl.checked.describe import describe, written_unit
 from frot.dsl.data.classes import dataclass
-from frot.dsl.expressions.expression import agrees, fitting, value_of
+from frot.dsl.expressions.expression import agrees, as_integer, fitting, is_whole, value_of
 from frot.dsl.names.entities import Record
 from frot.dsl.names.modifiers import Modifier
 from frot.dsl.names.scope import Scope
@@ -103,11 +103,15 @@ def bound_value(
 
 def stretches(found: checked.Expression, kind: Kind) -> bool:
     """Whether one number stands for all items of an array that is declared."""
-    return bool(kind.type.shape) and agrees(found.type, kind.type.of_shape(()))
+    one = kind.type.of_shape(())
+    whole = one.base == "integer" and one.enumeration is None and is_whole(found)
+    return bool(kind.type.shape) and (agrees(found.type, one) or (whole and not found.type.shape))
 
 
 def stretched(found: checked.Expression, kind: Kind) -> checked.Expression:
     """The array of which one number stands for all items."""
+    if kind.type.base == "integer" and found.type.base != "integer":
+        found = as_integer(found)
     for size in reversed(kind.type.shape):
         inner = found.type
         found = checked.Vector((found,) * size, inner.of_shape((size, *inner.shape)), found.span)

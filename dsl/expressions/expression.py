@@ -10,6 +10,7 @@ from frot.dsl.checked.arrays import element
 from frot.dsl.checked.describe import describe, pair, written_unit
 from frot.dsl.data.classes import replace
 from frot.dsl.expressions.rates import as_rate
+from frot.dsl.expressions.seconds import seconds_missing
 from frot.dsl.names.entities import Record
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import Type
@@ -86,7 +87,9 @@ def fitting(
         f"expected {wanted}, found {shown}",
         node.span,
         caret=shown,
-        help=help_text if help_text and not kind.dimension.is_one else remedy,
+        help=help_text
+        if help_text and not kind.dimension.is_one
+        else remedy or seconds_missing(kind, found),
     )
     return None
 

@@ -10,6 +10,7 @@ from frot.dsl.checked.describe import describe, pair, written_unit
 from frot.dsl.expressions.array_calls import product
 from frot.dsl.expressions.expression import NUMERIC, agrees, expect, expression, is_whole
 from frot.dsl.expressions.rates import all_alike
+from frot.dsl.expressions.seconds import seconds_missing
 from frot.dsl.names.build import Rule
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
@@ -104,6 +105,7 @@ def _infix_type(
         if a.dimension != b.dimension or a.shape != b.shape:
             units = written_unit(left), written_unit(right)
             remedy = _unit_missing(node, a, b)
+            remedy = remedy or seconds_missing(a, right, left) or seconds_missing(b, left, right)
             return _refuse(node, f"cannot {word} these", a, b, scope, "E0301", units, remedy)
         if word == "compare":
             return BOOLEAN if a.is_scalar else _refuse(node, "vectors have no order", a, b, scope)
@@ -193,7 +195,10 @@ def _conditional(node: tree.Conditional, scope: Scope) -> checked.Expression | N
         return None
     kind = yes.type if yes.type.base != "integer" else no.type
     branches = all_alike((yes, no), scope)
-    return None if branches is None else checked.If(condition, *branches, kind, node.span)
+    if branches is None:
+        return None
+    yes, no = branches
+    return checked.If(condition, yes, no, kind, node.span)
 
 
 OPERATORS: Mapping[type, Rule] = {

@@ -7,6 +7,7 @@ file lies in a folder `Library` itself, then among the libraries that come with 
 
 from __future__ import annotations
 
+import os
 import re
 import unicodedata
 from collections.abc import Iterator
@@ -32,13 +33,22 @@ def member(folder: Path, name: str) -> Path | None:
 
 def locate(head: str, importing: str) -> Path | None:
     """Where the library lies that a file names; `importing` is that file's name."""
-    here = Path.cwd() if importing.startswith("<") else Path(importing).absolute().parent
+    here = Path.cwd() if importing.startswith("<") else plain_path(importing).parent
     around = [folder.parent for folder in (here, *here.parents) if folder.name == head]
     for folder in (here, *around, installed()):
         found = member(folder, head)
         if found is not None:
             return found
     return None
+
+
+def plain_path(name: str) -> Path:
+    """The path of a file from the root, the same however its user goes there with `.` and `..`."""
+    path = Path(name).absolute()
+    plain = Path(os.path.normpath(path))
+    # Behind a link to a folder `..` is not the folder written before it.
+    same = plain.parent.exists() and plain.parent.samefile(path.parent)
+    return plain if same else path
 
 
 def installed() -> Path:

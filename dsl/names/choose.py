@@ -43,6 +43,9 @@ def choose(file: tree.Tree, name: str | None, log: Log) -> tree.Definition | Non
     if len(complete) == 1:
         return complete[0]
     candidates = complete or candidates
+    if file.lost or log.failed:
+        # What uses the others may stand in what could not be read.
+        return candidates[-1]
     names = ", ".join(d.name.text for d in candidates)
     log.report(
         "E0510",

@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from frot.dsl.data.classes import dataclass, field
-from frot.dsl.files.import_scan import SUFFIX, locate, member
+from frot.dsl.files.import_scan import SUFFIX, locate, member, plain_path
 from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostics import Label, Log
 from frot.dsl.messages.source import Source
@@ -189,4 +189,4 @@ def _is_member(path: Path) -> bool:
 
 def _path(source: Source) -> Path | None:
     """The file of a source; None for a text that has none."""
-    return None if source.name.startswith("<") else Path(source.name).absolute()
+    return None if source.name.startswith("<") else plain_path(source.name)

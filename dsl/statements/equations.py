@@ -5,22 +5,21 @@ from __future__ import annotations
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe, written_unit
 from frot.dsl.checked.evaluation import constant
-from frot.dsl.checked.walk import nodes
 from frot.dsl.data.classes import dataclass, field
 from frot.dsl.expressions.expression import NUMERIC, expect, fitting, value_of
 from frot.dsl.expressions.rates import rate_of
 from frot.dsl.expressions.records import pairs
+from frot.dsl.expressions.seconds import seconds_missing
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
 from frot.dsl.names.entities import Record
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.sections import called_name
-from frot.dsl.quantities.dimensions import BOOLEAN, Type, dimension
+from frot.dsl.quantities.dimensions import BOOLEAN, Type
 from frot.dsl.statements.connect import connect
 from frot.dsl.statements.unfold import Leaf, unfold
 from frot.dsl.text import tree
 
-_TIME = dimension(s=1)
 Made = checked.Equation | checked.IfEquations
 
 
@@ -128,24 +127,13 @@ def both_sides(
     if wanted.base in NUMERIC and wanted.enumeration is None and second.type.base == "real":
         # A whole number may stand on the left of a sum of others.
         wanted = wanted if isinstance(first, checked.Reference) else _real(first)
-    unit, rate, remedy = written_unit(first), rate_of(first), _of_time(first, second)
+    unit, rate, remedy = (
+        written_unit(first),
+        rate_of(first),
+        seconds_missing(first.type, second, first),
+    )
     fitted = fitting(second, right, wanted, scope, unit=unit, rate=rate, remedy=remedy)
     return None if fitted is None else [(first, fitted)]
-
-
-def _of_time(first: checked.Expression, second: checked.Expression) -> str:
-    """The remedy where one side of an equation is a rate and the other is none."""
-    if second.type.dimension == first.type.dimension * _TIME and _holds_rate(first):
-        text = " ".join(second.span.text.split())
-        whole = text if isinstance(second, checked.Reference | checked.Literal) else f"({text})"
-        return f"'der' is a rate in time: divide by 1 s, '{whole}/(1 s)'"
-    if first.type.dimension == second.type.dimension * _TIME and _holds_rate(second):
-        return "'der' is a rate in time: multiply it by 1 s, '(1 s)*der(...)'"
-    return ""
-
-
-def _holds_rate(node: checked.Expression) -> bool:
-    return any(isinstance(inner, checked.Derivative) for inner in nodes(node))
 
 
 def _real(node: checked.Expression) -> Type:

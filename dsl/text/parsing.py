@@ -97,6 +97,14 @@ class _Reader:
                 if self._shift(token):
                     offset = token.end
                     continue
+            if token.type == "SEMICOLON" and self._separates(token):
+                text = self.source.text
+                if not any(t.type == "COMMA" and text[t.start] == ";" for t in self.statement):
+                    messages.semicolon_between(self.log, self.source, token)
+                    self.reported += 1
+                self._shift(Lexeme("COMMA", token.start, token.end))
+                offset = token.end
+                continue
             if self._repair(token):
                 offset = token.start
                 continue
@@ -196,6 +204,17 @@ class _Reader:
             for kind in closing:
                 self._put(kind, place)
             return self.reported < LIMIT
+        return False
+
+    def _separates(self, token: Lexeme) -> bool:
+        """Whether `;` stands where `,` is meant: the parenthesis is closed on the same line."""
+        if not self._open_parentheses() or not self._fits("COMMA"):
+            return False
+        depth = 0
+        for character in self.source.text[token.end :].partition("\n")[0]:
+            depth += {"(": 1, ")": -1}.get(character, 0)
+            if depth < 0:
+                return self.reported < LIMIT - 1
         return False
 
     def _ends_line(self, token: Lexeme) -> bool:

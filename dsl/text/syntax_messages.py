@@ -75,8 +75,20 @@ _MEANT = {
     "≠": "<>",
     "⩵": "==",
 }
+# Signs of other languages, and how the same is said in this one.
+_FOREIGN = {
+    "#": "comments are written '// ...' or '/* ... */'",
+    "!": "a condition is negated by 'not', and 'a <> b' says that two values differ",
+    "&": "conditions are joined by 'and'",
+    "|": "conditions are joined by 'or'; the size of a value is 'abs(x)'",
+    "?": "a choice is written 'if c then a else b'",
+    "\\": "a quotient is written 'a/b'",
+    "@": "a product of matrices is written 'A*B'",
+    "~": "a condition is negated by 'not'",
+}
 _COMMA = re.compile(r"(\d+),(\d+)")
 _LIAISON = ("LIAISON", "JOINT")
+_SINGLE = ("FRAME", "CURVE", "SURFACE")
 _ROLES = ("PARAMETER", "CONSTANT", "INPUT", "OUTPUT")
 _IN_UNIT = dict.fromkeys("·⋅", ", or '.' in a unit: 'N.m'")
 
@@ -112,6 +124,12 @@ def unclosed(log: Log, source: Source, opened: Sequence[Lexeme], token: Lexeme) 
         caret="opened here",
         labels=(Label(Span(source, token.start, max(token.end, token.start)), found),),
     )
+
+
+def semicolon_between(log: Log, source: Source, token: Lexeme) -> None:
+    """`;` stands between the items of a parenthesis."""
+    help_text = "write ','; ';' ends a statement"
+    log.report("E0101", "';' inside of parentheses", _span(source, token), help=help_text)
 
 
 def too_deep(log: Log, span: Span, limit: int) -> None:
@@ -181,6 +199,18 @@ def unexpected(
     elif word == "*" and previous is not None and text[previous.start : token.end] == "**":
         both = Span(source, previous.start, token.end)
         log.report("E0101", "'**' is no sign of this language", both, help="a power is 'x^2'")
+    elif token.type == "EQUAL" and previous is not None and _is_update(text, previous, token):
+        both = Span(source, previous.start, token.end)
+        sign = text[previous.start]
+        remedy = f"write 'x = pre(x) {sign} ...' in a 'when', else an equation"
+        log.report("E0101", f"'{sign}=' is no sign of this language", both, help=remedy)
+    elif previous is not None and text[previous.start : previous.end].endswith(" %"):
+        remedy = "the remainder of a division is 'mod(a, b)'; after a number '%' is a hundredth"
+        log.report("E0101", f"unexpected {_shown(word)!r} after '%'", span, help=remedy)
+    elif word == "[" and statement and statement[0].type in _SINGLE:
+        what = text[statement[0].start : statement[0].end]
+        remedy = f"put the {what} into a model beside its body, and declare an array of that model"
+        log.report("E0101", f"a {what} cannot be declared as an array", span, help=remedy)
     elif word == "[" and "LPAR" in expected:
         help_text = "an array is written '(1, 2, 3)', a matrix '((1, 2), (3, 4))'"
         log.report("E0101", "unexpected '['", span, help=help_text)
@@ -206,6 +236,10 @@ def unexpected(
         log.report("E0105", "'end' without a model to end", span)
     else:
         _misplaced(log, source, previous, token, expected, statement)
+
+
+def _is_update(text: str, previous: Lexeme, token: Lexeme) -> bool:
+    return previous.end == token.start and text[previous.start : previous.end] in "+-*/"
 
 
 def _decimal_comma(text: str, previous: Lexeme | None, token: Lexeme) -> re.Match[str] | None:
@@ -250,7 +284,8 @@ def _junk(log: Log, source: Source, token: Lexeme) -> None:
             help="vectors are written '(x, y, z)', matrices '((a, b), (c, d))'",
         )
     else:
-        log.report("E0101", f"unexpected character {_shown(character)!r}", span)
+        help_text = _FOREIGN.get(character, "")
+        log.report("E0101", f"unexpected character {_shown(character)!r}", span, help=help_text)
 
 
 def _misplaced(

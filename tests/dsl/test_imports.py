@@ -156,3 +156,14 @@ def test_a_program_is_made_from_what_it_imports(tmp_path: Path) -> None:
     before = _identity(path.read_text(), str(path))
     write(tmp_path, Parts=PART.replace("a = 1", "a = 2"))
     assert _identity(path.read_text(), str(path)) != before
+
+
+def test_a_file_reads_the_same_files_however_its_user_goes_there(tmp_path: Path) -> None:
+    write(tmp_path, Electrical=LIBRARY, inner__other=PART)
+    text = "model M\n import Electrical.*;\n Big b;\nend M;\n"
+    (tmp_path / "link").symlink_to(tmp_path / "inner")
+    seen = {
+        tuple(imported_files(text, str(tmp_path / way / "m.frot")))
+        for way in (".", "./.", "inner/..", "link/..", "inner/../inner/..")
+    }
+    assert seen == {(tmp_path / "Electrical.frot",)}

@@ -376,3 +376,16 @@ end M;
     assert isinstance(choice, checked.IfEquations)
     assert [len(made) for _, made in choice.branches] == [2, 2]
     assert choice.branches[1][0] is None
+
+
+def test_one_number_stands_for_all_items_whole_numbers_too() -> None:
+    log = Log()
+    text = (
+        "model M\n parameter Integer p[2] = 4;\n parameter Frequency f[3] = 60 rpm;\n"
+        " Integer k[2, 2](start = 1);\nequation\n when time > 1 s then\n  k[1, 2] = p[1];\n"
+        " end when;\nend M;\n"
+    )
+    model = compile_text(text, log)
+    assert model is not None, render_log(log)
+    values = {p.name: v for p, v in default_values(model).items()}
+    assert values == {"p": (4, 4), "f": (1, 1, 1)}

@@ -33,12 +33,31 @@ MODEL = "model M\n Length a; Real b;\nequation\n {}\nend M;\n"
         ('assert(b ≥ 0, "no");', "greater-than or equal to", "write '>='"),
         ("b = 3; /* and so on\n a = 1 m;", "comment is not closed", "'*/'"),
         ("b = 3 /* and so on\n ;", "comment is not closed", "'*/'"),
+        ("b = max(1; 2; 3);", "';' inside of parentheses", "','"),
+        ("b = (if b != 2 then 1 else 0);", "'!'", "'a <> b'"),
+        ("b = (if b > 2 && b < 3 then 1 else 0);", "'&'", "'and'"),
+        ("b = (if b > 2 || b < 1 then 1 else 0);", "'|'", "'or'"),
+        ("# b = 3;", "'#'", "'// ...'"),
+        ("b = 3 % 2;", "after '%'", "'mod(a, b)'"),
+        ("b += 2;", "'+='", "pre(x) + ..."),
     ],
 )
 def test_a_slip_in_the_signs_is_told(slip: str, words: str, remedy: str) -> None:
     _, message, help_text = only(MODEL.format(slip))
     assert words in message
     assert remedy in help_text
+
+
+@pytest.mark.parametrize("declared", ["frame f[2] on b", "curve c[2] on b: circle(radius = 1 m)"])
+def test_what_is_no_array_is_told(declared: str) -> None:
+    text = f"planar model M\n body b: particle(mass = 1 kg);\n {declared};\nend M;\n"
+    _, message, help_text = only(text)
+    assert "cannot be declared as an array" in message and "array of that model" in help_text
+
+
+def test_a_slip_in_the_statement_that_uses_a_model_is_the_only_fault() -> None:
+    text = "model P\n Real x = 1;\nend P;\nmodel M\n P p[2](x = {1, 2});\nend M;\n"
+    assert only(text)[0] == "E0101"
 
 
 @pytest.mark.parametrize("word", ["initial", "equation", "when", "driven", "end", "not", "with"])
@@ -167,3 +186,22 @@ def test_a_matrix_of_another_language_is_told_with_ours(matrix: str) -> None:
     found = told(f"model M\n parameter Real A[2, 2] = {matrix};\n Real x = A[1, 1];\nend M;\n")
     assert "((" in found[0][2]
     assert len(found) == 1 or "\n" in matrix
+
+
+@pytest.mark.parametrize(
+    ("equation", "remedy"),
+    [
+        ("der(b) = 2*b;", "divide by 1 s, '(2*b)/(1 s)'"),
+        ("der(b) + b = 0;", "divide by 1 s, 'b/(1 s)'"),
+        ("der(der(b)) = -b;", "divide by 1 s^2, '(-b)/(1 s^2)'"),
+        ("b = der(b);", "multiply it by 1 s, '(1 s)*der(...)'"),
+        ("b - 3*der(der(b)) = 0;", "multiply it by 1 s^2, '(1 s^2)*der(...)'"),
+    ],
+)
+def test_missing_seconds_are_named(equation: str, remedy: str) -> None:
+    assert remedy in only(MODEL.format(equation))[2]
+
+
+def test_missing_seconds_of_an_output_are_named() -> None:
+    text = "model M\n Real b;\n output Real d = der(b);\nequation\n b = 1;\nend M;\n"
+    assert "'(1 s)*der(...)'" in only(text)[2]

@@ -180,6 +180,8 @@ def test_a_bead_whose_reaction_changes_sides_goes_on(door: Door) -> None:
         ("mu=nan", "E0806", "not a finite number"),
         ("mu=1e400", "E0806", "not a finite number"),
         ("mu=many", "E0806", "expected a number"),
+        ("mu=0,4", "E0806", "the decimal sign is a point, '0.4'"),
+        ("r=12,5 cm", "E0806", "the decimal sign is a point, '12.5'"),
         ("mu=3 m", "E0806", "expected a number, found a length (m)"),
         ("r=3 kg", "E0806", "expected a length (m), found a mass (kg)"),
         ("r=3 parsec", "E0806", "parsec"),

@@ -28,6 +28,12 @@ def test_values_at_any_time_are_those_of_the_grid(result: frot.Result) -> None:
         assert all(values[name] == result[name][k] for name in values)
 
 
+@pytest.mark.parametrize("bad", [{"stop": 10**400}, {"parameters": {"mu": -(10**400)}}])
+def test_a_number_of_too_many_digits_is_told(bad: dict[str, object], model: frot.Model) -> None:
+    with pytest.raises(frot.FrotError, match=r"E0806.*too large"):
+        model.simulate(**bad)  # type: ignore[arg-type]
+
+
 def test_values_at_many_times_may_be_in_any_order(result: frot.Result) -> None:
     times = np.array([2.5, 0.1, 1.2])
     values = result.at(times)["hoop.position.x"]
