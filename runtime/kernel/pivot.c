@@ -23,7 +23,8 @@
 #define PAST 1e-8   /* part by which a bound is lowered where a rest ends */
 #define DOUBT 1e-7  /* part of its size within which a reaction is at its bound, a motion none */
 #define APART 1e-4  /* what the others leave at least of the motion that each reaction makes */
-#define SOFT 1e-14  /* part of its diagonal added to a singular system */
+#define LEAST_PART 1e-6 /* of a step that is taken */
+#define SOFT 1e-14      /* part of its diagonal added to a singular system */
 
 /* The rows that take part, w->relations.rows[0 .. n), with the bounds least and most of their
  * reactions. */
@@ -121,12 +122,37 @@ static void solve_inside(const frot_work *w, int n, double *x) {
   frot_backward(factor, n, n, x);
 }
 
-/* Newton's step on the reactions inside their bounds, to the first bound it meets. Returns the part
- * of it that was taken. */
-static double step_inside(const box *b) {
+/* The quadratic function of which the reactions are the minimum. */
+static double value(const box *b) {
+  double sum = 0, size;
+  for (int k = 0; k < b->n; k++) {
+    int r = b->w->relations.rows[k];
+    sum += 0.5 * b->w->core.lam[r] * (frot_acceleration(b->m, b->w, r, &size) + b->w->core.free[r]);
+  }
+  return sum;
+}
+
+/* The reactions of `rows` are those `from`, with a part of `step`, as far as their bounds let them.
+ * Returns whether they do. */
+static int move(const box *b, int n, const int *rows, const double *from, const double *step,
+                double part) {
+  int whole = 1;
+  for (int i = 0; i < n; i++) {
+    double to = from[i] + part * step[i], *lam = &b->w->core.lam[rows[i]];
+    *lam = clip(to, b->least[rows[i]], b->most[rows[i]]);
+    whole &= *lam == to;
+  }
+  return whole;
+}
+
+/* Newton's step on the reactions inside their bounds. Those that meet bounds stay there while the
+ * others go on, in half the step where the function would grow: to stop at the first bound would
+ * take a step for each, where reactions are not unique most of them none. Returns whether it is a
+ * whole step that meets no bound. */
+static int step_inside(const box *b) {
   frot_work *w = b->w;
   int free = 0, *rows = w->reactions.fold; /* two places for each row: room enough */
-  double size, part = 1;
+  double size, *from = w->linear.right;
   for (int k = 0; k < b->n; k++) {
     int r = w->relations.rows[k];
     if (w->core.lam[r] > b->least[r] && w->core.lam[r] < b->most[r]) rows[free++] = r;
@@ -142,16 +168,17 @@ static double step_inside(const box *b) {
   }
   solve_inside(w, free, step);
   for (int i = 0; i < free; i++) {
-    int r = rows[i];
-    step[i] /= sqrt(own_effect(b, r));
-    double room = step[i] > 0 ? b->most[r] - w->core.lam[r] : w->core.lam[r] - b->least[r];
-    if (fabs(step[i]) > room) part = fmin(part, room / fabs(step[i]));
+    step[i] /= sqrt(own_effect(b, rows[i]));
+    from[i] = w->core.lam[rows[i]];
   }
-  for (int i = 0; i < free; i++) {
-    int r = rows[i];
-    w->core.lam[r] = clip(w->core.lam[r] + part * step[i], b->least[r], b->most[r]);
+  double before = value(b);
+  for (double part = 1; part > LEAST_PART; part *= 0.5) {
+    int whole = move(b, free, rows, from, step, part);
+    if (whole && part == 1) return 1;
+    if (value(b) <= before) return 0;
   }
-  return part;
+  move(b, free, rows, from, step, 0);
+  return 0;
 }
 
 /* Read off the modes; what is near a bound, and a motion near none, is in doubt. */
@@ -221,7 +248,7 @@ void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int 
     }
     for (int round = 0, settled = 0; round < ROUNDS && settled < 2; round++) {
       for (int k = 0; k < SWEEPS; k++) sweep(&b);
-      settled = step_inside(&b) == 1 ? settled + 1 : 0;
+      settled = step_inside(&b) ? settled + 1 : 0;
     }
   }
   read_modes(&b, chosen, count, certain);
