@@ -24,7 +24,8 @@ class Group:
 
     `entries`: where its rows of J, one after the other, are not zero in every posture. `general`:
     its part of the matrix is no mass matrix, or E is not J'. `tree`: its mass matrix is given by
-    the steps of large trees.
+    the steps of large trees. `composite`: it is one in whose entries inertias of bodies add up, so
+    that those of light ones may lose their digits beside heavy ones.
     """
 
     unknowns: tuple[int, ...]
@@ -36,6 +37,7 @@ class Group:
     entries: tuple[int, ...]
     general: bool
     tree: TreeTable | None
+    composite: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -122,10 +124,12 @@ def make_groups(system: Assembled) -> Grouping:
         own = tuple(i - nw for i in items if i >= nw)
         steps = not tree.large.isdisjoint(unknowns)
         local = {z: k for k, z in enumerate(unknowns)}
+        speeds = [i for i in unknowns if i < nv]
+        general = not steps and _is_general(system, unknowns, own)
         groups.append(
             Group(
                 unknowns=unknowns,
-                n_speeds=sum(i < nv for i in unknowns),
+                n_speeds=len(speeds),
                 n_auxiliary=sum(nv <= i < nv + na for i in unknowns),
                 rows=own,
                 contacts=tuple(sorted({owners[r] for r in own})),
@@ -135,8 +139,9 @@ def make_groups(system: Assembled) -> Grouping:
                     for i, r in enumerate(own)
                     for k in sorted(local[z] for z in moved.get(r, ()))
                 ),
-                general=not steps and _is_general(system, unknowns, own),
+                general=general,
                 tree=make_tree(tree.steps, unknowns, nv, planar) if steps else None,
+                composite=steps or not (general or matrix[speeds, speeds].sparsity().is_diag()),
             )
         )
     return _grouping(system, groups, elements, frozenset(range(n_rows)) - moved.keys())

@@ -187,6 +187,8 @@ def _make_island(scene: _Scene, items: list[int], groups: range, sleeps: bool) -
     }
     if any(g.general for g in own):
         results["spread"] = list(pack_spread(system, own))
+    if any(g.composite for g in own):
+        results["wide"] = [matrix, force, rows]
     t, _, _, u, p, d, y = scene.state
     read = {
         x.element_hash() for x in ca.symvar(ca.veccat(*(r for f in results.values() for r in f)))

@@ -120,9 +120,7 @@ def lower(
     outputs: dict[str, tuple[list[ca.SX], list[ca.SX]]] = {
         "parameters": (
             [given, is_set, s.u],
-            lower_parameters(
-                reduced, looking, checks, len(system.elements), system.q, given, is_set
-            ),
+            lower_parameters(looking, checks, system, grouping, given, is_set),
         ),
         "start": ([s.t, s.u, s.p], initial.start),
         "beginning": (state, initial.beginning),
@@ -243,6 +241,8 @@ def _whole(
     }
     if not grouping.is_mass_matrix:
         outputs["spread"] = (state, [grouping.spread, grouping.metric])
+    if any(g.composite for g in grouping.groups):
+        outputs["wide"] = (state, [grouping.matrix, system.force, grouping.rows])
     return outputs
 
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import functools
+
 import casadi as ca
 from frot.compiler.equations.chains import replace_known
 from frot.compiler.equations.text_symbols import scalars
+from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.checks import Check
 from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.lowering.groups import Group, Grouping
 from frot.compiler.lowering.symbols import Symbols, column
 from frot.compiler.lowering.walk import subexpressions
 from frot.compiler.mechanics.reduce import Reduced
@@ -25,18 +29,18 @@ def parameters_needed(parameter: Parameter, symbols: Symbols) -> list[Parameter]
 
 
 def lower_parameters(
-    reduced: Reduced,
     looking: Lowering,
     checks: tuple[Check, ...],
-    elements: int,
-    q: ca.SX,
+    system: Assembled,
+    grouping: Grouping,
     given: ca.SX,
     is_set: ca.SX,
 ) -> list[ca.SX]:
-    """The outputs of the kernel's `parameters`; `q` are the states.
+    """The outputs of the kernel's `parameters`.
 
     Friction elements are never unilateral.
     """
+    reduced = system.reduced
     s = reduced.symbols
     place = {p.name: i for i, p in enumerate(s.parameters)}
     needs = {p.name: [q.name for q in parameters_needed(p, s)] for p in s.parameters}
@@ -61,14 +65,26 @@ def lower_parameters(
         )
     ]
     values = [c.value if isinstance(c.value, ca.SX) else looking.lower(c.value) for c in checks]
-    nominal = _nominal_sizes(q, reduced, looking)
+    nominal = _nominal_sizes(system.q, reduced, looking)
     unilateral = [looking.lower(c.unilateral) for c in reduced.mechanism.contacts]
-    outputs = [column(values), column([*unilateral, *[ca.SX(0)] * elements]), column(times)]
-    outputs.append(column(nominal))
+    none = [ca.SX(0)] * len(system.elements)
+    outputs = [column(values), column([*unilateral, *none]), column(times)]
+    outputs += [column(nominal), column(_most_carried(g, reduced) for g in grouping.groups)]
     return [
         column(known[s.p[i].element_hash()] for i in range(s.p.numel())),
         *(replace_known(output, known) for output in outputs),
     ]
+
+
+def _most_carried(group: Group, reduced: Reduced) -> ca.SX:
+    """The most that a step of the trees of a group carries, over its own mass."""
+    found = {
+        load.element_hash(): load
+        for z in group.unknowns[: group.n_speeds]
+        if group.composite and z < reduced.carried.numel()
+        for load in [reduced.carried[z]]
+    }
+    return functools.reduce(ca.fmax, found.values(), ca.SX(0))
 
 
 def _nominal_sizes(q: ca.SX, reduced: Reduced, looking: Lowering) -> list[ca.SX]:

@@ -172,6 +172,29 @@ def large_speeds(nodes: Sequence[Node], nv: int) -> frozenset[int]:
     return frozenset(p for own in speeds_by_tree(nodes) if is_large(own) for p in own)
 
 
+def heaviest_loads(steps: Sequence[Step], nv: int) -> ca.SX:
+    """Of each of `nv` speeds the most that a step of its tree carries, over its own mass (nv x 1).
+
+    Where that is large, inertias of light bodies are lost beside those of heavy ones.
+    """
+    carried = [ca.SX(0)] * len(steps)
+    loads: dict[int, ca.SX] = {}
+    trees = trees_of([step.node for step in steps])
+    for k in reversed(range(len(steps))):
+        own, above = steps[k].mass, steps[k].node.above
+        if above >= 0:
+            carried[above] += carried[k] + own
+        if not (own.is_zero() or carried[k].is_zero()):
+            load = carried[k] / own
+            loads[trees[k]] = ca.fmax(loads[trees[k]], load) if trees[k] in loads else load
+    of_speeds = ca.SX.zeros(nv)
+    for step, tree in zip(steps, trees, strict=True):
+        for place in step.node.places:
+            if place < nv and tree in loads:
+                of_speeds[place] = loads[tree]
+    return of_speeds
+
+
 def in_trees(nodes: Sequence[Node], speeds: frozenset[int]) -> list[bool]:
     """Whether the tree of each node has one of the speeds."""
     trees = trees_of(nodes)

@@ -33,6 +33,7 @@ from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.dynamics import (
     Push,
     Step,
+    heaviest_loads,
     large_speeds,
     make_steps,
     speeds_by_tree,
@@ -89,6 +90,7 @@ class Reduced:
     bias is the rows' acceleration), `drives` (n_rows: sizes of what drives bring to it), `rate`
     (n_rows), `gap` (n_contacts), `witness` (3 each) and `reach` (see contacts.py), `tree`: the
     speeds of large trees have no entries in `mass`, nor what their bodies weigh in `force`;
+    `carried`: of each speed the most that a step of its tree carries, over its own mass;
     `plain`: the text adds nothing to the equations of motion, `coefficients` (of motion and of
     rest, of each element),
     `power` of the loads without potential, `kinetic`, `potential`.
@@ -114,6 +116,7 @@ class Reduced:
     witness: ca.SX
     reach: ca.SX
     tree: Tree
+    carried: ca.SX
     plain: bool
     coefficients: ca.SX
     power: ca.SX
@@ -209,6 +212,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         witness=settled(column(g.witness for g in geometry)),
         reach=settled(column(g.reach for g in geometry)),
         tree=Tree(_settled_steps(steps, large, settled), large),
+        carried=heaviest_loads(steps, symbols.v.numel()),
         plain=plain,
         coefficients=settled(coefficients),
         power=settled(loads.power),

@@ -25,6 +25,7 @@ from frot.compiler.product.islands import (
 )
 from frot.compiler.product.price import price_of_implicit
 from frot.compiler.product.split import split_functions
+from frot.compiler.product.wide import WIDE, wide_names, wide_record, write_wide
 
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
 # The kernel gives every argument and takes every result: without the questions whether it does, a
@@ -46,9 +47,12 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
     """The C text. `key` identifies it; `defaults` and `inputs` are start values in SI."""
     model = lowered.reduced.mechanism.model
     tables = tables_of(lowered, defaults, inputs)
+    functions = dict(lowered.functions)
+    wide = functions.pop(WIDE, None)
+    text, names = _functions(lowered)
     arrays = [
         *mechanical_arrays(lowered),
-        *island_arrays(lowered),
+        *island_arrays(lowered, names),
         *part_arrays(lowered),
         *(_array(kind, name, items) for name, (kind, items) in tables.items()),
         *_pattern_arrays(lowered),
@@ -57,7 +61,8 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
         "name": _text(model.name),
         "key": _text(key),
         **_counts(lowered),
-        **{name: _callable(f) for name, f in lowered.functions.items()},
+        **{name: _callable(f) for name, f in functions.items()},
+        WIDE: wide_record(wide, names),
         **{name: name for name in (*MECHANICAL_TABLES, *tables)},
     }
     return "\n".join(
@@ -66,7 +71,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
             '#include "frot.h"',
             "/* Only the model's table is seen from outside. */",
             "#define CASADI_SYMBOL_EXPORT static",
-            _functions(lowered),
+            text,
             *arrays,
             "const frot_model frot_the_model = {",
             *(f"  .{name} = {value}," for name, value in fields.items()),
@@ -198,15 +203,27 @@ def _n_paced(lowered: Lowered) -> int:
     return 0 if pace is None else int(pace.numel_out(0))
 
 
-def _functions(lowered: Lowered) -> str:
+def _functions(lowered: Lowered) -> tuple[str, dict[str, str]]:
+    """Their C, and what those in wide numbers are called there."""
+    every = [*lowered.functions.items(), *shared_functions(lowered)]
+    wide = [f for name, f in every if name == WIDE]
+    plain = [f for name, f in every if name != WIDE]
+    text = split_functions(read_numbers(_write([*plain, *lowered.blocks]), lowered))
+    names: dict[str, str] = {}
+    if wide:
+        own = read_numbers(_write(wide), lowered)
+        text, names = text + write_wide(own), wide_names(own)
+    return (_QUICK + text) if len(text) > _LONG else text, names
+
+
+def _write(functions: Sequence[ca.Function]) -> str:
+    """CasADi's C of these."""
     generator = ca.CodeGenerator("frot_functions.c", {"casadi_int": "long long int"})
-    for function in (*lowered.functions.values(), *lowered.blocks, *shared_functions(lowered)):
+    for function in functions:
         generator.add(function)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(generator.generate(folder + "/"))
         text = path.read_text(encoding="utf-8")
     if "#error" in text:
         raise RuntimeError("CasADi could not generate C for a function of the model")
-    text = _SMALL.sub(r"static inline \1", _UNASKED.sub("", _ABSENT.sub(r"\2", text)))
-    text = split_functions(read_numbers(text, lowered))
-    return (_QUICK + text) if len(text) > _LONG else text
+    return _SMALL.sub(r"static inline \1", _UNASKED.sub("", _ABSENT.sub(r"\2", text)))

@@ -9,6 +9,7 @@ import casadi as ca
 from frot.compiler.lowering.equals import Kind
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.product.c_tables import array, callable_record, number, record
+from frot.compiler.product.wide import WIDE, wide_record
 
 # The functions of an island in the order of frot_island.
 _FUNCTIONS = ("kinematics", "dynamics", "spread", "sizes")
@@ -22,20 +23,21 @@ _NUMBERS = 7
 _CONSTANT = re.compile(r"^(  a\d+=)-?[\d.]+(?:e[-+]?\d+)?;$")
 
 
-def shared_functions(lowered: Lowered) -> Iterator[ca.Function]:
-    """The functions of all kinds."""
+def shared_functions(lowered: Lowered) -> Iterator[tuple[str, ca.Function]]:
+    """The functions of all kinds, by their names."""
     for kind in lowered.kinds:
-        yield from kind.functions.values()
+        yield from kind.functions.items()
 
 
 def read_numbers(text: str, lowered: Lowered) -> str:
-    """The C text of the functions, with the constants in which equal ones differ read."""
+    """The C text of some functions, with the constants in which equal ones differ read."""
     lines = text.split("\n")
     heads = {line.split(":", 1)[0]: k for k, line in enumerate(lines) if line.startswith("/* ")}
     for kind in lowered.kinds:
         for name, function in kind.functions.items():
-            if kind.varying[name]:
-                _read_in_function(lines, heads[f"/* {function.name()}"], kind, name)
+            at = heads.get(f"/* {function.name()}")
+            if kind.varying[name] and at is not None:
+                _read_in_function(lines, at, kind, name)
     return "\n".join(lines)
 
 
@@ -60,8 +62,8 @@ def _reads(lists: Mapping[str, Sequence[int]], names: Mapping[str, str], numbers
     return record(*counts, *places, numbers)
 
 
-def island_arrays(lowered: Lowered) -> list[str]:
-    """The tables of frot_island."""
+def island_arrays(lowered: Lowered, wide: Mapping[str, str]) -> list[str]:
+    """The tables of frot_island; `wide`: names in C of the functions in wide numbers."""
     arrays: list[str] = []
     records: list[str] = []
     for k, (island, member) in enumerate(lowered.islands):
@@ -78,6 +80,7 @@ def island_arrays(lowered: Lowered) -> list[str]:
                 *(len(island.conditions), located, names["conditions"]),
                 _reads(lists, names, numbers),
                 *(callable_record(functions.get(name)) for name in _FUNCTIONS),
+                wide_record(functions.get(WIDE), wide),
             )
         )
     return [*arrays, array("frot_island", "islands", records)]

@@ -19,6 +19,7 @@
 #include "problem.h"
 #include "rows.h"
 #include "tolerances.h"
+#include "wide.h"
 
 void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
                  const double *v, const double *d) {
@@ -153,19 +154,24 @@ static void form_effects(const frot_model *m, frot_work *w, const frot_group *g,
       effects_of_four(m, w, g, first, count, other, acting);
 }
 
-/* A is a mass matrix. */
-static int symmetric_group(const frot_model *m, const frot_state *s, frot_work *w,
-                           const frot_group *g, const frot_contact_mode *modes, int wanted) {
+/* A is a mass matrix, and factored. */
+static void form_group(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
+                       const frot_contact_mode *modes, int wanted) {
   unsigned char *formed = &w->core.formed[g - m->groups];
-  int acting, status = frot_factor(w, g);
+  int acting;
   *formed = FROT_FACTOR;
-  if (status != FROT_OK) return status;
-  if (wanted != FROT_LAWS && !s->implicit && frot_only_follows(m, g, modes)) return FROT_OK;
+  if (wanted != FROT_LAWS && !s->implicit && frot_only_follows(m, g, modes)) return;
   int count = form_rows(m, w, g, &acting);
   *formed = wanted == FROT_LAWS || acting < count || !holds_for_good(s, w, g);
   *formed = *formed ? FROT_EFFECTS : FROT_ROWS;
   if (*formed == FROT_EFFECTS) form_effects(m, w, g, count, acting);
-  return FROT_OK;
+}
+
+/* The same in wide numbers, in which all is formed at once. */
+static void form_masked(const frot_model *m, frot_work *w, const frot_group *g) {
+  int count, acting = list_wanted(m, w, g, &count);
+  frot_wide_rows(m, w, g, count, acting);
+  w->core.formed[g - m->groups] = FROT_EFFECTS;
 }
 
 void frot_rows(const frot_model *m, frot_work *w, const frot_group *g) {
@@ -244,13 +250,24 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   if (status != FROT_OK) return status;
   if (!frot_call_dynamics(m, s, w, t, q, v, d, wanted)) return FROT_NAN;
   frot_size_drives(m, s, w, t, q, v, d);
+  frot_begin_wide(w);
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_groups && status == FROT_OK; k++) {
     const frot_group *g = &m->groups[now->groups[k]];
     want_rows(m, w, g, modes, wanted);
     frot_clean_rows(m, s, w, g, v);
     frot_size_biases(m, s, w, g, v);
-    status = g->general ? general_group(m, w, g) : symmetric_group(m, s, w, g, modes, wanted);
+    if (g->general) {
+      status = general_group(m, w, g);
+      continue;
+    }
+    status = frot_factor(w, g);
+    if (frot_is_masked(m, s, w, g, status)) {
+      status = frot_wide_factor(m, s, w, g, t, q, v, d);
+      if (status == FROT_OK) form_masked(m, w, g);
+    } else if (status == FROT_OK) {
+      form_group(m, s, w, g, modes, wanted);
+    }
   }
   return status;
 }

@@ -34,9 +34,8 @@ static double *take_reads(const frot_state *s, frot_work *w, const frot_reads *r
   return at;
 }
 
-/* The arguments of an island; returns what is free of w->awake.values. */
-static double *take_inputs(const frot_state *s, frot_work *w, const frot_island *island,
-                           const double *t, const double *q, const double *v, const double *d) {
+double *frot_take_inputs(const frot_state *s, frot_work *w, const frot_island *island,
+                         const double *t, const double *q, const double *v, const double *d) {
   w->call.arg[6] = w->blocks.y;
   return take_reads(s, w, &island->reads, t, q, v, d, w->awake.values);
 }
@@ -86,7 +85,7 @@ static int call_island(const frot_model *m, frot_state *s, frot_work *w, int i, 
                        const double *q, const double *v, const double *d, int wanted) {
   const frot_island *island = &m->islands[i];
   const frot_island_extent *size = &w->awake.extent[i];
-  double *at = take_inputs(s, w, island, &t, q, v, d);
+  double *at = frot_take_inputs(s, w, island, &t, q, v, d);
   results r = divide(island, size, at, island->n_located);
   double *matrix = w->core.mass + size->matrix, *given = w->core.given;
   double *res[] = {r.qd,   matrix, r.h,         given,         r.c,
@@ -165,6 +164,7 @@ void frot_measure_islands(const frot_model *m, frot_work *w) {
 
 void frot_measure_rows(const frot_model *m, frot_work *w) {
   memset(w->core.rows, 0, sizeof(double) * (size_t)m->n_entries);
+  if (w->wide.mass) memset(w->wide.rows, 0, sizeof(frot_wide) * (size_t)m->n_entries);
   memset(w->core.reach, 0, 2 * sizeof(int) * (size_t)m->n_rows);
   w->core.n_given = 0;
   for (int k = 0; k < m->n_groups; k++) {
@@ -202,7 +202,7 @@ void frot_call_kinematics(const frot_model *m, frot_state *s, frot_work *w, doub
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_islands; k++) {
     const frot_island *island = &m->islands[now->islands[k]];
-    double *at = take_inputs(s, w, island, &t, q, v, d);
+    double *at = frot_take_inputs(s, w, island, &t, q, v, d);
     results r = divide(island, &w->awake.extent[now->islands[k]], at, island->n_conditions);
     w->call.res[0] = r.gap, w->call.res[1] = w->core.given;
     w->call.res[2] = r.rate, w->call.res[3] = r.condition;
@@ -229,7 +229,7 @@ void frot_call_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_islands; k++) {
     const frot_island *island = &m->islands[now->islands[k]];
-    double *load = take_inputs(s, w, island, &t, q, v, d);
+    double *load = frot_take_inputs(s, w, island, &t, q, v, d);
     w->call.res[0] = load;
     frot_call(w, &island->sizes);
     for (int i = 0; i < island->n_groups; i++) {

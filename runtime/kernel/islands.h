@@ -20,6 +20,11 @@ void frot_call_kinematics(const frot_model *m, frot_state *s, frot_work *w, doub
 void frot_call_sizes(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                      const double *v, const double *d);
 
+/* Point w->call.arg at the arguments of an island's functions; returns what is free behind them of
+ * w->awake.values. */
+double *frot_take_inputs(const frot_state *s, frot_work *w, const frot_island *island,
+                         const double *t, const double *q, const double *v, const double *d);
+
 /* The results of `sides` of a part into those of all contacts: witness (3 each) and reach. */
 void frot_call_sides(const frot_state *s, frot_work *w, const frot_part *part, double t,
                      const double *q, const double *v, const double *d, double *witness,

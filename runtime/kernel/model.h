@@ -56,7 +56,8 @@ typedef struct {
 
   /* parameters(p, set, u) -> p complete (np), checks (n_checks), unilateral (n_contacts),
    *   experiment (start stop tolerance interval max_step; NaN where the text is silent), nominal
-   *   sizes of the states (nq, 0: not given) */
+   *   sizes of the states (nq, 0: not given), the most that a step of the trees of each group
+   *   carries, over its own mass (n_groups) */
   frot_callable parameters;
   /* start(t, u, p) -> q where the search begins, whatever is guessed, discrete variables there */
   frot_callable start;
@@ -64,7 +65,7 @@ typedef struct {
   frot_callable beginning;
   /* The functions of the state take (t, q, v, u, p, d, y). */
 
-  /* kinematics, dynamics, spread and sizes: islands have their own, and then only `sizes` is called
+  /* kinematics, dynamics, wide, spread and sizes: islands have their own, and then only `sizes` is called
    * for the whole, for the second of its results.
    * kinematics -> gap (n_contacts), rows J (as given), rate (n_rows), conditions
    * (n_conditions; -1 for those that `sensed` gives) */
@@ -85,6 +86,9 @@ typedef struct {
    *   (n_contacts), conditions (n_located), coefficients of motion and of rest (2 x n_elements),
    *   power of the forces that have no potential (1) */
   frot_callable dynamics;
+  /* wide -> A, h, J of `dynamics` in wide numbers. There where inertias of several bodies add up in
+   * entries of A. */
+  frot_wide_callable wide;
   /* drives -> sizes of the terms of c (n_rows) by which time alone moves what loops hold together.
    * Called where time moves a place, a figure or a liaison. */
   frot_callable drives;

@@ -16,6 +16,20 @@ typedef struct {
   int n_arg, n_res, n_iw, n_w;
 } frot_callable;
 
+/* Numbers of twice the digits, for what is lost beside large ones; where a compiler has none, the
+ * widest it has. A generated function in them: its arguments are of ordinary width. */
+#ifdef __SIZEOF_FLOAT128__
+typedef __float128 frot_wide;
+#else
+typedef long double frot_wide;
+#endif
+typedef int (*frot_wide_function)(const double **arg, frot_wide **res, long long *iw, frot_wide *w,
+                                  int mem);
+typedef struct {
+  frot_wide_function call;
+  int n_arg, n_res, n_iw, n_w;
+} frot_wide_callable;
+
 /* What bounds the friction of an element: the size of one normal reaction, that of a reaction of
  * two components (a pin), or a value of the text (a brake, a clutch). */
 enum frot_bound { FROT_BY_NORMAL = 0, FROT_BY_PIN = 1, FROT_BY_VALUE = 2 };
@@ -110,6 +124,7 @@ typedef struct {
   const int *conditions;
   frot_reads reads;
   frot_callable kinematics, dynamics, spread, sizes;
+  frot_wide_callable wide;
 } frot_island;
 
 /* What is put together at the start without regard to the rest: places, or speeds, that no speed,

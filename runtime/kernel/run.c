@@ -34,7 +34,7 @@ int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, dou
   w->call.arg[2] = s->data + l.u;
   w->call.res[0] = p, w->call.res[1] = checks;
   w->call.res[2] = s->data + l.unilateral, w->call.res[3] = s->data + l.experiment;
-  w->call.res[4] = s->data + l.nominal;
+  w->call.res[4] = s->data + l.nominal, w->call.res[5] = s->data + l.carried;
   frot_call(w, &m->parameters);
   memcpy(s->data + l.p, p, sizeof(double) * (size_t)m->np);
   for (int i = 0; i < m->n_checks; i++) {

@@ -21,6 +21,9 @@
 #define FROT_APART (1024 * DBL_EPSILON)
 /* The same for states whose rates no inertia smooths. */
 #define FROT_NOISE_OF_RATES 32.0
+/* An inertia beside that of what it carries, or what is left of it when all that can follow is
+ * eliminated: where that is so many times less, it is found in wide numbers. */
+#define FROT_HEAVY 1e5
 /* Part of the lengths a row is made of below which it is what rounding leaves of them. */
 #define FROT_CANCELS 1e-12
 /* Part by which a gap or a statement may change with the unknowns and still be constant. */

@@ -2,65 +2,7 @@
 
 #include <string.h>
 
-#include "tree_step.h"
-
-/* What the forces of the factor do at a step, for each whose speeds are auxiliary. */
-static inline void note_forces(int width, const frot_group *g, const double *data, double *factor,
-                               double *twist, const double *force) {
-  memset(twist, 0, sizeof(double) * (size_t)(width * g->n_links));
-  for (int k = g->n_links - 1; k >= 0; k--) {
-    const frot_link *s = &g->links[k];
-    double *wrench = twist + width * k, *y = factor + s->factor;
-    if (s->auxiliary) memcpy(y + inertia_size(width), wrench, sizeof(double) * (size_t)width);
-    for (int j = 0; j < s->count && !s->auxiliary; j++, y += width + 1)
-      add_times(width, wrench, force[s->first + j], y);
-    if (s->above >= 0)
-      add_wrench(width, s->faces_ground, arm_of(width, s, data), wrench, twist + width * s->above);
-  }
-}
-
-static inline int factorize(int width, const frot_group *g, const double *data, double *factor,
-                            double *inertia, double *twist, double *force) {
-  int size = inertia_size(width), reads = 0;
-  for (int k = 0; k < g->n_links; k++) {
-    const frot_link *s = &g->links[k];
-    own_inertia(width, mass_of(width, s, data), inertia + size * k);
-    memcpy(twist + width * k, wrench_of(width, s, data), sizeof(double) * (size_t)width);
-  }
-  for (int k = g->n_links - 1; k >= 0; k--) {
-    const frot_link *s = &g->links[k];
-    double *p = inertia + size * k, *wrench = twist + width * k, whole[2];
-    const double *column = data + s->data;
-    double *y = factor + s->factor;
-    sizes_of(width, p, whole);
-    for (int j = 0; j < s->count && !s->auxiliary; j++, column += width, y += width + 1)
-      if (let_go(width, column, whole, p, wrench, y, force + s->first + j)) return 1;
-    if (s->auxiliary) memcpy(y, p, sizeof(double) * (size_t)size), reads = 1;
-    if (s->above < 0) continue;
-    const double *arm = arm_of(width, s, data);
-    add_inertia(width, s->faces_ground, arm, p, inertia + size * s->above);
-    add_wrench(width, s->faces_ground, arm, wrench, twist + width * s->above);
-  }
-  if (reads) note_forces(width, g, data, factor, twist, force);
-  return 0;
-}
-
-static inline void inwards(int width, const frot_group *g, const double *data, const double *factor,
-                           double *twist, double *x) {
-  memset(twist, 0, sizeof(double) * (size_t)(width * g->n_links));
-  for (int k = g->n_links - 1; k >= 0; k--) {
-    const frot_link *s = &g->links[k];
-    double *wrench = twist + width * k;
-    const double *column = data + s->data, *y = factor + s->factor;
-    for (int j = 0; j < s->count && !s->auxiliary; j++, column += width, y += width + 1) {
-      double *own = x + s->first + j;
-      *own = y[width] * (*own - dot(width, column, wrench));
-      add_times(width, wrench, *own, y);
-    }
-    if (s->above >= 0)
-      add_wrench(width, s->faces_ground, arm_of(width, s, data), wrench, twist + width * s->above);
-  }
-}
+#include "tree_passes.h"
 
 static inline void outwards(int width, const frot_group *g, const double *data,
                             const double *factor, double *twist, double *x) {
@@ -98,37 +40,6 @@ static inline void respond(int width, const frot_group *g, const double *data, c
   for (int k = 0; k < g->n_speeds; k++) x[k] += force[k];
   outwards(width, g, data, factor, motion, x);
   read(width, g, data, factor, wrench, motion, x);
-}
-
-/* Momenta of a step's bodies by themselves that move by `motion`. */
-static inline void momentum(int width, const double *mass, const double *motion, double *own) {
-  double p[FROT_STEP_INERTIA];
-  own_inertia(width, mass, p);
-  times(width, p, motion, own);
-}
-
-static inline void multiply(int width, const frot_group *g, const double *data, double *twist,
-                            double *x) {
-  for (int k = 0; k < g->n_links; k++) {
-    const frot_link *s = &g->links[k];
-    double *motion = carry_to(width, s, k, data, twist);
-    for (int j = 0; j < s->count; j++)
-      if (x[s->first + j] != 0)
-        add_times(width, motion, x[s->first + j], data + s->data + width * j);
-  }
-  for (int k = 0; k < g->n_links; k++) {
-    double own[SPACE];
-    momentum(width, mass_of(width, &g->links[k], data), twist + width * k, own);
-    memcpy(twist + width * k, own, sizeof(double) * (size_t)width);
-  }
-  for (int k = g->n_links - 1; k >= 0; k--) {
-    const frot_link *s = &g->links[k];
-    const double *whole = twist + width * k;
-    for (int j = 0; j < s->count; j++)
-      x[s->first + j] = dot(width, data + s->data + width * j, whole);
-    if (s->above >= 0)
-      add_wrench(width, s->faces_ground, arm_of(width, s, data), whole, twist + width * s->above);
-  }
 }
 
 /* Composite bodies: the inertia of all that a step carries. */

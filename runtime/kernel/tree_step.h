@@ -1,7 +1,8 @@
 /* One step of a large tree (tree.h): its data, inertias and wrenches carried towards the ground,
  * motions away from it, and what the freedom of its speeds lets go.
  *
- * Written for a width that the compiler knows where they are used. */
+ * Written for a width that the compiler knows where they are used, and for numbers `real`: ordinary
+ * ones, or where FROT_IN_WIDE is defined wide ones. */
 #ifndef FROT_TREE_STEP_H
 #define FROT_TREE_STEP_H
 
@@ -10,6 +11,17 @@
 #include <string.h>
 
 #include "tree.h"
+#include "wide_numbers.h"
+
+#ifdef FROT_IN_WIDE
+typedef frot_wide real;
+#define REAL_EPSILON FROT_WIDE_EPSILON
+#define root_of(x) frot_wide_root(x)
+#else
+typedef double real;
+#define REAL_EPSILON DBL_EPSILON
+#define root_of(x) sqrt(x)
+#endif
 
 #define PLANE 3
 #define SPACE 6
@@ -17,23 +29,23 @@
 static inline int arm_size(int width) { return width == PLANE ? 2 : 3; }
 
 /* Where in the data of a step its vector from the step before begins, its mass, its wrench. */
-static inline const double *arm_of(int width, const frot_link *s, const double *data) {
+static inline const real *arm_of(int width, const frot_link *s, const real *data) {
   return data + s->data + width * s->count;
 }
-static inline const double *mass_of(int width, const frot_link *s, const double *data) {
+static inline const real *mass_of(int width, const frot_link *s, const real *data) {
   return arm_of(width, s, data) + arm_size(width);
 }
-static inline const double *wrench_of(int width, const frot_link *s, const double *data) {
+static inline const real *wrench_of(int width, const frot_link *s, const real *data) {
   return mass_of(width, s, data) + (width == PLANE ? 4 : 10);
 }
 
-static inline double dot(int width, const double *a, const double *b) {
-  double sum = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+static inline real dot(int width, const real *a, const real *b) {
+  real sum = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   if (width == SPACE) sum += a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
   return sum;
 }
 
-static inline void add_times(int width, double *x, double k, const double *y) {
+static inline void add_times(int width, real *x, real k, const real *y) {
   for (int i = 0; i < width; i++) x[i] += k * y[i];
 }
 
@@ -44,21 +56,21 @@ enum { TRIANGLE = 6, H = 6, M = 15 };
 
 static inline int inertia_size(int width) { return width == PLANE ? TRIANGLE : FROT_STEP_INERTIA; }
 
-static inline void times_triangle(const double *a, const double *x, double *y) {
+static inline void times_triangle(const real *a, const real *x, real *y) {
   y[0] += a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
   y[1] += a[1] * x[0] + a[3] * x[1] + a[4] * x[2];
   y[2] += a[2] * x[0] + a[4] * x[1] + a[5] * x[2];
 }
 
 /* y <- P x. */
-static inline void times(int width, const double *p, const double *x, double *y) {
+static inline void times(int width, const real *p, const real *x, real *y) {
   if (width == PLANE) {
     y[0] = p[0] * x[0] + p[1] * x[1] + p[3] * x[2];
     y[1] = p[1] * x[0] + p[2] * x[1] + p[4] * x[2];
     y[2] = p[3] * x[0] + p[4] * x[1] + p[5] * x[2];
     return;
   }
-  const double *h = p + H;
+  const real *h = p + H;
   y[0] = y[1] = y[2] = 0;
   y[3] = h[0] * x[0] + h[3] * x[1] + h[6] * x[2];
   y[4] = h[1] * x[0] + h[4] * x[1] + h[7] * x[2];
@@ -71,16 +83,16 @@ static inline void times(int width, const double *p, const double *x, double *y)
   times_triangle(p + M, x + 3, y + 3);
 }
 
-static inline void take_square(double *a, double k, const double *u) {
-  double x = k * u[0], y = k * u[1], z = k * u[2];
+static inline void take_square(real *a, real k, const real *u) {
+  real x = k * u[0], y = k * u[1], z = k * u[2];
   a[0] -= x * u[0], a[1] -= x * u[1], a[2] -= x * u[2];
   a[3] -= y * u[1], a[4] -= y * u[2], a[5] -= z * u[2];
 }
 
 /* P -= k u u'. */
-static inline void take(int width, double *p, double k, const double *u) {
+static inline void take(int width, real *p, real k, const real *u) {
   if (width == PLANE) {
-    double z = k * u[0], x = k * u[1];
+    real z = k * u[0], x = k * u[1];
     p[0] -= z * u[0], p[1] -= z * u[1], p[3] -= z * u[2];
     p[2] -= x * u[1], p[4] -= x * u[2], p[5] -= k * u[2] * u[2];
     return;
@@ -88,22 +100,22 @@ static inline void take(int width, double *p, double k, const double *u) {
   take_square(p, k, u);
   take_square(p + M, k, u + 3);
   for (int i = 0; i < 3; i++) {
-    double part = k * u[i], *h = p + H + 3 * i;
+    real part = k * u[i], *h = p + H + 3 * i;
     h[0] -= part * u[3], h[1] -= part * u[4], h[2] -= part * u[5];
   }
 }
 
 /* P of the bodies of a step by itself. */
-static inline void own_inertia(int width, const double *mass, double *p) {
+static inline void own_inertia(int width, const real *mass, real *p) {
   if (width == PLANE) {
     p[0] = mass[3];
     p[1] = -mass[2], p[2] = mass[0];
     p[3] = mass[1], p[4] = 0, p[5] = mass[0];
     return;
   }
-  const double *moment = mass + 1;
-  double *h = p + H, *m = p + M;
-  memcpy(p, mass + 4, sizeof(double) * TRIANGLE);
+  const real *moment = mass + 1;
+  real *h = p + H, *m = p + M;
+  memcpy(p, mass + 4, sizeof(real) * TRIANGLE);
   h[0] = h[4] = h[8] = 0;
   h[1] = -moment[2], h[2] = moment[1], h[3] = moment[2];
   h[5] = -moment[0], h[6] = -moment[1], h[7] = moment[0];
@@ -112,16 +124,16 @@ static inline void own_inertia(int width, const double *mass, double *p) {
 }
 
 /* `to` += the wrench `from` of what is at `arm`; what keeps its orientation gives no couple. */
-static inline void add_wrench(int width, int as_point, const double *arm, const double *from,
-                              double *to) {
+static inline void add_wrench(int width, int as_point, const real *arm, const real *from,
+                              real *to) {
   if (width == PLANE) {
-    double couple = arm[0] * from[2] - arm[1] * from[1];
+    real couple = arm[0] * from[2] - arm[1] * from[1];
     to[0] += as_point ? couple : from[0] + couple;
     to[1] += from[1], to[2] += from[2];
     return;
   }
-  const double *force = from + 3;
-  double couple[3] = {arm[1] * force[2] - arm[2] * force[1], arm[2] * force[0] - arm[0] * force[2],
+  const real *force = from + 3;
+  real couple[3] = {arm[1] * force[2] - arm[2] * force[1], arm[2] * force[0] - arm[0] * force[2],
                       arm[0] * force[1] - arm[1] * force[0]};
   for (int i = 0; i < 3; i++) {
     to[i] += as_point ? couple[i] : from[i] + couple[i];
@@ -130,10 +142,10 @@ static inline void add_wrench(int width, int as_point, const double *arm, const 
 }
 
 /* `to` <- the twist at `arm` of what moves by `from`. */
-static inline void carry(int width, int as_point, const double *arm, const double *from,
-                         double *to) {
+static inline void carry(int width, int as_point, const real *arm, const real *from,
+                         real *to) {
   if (width == PLANE) {
-    double turning = from[0];
+    real turning = from[0];
     to[0] = as_point ? 0 : turning;
     to[1] = from[1] - turning * arm[1], to[2] = from[2] + turning * arm[0];
     return;
@@ -145,29 +157,29 @@ static inline void carry(int width, int as_point, const double *arm, const doubl
 }
 
 /* The twist that step k gets from the one before it, the ground at rest; where it stands. */
-static inline double *carry_to(int width, const frot_link *s, int k, const double *data,
-                               double *twist) {
-  static const double still[SPACE] = {0, 0, 0, 0, 0, 0};
-  const double *before = s->above < 0 ? still : twist + width * s->above;
-  double *motion = twist + width * k;
+static inline real *carry_to(int width, const frot_link *s, int k, const real *data,
+                               real *twist) {
+  static const real still[SPACE] = {0, 0, 0, 0, 0, 0};
+  const real *before = s->above < 0 ? still : twist + width * s->above;
+  real *motion = twist + width * k;
   carry(width, s->faces_ground, arm_of(width, s, data), before, motion);
   return motion;
 }
 
 /* `to` += X' P X, where X is `carry`: with the blocks I H M of P, what turns and what moves, and
  * [r] of the arm, H becomes H + [r] M and I becomes I + [r] H' + ([r] (H + [r] M)')'. */
-static inline void add_inertia(int width, int as_point, const double *arm, const double *p,
-                               double *to) {
+static inline void add_inertia(int width, int as_point, const real *arm, const real *p,
+                               real *to) {
   if (width == PLANE) {
-    double x = -arm[1], y = arm[0];
-    double h0 = as_point ? 0 : p[1], h1 = as_point ? 0 : p[3];
-    double n0 = h0 + p[2] * x + p[4] * y, n1 = h1 + p[4] * x + p[5] * y;
+    real x = -arm[1], y = arm[0];
+    real h0 = as_point ? 0 : p[1], h1 = as_point ? 0 : p[3];
+    real n0 = h0 + p[2] * x + p[4] * y, n1 = h1 + p[4] * x + p[5] * y;
     to[0] += (as_point ? 0 : p[0]) + (h0 * x + h1 * y) + (n0 * x + n1 * y);
     to[1] += n0, to[2] += p[2], to[3] += n1, to[4] += p[4], to[5] += p[5];
     return;
   }
-  double x = arm[0], y = arm[1], z = arm[2], h[9], n[9];
-  const double *m = p + M;
+  real x = arm[0], y = arm[1], z = arm[2], h[9], n[9];
+  const real *m = p + M;
   if (as_point)
     memset(h, 0, sizeof h);
   else
@@ -195,7 +207,7 @@ static inline void add_inertia(int width, int as_point, const double *arm, const
 }
 
 /* Sizes of the diagonal of P: of what turns, of what moves. */
-static inline void sizes_of(int width, const double *p, double whole[2]) {
+static inline void sizes_of(int width, const real *p, real whole[2]) {
   if (width == PLANE) {
     whole[0] = p[0], whole[1] = p[2] + p[5];
     return;
@@ -206,12 +218,12 @@ static inline void sizes_of(int width, const double *p, double whole[2]) {
 
 /* The same of a turn in the plane (s: 1 or -1), which leaves no resistance to turning at all, nor a
  * couple but that of its own force. */
-static inline int turn_freely(double s, const double *whole, double *p, double *wrench, double *y,
-                              double *force) {
-  double inertia = p[0], x = p[1], z = p[3];
-  if (!(inertia > PLANE * DBL_EPSILON * whole[0])) return 1;
-  double share = 1 / inertia, root = sqrt(share), rest = *force - s * wrench[0];
-  double along_x = share * x, along_z = share * z, own = s * rest;
+static inline int turn_freely(real s, const real *whole, real *p, real *wrench, real *y,
+                              real *force) {
+  real inertia = p[0], x = p[1], z = p[3];
+  if (!(inertia > PLANE * REAL_EPSILON * whole[0])) return 1;
+  real share = 1 / inertia, root = root_of(share), rest = *force - s * wrench[0];
+  real along_x = share * x, along_z = share * z, own = s * rest;
   p[2] -= along_x * x, p[4] -= along_z * x, p[5] -= along_z * z;
   p[0] = p[1] = p[3] = 0;
   wrench[0] = s * *force, wrench[1] += own * along_x, wrench[2] += own * along_z;
@@ -224,17 +236,17 @@ static inline int turn_freely(double s, const double *whole, double *p, double *
 /* Takes from P what the freedom along a column lets go, and from the wrench the force of the speed,
  * which becomes that of the factor; y gets the column of the factor, after it 1 / sqrt(D). Returns
  * 1 when D is nothing but rounding of the terms of P, of whose diagonal `whole` has the sizes. */
-static inline int let_go(int width, const double *s, const double *whole, double *p, double *wrench,
-                         double *y, double *force) {
+static inline int let_go(int width, const real *s, const real *whole, real *p, real *wrench,
+                         real *y, real *force) {
   if (width == PLANE && s[0] * s[0] == 1 && s[1] == 0 && s[2] == 0)
     return turn_freely(s[0], whole, p, wrench, y, force);
-  double u[SPACE], size = 0;
+  real u[SPACE], size = 0;
   int turning = width == PLANE ? 1 : 3;
   times(width, p, s, u);
-  double inertia = dot(width, s, u);
+  real inertia = dot(width, s, u);
   for (int i = 0; i < width; i++) size += s[i] * s[i] * whole[i >= turning];
-  if (!(inertia > width * DBL_EPSILON * size)) return 1;
-  double share = 1 / inertia, root = sqrt(share), rest = *force - dot(width, s, wrench);
+  if (!(inertia > width * REAL_EPSILON * size)) return 1;
+  real share = 1 / inertia, root = root_of(share), rest = *force - dot(width, s, wrench);
   take(width, p, share, u);
   add_times(width, wrench, share * rest, u);
   for (int i = 0; i < width; i++) y[i] = root * u[i];

@@ -188,6 +188,21 @@ static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work 
   TAKE(w->momenta, steps > 0 ? l->nw : 0);
 }
 
+/* What wide numbers take, where there are any. */
+static void bind_wide(const frot_model *m, const frot_layout *l, frot_wide_work *w, arena *a) {
+  int scratch = m->wide.n_w, given = 0, steps = 0, some = m->wide.call != NULL;
+  for (int i = 0; i < m->n_islands; i++) {
+    some |= m->islands[i].wide.call != NULL, scratch = larger(scratch, m->islands[i].wide.n_w);
+  }
+  if (!some) return;
+  for (int k = 0; k < m->n_groups; k++)
+    given += m->groups[k].n_given, steps = larger(steps, m->groups[k].n_links);
+  TAKE(w->mass, m->n_matrix), TAKE(w->h, l->nw), TAKE(w->rows, m->n_entries);
+  TAKE(w->factor, m->n_metric), TAKE(w->force, l->nw), TAKE(w->half, m->n_entries);
+  TAKE(w->loads, l->nw), TAKE(w->given, given), TAKE(w->w, scratch);
+  TAKE(w->inertia, FROT_STEP_INERTIA * steps), TAKE(w->twist, FROT_STEP_TWIST * steps);
+}
+
 static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, arena *a) {
   frot_reaction_work *r = &w->reactions;
   int n = m->n_rows, elements = m->n_elements;
@@ -316,6 +331,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   bind_awake(m, &l, &w->awake, a);
   bind_blocks(m, &e, &w->blocks, a);
   bind_core(m, &l, &w->core, a);
+  bind_wide(m, &l, &w->wide, a);
   bind_reactions(m, &e, w, a);
   bind_relations(m, &l, &e, w, a);
   bind_opening(m, &e, &w->opening, a);

@@ -80,6 +80,18 @@ typedef struct {
   double *inertia, *twist, *motion, *momenta;
 } frot_core_work;
 
+/* wide.h: results of `wide`, the inertia as in core.h, and the island that they are of. Scratch:
+ * loads and rows as the function gives them, its own scratch, of large trees inertia and twist. All
+ * absent where no function is. */
+typedef struct {
+  int island;
+  frot_wide *mass, *h, *rows, *factor, *force, *half;
+  frot_wide *loads, *given, *w, *inertia, *twist;
+} frot_wide_work;
+
+/* No island, nor the whole (-1). */
+enum { FROT_NO_ISLAND = -2 };
+
 /* pins.c: a friction, the entries of its row and where these are not zero (from, to), its ratio to
  * what bounds it. Of one that follows readings, where these stand among the unknowns of the group
  * (at: a pin's two, else one and -1) and what loads make of them; what a pass makes of them, of the
@@ -261,6 +273,7 @@ struct frot_work {
   frot_awake_work awake;
   frot_block_work blocks;
   frot_core_work core;
+  frot_wide_work wide;
   frot_reaction_work reactions;
   frot_span_work span;
   frot_linear_work linear;

@@ -1,0 +1,54 @@
+"""Generated functions in numbers of twice the digits: their C.
+
+CasADi writes them for the type `frot_wide`; what it calls of its own is written out for any type, as
+for compilers before C99, whose mathematical functions know one. Arguments are numbers of ordinary
+width, and so is what sines, cosines and roots give: the same wherever they stand in a posture, they
+move bodies by a rounding and contradict nothing.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+import casadi as ca
+from frot.compiler.product.c_tables import record
+from frot.compiler.product.split import split_functions
+
+# Of CasADi's text: what nobody asks of functions (names, patterns, sizes), and what chooses by
+# compilers.
+_ASKED = re.compile(r"^CASADI_SYMBOL_EXPORT [^\n]*(?:\}|\{\n(?:[^}\n].*\n)*\})\n", re.MULTILINE)
+_CHOICE = re.compile(r"^ *#.*\n", re.MULTILINE)
+_NAME = re.compile(r"^/\* (\w+):.*\n^static int casadi_(f\d+)\(", re.MULTILINE)
+# The name of these functions among the others.
+WIDE = "wide"
+_HEAD = """
+/* The same in wide numbers. */
+#define wide_real frot_wide
+#define wide_int long long int
+#define wide_nan NAN
+#define wide_inf INFINITY
+"""
+
+
+def write_wide(text: str) -> str:
+    """The C of functions that CasADi wrote, in wide numbers."""
+    begins = text.index("*/", text.index("automatically generated")) + 3
+    plain = split_functions(_CHOICE.sub("", _ASKED.sub("", text[begins:])))
+    for braces in ('extern "C" {\n', '} /* extern "C" */\n'):
+        plain = plain.replace(braces, "")
+    plain = plain.replace("const casadi_real** arg", "const double** arg")
+    return _HEAD + plain.replace("casadi_", "wide_")
+
+
+def wide_names(text: str) -> dict[str, str]:
+    """How the functions of `write_wide(text)` are called there, by their own names."""
+    return {name: f"wide_{own}" for name, own in _NAME.findall(text)}
+
+
+def wide_record(function: ca.Function | None, names: Mapping[str, str]) -> str:
+    """A frot_wide_callable."""
+    if function is None:
+        return record("0", 0, 0, 0, 0)
+    sizes = (function.sz_arg(), function.sz_res(), function.sz_iw(), function.sz_w())
+    return record(names[function.name()], *sizes)
