@@ -65,10 +65,9 @@ typedef struct {
   frot_callable beginning;
   /* The functions of the state take (t, q, v, u, p, d, y). */
 
-  /* kinematics, dynamics, wide, spread and sizes: islands have their own, and then only `sizes` is called
-   * for the whole, for the second of its results.
-   * kinematics -> gap (n_contacts), rows J (as given), rate (n_rows), conditions
-   * (n_conditions; -1 for those that `sensed` gives) */
+  /* kinematics, dynamics, wide, spread and sizes: islands have their own, and then only `sizes` is
+   * called for the whole, for the second of its results. kinematics -> gap (n_contacts), rows J (as
+   * given), rate (n_rows), conditions (n_conditions; -1 for those that `sensed` gives) */
   frot_callable kinematics;
   /* beginnings -> where the search for each place that is followed begins (n_followed, the first of
    * y): at the nearest of some places all along the figures. Called where n_followed > 0. */

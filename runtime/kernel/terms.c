@@ -6,6 +6,7 @@
 #include "islands.h"
 #include "linear.h"
 #include "tolerances.h"
+#include "wide.h"
 
 /* Loads that are spread one by one. Of more unknowns those that are far apart go together: far
  * loads do less to each other, and the sizes of a thousand would cost a thousand solutions. */
@@ -56,6 +57,7 @@ double frot_length_beside(const frot_model *m, frot_work *w, int row, double own
     double inertia = frot_mass_column(w, g, at, half);
     frot_inwards(w, g, half);
     inertia -= frot_dot(half, half, ns);
+    if (frot_in_wide(m, w, g)) inertia = frot_felt_inertia(m, w, g, normal);
     beside = inertia > 0 ? 1 / sqrt(inertia) : 0;
   } else {
     beside = own;
@@ -109,8 +111,10 @@ static void spread_in_factor(frot_work *w, const frot_group *g, const double *lo
   }
 }
 
-/* size <- |A^-1| load (n; of a mass matrix n_speeds), column after column of the inverse. */
-static void spread_in_inverse(frot_work *w, const frot_group *g, const double *load, double *size) {
+/* size <- |A^-1| load (n; of a mass matrix n_speeds), column after column of the inverse. Of a load
+ * that is `eliminated`, behind L^-1, it is |L'^-1| load. */
+static void spread_in_inverse(frot_work *w, const frot_group *g, const double *load, int eliminated,
+                              double *size) {
   int n = g->general ? g->n : g->n_speeds;
   double *column = w->core.rest;
   memset(size, 0, sizeof(double) * (size_t)n);
@@ -120,7 +124,7 @@ static void spread_in_inverse(frot_work *w, const frot_group *g, const double *l
       frot_lu_apply(w->core.lu + g->matrix, n, w->core.lu_pivot + g->vector,
                     w->core.lu_scale + 2 * g->vector, column);
     } else {
-      frot_inwards(w, g, column);
+      if (!eliminated) frot_inwards(w, g, column);
       frot_outwards(w, g, column);
     }
     for (int i = 0; i < n; i++) size[i] += fabs(column[i]);
@@ -156,6 +160,19 @@ static void load_reactions(const frot_model *m, const frot_state *s, const frot_
   for (int i = 0; i < g->n_elements; i++) {
     const frot_element *e = &m->elements[g->elements[i]];
     load_row(m, w, g, e->row, e->rolling ? 0 : reach[e->contact], q, load);
+  }
+}
+
+/* In place of the loads of a group what is left of them and of its reactions behind L^-1: in wide
+ * numbers nothing was lost before. */
+static void load_eliminated(const frot_model *m, frot_work *w, const frot_group *g, double *load) {
+  const double *force = w->core.force + g->vector;
+  for (int k = 0; k < g->n_speeds; k++) load[g->unknowns[k]] = fabs(force[k]);
+  for (int i = 0; i < g->n_rows; i++) {
+    double lam = w->core.lam[g->rows[i]];
+    if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
+    const double *half = w->core.half + g->entries + i * g->n;
+    for (int k = 0; k < g->n_speeds; k++) load[g->unknowns[k]] += fabs(lam * half[k]);
   }
 }
 
@@ -202,8 +219,12 @@ void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, d
   for (int k = 0; k < w->awake.now->n_groups; k++) {
     const frot_group *g = &m->groups[w->awake.now->groups[k]];
     double *sum = w->core.load_size;
-    load_reactions(m, s, w, g, q, w->core.load);
-    spread_in_inverse(w, g, w->core.load, sum);
+    int wide = frot_in_wide(m, w, g);
+    if (wide)
+      load_eliminated(m, w, g, w->core.load);
+    else
+      load_reactions(m, s, w, g, q, w->core.load);
+    spread_in_inverse(w, g, w->core.load, wide, sum);
     hold_all_sizes(m, s, w, g, sum);
     for (int j = 0; j < g->n_speeds; j++) size[g->unknowns[j]] = sum[j];
   }
@@ -222,6 +243,26 @@ static double motion_by_each(frot_work *w, const frot_group *g, const double *lo
   return sqrt(sum);
 }
 
+/* What loads do to the rows of a group in wide numbers: of a reading what the inertia felt there
+ * has of the loads on all that it carries. */
+static void size_eliminated(const frot_model *m, frot_work *w, const frot_group *g,
+                            const double *load) {
+  const double *force = w->core.force + g->vector;
+  for (int i = 0; i < g->n_rows; i++) {
+    int r = g->rows[i], reads = m->row_reads[r];
+    if (!w->core.wanted[r]) continue;
+    const double *half = w->core.half + g->entries + i * g->n;
+    double sum = fabs(w->core.c[r]);
+    if (reads >= 0) {
+      double all = frot_mass_column(w, g, reads, w->core.rest);
+      double part = all > 0 ? frot_felt_inertia(m, w, g, r) / all : 0;
+      sum = fmax(fabs(w->core.free[r]), part * load[g->unknowns[reads]]);
+    }
+    for (int k = 0; k < g->n_speeds && reads < 0; k++) sum += fabs(half[k] * force[k]);
+    w->core.row_load[r] = sum;
+  }
+}
+
 void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d) {
   double *load = w->core.load, *size = w->core.load_size;
@@ -231,8 +272,12 @@ void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, 
     const frot_group *g = &m->groups[w->awake.now->groups[k]];
     int n = g->n, count = g->general ? n : g->n_speeds;
     if (g->n_rows == 0) continue;
+    if (frot_in_wide(m, w, g)) {
+      size_eliminated(m, w, g, load);
+      continue;
+    }
     if (g->general)
-      spread_in_inverse(w, g, load, size);
+      spread_in_inverse(w, g, load, 0, size);
     else
       spread_in_factor(w, g, load, size);
     double motion = g->general ? INFINITY : motion_by_each(w, g, load);

@@ -134,7 +134,7 @@ static inline void add_wrench(int width, int as_point, const real *arm, const re
   }
   const real *force = from + 3;
   real couple[3] = {arm[1] * force[2] - arm[2] * force[1], arm[2] * force[0] - arm[0] * force[2],
-                      arm[0] * force[1] - arm[1] * force[0]};
+                    arm[0] * force[1] - arm[1] * force[0]};
   for (int i = 0; i < 3; i++) {
     to[i] += as_point ? couple[i] : from[i] + couple[i];
     to[3 + i] += force[i];
@@ -142,8 +142,7 @@ static inline void add_wrench(int width, int as_point, const real *arm, const re
 }
 
 /* `to` <- the twist at `arm` of what moves by `from`. */
-static inline void carry(int width, int as_point, const real *arm, const real *from,
-                         real *to) {
+static inline void carry(int width, int as_point, const real *arm, const real *from, real *to) {
   if (width == PLANE) {
     real turning = from[0];
     to[0] = as_point ? 0 : turning;
@@ -157,8 +156,7 @@ static inline void carry(int width, int as_point, const real *arm, const real *f
 }
 
 /* The twist that step k gets from the one before it, the ground at rest; where it stands. */
-static inline real *carry_to(int width, const frot_link *s, int k, const real *data,
-                               real *twist) {
+static inline real *carry_to(int width, const frot_link *s, int k, const real *data, real *twist) {
   static const real still[SPACE] = {0, 0, 0, 0, 0, 0};
   const real *before = s->above < 0 ? still : twist + width * s->above;
   real *motion = twist + width * k;
@@ -168,8 +166,7 @@ static inline real *carry_to(int width, const frot_link *s, int k, const real *d
 
 /* `to` += X' P X, where X is `carry`: with the blocks I H M of P, what turns and what moves, and
  * [r] of the arm, H becomes H + [r] M and I becomes I + [r] H' + ([r] (H + [r] M)')'. */
-static inline void add_inertia(int width, int as_point, const real *arm, const real *p,
-                               real *to) {
+static inline void add_inertia(int width, int as_point, const real *arm, const real *p, real *to) {
   if (width == PLANE) {
     real x = -arm[1], y = arm[0];
     real h0 = as_point ? 0 : p[1], h1 = as_point ? 0 : p[3];

@@ -36,7 +36,10 @@ int frot_is_masked(const frot_model *m, const frot_state *s, const frot_work *w,
   return masked && function_of(m, g)->call != NULL;
 }
 
-void frot_begin_wide(frot_work *w) { w->wide.island = FROT_NO_ISLAND; }
+void frot_begin_wide(const frot_model *m, frot_work *w) {
+  w->wide.island = FROT_NO_ISLAND;
+  if (w->wide.mass) memset(w->wide.of, 0, (size_t)m->n_groups);
+}
 
 /* The values of `wide` of an island, or of the whole, each where it belongs. */
 static void evaluate(const frot_model *m, frot_state *s, frot_work *w, int island, double t,
@@ -118,7 +121,7 @@ int frot_wide_factor(const frot_model *m, frot_state *s, frot_work *w, const fro
                      double t, const double *q, const double *v, const double *d) {
   int n = g->n, ns = g->n_speeds, island = island_of(m, g);
   if (w->wide.island != island) evaluate(m, s, w, island, t, q, v, d);
-  w->wide.island = island;
+  w->wide.island = island, w->wide.of[g - m->groups] = 1;
   clean_rows(w, g);
   const frot_wide *mass = w->wide.mass + g->matrix;
   frot_wide *factor = w->wide.factor + g->metric, *force = w->wide.force + g->vector;
@@ -137,16 +140,24 @@ int frot_wide_factor(const frot_model *m, frot_state *s, frot_work *w, const fro
   return FROT_OK;
 }
 
-/* Entries of the speeds in the column of an auxiliary unknown. */
-static void read_column(const frot_work *w, const frot_group *g, int k, frot_wide *column) {
+/* Entries of the speeds in the column (n) of an auxiliary unknown; returns its own. */
+static frot_wide read_column(const frot_work *w, const frot_group *g, int k, frot_wide *column) {
   const frot_wide *mass = w->wide.mass + g->matrix;
+  int ns = g->n_speeds;
   if (g->n_links > 0) {
     memset(column, 0, sizeof(frot_wide) * (size_t)g->n);
     column[k] = 1;
     frot_wide_tree_times(g, mass, w->wide.twist, column);
-  } else {
-    for (int i = 0; i < g->n_speeds; i++) column[i] = mass[i * g->n + k];
+    return column[k];
   }
+  for (int i = 0; i < ns; i++) column[i] = mass[i * g->n + k];
+  return mass[ns * g->n + k - ns];
+}
+
+double frot_felt_inertia(const frot_model *m, frot_work *w, const frot_group *g, int row) {
+  frot_wide *column = w->wide.loads, own = read_column(w, g, m->row_reads[row], column);
+  go_inwards(w, g, column);
+  return (double)(own - product(column, column, g->n_speeds));
 }
 
 /* L^-1 of the row i of a group, and its value without reactions. */
@@ -164,8 +175,7 @@ static void form_row(const frot_model *m, frot_work *w, const frot_group *g, int
   round_to(half, ns, w->core.half + g->entries + i * g->n);
 }
 
-void frot_wide_rows(const frot_model *m, frot_work *w, const frot_group *g, int count,
-                    int acting) {
+void frot_wide_rows(const frot_model *m, frot_work *w, const frot_group *g, int count, int acting) {
   const int *listed = w->core.listed;
   for (int a = 0; a < count; a++) form_row(m, w, g, listed[a]);
   for (int a = 0; a < count; a++)

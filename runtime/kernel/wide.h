@@ -16,8 +16,8 @@
 int frot_is_masked(const frot_model *m, const frot_state *s, const frot_work *w,
                    const frot_group *g, int status);
 
-/* Let each island be evaluated anew: at the beginning of an evaluation. */
-void frot_begin_wide(frot_work *w);
+/* At the beginning of an evaluation: no island is evaluated, no group found in wide numbers. */
+void frot_begin_wide(const frot_model *m, frot_work *w);
 
 /* In wide numbers, at (t, q, v, d): the factor of the group and L^-1 h, rounded into w->core.
  * FROT_OK or FROT_SINGULAR. */
@@ -27,5 +27,14 @@ int frot_wide_factor(const frot_model *m, frot_state *s, frot_work *w, const fro
 /* Then L^-1 J' of the `count` rows listed, of which `acting` act, their values without reactions
  * and what these do to each other: w->core.half, free and delassus. */
 void frot_wide_rows(const frot_model *m, frot_work *w, const frot_group *g, int count, int acting);
+
+/* Whether the last evaluation found a group so. */
+static inline int frot_in_wide(const frot_model *m, const frot_work *w, const frot_group *g) {
+  return w->wide.mass && w->wide.of[g - m->groups];
+}
+
+/* The inertia that is felt at a reading of such a group while all speeds are free: what is left of
+ * all that it carries. */
+double frot_felt_inertia(const frot_model *m, frot_work *w, const frot_group *g, int row);
 
 #endif

@@ -199,7 +199,7 @@ static void bind_wide(const frot_model *m, const frot_layout *l, frot_wide_work 
     given += m->groups[k].n_given, steps = larger(steps, m->groups[k].n_links);
   TAKE(w->mass, m->n_matrix), TAKE(w->h, l->nw), TAKE(w->rows, m->n_entries);
   TAKE(w->factor, m->n_metric), TAKE(w->force, l->nw), TAKE(w->half, m->n_entries);
-  TAKE(w->loads, l->nw), TAKE(w->given, given), TAKE(w->w, scratch);
+  TAKE(w->loads, l->nw), TAKE(w->given, given), TAKE(w->w, scratch), TAKE(w->of, m->n_groups);
   TAKE(w->inertia, FROT_STEP_INERTIA * steps), TAKE(w->twist, FROT_STEP_TWIST * steps);
 }
 

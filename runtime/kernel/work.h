@@ -80,11 +80,13 @@ typedef struct {
   double *inertia, *twist, *motion, *momenta;
 } frot_core_work;
 
-/* wide.h: results of `wide`, the inertia as in core.h, and the island that they are of. Scratch:
- * loads and rows as the function gives them, its own scratch, of large trees inertia and twist. All
- * absent where no function is. */
+/* wide.h: results of `wide`, the inertia as in core.h, and the island that they are of; which
+ * groups were found so in the last evaluation (of, n_groups). Scratch: loads and rows as the
+ * function gives them, its own scratch, of large trees inertia and twist. All absent where no
+ * function is. */
 typedef struct {
   int island;
+  unsigned char *of;
   frot_wide *mass, *h, *rows, *factor, *force, *half;
   frot_wide *loads, *given, *w, *inertia, *twist;
 } frot_wide_work;
