@@ -33,10 +33,12 @@ from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.dynamics import (
     Push,
     Step,
+    HEAVY,
     heaviest_loads,
     large_speeds,
     make_steps,
     speeds_by_tree,
+    trees_of,
     write_out,
 )
 from frot.compiler.mechanics.geometry.contacts import gravity
@@ -212,7 +214,9 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         witness=settled(column(g.witness for g in geometry)),
         reach=settled(column(g.reach for g in geometry)),
         tree=Tree(_settled_steps(steps, large, settled), large),
-        carried=heaviest_loads(steps, symbols.v.numel()),
+        carried=ca.substitute(
+            heaviest_loads(steps, symbols.v.numel()), symbols.v, ca.SX.zeros(symbols.v.shape)
+        ),
         plain=plain,
         coefficients=settled(coefficients),
         power=settled(loads.power),
@@ -335,12 +339,43 @@ def _masses(
     whole = {body: mechanism.halves.get(body, body) for body in bodies}
     count = Counter(whole.values())
     share = {body: 1.0 / count[whole[body]] for body in bodies}
-    masses = {body: share[body] * variables.mass(body) for body in bodies}
-    inertias = {body: share[body] * variables.inertia_in_ground(body) for body in bodies}
+    unfolded = _unfolded(variables, bodies)
+    masses = {body: unfolded(body, share[body] * variables.mass(body)) for body in bodies}
+    inertias = {
+        body: unfolded(body, share[body] * variables.inertia_in_ground(body)) for body in bodies
+    }
     potential = -sum(
         (variables.mass(b) * ca.dot(fall, kinematics.position(b)) for b in own), ca.SX(0)
     )
     return make_steps(kinematics, bodies, masses, inertias, fall, pushes), potential
+
+
+def _unfolded(variables: Variables, bodies: Sequence[Body]) -> Callable[[Body, ca.SX], ca.SX]:
+    """What keeps CasADi from adding numbers of light bodies to those of heavy ones.
+
+    Their sum would be rounded before the kernel can take it in wide numbers (wide.h). A number is
+    the least of itself and of what nobody knows to be infinite, by a speed of the body's tree.
+    """
+    masses = [variables.mass(body) for body in bodies]
+    known = [float(m) for m in masses if m.is_constant() and float(m) > 0]
+    kinematics, v = variables.kinematics, variables.symbols.v
+    trees, nodes = trees_of(kinematics.nodes), kinematics.nodes
+    speeds = {
+        tree: v[place]
+        for node, tree in zip(nodes, trees, strict=True)
+        for place in node.places
+        if place < v.numel()
+    }
+
+    def unfolded(body: Body, value: ca.SX) -> ca.SX:
+        tree = trees[kinematics.node_of[body]] if kinematics.node_of[body] >= 0 else -1
+        if not value.is_constant() or tree not in speeds:
+            return value
+        unknown = ca.SX.inf() + ca.sign(speeds[tree])
+        return ca.SX(value.sparsity(), ca.fmin(column(value.nonzeros()), unknown))
+
+    mixed = known and max(known) > HEAVY * min(known)
+    return unfolded if mixed else lambda _, value: value
 
 
 def _settled_steps(

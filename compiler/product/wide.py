@@ -1,9 +1,10 @@
 """Generated functions in numbers of twice the digits: their C.
 
-CasADi writes them for the type `frot_wide`; what it calls of its own is written out for any type, as
-for compilers before C99, whose mathematical functions know one. Arguments are numbers of ordinary
-width, and so is what sines, cosines and roots give: the same wherever they stand in a posture, they
-move bodies by a rounding and contradict nothing.
+What CasADi calls of its own it writes out for any type, as for compilers before C99, whose
+mathematical functions know one. Arguments are numbers of ordinary width: they place bodies to a
+rounding, and contradict nothing. Nor may what CasADi takes for granted, that roots have squares and
+that directions are one unit long; other functions give numbers of ordinary width, the same wherever
+they stand.
 """
 
 from __future__ import annotations
@@ -20,10 +21,13 @@ from frot.compiler.product.split import split_functions
 _ASKED = re.compile(r"^CASADI_SYMBOL_EXPORT [^\n]*(?:\}|\{\n(?:[^}\n].*\n)*\})\n", re.MULTILINE)
 _CHOICE = re.compile(r"^ *#.*\n", re.MULTILINE)
 _NAME = re.compile(r"^/\* (\w+):.*\n^static int casadi_(f\d+)\(", re.MULTILINE)
+_CALL = re.compile(r"\b(sin|cos|sqrt)\(")
+_CALLED = {"sin": "sine", "cos": "cosine", "sqrt": "root"}
 # The name of these functions among the others.
 WIDE = "wide"
 _HEAD = """
-/* The same in wide numbers. */
+/* In wide numbers. */
+#include "wide_numbers.h"
 #define wide_real frot_wide
 #define wide_int long long int
 #define wide_nan NAN
@@ -38,6 +42,7 @@ def write_wide(text: str) -> str:
     for braces in ('extern "C" {\n', '} /* extern "C" */\n'):
         plain = plain.replace(braces, "")
     plain = plain.replace("const casadi_real** arg", "const double** arg")
+    plain = _CALL.sub(lambda found: f"frot_wide_{_CALLED[found[1]]}(", plain)
     return _HEAD + plain.replace("casadi_", "wide_")
 
 

@@ -5,6 +5,8 @@
 
 #include "linear.h"
 #include "tree.h"
+#include "wide.h"
+#include "wide_numbers.h"
 
 int frot_factor(frot_work *w, const frot_group *g) {
   int n = g->n, ns = g->n_speeds;
@@ -112,8 +114,8 @@ void frot_own_inertias(const frot_work *w, const frot_group *g, double *own) {
     for (int k = 0; k < g->n; k++) own[k] = own_inertia(g, mass, k);
 }
 
-double frot_masked_part(frot_work *w, const frot_group *g) {
-  double most = 0, *x = w->core.rest, *own = w->core.column;
+double frot_masked_part(const frot_model *m, frot_work *w, const frot_group *g) {
+  double most = 0, rounding = frot_in_wide(m, w, g) ? (double)FROT_WIDE_EPSILON : DBL_EPSILON, *x = w->core.rest, *own = w->core.column;
   frot_own_inertias(w, g, own);
   for (int k = 0; k < g->n_speeds; k++) {
     memset(x, 0, sizeof(double) * (size_t)g->n_speeds);
@@ -122,7 +124,7 @@ double frot_masked_part(frot_work *w, const frot_group *g) {
     double loss = own[k] * frot_dot(x, x, g->n_speeds);
     if (loss > most) most = loss;
   }
-  return DBL_EPSILON * most;
+  return rounding * most;
 }
 
 void frot_whole_column(const frot_work *w, const frot_group *g, int k, double *column) {

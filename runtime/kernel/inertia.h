@@ -32,7 +32,7 @@ void frot_own_inertias(const frot_work *w, const frot_group *g, double *own);
 /* Part of an acceleration of the group, which is not general, that rounding of its inertias may
  * make: a speed whose own inertia, where the others are free, is far below what its joint carries
  * loses the digits between them. */
-double frot_masked_part(frot_work *w, const frot_group *g);
+double frot_masked_part(const frot_model *m, frot_work *w, const frot_group *g);
 
 /* The column of the speed k of a group in the metric (n_speeds), until another one is asked for. */
 const double *frot_metric_column(frot_work *w, const frot_group *g, int k);

@@ -15,7 +15,6 @@
 #include "stages.h"
 #include "tolerances.h"
 #include "ways.h"
-#include "wide.h"
 
 /* Time from which on steps are measured by its resolution, in longest steps. */
 #define LEAST_TIME 1e-12
@@ -54,8 +53,7 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   s->statistics.free = frot_free_speeds(m, s, w);
   for (int i = 0; i < w->awake.now->n_groups; i++) {
     const frot_group *g = &m->groups[w->awake.now->groups[i]];
-    if (!g->general && !frot_in_wide(m, w, g))
-      s->statistics.masked = fmax(s->statistics.masked, frot_masked_part(w, g));
+    if (!g->general) s->statistics.masked = fmax(s->statistics.masked, frot_masked_part(m, w, g));
   }
   double h = FIRST_PART * s->h_max;
   double leaves = INFINITY;

@@ -13,10 +13,24 @@
 #define FROT_WIDE_EPSILON LDBL_EPSILON
 #endif
 
-/* The root of a positive number: that of ordinary width and one step of Newton's. */
+/* The root: that of ordinary width and one step of Newton's. */
 static inline frot_wide frot_wide_root(frot_wide x) {
   frot_wide near = sqrt((double)x);
-  return (near + x / near) / 2;
+  return near > 0 && near <= DBL_MAX ? (near + x / near) / 2 : near;
+}
+
+/* Of an angle known to ordinary width the sine and the cosine, of a direction that is one unit long
+ * to the last digit: what is written out may rely on that. */
+static inline frot_wide frot_wide_unit(double s, double c) {
+  return (3 - ((frot_wide)s * s + (frot_wide)c * c)) / 2;
+}
+static inline frot_wide frot_wide_sine(frot_wide x) {
+  double s = sin((double)x), c = cos((double)x);
+  return frot_wide_unit(s, c) * s;
+}
+static inline frot_wide frot_wide_cosine(frot_wide x) {
+  double s = sin((double)x), c = cos((double)x);
+  return frot_wide_unit(s, c) * c;
 }
 
 #endif
