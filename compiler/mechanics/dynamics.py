@@ -25,8 +25,6 @@ from frot.dsl.data.classes import dataclass, field
 # Speeds of a tree from which on the recursion costs less than the mass matrix, measured: of one
 # whose reactions nobody reads, and of one with readings, each of which is one more way along it.
 LARGE, LARGE_READ = 10, 20
-# Ratio of masses beyond which inertias are found in wide numbers: FROT_HEAVY of the kernel.
-HEAVY = 1e5
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,7 +8,6 @@ zero, and so are their accelerations, in every motion.
 from __future__ import annotations
 
 import itertools
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 
 import casadi as ca
@@ -31,22 +30,18 @@ from frot.compiler.mechanics.cancelling import (
 )
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.dynamics import (
-    Push,
     Step,
-    HEAVY,
     heaviest_loads,
     large_speeds,
-    make_steps,
     speeds_by_tree,
-    trees_of,
     write_out,
 )
-from frot.compiler.mechanics.geometry.contacts import gravity
 from frot.compiler.mechanics.geometry.leaving import find_leaving
 from frot.compiler.mechanics.idle import refuse_idle_spins
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.link import Geometry, Link
 from frot.compiler.mechanics.loads import applied_loads, sum_loads
+from frot.compiler.mechanics.masses import make_masses
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.text_of_motion import (
     add_slip_accelerations,
@@ -184,7 +179,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         trees = speeds_by_tree(kinematics.nodes)
         large = moved_by_forces(trees, large, forces, equations, text, symbols)
     loads = sum_loads(mechanism, variables, applied, large)
-    steps, potential = _masses(mechanism, variables, loads.pushes)
+    steps, potential = make_masses(mechanism, variables, loads.pushes)
     motion = write_out(steps, symbols.v.numel(), speeds.numel(), large)
     if not large:
         refuse_idle_spins(mechanism, variables, motion.mass, log)
@@ -327,55 +322,6 @@ def _give_modes(mechanism: Mechanism, variables: Variables, text: TextSymbols) -
             symbol = ca.SX.sym(f"{one.name}.mode")
             variables.modes[one] = numbers[one], symbol
             text.add_discrete(symbol.name(), symbol, ca.SX(0))
-
-
-def _masses(
-    mechanism: Mechanism, variables: Variables, pushes: Iterable[Push]
-) -> tuple[tuple[Step, ...], ca.SX]:
-    """The tree's masses with what pushes its bodies, and the potential energy of the weights."""
-    kinematics, own = variables.kinematics, mechanism.model.bodies
-    fall = gravity(mechanism.model.world, kinematics)
-    bodies = (*own, *mechanism.halves)
-    whole = {body: mechanism.halves.get(body, body) for body in bodies}
-    count = Counter(whole.values())
-    share = {body: 1.0 / count[whole[body]] for body in bodies}
-    unfolded = _unfolded(variables, bodies)
-    masses = {body: unfolded(body, share[body] * variables.mass(body)) for body in bodies}
-    inertias = {
-        body: unfolded(body, share[body] * variables.inertia_in_ground(body)) for body in bodies
-    }
-    potential = -sum(
-        (variables.mass(b) * ca.dot(fall, kinematics.position(b)) for b in own), ca.SX(0)
-    )
-    return make_steps(kinematics, bodies, masses, inertias, fall, pushes), potential
-
-
-def _unfolded(variables: Variables, bodies: Sequence[Body]) -> Callable[[Body, ca.SX], ca.SX]:
-    """What keeps CasADi from adding numbers of light bodies to those of heavy ones.
-
-    Their sum would be rounded before the kernel can take it in wide numbers (wide.h). A number is
-    the least of itself and of what nobody knows to be infinite, by a speed of the body's tree.
-    """
-    masses = [variables.mass(body) for body in bodies]
-    known = [float(m) for m in masses if m.is_constant() and float(m) > 0]
-    kinematics, v = variables.kinematics, variables.symbols.v
-    trees, nodes = trees_of(kinematics.nodes), kinematics.nodes
-    speeds = {
-        tree: v[place]
-        for node, tree in zip(nodes, trees, strict=True)
-        for place in node.places
-        if place < v.numel()
-    }
-
-    def unfolded(body: Body, value: ca.SX) -> ca.SX:
-        tree = trees[kinematics.node_of[body]] if kinematics.node_of[body] >= 0 else -1
-        if not value.is_constant() or tree not in speeds:
-            return value
-        unknown = ca.SX.inf() + ca.sign(speeds[tree])
-        return ca.SX(value.sparsity(), ca.fmin(column(value.nonzeros()), unknown))
-
-    mixed = known and max(known) > HEAVY * min(known)
-    return unfolded if mixed else lambda _, value: value
 
 
 def _settled_steps(

@@ -62,6 +62,12 @@ def _reads(lists: Mapping[str, Sequence[int]], names: Mapping[str, str], numbers
     return record(*counts, *places, numbers)
 
 
+def _callables(functions: Mapping[str, ca.Function], wide: Mapping[str, str]) -> list[str]:
+    """Those of an island; `wide`: names in C of the functions in wide numbers."""
+    plain = [callable_record(functions.get(name)) for name in _FUNCTIONS]
+    return [*plain, wide_record(functions.get(WIDE), wide)]
+
+
 def island_arrays(lowered: Lowered, wide: Mapping[str, str]) -> list[str]:
     """The tables of frot_island; `wide`: names in C of the functions in wide numbers."""
     arrays: list[str] = []
@@ -79,8 +85,7 @@ def island_arrays(lowered: Lowered, wide: Mapping[str, str]) -> list[str]:
                 *(int(island.sleeps), min(island.groups, default=0), len(island.groups)),
                 *(len(island.conditions), located, names["conditions"]),
                 _reads(lists, names, numbers),
-                *(callable_record(functions.get(name)) for name in _FUNCTIONS),
-                wide_record(functions.get(WIDE), wide),
+                *_callables(functions, wide),
             )
         )
     return [*arrays, array("frot_island", "islands", records)]

@@ -115,7 +115,8 @@ void frot_own_inertias(const frot_work *w, const frot_group *g, double *own) {
 }
 
 double frot_masked_part(const frot_model *m, frot_work *w, const frot_group *g) {
-  double most = 0, rounding = frot_in_wide(m, w, g) ? (double)FROT_WIDE_EPSILON : DBL_EPSILON, *x = w->core.rest, *own = w->core.column;
+  double most = 0, rounding = frot_in_wide(m, w, g) ? (double)FROT_WIDE_EPSILON : DBL_EPSILON,
+         *x = w->core.rest, *own = w->core.column;
   frot_own_inertias(w, g, own);
   for (int k = 0; k < g->n_speeds; k++) {
     memset(x, 0, sizeof(double) * (size_t)g->n_speeds);
