@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
 import casadi as ca
-from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.dynamics import Push, Step, make_steps, trees_of
 from frot.compiler.mechanics.geometry.contacts import gravity
 from frot.compiler.mechanics.mechanism import Mechanism
