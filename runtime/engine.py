@@ -12,7 +12,8 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from frot.dsl.data.classes import dataclass
-from frot.dsl.messages.errors import fail
+from frot.dsl.messages.diagnostics import Log
+from frot.dsl.messages.errors import FrotError, fail
 from frot.runtime.library import Fault, Monitor, Options, RawEvent, Recorder, Statistics, load
 from frot.runtime.program import Program
 
@@ -71,6 +72,14 @@ def _interrupts_noted(noted: list[BaseException]) -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+class NoValues(FrotError):
+    """Variables of a run have no value at a time that was asked for: `time`, in s."""
+
+    def __init__(self, log: Log, time: float) -> None:
+        super().__init__(log)
+        self.time = time
 
 
 def zeros(count: int) -> array[float]:
@@ -232,7 +241,7 @@ class Engine:
         Raises:
             FrotError: A variable has no finite value (E0904).
         """
-        found = zeros(len(times) * len(self.program.variables))
+        found = array("d", [math.nan]) * (len(times) * len(self.program.variables))
         status = self._library.frot_sample(
             self._model,
             self._s,
@@ -259,20 +268,21 @@ class Engine:
 
     def _no_value(self, values: array[float], times: array[float], status: int) -> Exception:
         """The error of a sample that gave no numbers: the first variable without one is named."""
+        log = Log()
+        width = len(self.program.variables)
+        lost = next((k for k, value in enumerate(values) if not math.isfinite(value)), 0)
+        row, column = divmod(lost, width)
         if status == VANISHED:
             places = tuple(f"at {place}" for place in self.fault_places)
-            return fail("E0911", self.fault_text, notes=places)
-        what = f"the variables have no value (status {status})"
-        lost = next((k for k, value in enumerate(values) if not math.isfinite(value)), None)
-        if lost is not None:
-            row, column = divmod(lost, len(self.program.variables))
-            name = self.program.variables[column].name
-            what = f"variable '{name}' has no finite value at t = {times[row]:.17g}"
-        return fail(
-            "E0904",
-            what,
-            help="look for a division by zero, a root or a logarithm of a negative value",
-        )
+            log.report("E0911", self.fault_text, None, notes=places)
+            return NoValues(log, times[row])
+        what = f"variable '{self.program.variables[column].name}' has no finite value"
+        if all(math.isnan(value) for value in values[row * width : (row + 1) * width]):
+            what = "a force, a coefficient or an equation gives no finite number"
+        what += f" at t = {times[row]:.17g}"
+        remedy = "look for a division by zero, a root or a logarithm of a negative value"
+        log.report("E0904", what, None, help=remedy)
+        return NoValues(log, times[row])
 
     def energy(self) -> array[float]:
         """Residual of the balance, energy scale, mechanical energy, dissipated, work."""

@@ -18,6 +18,7 @@ from frot.runtime.engine import (
     TERMINATED,
     VANISHED,
     Engine,
+    NoValues,
 )
 from frot.runtime.library import Fault, RawEvent
 from frot.runtime.program import (
@@ -158,11 +159,14 @@ def simulate(
     if run.record:
         try:
             result = Result(program, engine, grid, run.record, events, figures)
-        except FrotError:
+        except NoValues as error:
             # Where a run ends in a fault, reactions may have no value, as in a jam.
-            if run.status in _GOOD or not len(kept):
+            before = grid[: bisect_left(grid, error.time)]
+            if not len(before):
                 raise
-            result = Result(program, engine, kept, run.record, events, figures)
+            result = Result(program, engine, before, run.record, events, figures)
+            if run.status in _GOOD:
+                raise SimulationError(Log(list(error.diagnostics)), result) from None
     if run.interrupted:
         raise Interrupted(end, result)
     if run.status == FULL:

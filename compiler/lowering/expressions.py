@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import casadi as ca
 from frot.compiler.equations.before import Before, whole
 from frot.compiler.lowering.symbols import Symbols
-from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.lowering.walk import COMPARISONS, is_fixed, quantities_in
 from frot.dsl import Log
 from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked import (
@@ -110,7 +110,8 @@ class Lowering(SharedWalk[ca.SX]):
 
     `variable` gives the variables of the text, `before` those before an event;
     `friction` makes a friction element of its call, in the component named by `owner`;
-    `without_rate` names what in a value has no derivative that anybody knows.
+    `without_rate` names what in a value has no derivative that anybody knows; `holds` tells
+    the motions that friction holds, `at_rest` is `quantity` where they are zero.
 
     With `conditions`, every switch that depends on time, inputs or motion becomes a located event;
     without, it is taken as it stands (for what is only looked at: outputs, initial statements), but
@@ -127,6 +128,8 @@ class Lowering(SharedWalk[ca.SX]):
     before: Before | None = None
     friction: Callable[[Call, list[ca.SX], str], ca.SX] | None = None
     without_rate: Callable[[ca.SX], list[str]] | None = None
+    holds: Callable[[Quantity], ca.SX] | None = None
+    at_rest: Callable[[Quantity], ca.SX] | None = None
     owner: str = ""
     done: dict[int, tuple[Expression, ca.SX]] = field(default_factory=dict)
 
@@ -196,7 +199,11 @@ class Lowering(SharedWalk[ca.SX]):
         return None if is_fixed(expression) else self.conditions
 
     def _binary(self, node: Binary) -> ca.SX:
-        left, right = self.of(node.left), self.of(node.right)
+        left, right, held = *map(self.of, (node.left, node.right)), ca.SX(0)
+        if node.op in COMPARISONS and self.holds is not None and self.at_rest is not None:
+            held = sum((self.holds(q) for q in quantities_in(node)), held)
+            still = self if held.is_zero() else replace(self, quantity=self.at_rest, done={})
+            left, right = still.of(node.left), still.of(node.right)
         match node.op:
             case "+":
                 return left + right
@@ -225,6 +232,10 @@ class Lowering(SharedWalk[ca.SX]):
             return left == right if node.op == "==" else left != right
         positive = left - right if node.op in (">", ">=") else right - left
         strict = node.op in ("<", ">")
+        if not held.is_zero():
+            # Zero exactly, not to rounding: nothing is left in doubt.
+            decided = ca.SX(-1.0 if strict else 1.0)
+            positive = ca.if_else((held > 0) * (positive == 0), decided, positive)
         if conditions is not None:
             return conditions.add(positive, strict, self._told(words(node)), node.span)
         flag = None if self.known is None else self.known.find(positive, strict)

@@ -21,7 +21,7 @@ from frot.dsl.checked import (
     arrays,
 )
 from frot.dsl.checked.arrays import component_names
-from frot.dsl.data.classes import dataclass
+from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.names.flanges import parameter_type
 from frot.dsl.quantities.dimensions import Dimension, dimension
 
@@ -93,8 +93,10 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
             yield Listed(name, ca.SX(0), NUMBER, "open, stick or slip", mode=True)
     for element in system.elements:
         yield Listed(f"{element.name}.mode", ca.SX(0), NUMBER, "stick or slip", mode=True)
+    # Whatever an output reads of a motion that friction holds is zero to the last bit.
+    showing = replace(looking, quantity=reduced.variables.at_rest, done={})
     for output in mechanism.model.outputs:
-        value = looking.lower(output.value)
+        value = showing.lower(output.value)
         limits = arrays.bounds_of(output.bounds, value.numel())
         for k, (suffix, part) in enumerate(_components(output.name, value)):
             yield Listed(

@@ -25,6 +25,9 @@ from frot.dsl.checked import (
     Variable,
 )
 from frot.dsl.checked.walk import nodes, parts
+from frot.dsl.data.classes import replace
+
+COMPARISONS = ("<", "<=", ">", ">=", "==", "<>")
 
 
 def subexpressions(expression: Expression) -> Iterator[Expression]:
@@ -127,10 +130,25 @@ def read_quantities(model: Model) -> Iterator[Quantity]:
     """What the model reads of its bodies and liaisons, in the order of the text."""
     if not (model.bodies or model.liaisons):
         return
-    for expression in read_expressions(model):
+    yield from quantities_in(*read_expressions(model))
+
+
+def quantities_in(*expressions: Expression) -> Iterator[Quantity]:
+    """What expressions read of bodies and liaisons."""
+    for expression in expressions:
         for node in subexpressions(expression):
             if isinstance(node, Quantity):
                 yield node
+
+
+def compared_quantities(model: Model) -> Iterator[Quantity]:
+    """What stands in the comparisons that anything but an output follows."""
+    if not (model.bodies or model.liaisons):
+        return
+    for expression in read_expressions(replace(model, outputs=())):
+        for node in subexpressions(expression):
+            if isinstance(node, Binary) and node.op in COMPARISONS:
+                yield from quantities_in(node.left, node.right)
 
 
 def _of_equations(equations: Iterable[Equation | IfEquations]) -> Iterator[Expression]:

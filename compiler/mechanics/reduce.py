@@ -22,7 +22,7 @@ from frot.compiler.equations.text_symbols import (
 )
 from frot.compiler.lowering.expressions import Conditions, Lowering
 from frot.compiler.lowering.symbols import Rows, Symbols, column, link_rows, make_symbols
-from frot.compiler.lowering.walk import read_quantities
+from frot.compiler.lowering.walk import compared_quantities, quantities_in, read_quantities
 from frot.compiler.mechanics.cancelling import (
     biases_without_rounding,
     rows_without_rounding,
@@ -50,9 +50,9 @@ from frot.compiler.mechanics.text_of_motion import (
     friction_maker,
     give_rates_of_tracks,
 )
-from frot.compiler.mechanics.variables import Variables
+from frot.compiler.mechanics.variables import Variables, may_be_held
 from frot.dsl import Log
-from frot.dsl.checked import Liaison
+from frot.dsl.checked import Liaison, Quantity
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 
@@ -146,6 +146,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     first = first_values(mechanism.model, text, symbols, looking, log)
     moving.before = Before(text, text.values.__getitem__, first)
     _give_modes(mechanism, variables, text)
+    moving.holds, moving.at_rest = variables.holds, variables.at_rest
     for variable in mechanism.model.variables:
         if variable.discrete:
             symbols_of = scalars(text.values[variable])
@@ -315,13 +316,20 @@ def _give_modes(mechanism: Mechanism, variables: Variables, text: TextSymbols) -
     numbers: dict[Liaison, int] = {}
     for k, link in enumerate(mechanism.contacts):
         numbers.setdefault(link.liaison, k)
-    named = (x.owner for x in read_quantities(mechanism.model) if x.name == "mode")
-    read = (x for x in named if isinstance(x, Liaison))
-    for one in dict.fromkeys(c for x in read for c in mechanism.corners.get(x, (x,))):
-        if one in numbers:  # what keeps nothing has no mode: it is open
-            symbol = ca.SX.sym(f"{one.name}.mode")
-            variables.modes[one] = numbers[one], symbol
-            text.add_discrete(symbol.name(), symbol, ca.SX(0))
+    model = mechanism.model
+
+    def give(read: Iterable[Quantity]) -> None:
+        owners = (x.owner for x in read if isinstance(x.owner, Liaison))
+        for one in dict.fromkeys(c for x in owners for c in mechanism.corners.get(x, (x,))):
+            if one in numbers and one not in variables.modes:  # what keeps nothing is open
+                symbol = ca.SX.sym(f"{one.name}.mode")
+                variables.modes[one] = numbers[one], symbol
+                text.add_discrete(symbol.name(), symbol, ca.SX(0))
+
+    give(x for x in read_quantities(model) if x.name == "mode")
+    give(filter(may_be_held, compared_quantities(model)))
+    variables.felt.extend(variables.modes)
+    give(x for output in model.outputs for x in quantities_in(output.value) if may_be_held(x))
 
 
 def _settled_steps(

@@ -14,9 +14,13 @@ from frot.compiler.mechanics.liaisons.stated import Reader, unit_of
 from frot.compiler.mechanics.link import Geometry, Link, Reaction, point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere
+from frot.dsl.catalogue import MODES
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity, Variable
 from frot.dsl.data.classes import dataclass, field
 
+# The motions that friction may hold, and the mode in which it does: the literals count from 1.
+HELD = ("slip", "speed")
+_STICK = MODES.index("stick") + 1
 # Operations within which two moments of inertia are seen to be the same expression.
 _DEEP = 8
 
@@ -28,7 +32,8 @@ class Variables:
     `geometry` and `links` hold every liaison, `reactions` the rows of those whose reaction is
     computed, `drives` the efforts that keep prescribed coordinates, by their names; `corners` the
     liaisons that one of faces stands for, `values` are those of the text, `frictions` is what
-    laws of the user give on the body, `modes` those that are read: numbers of contacts, symbols.
+    laws of the user give on the body, `modes` those that are read: numbers of contacts, symbols;
+    the first of them are `felt`, for something follows them, the others are only looked at.
     """
 
     symbols: Symbols
@@ -42,6 +47,7 @@ class Variables:
     values: Mapping[Variable, ca.SX]
     frictions: dict[Liaison, ca.SX] = field(default_factory=dict)
     modes: dict[Liaison, tuple[int, ca.SX]] = field(default_factory=dict)
+    felt: list[Liaison] = field(default_factory=list)
     _inertias: dict[Body, ca.SX] = field(default_factory=dict, repr=False)
 
     def quantity(self, node: Quantity) -> ca.SX:
@@ -49,6 +55,19 @@ class Variables:
         if isinstance(node.owner, Liaison):
             return self.of_liaison(node.owner, node.name)
         return self.of_body(node.owner, node.name)
+
+    def holds(self, node: Quantity) -> ca.SX:
+        """1 where the variable is a motion that friction holds, else 0."""
+        if not may_be_held(node):
+            return ca.SX(0)
+        assert isinstance(node.owner, Liaison)
+        owner = self.corners.get(node.owner, (node.owner,))[0]
+        return self.of_liaison(owner, "mode") == _STICK if owner in self.modes else ca.SX(0)
+
+    def at_rest(self, node: Quantity) -> ca.SX:
+        """As `quantity`, but a motion that friction holds is zero to the last bit."""
+        held, value = self.holds(node), self.quantity(node)
+        return value if held.is_zero() else ca.if_else(held, 0, value)
 
     def rate(self, value: ca.SX) -> ca.SX:
         """d/dt of a function of time, coordinates, speeds and variables of the text."""
@@ -173,6 +192,12 @@ class Variables:
             self.frictions.get(liaison, ca.SX(0)),
             self.kinematics.planar,
         )
+
+
+def may_be_held(node: Quantity) -> bool:
+    """Whether a variable is a motion that friction may hold."""
+    liaison = node.owner
+    return node.name in HELD and isinstance(liaison, Liaison) and bool(liaison.laws)
 
 
 def _is_round(inertia: ca.SX) -> bool:

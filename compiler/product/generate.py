@@ -104,6 +104,7 @@ def _counts(lowered: Lowered) -> dict[str, float | str]:
         "n_vanishing": len(lowered.vanishing),
         "n_held": len(reduced.text.held),
         "n_modes": len(reduced.variables.modes),
+        "n_felt": len(reduced.variables.felt),
         "n_located": reduced.conditions.located,
         "n_sensed": reduced.conditions.sensed,
         "n_timed": reduced.conditions.timed,

@@ -256,14 +256,14 @@ static int change_conditions(const instant *in, int first) {
   return status;
 }
 
-/* Put the modes that the text reads among the discrete values; whether one has changed. */
+/* Put the modes that the text reads among the discrete values; whether one that acts changed. */
 static int read_modes(const instant *in) {
   const frot_model *m = in->m;
   double *read = in->s->data + in->l.d + m->n_conditions + m->n_contacts;
   int changed = 0;
   for (int k = 0; k < m->n_modes; k++) {
     double mode = frot_mode_value(m, modes_of(in), m->mode_contact[k]);
-    if (mode != read[k]) read[k] = mode, changed = 1;
+    if (mode != read[k]) read[k] = mode, changed |= k < m->n_felt;
   }
   return changed;
 }

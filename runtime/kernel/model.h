@@ -38,6 +38,7 @@ typedef struct {
   int n_vanishing;
   int n_held;  /* the last n_held discrete values are what others were before: see `update` */
   int n_modes; /* the first n_modes discrete values are modes of contacts, which the text reads */
+  int n_felt;  /* of these the first, that act on anything; the others are only looked at */
   int n_turns; /* orientations among the coordinates */
   int n_groups;
   int n_islands; /* 0: all is one, and the functions of the whole model are called */

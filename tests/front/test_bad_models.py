@@ -136,6 +136,16 @@ def test_a_force_without_a_value_names_its_own_line(door: Door) -> None:
     assert f"{name}:4:" in answer.err
 
 
+def test_what_was_computed_before_a_variable_lost_its_value_is_kept(door: Door) -> None:
+    name = door.write(
+        "model Logs\n  Real x;\n  output Real y = log(x);\ninitial\n  x = 1;\nequation\n"
+        "  der(x) = -2 1/s;\n  experiment(stop = 1 s, interval = 0.09 s);\nend Logs;\n"
+    )
+    answer = door("simulate", name, "-o", "out.csv")
+    assert answer.status == 1 and "variable 'y' has no finite value at t = 0.54" in answer.err
+    assert (door.folder / "out.csv").read_text().splitlines()[-1].startswith("0.4499")
+
+
 def test_a_run_that_cannot_go_on_keeps_the_motion_up_to_there(door: Door) -> None:
     name = door.write(
         "planar model Drop\n"
