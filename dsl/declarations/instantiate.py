@@ -293,7 +293,9 @@ def _components(
             given = binding(of, item, modifier, scope)
             if given is None:
                 return None
-            parts = merged(given, parts, scope)
+            covered = {n: p for n, p in parts.items() if modifier and n in modifier.covered}
+            over = {n: p for n, p in parts.items() if n not in covered}
+            parts = merged(over, merged(given, covered, scope), scope)
         elif item.value is not None or (modifier is not None and modifier.has_value):
             span = item.value.span if item.value is not None else item.span
             message = f"{of.kind} {of.name!r} has no value of its own"

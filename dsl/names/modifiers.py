@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from frot.dsl import checked
-from frot.dsl.data.classes import dataclass, field
+from frot.dsl.data.classes import dataclass, field, replace
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class
@@ -21,7 +21,8 @@ class Modifier:
 
     The value is a text to be checked in `scope`, or `known` already. `picks` are the indices (from
     0) and sizes of the arrays of components it comes through. `memo` keeps what was checked, shared
-    by the items of an array.
+    by the items of an array. `covered` are the parts that were said further inside than the value:
+    that of a whole record counts before them.
     """
 
     span: Span
@@ -32,6 +33,7 @@ class Modifier:
     final: bool = False
     picks: tuple[tuple[int, int], ...] = ()
     memo: dict[object, checked.Expression | Record | None] = field(default_factory=dict)
+    covered: frozenset[str] = frozenset()
 
     @property
     def has_value(self) -> bool:
@@ -107,18 +109,15 @@ def merge(outer: Modifier | None, inner: Modifier | None, scope: Scope) -> Modif
 def _both(first: Modifier, second: Modifier) -> Modifier:
     """One modifier of two, the parts of the first before those of the second."""
     giver = first if first.has_value else second
+    covered = frozenset(second.parts) - frozenset(first.parts) if giver is first else frozenset()
     parts = dict(first.parts)
     for name, part in second.parts.items():
         parts[name] = _both(parts[name], part) if name in parts else part
-    return Modifier(
-        giver.span,
-        giver.scope,
-        giver.value,
-        giver.known,
-        parts,
-        first.final or second.final,
-        giver.picks,
-        giver.memo,
+    return replace(
+        giver,
+        parts=parts,
+        final=first.final or second.final,
+        covered=covered | giver.covered - frozenset(first.parts),
     )
 
 
@@ -137,16 +136,7 @@ def merged(
 def picked(modifiers: Mapping[str, Modifier], index: int, size: int) -> dict[str, Modifier]:
     """The modifiers as they are for one item of an array of components."""
     return {
-        name: Modifier(
-            m.span,
-            m.scope,
-            m.value,
-            m.known,
-            picked(m.parts, index, size),
-            m.final,
-            (*m.picks, (index, size)),
-            m.memo,
-        )
+        name: replace(m, parts=picked(m.parts, index, size), picks=(*m.picks, (index, size)))
         for name, m in modifiers.items()
     }
 

@@ -389,3 +389,46 @@ def test_one_number_stands_for_all_items_whole_numbers_too() -> None:
     assert model is not None, render_log(log)
     values = {p.name: v for p, v in default_values(model).items()}
     assert values == {"p": (4, 4), "f": (1, 1, 1)}
+
+
+RECORDS = """
+record P
+  Mass m; Length l = 7 m;
+end P;
+model A
+  parameter P p = P(m = 1 kg, l = 0.5 m);
+end A;
+model B
+  A a(p(l = 0.3 m));
+end B;
+model Example
+  A plain;
+  A inner(p(l = 0.3 m));
+  A dotted(p.l = 0.3 m);
+  A whole(p = P(2 kg, 4 m));
+  A each[2](p(l = (0.3, 0.4) m, m = 9 kg));
+  B further(a(p(m = 5 kg)));
+  B over(a(p = P(2 kg, 4 m)));
+  B last(a(p(l = 6 m)));
+end Example;
+"""
+
+
+def test_what_is_said_of_a_member_from_outside_counts_before_the_whole_record() -> None:
+    log = Log()
+    model = compile_text(RECORDS, log)
+    assert model is not None, render_log(log)
+    values = {p.name: v for p, v in default_values(model).items()}
+    names = ("plain", "inner", "dotted", "whole", "each[1]", "each[2]", "further.a", "over.a")
+    found = [(values[f"{n}.p.m"], values[f"{n}.p.l"]) for n in (*names, "last.a")]
+    assert found == [
+        (1, 0.5),
+        (1, 0.3),
+        (1, 0.3),
+        (2, 4),
+        (9, 0.3),
+        (9, 0.4),
+        (5, 0.3),
+        (2, 4),
+        (1, 6),
+    ]
