@@ -126,7 +126,10 @@ double frot_guard_noise(const frot_model *m, const frot_state *s, const frot_wor
   const double *noise = s->data + w->layout.noise;
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   double own = noise[m->nq + m->nv + j];
-  int e = (j - m->n_contacts) / 2;
+  int e = (j - m->n_contacts) / 2, condition = j - frot_condition_guard(m);
+  /* how far a place is beyond an end is told in parts of the length between the ends */
+  if (condition >= 0 && condition < m->n_conditions && m->conditions[condition].contact >= 0)
+    return fmax(own, FROT_ROUNDING);
   if (j < m->n_contacts || j >= frot_condition_guard(m) || j != frot_element_guard(m, e))
     return own;
   if (frot_element_mode(m, modes, e)->friction <= FROT_STICK) return own;
