@@ -75,9 +75,11 @@ def _unknown(name: str, names: list[str], what: str, program: Program) -> Except
 
     why = dict(program.fixed).get(name)
     if why is not None:
+        what, _, place = why.removesuffix(")").rpartition(" (")
         return fail(
             "E0805",
-            f"parameter '{name}' cannot be set for a run: it decides {why}",
+            f"parameter '{name}' cannot be set for a run: it decides {what} "
+            f"({program.place(place)})",
             help="change its value in the text; the model is then compiled again",
         )
     near = get_close_matches(name, names, 1)

@@ -1,5 +1,7 @@
 """The same from Python: load, simulate, results, messages as exceptions."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from front_door import HOOP
@@ -32,6 +34,14 @@ def test_values_at_any_time_are_those_of_the_grid(result: frot.Result) -> None:
 def test_a_number_of_too_many_digits_is_told(bad: dict[str, object], model: frot.Model) -> None:
     with pytest.raises(frot.FrotError, match=r"E0806.*too large"):
         model.simulate(**bad)  # type: ignore[arg-type]
+
+
+def test_a_place_is_told_in_the_file_that_its_user_names(tmp_path: Path) -> None:
+    text = "model M\n parameter Integer n = 2;\n Real x[n] = ones(n);\nend M;\n"
+    for name in ("one.frot", "other.frot"):
+        (tmp_path / name).write_text(text)
+        with pytest.raises(frot.FrotError, match=rf"the size of 'x' .*{name}:3:9"):
+            frot.load(tmp_path / name).simulate(parameters={"n": 3})
 
 
 def test_values_at_many_times_may_be_in_any_order(result: frot.Result) -> None:
