@@ -112,7 +112,7 @@ def _curves(result: Result, values: Any, suffixes: tuple[str, ...]) -> list[str]
 
 def _by_unit(result: Result, values: Any) -> list[tuple[str, list[str]]]:
     """Panels of all variables, a unit each: the shortest paths first, each curve once."""
-    real = [v for v in result.program.variables if v.type == "real"]
+    real = [v for v in result.program.variables if v.type != "mode"]
     panels: dict[str, list[str]] = {}
     for v in sorted(real, key=lambda v: v.name.count(".")):
         names = panels.setdefault("number" if v.unit.name == "1" else v.unit.name, [])

@@ -51,7 +51,10 @@ class ParameterInfo:
 
 @dataclass(frozen=True, slots=True)
 class VariableInfo:
-    """A variable a run gives. `type` is `real` or `mode`; `causality` is `output` or `local`."""
+    """A variable a run gives. `type` is `real`, `integer`, `boolean` or `mode`.
+
+    `causality` is `output` or `local`.
+    """
 
     name: str
     type: str

@@ -34,7 +34,10 @@ AXES = ("x", "y", "z")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Listed:
-    """One scalar variable. `quantity` names its type (`Angle`), `unit` is the author's."""
+    """One scalar variable. `quantity` names its type (`Angle`), `unit` is the author's.
+
+    `base` is `real`, `integer` (enumerations are counted from 1) or `boolean`.
+    """
 
     name: str
     value: ca.SX
@@ -43,6 +46,7 @@ class Listed:
     quantity: str = ""
     output: bool = False
     mode: bool = False
+    base: str = "real"
     unit: str = ""
     bounds: tuple[tuple[str, Expression], ...] = ()
 
@@ -106,6 +110,7 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
                 output.doc,
                 quantity=output.quantity,
                 output=True,
+                base=output.type.base,
                 unit=output.unit,
                 bounds=limits[k],
             )
@@ -156,6 +161,7 @@ def _of_text(reduced: Reduced, variable: Variable) -> Iterator[Listed]:
             variable.doc,
             quantity=variable.quantity,
             output=variable.output,
+            base=variable.type.base,
             unit=variable.unit,
             bounds=bounds,
         )

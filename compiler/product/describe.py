@@ -48,7 +48,7 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
         variables=tuple(
             VariableInfo(
                 v.name,
-                "mode" if v.mode else "real",
+                "mode" if v.mode else v.base,
                 unit_of(v.dimension, v.quantity, v.unit),
                 "output" if v.output else "local",
                 v.doc,

@@ -2,6 +2,7 @@
 #include "instance.h"
 
 #include <math.h>
+#include <stdint.h>
 
 static const char *type_name(int types) {
   if (types & FROT_FMU_TYPE(FROT_REAL)) return "real number";
@@ -55,6 +56,9 @@ int frot_fmu_get(frot_fmu *fmu, const char *function, unsigned reference, int ty
       *value = fmu->values[index - model->np - model->nu];
       break;
   }
+  if (variable->type == FROT_INTEGER && !(fabs(*value) <= INT32_MAX))
+    return frot_fmu_say(fmu, FROT_FMU_ERROR, "%s: the whole number '%s' has more than 32 bits.",
+                        function, variable->name);
   return FROT_FMU_OK;
 }
 
