@@ -11,7 +11,7 @@ from frot.dsl.declarations.arguments import bind
 from frot.dsl.declarations.bounds import keep_positive
 from frot.dsl.declarations.geometry import called
 from frot.dsl.declarations.user_kinds import stated_law, stated_liaison
-from frot.dsl.expressions.expression import expect
+from frot.dsl.expressions.expression import expression, fitting
 from frot.dsl.expressions.known import known
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.names.classes import Class
@@ -20,6 +20,7 @@ from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.types import find_class
 from frot.dsl.quantities.dimensions import BOOLEAN
+from frot.dsl.quantities.turns import RATE, TURNING
 from frot.dsl.text import tree
 
 
@@ -116,7 +117,11 @@ def _driven(
         own_option = made.options.get(name)
         if own_option is not None and own_option.span == argument.value.span:
             continue  # it says what the argument of that name is
-        value = expect(argument.value, known_coordinates[name], scope)
+        kind, found = known_coordinates[name], expression(argument.value, scope)
+        if found is None:
+            return {}
+        rate = TURNING if kind.dimension == RATE else ""
+        value = fitting(found, argument.value, kind, scope, rate=rate)
         if value is None:
             return {}
         driven[name] = value

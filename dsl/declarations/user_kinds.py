@@ -18,6 +18,7 @@ from frot.dsl.declarations.argument_values import nature_of
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.expressions.expression import expect, expression, fitting
 from frot.dsl.expressions.names import place
+from frot.dsl.expressions.rates import rate_of
 from frot.dsl.expressions.structure import sizes
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.names.classes import Class, enter
@@ -79,7 +80,8 @@ def _relations(element: tree.Relation, at: Scope) -> list[checked.StatedRelation
     # A bare zero stands for no value of any kind.
     zero = isinstance(right, checked.Literal) and right.value == 0.0 and not right.unit
     if not zero:
-        fitted = fitting(right, element.right, left.type, at, unit=written_unit(left))
+        unit, rate = written_unit(left), rate_of(left)
+        fitted = fitting(right, element.right, left.type, at, unit=unit, rate=rate)
         if fitted is None:
             return None
         right = fitted

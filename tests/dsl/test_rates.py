@@ -114,3 +114,34 @@ def test_a_run_and_its_settings_agree_with_the_text() -> None:
     assert units["f"].display_factor == pytest.approx(1 / 60)
     assert (units["w"].name, units["w"].display) == ("rad/s", "Hz")
     assert units["w"].display_factor == pytest.approx(2 * pi)
+
+
+DRIVEN = """
+liaison Spin(a: frame, b: frame, AngularVelocity more) "turns b"
+  kinematic b.angular_velocity - a.angular_velocity - more = 1 Hz;
+end Spin;
+planar model Driven
+  body d: disc(mass = 1 kg, radius = 1 m);
+  body e: disc(mass = 1 kg, radius = 1 m);
+  body s: disc(mass = 1 kg, radius = 1 m);
+  frame far on ground at (5, 0) m;
+  liaison p: rotoide(ground, d) driven(speed = 1 Hz);
+  liaison q: rotoide(far, e) driven(speed = 0.5*p.speed + 30 rpm);
+  liaison spin: Spin(ground, s, 1 Hz);
+end Driven;
+"""
+
+
+def test_what_drives_a_turn_is_an_angular_velocity() -> None:
+    result = frot.compile(DRIVEN).simulate(stop=0.1)
+    found = [result[f"{body}.angular_velocity"][-1] for body in "des"]
+    assert found == pytest.approx([2 * pi, 2 * pi, 4 * pi])
+
+
+@pytest.mark.parametrize("line", ["rotoide(ground, d) driven(speed = f)", "Spin(ground, d, f)"])
+def test_a_frequency_drives_no_turn(line: str) -> None:
+    text = DRIVEN.replace("rotoide(ground, d) driven(speed = 1 Hz)", line)
+    text = text.replace("  body e", "  parameter Frequency f = 1 Hz;\n  body e")
+    log = Log()
+    assert compile_text(text.replace("0.5*p.speed", "0"), log) is None
+    assert ("E0301", "an angular velocity is '2*pi*f'") in [(d.code, d.help) for d in log]
