@@ -151,11 +151,13 @@ static int look_at_doubts(const frot_instant *in, const frot_group *g) {
     if (!in->w->search.trial[m->elements[e].contact].closed) continue;
     in->w->search.departs[e] = (unsigned char)departs(in, e);
     if (in->w->search.departs[e] && g->general) return -1;
-    /* nor does an acceleration start what rests at its bound, though it may rest in this posture
-     * alone */
+    /* nor does an acceleration start what rests at its bound, or beside a contact that carries
+     * nothing, though it may rest in this posture alone */
     int at_bound = !g->general && frot_element_mode(m, in->w->search.trial, e)->at_bound != 0;
     doubt |= in->w->search.departs[e] || at_bound;
   }
+  for (int i = 0; i < g->n_contacts; i++)
+    doubt |= !g->general && in->w->search.trial[g->contacts[i]].unloaded;
   return doubt && frot_look_ahead(in, g) != FROT_OK ? -1 : doubt;
 }
 

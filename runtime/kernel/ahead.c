@@ -17,8 +17,12 @@
 #include "turns.h"
 #include "tolerances.h"
 
-#define WAY 1e-3  /* how far the mechanism moves, in radians or parts of its length */
 #define SEEN 1e-6 /* part of the motion in the row above which it slips */
+/* The posture may be next to the one in which no speed moves a slip: what slips far on may do so
+ * the other way before. How far it moves then, and the part of what its row turns by meanwhile
+ * from which on that is seen. */
+#define NEAR 1e-10
+#define CLEAR 0.1
 
 int frot_group_rests(const frot_instant *in, const frot_group *g) {
   double size = frot_size_of_motion(in->m, in->w, g), limit = FROT_AGREES * size;
@@ -42,41 +46,52 @@ static double length_of(const frot_instant *in, const frot_group *g) {
   return gaps > 0 ? gaps : places > 0 ? places : 1;
 }
 
-double frot_time_of_way(const frot_instant *in, const frot_group *g) {
+double frot_time_of_way(const frot_instant *in, const frot_group *g, double part) {
   const frot_model *m = in->m;
   double shortest = INFINITY, length = length_of(in, g);
   for (int k = 0; k < g->n_speeds; k++) {
     int speed = g->unknowns[k];
     double v = fabs(in->v[speed]), a = fabs(in->w->core.a[speed]);
-    double way = WAY * (m->speed_turns[speed] ? 1 : length);
+    double way = part * (m->speed_turns[speed] ? 1 : length);
     if (v == 0 && a == 0) continue;
     shortest = fmin(shortest, 2 * way / (v + sqrt(v * v + 2 * a * way)));
   }
   return isfinite(shortest) ? shortest : 0;
 }
 
-/* The modes of what holds for certain: by a reaction, in this posture and the next. */
-static void keep_certain(const frot_instant *in, frot_contact_mode *modes) {
+/* The modes of what holds for certain: by a reaction, in this posture and the next. What a contact
+ * that carries nothing leaves to friction is not: it is closed all the same, and which of the two
+ * depends on the other shows only where both may act. Returns FROT_OK, or what has no reactions. */
+static int keep_certain(const frot_instant *in, const frot_group *g, frot_contact_mode *modes) {
   const frot_model *m = in->m;
-  memcpy(modes, in->w->search.trial, sizeof *modes * (size_t)(m->n_contacts + m->n_elements));
+  frot_work *w = in->w;
+  int unloaded = 0, status = FROT_OK;
+  memcpy(modes, w->search.trial, sizeof *modes * (size_t)(m->n_contacts + m->n_elements));
+  for (int i = 0; i < g->n_contacts; i++) {
+    unloaded |= modes[g->contacts[i]].unloaded;
+    modes[g->contacts[i]].unloaded = 0;
+  }
   for (int e = 0; e < m->n_elements; e++) {
     frot_contact_mode *mode = modes + m->n_contacts + e;
-    if (mode->friction != FROT_STICK || mode->at_bound != 0 ||
-        in->w->reactions.carried[m->elements[e].row])
-      mode->friction = FROT_NONE;
+    if (mode->friction != FROT_STICK || mode->at_bound != 0) mode->friction = FROT_NONE;
   }
+  if (unloaded && frot_group_reactions(m, w, g, modes, in->resists)) status = FROT_DIVERGE;
+  for (int e = 0; e < m->n_elements; e++)
+    if (w->reactions.carried[m->elements[e].row]) modes[m->n_contacts + e].friction = FROT_NONE;
+  if (unloaded && frot_group_reactions(m, w, g, w->search.trial, in->resists))
+    status = FROT_DIVERGE;
+  return status;
 }
 
-int frot_look_ahead(const frot_instant *in, const frot_group *g) {
+/* Move on by dt, put back onto what holds for certain, and see there what slips by more than the
+ * part `seen` of the motion in its row: a sign for each element of the group into `ahead`, 0 where
+ * there is none; of those that `among` (may be NULL) has a sign for. */
+static int look(const frot_instant *in, const frot_group *g, double dt, double seen,
+                const signed char *among, signed char *ahead) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   const double *d = in->s->data + in->l.d;
   double *q = w->step.z1, *v = q + m->nq;
-  memset(w->search.ahead, 0, (size_t)m->n_elements);
-  frot_move_beside_others(in, g);
-  if (frot_group_rests(in, g) && !frot_sets_out(in, g)) return FROT_OK;
-  double dt = frot_time_of_way(in, g);
-  if (!(dt > 0)) return FROT_OK;
   memcpy(q, in->q, sizeof(double) * (size_t)m->nq);
   memcpy(v, in->v, sizeof(double) * (size_t)m->nv);
   for (int k = 0; k < g->n_speeds; k++) {
@@ -85,16 +100,31 @@ int frot_look_ahead(const frot_instant *in, const frot_group *g) {
     v[speed] += dt * w->core.a[speed];
   }
   frot_displace(m, g, q, w->relations.step, dt);
-  int moved;
-  keep_certain(in, w->search.guess_ahead);
-  int status = frot_project(m, in->s, w, in->t + dt, q, v, d, w->search.guess_ahead, NULL, &moved);
+  int moved,
+      status = frot_project(m, in->s, w, in->t + dt, q, v, d, w->search.guess_ahead, NULL, &moved);
   if (status == FROT_OK) status = frot_kinematics(m, in->s, w, in->t + dt, q, v, d);
   for (int i = 0; i < g->n_elements && status == FROT_OK; i++) {
     int e = g->elements[i], row = m->elements[e].row;
     double own = frot_row_speed(m, w, row, v), rate = w->core.rate[row];
     double beside = m->row_beside[row] < 0 ? 0 : frot_row_speed(m, w, m->row_beside[row], v);
-    if (fabs(rate) > SEEN * fmax(own, beside)) w->search.ahead[e] = rate > 0 ? 1 : -1;
+    if ((!among || among[e] != 0) && fabs(rate) > seen * fmax(own, beside))
+      ahead[e] = rate > 0 ? 1 : -1;
   }
-  int back = frot_kinematics(m, in->s, w, in->t, in->q, in->v, d);
+  return status;
+}
+
+int frot_look_ahead(const frot_instant *in, const frot_group *g) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  signed char *ahead = w->search.ahead;
+  memset(ahead, 0, (size_t)m->n_elements);
+  frot_move_beside_others(in, g);
+  if (frot_group_rests(in, g) && !frot_sets_out(in, g)) return FROT_OK;
+  double near = frot_time_of_way(in, g, NEAR), far = frot_time_of_way(in, g, FROT_WAY);
+  if (!(far > 0)) return FROT_OK;
+  int status = keep_certain(in, g, w->search.guess_ahead);
+  if (status == FROT_OK) status = look(in, g, far, SEEN, NULL, ahead);
+  if (status == FROT_OK) status = look(in, g, near, CLEAR * NEAR, ahead, ahead);
+  int back = frot_kinematics(m, in->s, w, in->t, in->q, in->v, in->s->data + in->l.d);
   return status == FROT_OK ? back : status;
 }

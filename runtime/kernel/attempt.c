@@ -98,6 +98,13 @@ static double hear(const frot_model *m, frot_state *s, frot_work *w, double t, d
   return frot_error_ratio(m, s, w, t, h);
 }
 
+/* Whether a guard falls where the step begins though nobody knows yet what rounding does: what has
+ * just begun, and is moved by nothing at the instant, is rounding at first. */
+static int falls_unheard(const frot_state *s, const frot_attempt *a) {
+  return a->guard >= 0 && a->theta * a->h <= FROT_LEAST_STEP * fmax(fabs(a->t), a->h) &&
+         s->noise_measured <= 0 && a->looks == 0;
+}
+
 /* Take a guard that seems to dip for what it is: first by what rounding does to it, then by a
  * shorter step. */
 static int look_closer(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
@@ -168,8 +175,8 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
     if (status == FROT_OK && !followed) status = FROT_DIVERGE;
     if (status == FROT_OK) {
       a->guard = frot_falling_guard(m, s, w, t, h, &a->theta);
-      if (a->looks == LOOKS || !frot_seems_to_dip(m, s, w, a->guard, a->theta, t, h))
-        return FROT_OK;
+      int closer = falls_unheard(s, a) || frot_seems_to_dip(m, s, w, a->guard, a->theta, t, h);
+      if (a->looks == LOOKS || !closer) return FROT_OK;
       return look_closer(m, s, w, a);
     }
     a->ratio = NAN;

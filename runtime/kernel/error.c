@@ -4,6 +4,7 @@
 
 #include "blur.h"
 #include "groups.h"
+#include "guards.h"
 #include "implicit.h"
 #include "jacobian.h"
 #include "rows.h"
@@ -53,11 +54,8 @@ static void size_own_states(const frot_model *m, const frot_state *s, frot_work 
 /* What guard j may be off by at the end of the step, where its row comes to be more than rounding
  * of lengths. */
 static double dropped(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
-  int e = (j - m->n_contacts) / 2;
-  if (j < m->n_contacts || j >= frot_condition_guard(m) || j != frot_element_guard(m, e)) return 0;
-  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-  if (frot_element_mode(m, modes, e)->friction <= FROT_STICK) return 0;
-  return frot_dropped_rate(m, s, e, w->step.z1 + m->nq);
+  int e = frot_slip_of_guard(m, s, w, j);
+  return e < 0 ? 0 : frot_dropped_rate(m, s, e, w->step.z1 + m->nq);
 }
 
 /* The worst estimate of the local error over its bound, and in w->step.worst the value it is of. */

@@ -86,7 +86,7 @@ double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_
   double slack = fmax(FROT_LOCATED * inside, floor);
   if (!is_force(m, s, w, k) || !(fabs(g[0]) <= slack)) slack = 0;
   return s->idle > IDLE && is_reaction_or_slip(m, s, w, j)
-             ? fmax(slack, 0.5 * FROT_LOCATED * s->data[w->layout.scale_g + j])
+             ? fmax(slack, 2 * FROT_LOCATED * s->data[w->layout.scale_g + j])
              : slack;
 }
 
@@ -139,7 +139,8 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
     double slack = frot_slack_of_guard(m, s, w, k, h, g);
     for (int i = 0; i < 7; i++) g[i] += slack;
     double floor = FROT_GUARD_FLOOR * size + FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
-    floor = fmin(floor, FROT_DROWNED * size); /* next to a jam noise would hide any reversal */
+    /* next to a jam noise would hide any reversal, but what has no size yet may be all noise */
+    if (s->data[w->layout.scale_g + j] > 0) floor = fmin(floor, FROT_DROWNED * size);
     double at = frot_first_fall(g, floor + 8 * DBL_EPSILON * fabs(t) * slope);
     if (j >= conditions && fabs(first) <= FROT_ZERO * size &&
         lost_at_once(s, w, j - conditions, g, inside, at < FROT_NO_ROOT))

@@ -185,3 +185,10 @@ void frot_forget_guards(const frot_model *m, frot_state *s, int first, int count
   memset(s->data + l.scale_g + first, 0, sizeof(double) * (size_t)count);
   memset(s->data + l.noise + m->nq + m->nv + first, 0, sizeof(double) * (size_t)count);
 }
+
+int frot_slip_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  int e = (j - m->n_contacts) / 2;
+  if (j < m->n_contacts || j >= frot_condition_guard(m) || j != frot_element_guard(m, e)) return -1;
+  return frot_element_mode(m, modes, e)->friction > FROT_STICK ? e : -1;
+}

@@ -44,4 +44,7 @@ void frot_pass_references(const frot_model *m, frot_state *s, frot_work *w,
 /* Whether the sign of a bilateral reaction matters: friction follows it. */
 int frot_sign_matters(const frot_model *m, const frot_contact_mode *modes, int contact);
 
+/* The element whose slip guard j follows in the modes of the state, or -1. */
+int frot_slip_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int j);
+
 #endif

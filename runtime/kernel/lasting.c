@@ -243,7 +243,7 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count) {
   w->search.falls = 0;
   if (has_ended(in, chosen, count)) return 0;
   if (!note_margins(in, chosen, count) || !note_rates(in, g)) return 1;
-  double way = frot_time_of_way(in, g);
+  double way = frot_time_of_way(in, g, FROT_WAY);
   int lasts = 1, slow = 1;
   for (double part = LATER; lasts && slow && part <= LATEST; part *= 10) {
     double dt = later_by(in, part, way);

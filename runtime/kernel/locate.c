@@ -8,11 +8,14 @@
 #include "ends.h"
 #include "falls.h"
 #include "groups.h"
+#include "guards.h"
 #include "jacobian.h"
 #include "mechanics.h"
 #include "projection.h"
 #include "roots.h"
 #include "stages.h"
+#include "terms.h"
+#include "tolerances.h"
 
 /* Passes of the search, and those after which it ends where the guard is as good as zero. */
 #define PASSES 60
@@ -150,6 +153,14 @@ static int make_inside(const frot_model *m, frot_state *s, frot_work *w, const f
   return FROT_OK;
 }
 
+/* Below which a slip that guard j follows is none beside the motion: next to a dead centre,
+ * rounding of places leaves more of it than what it is to be told from. 0 of other guards. */
+static double slip_of_rounding(const frot_model *m, const frot_state *s, frot_work *w, int j) {
+  int e = frot_slip_of_guard(m, s, w, j);
+  if (e < 0) return 0;
+  return FROT_ZERO_OF_MOTION * frot_row_speed(m, w, m->elements[e].row, w->step.z1 + m->nq);
+}
+
 int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *step, int *falls) {
   double g[7], t = step->t, theta = step->theta, h = step->h;
   int guard = step->guard;
@@ -184,7 +195,7 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
     if (!there) frot_measure_end(m, s, w, t + a.at, w->step.z1);
     step->beyond = a.at - step->h;
     double close = slack > 0 ? 0.5 * slack : frot_close_to_fall(m, s, w, guard, t, a.slope);
-    *falls = a.value <= close;
+    *falls = a.value <= fmax(close, slip_of_rounding(m, s, w, j));
     return status;
   }
 }

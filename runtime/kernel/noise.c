@@ -5,6 +5,7 @@
 #include "core.h"
 #include "error.h"
 #include "groups.h"
+#include "guards.h"
 #include "mechanics.h"
 #include "stages.h"
 #include "terms.h"
@@ -124,16 +125,12 @@ static int slope_from_start(const frot_model *m, frot_state *s, frot_work *w, do
 double frot_guard_noise(const frot_model *m, const frot_state *s, const frot_work *w, int j,
                         double h) {
   const double *noise = s->data + w->layout.noise;
-  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   double own = noise[m->nq + m->nv + j];
-  int e = (j - m->n_contacts) / 2, condition = j - frot_condition_guard(m);
+  int e = frot_slip_of_guard(m, s, w, j), condition = j - frot_condition_guard(m);
   /* how far a place is beyond an end is told in parts of the length between the ends */
   if (condition >= 0 && condition < m->n_conditions && m->conditions[condition].contact >= 0)
     return fmax(own, FROT_ROUNDING);
-  if (j < m->n_contacts || j >= frot_condition_guard(m) || j != frot_element_guard(m, e))
-    return own;
-  if (frot_element_mode(m, modes, e)->friction <= FROT_STICK) return own;
-  return own + h * frot_row_size(m, w, m->elements[e].row, noise + m->nq);
+  return e < 0 ? own : own + h * frot_row_size(m, w, m->elements[e].row, noise + m->nq);
 }
 
 double frot_noise_of_rate(const frot_model *m, const frot_state *s, const frot_work *w, int state,

@@ -109,8 +109,10 @@ int frot_find_growth(const frot_instant *in, const double *d);
  * (ahead.c). */
 int frot_look_ahead(const frot_instant *in, const frot_group *g);
 
-/* Time in which the fastest coordinate of the group has gone a small way; 0 when nothing moves. */
-double frot_time_of_way(const frot_instant *in, const frot_group *g);
+/* Time in which the fastest coordinate of the group has gone a part of a radian or of its length,
+ * usually FROT_WAY; 0 when nothing moves. */
+#define FROT_WAY 1e-3
+double frot_time_of_way(const frot_instant *in, const frot_group *g, double part);
 
 /* Looks for the modes of the contacts `chosen`, which act on each other only and are closed in
  * w->search.best; leaves those preferred in w->best. Every combination is examined where there are
