@@ -1,13 +1,17 @@
 #include "in_turn.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "damped.h"
 #include "elsewhere.h"
 #include "nearest.h"
+#include "parts.h"
 
 #define AROUND 8 /* beginnings of the unknowns of one vector beside the given one, */
 #define ROUNDS 4 /* each round twice as far off as the one before */
+#define WHOLE_TURN 6.283185307179586
+#define LEAST_ADVANCE 1e-9 /* of a turn, beside what angles do to what is missed */
 
 /* How many unknowns that are not taken the guesses of a vector follow from; those with `mark` are
  * marked, of an orientation all. */
@@ -64,6 +68,36 @@ static void choose_rows(const frot_opening *p) {
   }
 }
 
+/* What moves on as it turns, as on a screw, may be whole turns away from where the rest holds: turn
+ * each angle marked by as many as leave least of what is missed. Returns whether any turns. */
+static int turn_wholly(frot_opening *p) {
+  const double *residual = p->w->relations.residual, *weight = p->w->opening.row_weight;
+  double *missed = p->w->linear.scratch;
+  int turned = 0;
+  for (int k = 0; k < p->n_own; k++) {
+    if (p->w->opening.state[k] != FROT_MOVES_NOW || !frot_is_angle(p, k)) continue;
+    if (frot_evaluate_statements(p) != FROT_OK) return 0;
+    for (int i = 0; i < p->n; i++) missed[i] = residual[i];
+    double start = p->x[k], along = 0, square = 0;
+    p->x[k] = start + 2 * WHOLE_TURN; /* an orientation is the same after two */
+    int status = frot_evaluate_statements(p);
+    for (int i = 0; i < p->n && status == FROT_OK; i++) {
+      double change = 0.5 * (residual[i] - missed[i]) * weight[i];
+      along -= change * missed[i] * weight[i], square += change * change;
+    }
+    double turns = square > LEAST_ADVANCE * LEAST_ADVANCE ? round(along / square) : 0;
+    p->x[k] = start + WHOLE_TURN * turns, turned |= turns != 0;
+  }
+  return turned && frot_evaluate_statements(p) == FROT_OK;
+}
+
+/* Whether the unknowns marked are where the equations chosen hold, or come there from here. */
+static int come_there(frot_opening *p) {
+  if (!frot_follow_damped(p)) return 0;
+  if (frot_missed_square(p) <= FROT_NOTHING_MISSED) return 1;
+  return turn_wholly(p) && frot_follow_damped(p) && frot_missed_square(p) <= FROT_NOTHING_MISSED;
+}
+
 /* Move the unknowns marked to where the equations chosen hold, from several beginnings; returns
  * whether they do. */
 static int meet_next(frot_opening *p) {
@@ -82,7 +116,7 @@ static int meet_next(frot_opening *p) {
         p->x[i] = before[i];
       else if (p->m->q_speed[p->part->reads.q[i]] >= 0) /* of no orientation */
         p->x[i] = before[i] + farther * (p->x[i] - before[i]);
-    if (frot_follow_damped(p) && frot_missed_square(p) <= FROT_NOTHING_MISSED) return 1;
+    if (come_there(p)) return 1;
   }
   return 0;
 }
