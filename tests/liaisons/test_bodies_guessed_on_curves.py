@@ -82,3 +82,22 @@ def test_the_turn_of_a_helix_is_the_one_that_is_guessed(u: float) -> None:
     assert result["point.u"][0] == pytest.approx(u, abs=1e-13)
     found = [result[f"b.position.{x}"][0] for x in "xyz"]
     assert np.allclose(found, at, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("guess", [(-0.5, 0.6), (0.5, 0.6), (-0.9, 0.1)])
+@pytest.mark.parametrize("space", [False, True])
+def test_no_cusp_where_the_search_begins_stops_it(guess: tuple[float, float], space: bool) -> None:
+    """The curve (u^3, u^2) has no tangent at u = 0; the place nearest to the guess has one."""
+    kind, none = ("model", ", 0 m") if space else ("planar model", "")
+    text = f"""
+{kind} Cusp
+  body b: particle(mass = 1 kg);
+  curve c on ground: parametric((1 m*u^3, 1 m*u^2{none}), u = (-1, 1));
+  liaison p: point_courbe(b, c);
+initial
+  guess(b.position = ({guess[0]} m, {guess[1]} m{none}));
+  experiment(stop = 1 us);
+end Cusp;"""
+    u = np.linspace(-1, 1, 200001)
+    nearest = u[np.argmin((u**3 - guess[0]) ** 2 + (u**2 - guess[1]) ** 2)]
+    assert frot.compile(text).simulate()["p.u"][0] == pytest.approx(nearest, abs=1e-5)

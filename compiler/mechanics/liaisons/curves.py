@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics
     from frot.compiler.mechanics.mechanism import Hanging
 
+# A tangent vanishes that is less than this part of the one beside it, by this part of the curve.
+CUSP = 1e-9
+BESIDE = 0.1
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Follow(Motion):
@@ -39,13 +43,20 @@ class Follow(Motion):
     def carry(
         self, kinematics: Kinematics, hanging: Hanging, base: Moving, q: ca.SX, v: ca.SX
     ) -> Moved:
-        """Without a guess it begins at 0, or at the end of the curve that is nearest to that."""
+        """Without a guess it begins at 0, or at the end of the curve that is nearest to that.
+
+        Where the curve has a cusp there, a part of the way to its farther end beside it.
+        """
         lower = kinematics.fixed.lower
         if self.curve.has_ends:
             least, largest = self.curve.ends(lower)
             before = itertools.takewhile(lambda m: m.bare is not self, hanging.motions)
             at = kinematics.places[hanging.body][0] + sum(len(m.coordinates) for m in before)
-            kinematics.starts[at] = ca.fmin(ca.fmax(0, least), largest)
+            start = ca.fmin(ca.fmax(0, least), largest)
+            farther = ca.if_else(largest - start > start - least, largest, least)
+            beside = start + BESIDE * (farther - start)
+            here, there = (ca.sumsqr(slope_at(self.curve, u, lower)) for u in (start, beside))
+            kinematics.starts[at] = ca.if_else(here <= CUSP**2 * there, beside, start)
         return self.move(base, q, v, lower)
 
     def move(self, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
