@@ -152,6 +152,40 @@ static int find_values(const instant *in, double *q, double *v) {
   return frot_fail(s, FROT_CHATTER, in->t, -1, first_cause(in), -1, CROWD);
 }
 
+/* Put the conditions and the discrete values back that find_values has changed. */
+static int take_back(const instant *in) {
+  const frot_model *m = in->m;
+  double *d = in->s->data + in->l.d;
+  memcpy(d, in->w->events.before, sizeof(double) * (size_t)m->n_conditions);
+  memcpy(d + m->n_conditions + m->n_contacts, in->w->events.discrete_before,
+         sizeof(double) * (size_t)m->n_discrete);
+  return frot_note_conditions(m, in->s, in->w, in->t, in->q, in->v);
+}
+
+/* The same of `when`s that fire together, where what some set makes the condition of another false
+ * (a timer that is armed in this instant): that one does not fire. What makes its own condition
+ * false has fired. */
+static int find_values_of_true(const instant *in, double *q, double *v) {
+  const frot_model *m = in->m;
+  double *firing = in->w->events.firing, *doubtful = in->w->events.doubtful;
+  const double *d = in->s->data + in->l.d;
+  int status = find_values(in, q, v), some = 0, own = 0, others = 0;
+  for (int i = 0; status == FROT_OK && i < m->n_whens; i++) {
+    int fires = firing[i] != 0, false_now = fires && d[m->when_condition[i]] == 0;
+    doubtful[i] = false_now, some |= false_now, others |= fires && !false_now;
+  }
+  if (status != FROT_OK || !some || !others) return status;
+  for (int i = 0; i < m->n_whens; i++)
+    if (doubtful[i] != 0) firing[i] = 0;
+  status = take_back(in);
+  if (status == FROT_OK) status = find_values(in, q, v);
+  for (int i = 0; status == FROT_OK && i < m->n_whens; i++)
+    if (doubtful[i] != 0 && d[m->when_condition[i]] != 0) firing[i] = 1, own = 1;
+  if (status != FROT_OK || !own) return status;
+  status = take_back(in);
+  return status == FROT_OK ? find_values(in, q, v) : status;
+}
+
 /* Apply what the `when`s of w->events.firing do; *changed: whether anything was to be done. */
 static int update(const instant *in, int fires, int *changed) {
   const frot_model *m = in->m;
@@ -162,7 +196,7 @@ static int update(const instant *in, int fires, int *changed) {
   size_t held_size = sizeof(double) * (size_t)m->n_held;
   *changed = 0;
   memcpy(w->events.before, s->data + in->l.d, sizeof(double) * (size_t)m->n_conditions);
-  int status = find_values(in, q, v);
+  int status = find_values_of_true(in, q, v);
   if (status != FROT_OK) return status;
   *changed = fires || memcmp(held, w->events.held, held_size) != 0;
   if (!*changed) return FROT_OK;

@@ -10,7 +10,7 @@
 #define SAMPLES 20000 /* in a run */
 #define PART 0.1      /* longest step, in runs */
 #define GROWTH 0.25   /* longest step, in what has been run, of rest or where no run is told */
-#define FINEST 1e-15  /* s: a first step below every scale of time */
+#define FINEST 1e-15  /* s */
 #define BEYOND 2      /* rates are seen when those at the stages come up to this part of them */
 #define FAINT 1e-3    /* part of the largest rate in the step that nobody looks at */
 #define LONG_REST 1e9 /* longest step where nothing depends on time, in longest steps */
@@ -26,22 +26,29 @@ static double told_run(const frot_state *s, const frot_work *w) {
   return experiment[1] > start ? experiment[1] - start : 0;
 }
 
+/* A step below every scale of time, and above the rounding of times. */
+static double finest_step(const frot_state *s) {
+  return fmax(FINEST, 1e3 * DBL_EPSILON * fabs(s->began));
+}
+
 double frot_longest_step(const frot_model *m, const frot_state *s, const frot_work *w, double t,
                          int still) {
   double longest = s->h_max, most = experiment_of(s, w)[4];
   double told = told_run(s, w), been = t - s->began;
   if (m->time_dependent) {
     double grown = still || told == 0 ? GROWTH * been : PART * been;
-    longest = fmax(fmax(PART * told, grown), FINEST);
+    longest = fmax(fmax(PART * told, grown), finest_step(s));
   } else if (still || s->implicit) {
     longest *= LONG_REST; /* nothing can be passed over */
+  } else if (told == 0) {
+    longest = fmax(longest, GROWTH * been);
   }
   return most > 0 ? fmin(longest, most) : longest;
 }
 
 double frot_finest_step(const frot_model *m, const frot_state *s, const frot_work *w, double h) {
   if (!m->time_dependent || told_run(s, w) > 0) return h;
-  return fmin(h, fmax(FINEST, 1e3 * DBL_EPSILON * fabs(s->began)));
+  return fmin(h, finest_step(s));
 }
 
 /* Sizes into w->pace and rates behind them. */

@@ -403,3 +403,47 @@ def test_two_reinits_of_one_state_at_two_instants_are_none() -> None:
 def test_ticks_that_time_cannot_tell_apart_are_told(interval: float) -> None:
     with pytest.raises(frot.FrotError, match=r"E0909.*sample\(start, interval\)"):
         frot.compile(TICKS).simulate(parameters={"interval": interval})
+
+
+ARMED = {
+    "of a variable": "out = go and time >= t0 + 0.5 s; when out then n = pre(n) + 1; end when;",
+    "by itself": "out = go; when go and time >= t0 + 0.5 s then n = pre(n) + 1; end when;",
+    "of a motion": "out = go and x - t0 > 0.5 s; when out then n = pre(n) + 1; end when;",
+    "first in the text": "when out then n = pre(n) + 1; end when; out = go and time > t0 + 0.5 s;",
+}
+
+
+@pytest.mark.parametrize("way", ARMED)
+@pytest.mark.parametrize("last", [False, True])
+def test_a_timer_does_not_fire_in_the_instant_that_arms_it(way: str, last: bool) -> None:
+    """What one `when` sets counts for the condition of another that would fire with it."""
+    arm = "when go then t0 = time; end when;"
+    result = frot.compile(f"""
+model Armed
+  Boolean go, out; Time t0(start = 0 s), x(start = 0 s); Integer n(start = 0);
+equation
+  go = time > 1 s;
+  der(x) = 1;
+  {ARMED[way] + arm if last else arm + ARMED[way]}
+  experiment(stop = 3 s);
+end Armed;
+""").simulate()
+    assert result.at(1.49)["n"] == 0
+    assert result.at(1.51)["n"] == result["n"][-1] == 1
+    assert result["t0"][-1] == 1
+
+
+def test_a_when_that_ends_its_own_condition_has_fired() -> None:
+    """Also beside one that fires with it."""
+    result = frot.compile("""
+model Own
+  Real x(start = 0), off(start = 0); Integer n(start = 0), beside(start = 0);
+equation
+  der(x) = 1 1/s;
+  when x - off > 0.4 then off = x; n = pre(n) + 1; end when;
+  when time > 0.4 s then beside = 1; end when;
+  experiment(stop = 1 s);
+end Own;
+""").simulate()
+    assert result["n"][-1] == 2
+    assert result["beside"][-1] == 1

@@ -187,3 +187,29 @@ def test_a_run_in_pieces_has_the_bits_of_the_whole_run() -> None:
         engine.start(0.0, 1e-8, "rest")
         runs.append(np.concatenate([engine.advance(t).segments for t in times]))
     assert np.array_equal(runs[0].view(np.uint64), runs[1].view(np.uint64))
+
+
+@pytest.mark.parametrize("start", [-1.0, -5.0, 1.0, 1e6])
+def test_a_run_may_start_anywhere_without_an_experiment(start: float) -> None:
+    model = loaded("sine", "")
+    result = model.simulate(start=start, stop=start + 1, parameters={"peak": 2.0})
+    assert not result.events
+    assert result.figures.steps < 500
+    moving = model.simulate(start=start, stop=start + 1)
+    assert moving.events[0].time == pytest.approx(
+        start + (0.1 * math.asin(BOUND / 5) - start) % (0.1 * math.pi),
+        abs=1e-6 + 1e-12 * abs(start),
+    )
+
+
+def test_what_no_time_moves_needs_no_more_steps_in_a_run_that_no_text_tells() -> None:
+    model = frot.compile("""planar model Slides
+  body b: particle(mass = 1 kg);
+  liaison c: contact_ponctuel(b, ground.line) with coulomb(0.2);
+initial
+  b.velocity.x = 2e5 m/s;
+end Slides;
+""")
+    result = model.simulate(stop=2e5)
+    assert result.figures.steps < 200
+    assert result.events[0].time == pytest.approx(2e5 / (0.2 * 9.81), rel=1e-6)
