@@ -59,6 +59,14 @@ double frot_time_of_way(const frot_instant *in, const frot_group *g, double part
   return isfinite(shortest) ? shortest : 0;
 }
 
+/* Whether an element that is at its bound, if it is, is held for certain: several of these hold a
+ * row together. */
+static int rests_at_bound(const frot_instant *in, int e) {
+  int row = in->m->elements[e].row;
+  return frot_element_mode(in->m, in->w->search.trial, e)->at_bound == 0 ||
+         (!frot_group_of(in->m, row)->general && in->w->span.kept[row]);
+}
+
 /* The modes of what holds for certain: by a reaction, in this posture and the next. What a contact
  * that carries nothing leaves to friction is not: it is closed all the same, and which of the two
  * depends on the other shows only where both may act. Returns FROT_OK, or what has no reactions. */
@@ -73,11 +81,12 @@ static int keep_certain(const frot_instant *in, const frot_group *g, frot_contac
   }
   for (int e = 0; e < m->n_elements; e++) {
     frot_contact_mode *mode = modes + m->n_contacts + e;
-    if (mode->friction != FROT_STICK || mode->at_bound != 0) mode->friction = FROT_NONE;
+    if (mode->friction != FROT_STICK || !rests_at_bound(in, e)) mode->friction = FROT_NONE;
   }
   if (unloaded && frot_group_reactions(m, w, g, modes, in->resists)) status = FROT_DIVERGE;
   for (int e = 0; e < m->n_elements; e++)
-    if (w->reactions.carried[m->elements[e].row]) modes[m->n_contacts + e].friction = FROT_NONE;
+    if (modes[m->n_contacts + e].at_bound == 0 && w->reactions.carried[m->elements[e].row])
+      modes[m->n_contacts + e].friction = FROT_NONE;
   if (unloaded && frot_group_reactions(m, w, g, w->search.trial, in->resists))
     status = FROT_DIVERGE;
   return status;

@@ -47,10 +47,12 @@ static void add_kept_rows(frot_problem *p) {
   frot_work *w = p->w;
   int ns = p->g->n_speeds, some = leaves_to_others(p);
   for (int i = 0; some && i < p->g->n_contacts; i++)
-    for (int law = -1; law < p->g->n_elements && w->span.rank < ns; law++) {
+    for (int law = -1; law < p->g->n_elements; law++) {
       int e = law < 0 ? -1 : p->g->elements[law], rank = w->span.rank;
       int row = row_without_reaction(p, p->g->contacts[i], e);
       if (row < 0) continue;
+      w->span.kept[row] = 0;
+      if (rank == ns) continue;
       double *x = w->span.basis + ns * rank, *parts = w->span.parts, bias = w->core.c[row];
       memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
       double length = sqrt(frot_dot(x, x, ns)), size = w->core.bias_size[row];
@@ -60,7 +62,7 @@ static void add_kept_rows(frot_problem *p) {
         bias -= parts[k] * w->span.bias[k], size += fabs(parts[k]) * w->span.bias_size[k];
       for (int k = 0; k < ns; k++) x[k] /= rest;
       w->span.bias[rank] = bias / rest, w->span.bias_size[rank] = size / rest;
-      w->span.rank++;
+      w->span.kept[row] = 1, w->span.rank++;
     }
   p->kept = w->span.rank - p->equations;
   p->equations = w->span.rank;

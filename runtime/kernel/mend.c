@@ -89,6 +89,15 @@ int frot_change_mode(const frot_instant *in, int k, int forced) {
   return put_right(in, i, forced);
 }
 
+/* Whether what is violated is so by the reactions that were taken alone, where they are not unique:
+ * then others hold. Else they are left as they were. */
+static int shares(const frot_instant *in, const frot_group *g, const int *chosen, int count) {
+  if (!in->w->reactions.dependent) return 0;
+  if (frot_is_admissible(in, chosen, count)) return 1;
+  frot_group_reactions(in->m, in->w, g, in->w->search.trial, in->resists);
+  return 0;
+}
+
 /* Change one after the other until nothing is violated; returns whether the trial is admissible. */
 static int mend(const frot_instant *in, const int *chosen, int count, int forced, int exactly) {
   const frot_group *g = &in->m->groups[in->m->contact_group[chosen[0]]];
@@ -96,6 +105,7 @@ static int mend(const frot_instant *in, const int *chosen, int count, int forced
   for (int round = 0; round < (WORST + FIRST) * all; round++) {
     if (frot_group_reactions(in->m, in->w, g, in->w->search.trial, in->resists)) return 0;
     int k = violated(in, chosen, count, round >= WORST * all, exactly);
+    if (k >= 0 && shares(in, g, chosen, count)) return 1;
     if (k < 0 && frot_is_admissible(in, chosen, count)) return 1;
     if (k < 0 ? !frot_follow_ahead(in, g) : !frot_change_mode(in, k, forced)) return 0;
   }

@@ -134,7 +134,7 @@ typedef struct {
  * that was held last, 0 where it is dependent. */
 typedef struct {
   int rank, follow; /* whether `spare` (n_rows) says what depends on others: spare.h */
-  unsigned char *spare;
+  unsigned char *spare, *kept;
   int *along; /* n_rows: how many of them each held row lies along at most */
   int *way;   /* n_rows: ways.h */
   double *left, *direction;

@@ -1,9 +1,10 @@
-"""Boxes on boxes: the load of each is shared in many ways, and one that is pushed slips."""
+"""Boxes on boxes: the load of each is shared in many ways, and what is pushed slips or tips."""
 
 from __future__ import annotations
 
 import functools
 
+import numpy as np
 import pytest
 
 import frot
@@ -13,12 +14,12 @@ BOXES, MU, G = 5, 0.5, 9.81
 
 @functools.cache
 def stack() -> frot.Model:
-    lines = ["planar model Stack", "  parameter Mass m = 1 kg;"]
+    lines = ["planar model Stack", "  parameter Mass m = 1 kg;", "  parameter Length wide = 1 m;"]
     below = "ground.line"
     for i in range(BOXES):
         lines += [
             f"  parameter Real push{i} = 0;",
-            f"  body b{i}: box(mass = m, size = (1, 0.5) m);",
+            f"  body b{i}: box(mass = m, size = (wide, 0.5 m));",
             f"  liaison c{i}: appui_faces(b{i}.bottom, {below}) with coulomb({MU});",
             f"  force f{i}: on(b{i}, value = (push{i}*m*time*1 m/s^3, 0 N));",
         ]
@@ -49,3 +50,36 @@ def test_what_is_pushed_slips_with_what_it_carries(pushed: int, m: float, way: i
         assert x == pytest.approx(gone if i >= pushed else 0.0, rel=1e-6, abs=1e-20)
         told = [at[f"c{i}[{k}].normal_force"] for k in range(1, 5 if i > 0 else 3)]
         assert sum(told) == pytest.approx(m * G * (BOXES - i), rel=1e-9)
+
+
+@pytest.mark.parametrize(("pushed", "growth"), [(2, 30.0), (1, 40.0)])
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_narrow_stack_tips_and_slips_as_it_turns(pushed: int, growth: float, way: int) -> None:
+    """It tips when P (1/4 + k/2) = n m g wide/2; then boxes slip on each other while all of them
+    turn. Newton's law holds for each of them, whatever share of a load a corner has."""
+    wide = 0.5
+    given = {f"push{pushed}": way * growth, "wide": wide}
+    try:
+        result = stack().simulate(parameters=given, stop=0.9)
+    except frot.SimulationError as end:
+        assert "E0905" in str(end), end
+        result = end.result
+    tips = BOXES * G * wide / 2 / ((0.25 + pushed / 2) * growth)
+    first = result.events[0]
+    assert (first.kind, first.liaison[:2]) == ("separation", "c0")
+    assert first.time == pytest.approx(tips, rel=1e-9)
+    assert {e.liaison[:2] for e in result.events if e.kind == "slip"} - {"c0"}
+    for t in [*np.linspace(0.1 * tips, 0.999 * result.time[-1], 12)]:
+        at = result.at(float(t))
+        # 1 where the force that a contact tells acts on the box above it
+        sign = float(np.sign(at["c0[1].force.y"] + at["c0[2].force.y"]))
+        for k, axis in enumerate("xy"):
+            held = [
+                sum(at[f"c{i}[{j}].force.{axis}"] for j in range(1, 5 if i > 0 else 3))
+                for i in range(BOXES)
+            ]
+            for i in range(BOXES):
+                load = (way * growth * t if i == pushed else 0.0) if k == 0 else -G
+                above = held[i + 1] if i + 1 < BOXES else 0.0
+                rest = at[f"b{i}.acceleration.{axis}"] - load
+                assert rest == pytest.approx(sign * (held[i] - above), abs=1e-9 * BOXES * G)
