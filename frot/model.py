@@ -122,7 +122,7 @@ class Model:
         return dae
 
     def export_fmu(
-        self, path: str | Path, fmi: str = "2.0", platforms: Sequence[str] | None = None
+        self, path: str | Path, fmi: str = "2.0", platforms: str | Sequence[str] | None = None
     ) -> None:
         """Write a co-simulation FMU. `fmi`: "2.0" or "3.0"; `platforms`: this machine's only.
 
@@ -136,7 +136,8 @@ class Model:
         from frot.runtime.fmi import InvalidFmuError, export, platform_folder
 
         own = platform_folder("3.0").removeprefix("binaries/")
-        others = [p for p in platforms or (own,) if p != own]
+        asked = (platforms,) if isinstance(platforms, str) else platforms or (own,)
+        others = [p for p in asked if p != own]
         if others:
             raise fail(
                 "E0701",
