@@ -46,6 +46,16 @@ static inline int factorize(int width, const frot_group *g, const real *data, re
   return 0;
 }
 
+/* Whether neither a wrench nor a force of a speed acts at a step, as beyond all that a row moves.
+ */
+static inline int nothing_acts(int width, const frot_link *s, const real *wrench, const real *x) {
+  for (int i = 0; i < width; i++)
+    if (wrench[i] != 0) return 0;
+  for (int j = 0; j < s->count && !s->auxiliary; j++)
+    if (x[s->first + j] != 0) return 0;
+  return 1;
+}
+
 static inline void inwards(int width, const frot_group *g, const real *data, const real *factor,
                            real *twist, real *x) {
   memset(twist, 0, sizeof(real) * (size_t)(width * g->n_links));
@@ -53,6 +63,7 @@ static inline void inwards(int width, const frot_group *g, const real *data, con
     const frot_link *s = &g->links[k];
     real *wrench = twist + width * k;
     const real *column = data + s->data, *y = factor + s->factor;
+    if (nothing_acts(width, s, wrench, x)) continue;
     for (int j = 0; j < s->count && !s->auxiliary; j++, column += width, y += width + 1) {
       real *own = x + s->first + j;
       *own = y[width] * (*own - dot(width, column, wrench));

@@ -1,5 +1,6 @@
 #include "wide.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "core.h"
@@ -8,6 +9,9 @@
 #include "tree.h"
 #include "tree_wide.h"
 #include "wide_numbers.h"
+
+/* Part of its terms below which a sum is found in wide numbers. */
+#define CANCELS 1e-2
 
 /* The island of a group, or -1 where the model has none. */
 static int island_of(const frot_model *m, const frot_group *g) {
@@ -160,6 +164,19 @@ double frot_felt_inertia(const frot_model *m, frot_work *w, const frot_group *g,
   return (double)(own - product(column, column, g->n_speeds));
 }
 
+/* a'b, plus `more`, of halves of a group that lie at `a` and `b`: from their roundings, which are
+ * enough where it is not far less than its terms. */
+static double sum_of(const frot_wide *wide_a, const frot_wide *wide_b, const double *a,
+                     const double *b, frot_wide more, int n) {
+  double sum = (double)more, size = fabs(sum);
+  for (int i = 0; i < n; i++) {
+    double term = a[i] * b[i];
+    sum += term, size += fabs(term);
+  }
+  if (fabs(sum) >= CANCELS * size) return sum;
+  return (double)(product(wide_a, wide_b, n) + more);
+}
+
 /* L^-1 of the row i of a group, and its value without reactions. */
 static void form_row(const frot_model *m, frot_work *w, const frot_group *g, int i) {
   int ns = g->n_speeds, r = g->rows[i], reads = m->row_reads[r];
@@ -169,10 +186,11 @@ static void form_row(const frot_model *m, frot_work *w, const frot_group *g, int
   else
     memcpy(half, w->wide.rows + g->entries + i * g->n, sizeof(frot_wide) * (size_t)ns);
   go_inwards(w, g, half);
-  frot_wide free = product(w->wide.force + g->vector, half, ns);
-  free += reads >= 0 ? -w->wide.h[g->unknowns[reads]] : (frot_wide)w->core.c[r];
-  w->core.free[r] = (double)free;
-  round_to(half, ns, w->core.half + g->entries + i * g->n);
+  double *rounded = w->core.half + g->entries + i * g->n;
+  round_to(half, ns, rounded);
+  frot_wide own = reads >= 0 ? -w->wide.h[g->unknowns[reads]] : (frot_wide)w->core.c[r];
+  w->core.free[r] =
+      sum_of(half, w->wide.force + g->vector, rounded, w->core.force + g->vector, own, ns);
 }
 
 void frot_wide_rows(const frot_model *m, frot_work *w, const frot_group *g, int count, int acting) {
@@ -181,9 +199,10 @@ void frot_wide_rows(const frot_model *m, frot_work *w, const frot_group *g, int 
   for (int a = 0; a < count; a++)
     for (int b = 0; b < acting; b++) {
       int i = listed[a], j = listed[b], reads = m->row_reads[g->rows[i]];
-      const frot_wide *half = w->wide.half + g->entries;
-      frot_wide sum = product(half + i * g->n, half + j * g->n, g->n_speeds);
-      if (reads >= 0) sum -= w->wide.rows[g->entries + j * g->n + reads];
-      w->core.delassus[g->square + i * g->n_rows + j] = (double)sum;
+      int one = g->entries + i * g->n, two = g->entries + j * g->n;
+      const double *half = w->core.half;
+      frot_wide own = reads >= 0 ? -w->wide.rows[two + reads] : 0;
+      w->core.delassus[g->square + i * g->n_rows + j] =
+          sum_of(w->wide.half + one, w->wide.half + two, half + one, half + two, own, g->n_speeds);
     }
 }
