@@ -7,13 +7,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from judge.mechanics import Floats, Joint, Mechanics, left
-from judge.motions import parts
 from judge.scene import Contact, Pin, Scene
 
 FORMED = 1e-4
 PLACED = 1e-6  # an arm is the difference of places, and known to 1e-14 of them: see `check.EXACT`
 NOTHING = 1e-30  # part of the largest force of a scene below which one is none
-ROUNDED = 1e-8  # the same of bodies that liaisons join: with `check.EXACT` it is rounding of that
 
 
 class Loads:
@@ -49,9 +47,6 @@ class Loads:
         for joint in now.joints.values():
             for r in joint.rows.values():
                 arms[2::3] = np.maximum(arms[2::3], r.reach[2::3] * (r.reach[::3] > 0))
-        for places, _ in parts(now):
-            joined = places[:, :2]
-            size[joined] = np.maximum(size[joined], ROUNDED * np.max(size[joined], initial=0.0))
         for b in now.scene.bodies:
             k = now.at[b.name]
             arms[k + 2] = max(arms[k + 2], PLACED * float(np.linalg.norm(now.origin(b))))
