@@ -7,10 +7,12 @@ from collections.abc import Mapping
 import numpy as np
 
 from judge.mechanics import Floats, Joint, Mechanics, left
+from judge.motions import parts
 from judge.scene import Contact, Pin, Scene
 
 FORMED = 1e-4
 PLACED = 1e-6  # an arm is the difference of places, and known to 1e-14 of them: see `check.EXACT`
+CARRIED = 1e-7  # an acceleration is a sum along what joins bodies: 1e-15 of the largest there
 NOTHING = 1e-30  # part of the largest force of a scene below which one is none
 
 
@@ -52,6 +54,10 @@ class Loads:
             arms[k + 2] = max(arms[k + 2], PLACED * float(np.linalg.norm(now.origin(b))))
             size[k : k + 2] = np.max(size[k : k + 2])
             size[k + 2] = max(size[k + 2], size[k] * arms[k + 2])
+        for places, _ in parts(now):
+            for joined in (places[:, :2], places[:, 2]):
+                quickest = np.max(np.abs(self.acceleration[joined]), initial=0.0)
+                size[joined] = np.maximum(size[joined], CARRIED * now.mass[joined] * quickest)
         size = np.maximum(size, NOTHING * np.max(size, initial=0.0))
         self.rest, self.size = rest, size + self._formed(size)
         self.acceleration_size = self._acceleration_size()
