@@ -14,6 +14,7 @@
 #include "problem.h"
 #include "spare.h"
 #include "tolerances.h"
+#include "wide.h"
 
 /* Part of a pin's reaction missed below which the factors of a pass serve for steps more, what each
  * of these must leave at most, and what is rounding. */
@@ -52,6 +53,7 @@ double frot_acceleration(const frot_model *m, const frot_work *w, int row, doubl
 
 double frot_free_size(const frot_model *m, const frot_work *w, int row) {
   const frot_group *g = frot_group_of(m, row);
+  if (frot_is_reading(m, row) && frot_in_wide(m, w, g)) return fabs(w->core.free[row]);
   double sum = w->core.bias_size[row];
   const double *force = w->core.force + g->vector;
   const double *entries = frot_entries(m, g->general ? w->core.rows : w->core.half, row);

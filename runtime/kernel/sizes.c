@@ -10,6 +10,9 @@
 #define SMALL_PART 1e-2
 /* Part of what a state had at most that it is always worth. */
 #define LEAST_WORTH 1e-30
+/* Part of a rounding of time by which a state may be early or late in a step: what passes zero, and
+ * is worth nothing there, need not be followed beyond what its instant is known to. */
+#define LATE 1e-3
 /* How long an error lives: in times in which a state's own damping would end it, in steps where
  * nothing damps it. */
 #define LASTING 2
@@ -28,12 +31,14 @@ int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w) {
   const frot_layout *l = &w->layout;
   const double *most = s->data + l->scale_x, *worth = s->data + l->worth;
   const double *nominal = s->data + l->nominal;
-  double *largest = w->sizes.alike;
+  const double *rate = s->data + l->slope;
+  double *largest = w->sizes.alike, late = LATE * DBL_EPSILON * fabs(w->core.t) / s->tolerance;
   int zero = 0;
   for (int i = 0; i < w->sizes.count; i++) largest[m->q_alike[w->sizes.states[i]]] = 0;
   for (int i = 0; i < w->sizes.count; i++) {
     int j = w->sizes.states[i];
     double size = larger(larger(worth[j], fabs(w->step.z0[j])), w->sizes.change[j]);
+    size = larger(size, late * fabs(rate[j]));
     w->sizes.own[j] = larger(larger(size, nominal[j]), LEAST_WORTH * most[j]);
     double *alike = &largest[m->q_alike[j]];
     *alike = larger(*alike, w->sizes.own[j]);
