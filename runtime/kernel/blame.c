@@ -26,11 +26,12 @@ static int wrong_load(const frot_model *m, frot_state *s, frot_work *w) {
   return -1;
 }
 
-/* The equation of the text that gives no number at the last evaluation (values w->step.z1), or -1.
- */
-static int wrong_equation(const frot_model *m, frot_state *s, frot_work *w) {
-  if (m->n_watched == 0) return -1;
-  frot_inputs(m, s, w, &w->core.t, w->step.z1, w->step.z1 + m->nq, s->data + w->layout.d);
+/* The equation of the text that gives no number at (q, v, d) and the time of the last evaluation,
+ * or -1. */
+static int wrong_equation(const frot_model *m, frot_state *s, frot_work *w, const double *q,
+                          const double *v, const double *d) {
+  if (m->n_watched == 0 || !q) return -1;
+  frot_inputs(m, s, w, &w->core.t, q, v, d);
   w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
   w->call.res[0] = w->call.values;
   frot_call(w, &m->watched);
@@ -87,9 +88,25 @@ int frot_taken_apart(const frot_model *m, frot_state *s, frot_work *w, double t,
   return apart;
 }
 
+int frot_fail_evaluation(const frot_model *m, frot_state *s, frot_work *w, int status, double t) {
+  int item = status == FROT_ALGEBRAIC ? w->blocks.failed : -1;
+  int other = status == FROT_NAN ? w->blocks.failed : -1, contact = -1;
+  for (int e = 0; e < m->n_elements && status == FROT_NAN && other < 0; e++) {
+    const double *k = w->core.coefficient + 2 * e;
+    if (isnan(k[0] + k[1])) contact = m->elements[e].contact;
+  }
+  int equation = -1;
+  if (status == FROT_NAN && other < 0 && contact < 0)
+    equation = wrong_equation(m, s, w, w->core.q, w->core.v, w->core.d);
+  if (equation >= 0) item = m->n_loads + equation;
+  return frot_fail(s, status, t, contact, item, other, w->blocks.singular);
+}
+
 int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t,
                    double h) {
-  int equation = status == FROT_NAN ? wrong_equation(m, s, w) : -1;
+  const double *z = w->step.z1;
+  int equation = -1;
+  if (status == FROT_NAN) equation = wrong_equation(m, s, w, z, z + m->nq, s->data + w->layout.d);
   if (equation >= 0) return frot_fail(s, FROT_NAN, t, -1, m->n_loads + equation, -1, h);
   if (status == FROT_ALGEBRAIC || (status == FROT_NAN && w->blocks.failed >= 0))
     return frot_fail_evaluation(m, s, w, status, t);

@@ -12,6 +12,9 @@
 int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t,
                    double h);
 
+/* Record the fault `status` of an evaluation at t with the block to blame, if one is. */
+int frot_fail_evaluation(const frot_model *m, frot_state *s, frot_work *w, int status, double t);
+
 /* The closed contact whose bodies time takes apart most in the run after t, where the values q and
  * v stay and no speed moves them along it; -1 if none. */
 int frot_taken_apart(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,

@@ -186,14 +186,3 @@ int frot_solve_late(const frot_model *m, frot_state *s, frot_work *w, double t, 
                     const double *v, const double *d) {
   return solve(m, s, w, t, q, v, d, 1);
 }
-
-int frot_fail_evaluation(const frot_model *m, frot_state *s, const frot_work *w, int status,
-                         double t) {
-  int item = status == FROT_ALGEBRAIC ? w->blocks.failed : -1;
-  int other = status == FROT_NAN ? w->blocks.failed : -1, contact = -1;
-  for (int e = 0; e < m->n_elements && status == FROT_NAN && other < 0; e++) {
-    const double *k = w->core.coefficient + 2 * e;
-    if (isnan(k[0] + k[1])) contact = m->elements[e].contact;
-  }
-  return frot_fail(s, status, t, contact, item, other, w->blocks.singular);
-}

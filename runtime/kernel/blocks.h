@@ -16,8 +16,4 @@ int frot_solve_blocks(const frot_model *m, frot_state *s, frot_work *w, double t
 int frot_solve_late(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d);
 
-/* Record the fault `status` of an evaluation at t with the block to blame, if one is. */
-int frot_fail_evaluation(const frot_model *m, frot_state *s, const frot_work *w, int status,
-                         double t);
-
 #endif

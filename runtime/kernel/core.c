@@ -245,7 +245,7 @@ static int general_group(const frot_model *m, frot_work *w, const frot_group *g)
 int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes, int wanted) {
   s->statistics.evaluations++;
-  w->core.t = t;
+  w->core.t = t, w->core.q = q, w->core.v = v, w->core.d = d;
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
   if (!frot_call_dynamics(m, s, w, t, q, v, d, wanted)) return FROT_NAN;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "blame.h"
 #include "blocks.h"
 #include "edges.h"
 #include "groups.h"

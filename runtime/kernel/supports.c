@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "blame.h"
 #include "blocks.h"
 #include "core.h"
 #include "guards.h"

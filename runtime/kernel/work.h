@@ -56,17 +56,18 @@ typedef struct {
   int *pivot;
 } frot_block_work;
 
-/* core.h: results of `dynamics`, `kinematics` and `spread` at t; the inertia, packed by groups (of
- * a mass matrix the Cholesky factor L of the metric, L^-1 h, L^-1 J'; of a general core LU of A,
- * A^-1 h, A^-1 E); what it does to the rows wanted, and of which groups what these do to each other
- * is there (formed, n_groups); sizes of all loads and of what they do, and
- * of the terms of c (bias_size, n_rows);
- * reactions lam (n_rows) and the solution a (nw). Of each row where it is not zero in every posture
- * (reach, 2 n_rows: from, to). Scratch: what the functions give of the rows (given), rest and
- * column (nw), the rows of a group that are looked at (listed), four of them abreast and where
- * these are not zero; of large trees inertia, twist, motion and momenta (inertia.h). */
+/* core.h: results of `dynamics`, `kinematics` and `spread` at t and at what was given last as q, v,
+ * d (NULL before); the inertia, packed by groups (of a mass matrix the Cholesky factor L of the
+ * metric, L^-1 h, L^-1 J'; of a general core LU of A, A^-1 h, A^-1 E); what it does to the rows
+ * wanted, and of which groups what these do to each other is there (formed, n_groups); sizes of all
+ * loads and of what they do, and of the terms of c (bias_size, n_rows); reactions lam (n_rows) and
+ * the solution a (nw). Of each row where it is not zero in every posture (reach, 2 n_rows: from,
+ * to). Scratch: what the functions give of the rows (given), rest and column (nw), the rows of a
+ * group that are looked at (listed), four of them abreast and where these are not zero; of large
+ * trees inertia, twist, motion and momenta (inertia.h). */
 typedef struct {
   double t;
+  const double *q, *v, *d;
   double *qd, *mass, *h, *given, *rows, *c, *rate, *gap, *condition, *coefficient, *power;
   double *effect, *metric;
   double *factor, *unit, *share, *force, *half, *lu, *lu_scale;

@@ -34,3 +34,23 @@ def test_a_root_passes_zero_with_speed_at_any_tolerance(push: float) -> None:
         assert len(run.events) == len(exact.events)
         for t in (1.0, 4.0, 10.0):
             assert run.at(t)["x"] == pytest.approx(exact.at(t)["x"], abs=300 * tolerance + 1e-13)
+
+
+def test_an_equation_without_a_value_at_an_event_is_named() -> None:
+    """Both tanks are empty at once: the root of the second has no value beyond it."""
+    with pytest.raises(frot.FrotError) as told:
+        frot.compile("""
+model Tanks
+  Real h[2], q[2];
+initial
+  h[1] = 1; h[2] = 0;
+equation
+  q[1] = if h[1] > h[2] then sqrt(h[1] - h[2]) else -sqrt(h[2] - h[1]);
+  q[2] = if h[2] > 0 then sqrt(h[2]) else 0;
+  der(h[1]) = -q[1]/(1 s);
+  der(h[2]) = (q[1] - q[2])/(1 s);
+end Tanks;
+""").simulate(stop=10)
+    diagnostic = told.value.diagnostics[0]
+    assert diagnostic.code == "E0904"
+    assert "the equation `q[2] = if h[2] > 0" in diagnostic.message
