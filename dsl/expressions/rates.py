@@ -29,7 +29,10 @@ _HELP = {CYCLES: "a frequency is 'w/(2*pi)'", TURNING: "an angular velocity is '
 # Functions whose value is of the kind of their last operand, as that of any other they take.
 _KEEPING = ("abs", "max", "min", "mod", "norm", "hypot", "noEvent", "smooth")
 _DEEP = 8  # operands of operands that are looked at
-_PARTS = 60  # of pi, and multiples, that are taken for one
+# Numbers with pi between the two rates, as 6.28, 0.159 or 9.55.
+_FACTORS = tuple(
+    x for part in (0.5, 1, 2, 4, 1 / 30) for x in (part * math.pi, 1 / (part * math.pi))
+)
 
 
 def rate_of(node: checked.Expression, depth: int = _DEEP) -> str:
@@ -105,13 +108,8 @@ def _is_plain(node: checked.Expression, depth: int = _DEEP) -> bool:
 
 
 def _holds_pi(value: float) -> bool:
-    """Whether a number is, to three digits, a multiple of pi or 1/pi, or a part of one."""
-    for part in (abs(value) / math.pi, abs(value) * math.pi):
-        for multiple in (part, 1 / part if part else 0.0):
-            near = round(multiple)
-            if 1 <= near <= _PARTS and abs(multiple - near) < 1e-3 * near:
-                return True
-    return False
+    """Whether a number is, to three digits, one by which people go from one rate to the other."""
+    return any(abs(abs(value) - factor) < 6e-4 * factor for factor in _FACTORS)
 
 
 def as_rate(found: checked.Expression, wanted: str, scope: Scope) -> checked.Expression | None:

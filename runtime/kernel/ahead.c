@@ -60,11 +60,11 @@ double frot_time_of_way(const frot_instant *in, const frot_group *g, double part
 }
 
 /* Whether an element that is at its bound, if it is, is held for certain: several of these hold a
- * row together. */
-static int rests_at_bound(const frot_instant *in, int e) {
+ * row of the group together. */
+static int rests_at_bound(const frot_instant *in, const frot_group *g, int e) {
   int row = in->m->elements[e].row;
   return frot_element_mode(in->m, in->w->search.trial, e)->at_bound == 0 ||
-         (!frot_group_of(in->m, row)->general && in->w->span.kept[row]);
+         (!g->general && frot_group_of(in->m, row) == g && in->w->span.kept[row]);
 }
 
 /* The modes of what holds for certain: by a reaction, in this posture and the next. What a contact
@@ -81,7 +81,7 @@ static int keep_certain(const frot_instant *in, const frot_group *g, frot_contac
   }
   for (int e = 0; e < m->n_elements; e++) {
     frot_contact_mode *mode = modes + m->n_contacts + e;
-    if (mode->friction != FROT_STICK || !rests_at_bound(in, e)) mode->friction = FROT_NONE;
+    if (mode->friction != FROT_STICK || !rests_at_bound(in, g, e)) mode->friction = FROT_NONE;
   }
   if (unloaded && frot_group_reactions(m, w, g, modes, in->resists)) status = FROT_DIVERGE;
   for (int e = 0; e < m->n_elements; e++)

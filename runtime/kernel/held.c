@@ -46,13 +46,12 @@ static void add_kept_rows(frot_problem *p) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   int ns = p->g->n_speeds, some = leaves_to_others(p);
+  for (int i = 0; some && i < p->g->n_rows; i++) w->span.kept[p->g->rows[i]] = 0;
   for (int i = 0; some && i < p->g->n_contacts; i++)
     for (int law = -1; law < p->g->n_elements; law++) {
       int e = law < 0 ? -1 : p->g->elements[law], rank = w->span.rank;
       int row = row_without_reaction(p, p->g->contacts[i], e);
-      if (row < 0) continue;
-      w->span.kept[row] = 0;
-      if (rank == ns) continue;
+      if (row < 0 || rank == ns) continue;
       double *x = w->span.basis + ns * rank, *parts = w->span.parts, bias = w->core.c[row];
       memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
       double length = sqrt(frot_dot(x, x, ns)), size = w->core.bias_size[row];

@@ -157,7 +157,7 @@ static int make_inside(const frot_model *m, frot_state *s, frot_work *w, const f
  * rounding of places leaves more of it than what it is to be told from. 0 of other guards. */
 static double slip_of_rounding(const frot_model *m, const frot_state *s, frot_work *w, int j) {
   int e = frot_slip_of_guard(m, s, w, j);
-  if (e < 0) return 0;
+  if (e < 0 || frot_metric(m, w) != FROT_OK) return 0;
   return FROT_ZERO_OF_MOTION * frot_row_speed(m, w, m->elements[e].row, w->step.z1 + m->nq);
 }
 

@@ -64,6 +64,17 @@ def test_a_number_that_may_be_the_factor_between_them_converts_nothing() -> None
     assert (found["w"], found["v"]) == pytest.approx((6 * pi, 138 * pi))
 
 
+@pytest.mark.parametrize("k", [*range(1, 200), 3.5, 8.6, 12.1, 15.7, 0.3, 9.5, 12.6, 19.1])
+def test_no_number_of_turns_is_taken_for_pi(k: float) -> None:
+    assert values(f"parameter Frequency x = {k}*(60 rpm);")["x"] == pytest.approx(k)
+
+
+@pytest.mark.parametrize("factor", ["3.14", "6.28", "6.2832", "12.566", "1.571"])
+def test_pi_in_digits_is_taken_for_pi(factor: str) -> None:
+    found = values(f"parameter AngularVelocity x = {factor}*(1 Hz);")
+    assert found["x"] == pytest.approx(float(factor))
+
+
 def test_the_items_of_an_array_are_converted() -> None:
     assert values("parameter Frequency x[2] = (60, 120) rpm;")["x"] == pytest.approx((1, 2))
 
