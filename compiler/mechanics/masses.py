@@ -45,6 +45,8 @@ def _unfolded(variables: Variables, bodies: Sequence[Body]) -> Callable[[Body, c
     """
     masses = [variables.mass(body) for body in bodies]
     known = [float(m) for m in masses if m.is_constant() and float(m) > 0]
+    if not known or max(known) <= HEAVY * min(known):
+        return lambda _, value: value
     kinematics, v = variables.kinematics, variables.symbols.v
     trees, nodes = trees_of(kinematics.nodes), kinematics.nodes
     speeds = {
@@ -61,5 +63,4 @@ def _unfolded(variables: Variables, bodies: Sequence[Body]) -> Callable[[Body, c
         unknown = ca.SX.inf() + ca.sign(speeds[tree])
         return ca.SX(value.sparsity(), ca.fmin(value.nz[:], unknown))
 
-    mixed = known and max(known) > HEAVY * min(known)
-    return unfolded if mixed else lambda _, value: value
+    return unfolded

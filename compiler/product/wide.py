@@ -1,10 +1,9 @@
 """Generated functions in numbers of twice the digits: their C.
 
-What CasADi calls of its own it writes out for any type, as for compilers before C99, whose
-mathematical functions know one. Arguments are numbers of ordinary width: they place bodies to a
-rounding, and contradict nothing. Nor may what CasADi takes for granted, that roots have squares and
-that directions are one unit long; other functions give numbers of ordinary width, the same wherever
-they stand.
+What CasADi calls of its own it writes out for compilers before C99: so it holds for any type.
+Arguments are numbers of ordinary width: they place bodies to a rounding, and contradict nothing.
+Nor may what CasADi takes for granted, that roots have squares and that directions are one unit
+long; other functions give numbers of ordinary width, the same wherever they stand.
 """
 
 from __future__ import annotations
@@ -16,10 +15,14 @@ import casadi as ca
 from frot.compiler.product.c_tables import record
 from frot.compiler.product.split import split_functions
 
-# Of CasADi's text: what nobody asks of functions (names, patterns, sizes), and what chooses by
-# compilers.
+# Of CasADi's text: what nobody asks of functions (names, patterns, sizes), what is written twice,
+# first for compilers before C99, and what else speaks to the preprocessor.
 _ASKED = re.compile(r"^CASADI_SYMBOL_EXPORT [^\n]*(?:\}|\{\n(?:[^}\n].*\n)*\})\n", re.MULTILINE)
-_CHOICE = re.compile(r"^ *#.*\n", re.MULTILINE)
+_TWICE = re.compile(
+    r"^#if __STDC_VERSION__ < 199901L\n((?:[^#\n].*\n)*)#else\n(?:[^#\n].*\n)*#endif\n",
+    re.MULTILINE,
+)
+_DIRECTIVE = re.compile(r"^ *#.*\n", re.MULTILINE)
 _NAME = re.compile(r"^/\* (\w+):.*\n^static int casadi_(f\d+)\(", re.MULTILINE)
 _CALL = re.compile(r"\b(sin|cos|sqrt)\(")
 _CALLED = {"sin": "sine", "cos": "cosine", "sqrt": "root"}
@@ -38,7 +41,8 @@ _HEAD = """
 def write_wide(text: str) -> str:
     """The C of functions that CasADi wrote, in wide numbers."""
     begins = text.index("*/", text.index("automatically generated")) + 3
-    plain = split_functions(_CHOICE.sub("", _ASKED.sub("", text[begins:])))
+    plain = _TWICE.sub(r"\1", _ASKED.sub("", text[begins:]))
+    plain = split_functions(_DIRECTIVE.sub("", plain))
     for braces in ('extern "C" {\n', '} /* extern "C" */\n'):
         plain = plain.replace(braces, "")
     plain = plain.replace("const casadi_real** arg", "const double** arg")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.diagnostics import Log
@@ -14,6 +14,8 @@ from frot.dsl.text.parsing import parse
 
 if TYPE_CHECKING:
     from frot.dsl.names.imports import Libraries
+
+_Seen = TypeVar("_Seen")
 
 # What has no library in the text: the connectors of one-coordinate liaisons.
 _BUILT_IN = """
@@ -86,17 +88,8 @@ class Namespace:
         if imported is not None:
             imported.used = True
             return imported.target
-        first: Imported | None = None
-        for star in self.stars:
-            found = star.target.space.own(name) if star.target is not None else None
-            if found is None:
-                continue
-            star.used = True
-            if first is None:
-                first, result = star, found
-            elif found is not result:
-                star.clashes.setdefault(name, first)
-        return None if first is None else result
+        packages = ((star, star.target) for star in self.stars if star.target is not None)
+        return first_seen(name, ((star, package.space.own(name)) for star, package in packages))
 
     def visible(self) -> Iterator[str]:
         """Every name of a class that is seen from here."""
@@ -124,6 +117,21 @@ class Imported:
     statement: tree.Import
     used: bool = False
     clashes: dict[str, Imported] = field(default_factory=dict)
+
+
+def first_seen(name: str, seen: Iterable[tuple[Imported, _Seen]]) -> _Seen | None:
+    """The first of what packages imported by `.*` have by a name; that others have one is noted."""
+    first: Imported | None = None
+    result: _Seen | None = None
+    for star, found in seen:
+        if found is None:
+            continue
+        star.used = True
+        if first is None:
+            first, result = star, found
+        elif found is not result:
+            star.clashes.setdefault(name, first)
+    return result
 
 
 @dataclass(slots=True, eq=False, repr=False)

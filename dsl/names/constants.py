@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from frot.dsl import checked
 from frot.dsl.names.build import settled
-from frot.dsl.names.classes import Class, Imported, Namespace, enter
+from frot.dsl.names.classes import Class, Imported, Namespace, enter, first_seen
 from frot.dsl.names.entities import Entity, Instance, Refused
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import Thing, as_thing, kind_of
 from frot.dsl.names.types import enumeration_of
 from frot.dsl.text import tree
+
+_Constant = Entity | Refused
 
 
 def constant_around(node: tree.Name, scope: Scope) -> Thing | None:
@@ -33,21 +37,13 @@ def constant_around(node: tree.Name, scope: Scope) -> Thing | None:
 
 def _by_stars(name: str, space: Namespace, scope: Scope) -> Entity | Refused | None:
     """A constant of a package of which all is imported; that another has one too is noted."""
-    first: Imported | None = None
-    result: Entity | Refused | None = None
-    for star in space.stars:
-        package = star.target
-        if package is None or package.kind != "package":
-            continue
-        found = constant(package, name, scope)
-        if found is None:
-            continue
-        star.used = True
-        if first is None:
-            first, result = star, found
-        elif found is not result:
-            star.clashes.setdefault(name, first)
-    return result
+    packages = ((star, star.target) for star in space.stars)
+    seen: Iterator[tuple[Imported, _Constant | None]] = (
+        (star, constant(package, name, scope))
+        for star, package in packages
+        if package is not None and package.kind == "package"
+    )
+    return first_seen(name, seen)
 
 
 def constant(package: Class, name: str, scope: Scope) -> Entity | Refused | None:

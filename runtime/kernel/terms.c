@@ -43,21 +43,26 @@ double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *
   return sqrt(frot_square_of(w, g, v) * frot_dot(half, half, ns));
 }
 
+/* The inertia that is felt at a reading of a group while all speeds are free. */
+static double felt_inertia(const frot_model *m, frot_work *w, const frot_group *g, int row) {
+  if (frot_in_wide(m, w, g)) return frot_felt_inertia(m, w, g, row);
+  double *half = w->core.rest, own = frot_mass_column(w, g, m->row_reads[row], half);
+  frot_inwards(w, g, half);
+  return own - frot_dot(half, half, g->n_speeds);
+}
+
 double frot_length_beside(const frot_model *m, frot_work *w, int row, double own) {
   int normal = m->row_beside[row];
   if (normal < 0) return own;
   const frot_group *g = frot_group_of(m, normal);
-  int ns = g->n_speeds, at = m->row_reads[normal];
+  int ns = g->n_speeds;
   double *half = w->core.rest, beside;
-  if (at < 0) {
+  if (!frot_is_reading(m, normal)) {
     memcpy(half, frot_entries(m, w->core.rows, normal), sizeof(double) * (size_t)ns);
     frot_inwards(w, g, half);
     beside = sqrt(frot_dot(half, half, ns));
   } else if (!g->general) {
-    double inertia = frot_mass_column(w, g, at, half);
-    frot_inwards(w, g, half);
-    inertia -= frot_dot(half, half, ns);
-    if (frot_in_wide(m, w, g)) inertia = frot_felt_inertia(m, w, g, normal);
+    double inertia = felt_inertia(m, w, g, normal);
     beside = inertia > 0 ? 1 / sqrt(inertia) : 0;
   } else {
     beside = own;
