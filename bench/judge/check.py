@@ -15,6 +15,7 @@ from typing import Protocol
 import numpy as np
 
 from judge.mechanics import Floats, Joint, Mechanics, Row, inertia
+from judge.motions import parts
 from judge.readings import Loads, start_sides, state_of
 from judge.scene import Contact, Pin, Scene
 
@@ -22,6 +23,8 @@ EXACT = 1e-8
 SLACK = 300.0
 OPEN, STICK, SLIP = 0, 1, 2
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
+# A speed is a sum along what joins bodies: known to a few roundings of the largest there.
+CARRIED = 1e-15
 # Parts of an interval over each of which a rule is taken; the finest sees a bell of a thousandth.
 PANELS = (2, 64, 2048)
 
@@ -97,6 +100,7 @@ class Judge:
         self.sides = start_sides(scene, self.mechanics(begin, {}))
         self.length, self.speed = self._sizes()
         self._natural()
+        self.carried = self._carried()
 
     # what the result says
 
@@ -162,6 +166,16 @@ class Judge:
                 spin = speed / b.size.at(now.look)
                 self.speed[f"{b.name}.w"] = max(self.speed[f"{b.name}.w"], spin)
 
+    def _carried(self) -> dict[str, float]:
+        """The rounding of each body's speed (and angular) that comes from those it is joined to."""
+        rounding = {}
+        for places, _ in parts(self.mechanics(float(self.result.time[0]))):
+            joined = [self.scene.bodies[int(k) // 3].name for k in places[:, 0]]
+            for end in ("", ".w"):
+                largest = max(self.speed.get(f"{name}{end}", 0.0) for name in joined)
+                rounding.update({f"{name}{end}": CARRIED * largest for name in joined})
+        return rounding
+
     # the whole examination
 
     def examine(self, rng: np.random.Generator, instants: int = 12, events: int = 6) -> Findings:
@@ -172,7 +186,7 @@ class Judge:
         chosen = [marks[int(k)] for k in rng.permutation(len(marks))[:events]]
         times += chosen
         for t in times:
-            self.instant(self._clear(float(t), marks, end))
+            self.instant(self._clear(float(t), marks, begin, end))
         for t in chosen:
             if t > begin:
                 self.jump(float(t))
@@ -180,13 +194,20 @@ class Judge:
         self.balance(rng, begin, end)
         return self.found
 
-    def _clear(self, t: float, marks: list[float], end: float) -> float:
-        """A little later where a condition switches, so that all agree on its truth."""
+    def _clear(self, t: float, marks: list[float], begin: float, end: float) -> float:
+        """A little later where a condition switches, so that all agree on its truth.
+
+        A run that stops there tells the motion before: that is looked at a little earlier.
+        """
         if not any(
             e.kind == "condition" and abs(e.time - t) <= 1e-12 * abs(t) for e in self.result.events
         ):
             return t
-        after = min([m for m in [*marks, end] if m > t * (1 + 1e-12)], default=t)
+        room = 1e-12 * abs(t)
+        after = min([m for m in [*marks, end] if m > t + room], default=None)
+        if after is None:
+            before = max([m for m in [begin, *marks] if m < t - room], default=t)
+            return t - 1e-3 * (t - before)
         return t + 1e-3 * (after - t)
 
     def instant(self, t: float) -> None:
@@ -445,6 +466,8 @@ class Judge:
                 elif ".velocity" in of:
                     size = max(size, self.speed[body.name])
                 allowed = SLACK * self.tol * size + 1e-12 * size + 100 * abs(one - two)
+                if "velocity" in of:
+                    allowed += self.carried[f"{body.name}.w" if "angular" in of else body.name]
                 yield of, rate.split(".")[1], change - two, allowed
 
     def balance(self, rng: np.random.Generator, begin: float, end: float) -> None:
