@@ -164,6 +164,8 @@ def simulate(
             before = grid[: bisect_left(grid, error.time)]
             if not len(before):
                 raise
+            last = _last_value(engine, run.record, before[-1], error.time)
+            before += array("d", [last] if last > before[-1] else [])
             result = Result(program, engine, before, run.record, events, figures)
             if run.status in _GOOD:
                 raise SimulationError(Log(list(error.diagnostics)), result) from None
@@ -174,6 +176,19 @@ def simulate(
     if run.status not in _GOOD or result is None:
         raise _fault(engine, result)
     return result
+
+
+def _last_value(engine: Engine, record: array[float], there: float, lost: float) -> float:
+    """The last instant found to have values, between one that has them and one that has none."""
+    middle = there + (lost - there) / 2
+    while there < middle < lost:
+        try:
+            engine.values(record, array("d", [middle]))
+            there = middle
+        except NoValues:
+            lost = middle
+        middle = there + (lost - there) / 2
+    return there
 
 
 def _too_long(result: Result | None, reached: float) -> SimulationError:
