@@ -7,13 +7,13 @@ value before in the equations of its conditions already. What an equation gives 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
 import casadi as ca
 from frot.compiler.equations.text_symbols import Held, TextSymbols, scalars
 from frot.compiler.lowering.symbols import shaped
-from frot.dsl.checked import Call, Element, Expression, Reference, Variable
-from frot.dsl.data.classes import dataclass, field
+from frot.dsl.checked import Element, Expression, Reference, Variable
+from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 
 # Of a whole number, by how much a value is beyond it before it counts as back.
@@ -23,20 +23,18 @@ Crosses = Callable[[ca.SX, bool], ca.SX]
 
 @dataclass(slots=True)
 class Before:
-    """`variable` gives the value of a variable before the event.
+    """`variable` gives the value of a variable before the event; `first` that at the start.
 
-    `set_before` gives that of what a `when` sets; where an expression reads both such a value and
-    the one before (`lagging`), the one before is held until the next round at the event.
+    `set_before` gives that of what a `when` sets, inside of a `when`.
     """
 
     text: TextSymbols
-    set_before: Callable[[Variable], ca.SX]
     first: Callable[[Variable], list[ca.SX]]
-    lagging: set[Variable] = field(default_factory=set)
+    set_before: Callable[[Variable], ca.SX] | None = None
 
     def variable(self, variable: Variable, span: Span) -> ca.SX:
         """The value before, in the shape of the variable."""
-        if variable.discrete and variable not in self.lagging:
+        if variable.discrete and self.set_before is not None:
             return self.set_before(variable)
         if not variable.discrete and variable.type.base == "real":
             return self.text.values[variable]
@@ -81,37 +79,6 @@ class Before:
 
     def _hold(self, symbol: ca.SX, start: ca.SX, value: ca.SX, span: Span) -> None:
         self.text.held.append(Held(symbol.name(), symbol, start, value, span))
-
-    def look_at(self, expressions: Iterable[Expression]) -> None:
-        """Find what the expressions, lowered next, read both now and before."""
-        if not self.text.discrete:
-            return
-        now: set[Variable] = set()
-        before: set[Variable] = set()
-        for expression in expressions:
-            _reads(expression, now, before)
-        self.lagging = {v for v in now & before if v.discrete}
-
-
-def _reads(root: Expression, now: set[Variable], before: set[Variable]) -> None:
-    """The variables that an expression reads, and those that it reads before the event."""
-    from frot.compiler.lowering.walk import through
-
-    stack: list[tuple[Expression, bool, bool]] = [(root, True, False)]
-    seen: set[tuple[int, bool, bool]] = set()
-    while stack:
-        node, is_now, is_before = stack.pop()
-        if (id(node), is_now, is_before) in seen:
-            continue
-        seen.add((id(node), is_now, is_before))
-        if isinstance(node, Reference) and isinstance(node.target, Variable):
-            if is_now:
-                now.add(node.target)
-            if is_before:
-                before.add(node.target)
-        if isinstance(node, Call) and node.function in ("pre", "change", "edge"):
-            is_now, is_before = node.function != "pre", True
-        stack.extend((part, is_now, is_before) for part in through(node))
 
 
 def whole(expression: Expression) -> tuple[Variable, list[int]] | None:

@@ -104,7 +104,6 @@ class _Gatherer:
             return self._sample(expression)
         if isinstance(expression, Call) and expression.function == "initial":
             return self._once(expression)
-        self.moving.look_at(expression)
         return self.fire(self.moving.lower(expression), False, words(expression), expression.span)
 
     def _sample(self, call: Call) -> ca.SX:
@@ -186,7 +185,6 @@ class _Gatherer:
     def assertion(self, assertion: Assertion) -> None:
         """A condition that must always hold: it is watched."""
         self.moving.owner = assertion.owner
-        self.moving.look_at(assertion.condition)
         broken = 1 - self.moving.lower(assertion.condition)
         kind = WARN if assertion.level == "warning" else FAIL
         fired = self.fire(broken, True, words(assertion.condition), assertion.span)
@@ -229,7 +227,7 @@ def gather_events(
             gatherer.before[symbol.element_hash()] = old
     looking.variable = lambda v: after[v] if v.discrete else text.values[v]
     assert moving.before is not None
-    looking.before = Before(text, before.__getitem__, moving.before.first)
+    looking.before = Before(text, moving.before.first, before.__getitem__)
     looking.known = conditions
     for mode in modes:
         gatherer.before[mode.element_hash()] = ca.SX.sym(f"{mode.name()} before")

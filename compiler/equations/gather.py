@@ -29,7 +29,6 @@ def _residuals(
     if isinstance(equation, IfEquations):
         return _branches(equation, lowering, log)
     lowering.owner = equation.owner
-    lowering.look_at(equation.left, equation.right)
     difference = lowering.lower(equation.left) - lowering.lower(equation.right)
     text = equation.connection or " ".join(equation.span.text.split()).rstrip("; ")
     origin = Origin(equation.span, text, equation.owner, equation.drives)
@@ -41,8 +40,6 @@ def _branches(equations: IfEquations, lowering: Lowering, log: Log) -> list[tupl
     columns: list[list[tuple[ca.SX, Origin]]] = []
     for condition, inner in equations.branches:
         lowering.owner = equations.owner
-        if condition is not None:
-            lowering.look_at(condition)
         conditions.append(None if condition is None else lowering.lower(condition))
         columns.append([pair for e in inner for pair in _residuals(e, lowering, log)])
     found = columns[-1]

@@ -133,11 +133,6 @@ class Lowering(SharedWalk[ca.SX]):
     owner: str = ""
     done: dict[int, tuple[Expression, ca.SX]] = field(default_factory=dict)
 
-    def look_at(self, *expressions: Expression) -> None:
-        """Say which expressions are lowered next as one."""
-        if self.before is not None:
-            self.before.look_at(expressions)
-
     def lower(self, expression: Expression) -> ca.SX:
         """The CasADi value: a scalar, a column or a matrix. Shared parts are lowered once."""
         return self.of(expression)

@@ -17,7 +17,7 @@ from frot.compiler.lowering.initial_values import Statement, lower_initial
 from frot.compiler.lowering.islands import Island, divide
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, too_full, why_explicit
 from frot.compiler.lowering.listing import Listed, list_variables
-from frot.compiler.lowering.lower_events import lower_update
+from frot.compiler.lowering.lower_events import Ranks, lower_update, rank_whens
 from frot.compiler.lowering.lower_parameters import lower_parameters, parameters_needed
 from frot.compiler.lowering.pace import make_pace
 from frot.compiler.lowering.parts import Part, Scene
@@ -45,7 +45,8 @@ class Lowered:
     begins. `parts` and `speed_parts`: what of places and of speeds is put together alone.
     `n_followed`: unknowns of places that are followed, if one may be of an open contact.
     `blocks` are the functions of the blocks of `system`.
-    Islands and parts are each of one of the `kinds`. `conditions`: the values of all.
+    Islands and parts are each of one of the `kinds`. `conditions`: the values of all; `ranks`: the
+    order of the `when`s.
     """
 
     reduced: Reduced
@@ -72,6 +73,7 @@ class Lowered:
     dependent: tuple[bool, ...]
     jacobian: Jacobian | None
     watched: tuple[Origin, ...]
+    ranks: Ranks
     integrals: tuple[FirstIntegral, ...]
 
 
@@ -212,6 +214,7 @@ def lower(
         dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
         jacobian=jacobian,
         watched=tuple(watched_origins),
+        ranks=rank_whens(system, conditions, update),
         integrals=integrals,
     )
 

@@ -1,4 +1,10 @@
-"""What an event of the text does to states and discrete values, for the kernel's `update`."""
+"""What an event of the text does to states and discrete values, for the kernel's `update`.
+
+And in which order the `when`s act at one instant. Modelica Language Specification 3.6, sect. 8.6:
+at an event conditions and what `when`s set are found together, each after what it needs, while
+values before (`pre`) stay. So a condition that reads what a `when` sets is decided after that
+`when`. What needs each other in a circle acts at once, and is looked at anew in the next round.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +13,7 @@ from frot.compiler.equations.events import FAULT, Outcome
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.symbols import column
 from frot.dsl import Log
+from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 
 
@@ -49,3 +56,83 @@ def lower_update(system: Assembled, log: Log) -> list[ca.SX] | None:
         system.resolve(settled(column(events.values))),
         system.resolve(settled(column(events.asked))),
     ]
+
+
+@dataclass(frozen=True, slots=True)
+class Ranks:
+    """`whens` of the symbols that fire, `held` of the values that are kept for the next round."""
+
+    whens: tuple[int, ...] = ()
+    held: tuple[int, ...] = ()
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return 1 + max((*self.whens, *self.held), default=0)
+
+
+def rank_whens(system: Assembled, conditions: ca.SX, update: list[ca.SX] | None) -> Ranks:
+    """Find the ranks; `conditions` are the values of all, `update` what `lower_update` gives."""
+    events, held = system.reduced.events, len(system.reduced.text.held)
+    if update is None:
+        return Ranks()
+    flags, discrete = system.reduced.conditions.flags, ca.vertsplit(system.discrete)
+    set_by_whens, values = discrete[: len(discrete) - held], ca.vertsplit(update[2])
+    tests = ca.vertsplit(conditions) if flags else []
+    firing = [flags[j] for j in events.conditions]
+    nodes = [
+        *((column([f]), test) for f, test in zip(flags, tests, strict=True)),
+        *((x, v) for x, v in zip(set_by_whens, values[: len(set_by_whens)], strict=True)),
+        *((None, v) for v in values[len(set_by_whens) :]),
+        *_solved(system),
+    ]
+    needs = _needs(nodes, dict(zip(map(_hash, events.fired), map(_hash, firing), strict=True)))
+    first, last = len(flags), len(flags) + len(set_by_whens)
+    levels = _levels(needs, range(first, last))
+    return Ranks(tuple(levels[j] for j in events.conditions), tuple(levels[last : last + held]))
+
+
+def _hash(symbol: ca.SX) -> int:
+    return int(symbol.element_hash())
+
+
+def _solved(system: Assembled) -> list[tuple[ca.SX, ca.SX]]:
+    """What blocks and the core solve for, each with all that decides it."""
+    force = (x for step in system.tree.steps for x in (step.force, step.couple))
+    core = [system.matrix, system.force, system.spread, system.rows, system.bias, *force]
+    core += [system.coefficients]
+    blocks = [(system.y[b.first : b.first + b.residual.numel()], b.residual) for b in system.blocks]
+    return [*blocks, (ca.vertcat(system.z, system.lam), column(ca.vec(x) for x in core))]
+
+
+def _needs(nodes: list[tuple[ca.SX | None, ca.SX]], same: dict[int, int]) -> list[list[int]]:
+    """Which nodes each node needs; `same`: symbols that stand for others."""
+    owner = {
+        _hash(x): k
+        for k, (symbols, _) in enumerate(nodes)
+        if symbols is not None and symbols.numel()
+        for x in ca.vertsplit(symbols)
+    }
+    found = []
+    for _, value in nodes:
+        read = (_hash(x) for x in ca.symvar(value))
+        places = {owner.get(same.get(x, x), -1) for x in read}
+        found.append(sorted(places - {-1}))
+    return found
+
+
+def _levels(needs: list[list[int]], steps: range) -> list[int]:
+    """How many of `steps` lie one after the other before each node, circles counted once."""
+    if not any(k in steps for row in needs for k in row):
+        return [0] * len(needs)
+    from frot.compiler.equations.order import find_components
+
+    count = len(needs)
+    levels, components = [0] * count, find_components(needs, range(count))
+    for component in components:
+        inside = set(component.equations)
+        before = (levels[k] + (k in steps) for i in inside for k in needs[i] if k not in inside)
+        level = max(before, default=0)
+        for i in inside:
+            levels[i] = level
+    return levels

@@ -144,7 +144,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         for located in (conditions, None)
     )
     first = first_values(mechanism.model, text, symbols, looking, log)
-    moving.before = Before(text, text.values.__getitem__, first)
+    moving.before = Before(text, first)
     _give_modes(mechanism, variables, text)
     moving.holds, moving.at_rest = variables.holds, variables.at_rest
     for variable in mechanism.model.variables:

@@ -45,7 +45,13 @@ def tables_of(
                 for x in lowered.vanishing
             ],
         ),
-        "held": ("frot_held", [record(*_at(x.name, x.span)) for x in reduced.text.held]),
+        "held": (
+            "frot_held",
+            [
+                record(*_at(x.name, x.span), rank)
+                for x, rank in zip(reduced.text.held, lowered.ranks.held, strict=True)
+            ],
+        ),
         "states": ("frot_load", [record(*x) for x in _states(system)]),
         "position_direct": ("unsigned char", _whole(lowered.direct)),
         "position_statement": ("int", _whole(lowered.position_statement)),
@@ -62,6 +68,7 @@ def tables_of(
         "q_alike": ("int", _whole(alike(system))),
         "blocks": ("frot_block", _blocks(lowered)),
         "when_condition": ("int", _whole(events.conditions)),
+        "when_rank": ("int", _whole(lowered.ranks.whens)),
         "mode_contact": ("int", _whole(k for k, _ in reduced.variables.modes.values())),
         "when_at_start": ("unsigned char", _whole(events.at_start)),
         "outcomes": (

@@ -103,6 +103,7 @@ def _counts(lowered: Lowered) -> dict[str, float | str]:
         "n_watched": len(lowered.watched),
         "n_vanishing": len(lowered.vanishing),
         "n_held": len(reduced.text.held),
+        "n_ranks": lowered.ranks.count,
         "n_modes": len(reduced.variables.modes),
         "n_felt": len(reduced.variables.felt),
         "n_located": reduced.conditions.located,

@@ -32,20 +32,37 @@ static frot_contact_mode *modes_of(const instant *in) {
   return (frot_contact_mode *)(void *)(in->s->data + in->l.modes);
 }
 
-/* Which `when`s fire now, into w->events.firing: those whose condition rose, at the start those
- * that hold.
- */
-static int find_firing(const instant *in, int first) {
+/* Whether a `when` fires: its condition has come to hold since it was last looked at, at the start
+ * it holds. */
+static int does_fire(const instant *in, int i, int first) {
+  const frot_model *m = in->m;
+  int j = m->when_condition[i], holds = in->s->data[in->l.d + j] != 0;
+  return holds && (first ? m->when_at_start[i] != 0 : in->w->events.was[j] == 0);
+}
+
+/* Those that fire as things are, into w->events.firing. */
+static int some_fire(const instant *in, int first) {
+  int any = 0;
+  for (int i = 0; i < in->m->n_whens; i++) {
+    int fires = does_fire(in, i, first);
+    in->w->events.firing[i] = fires, any |= fires;
+  }
+  return any;
+}
+
+/* Which `when`s of a rank fire besides those that do, into w->events.firing. */
+static int find_firing(const instant *in, int rank, int first) {
   const frot_model *m = in->m;
   const double *d = in->s->data + in->l.d;
+  double *was = in->w->events.was;
   int any = 0;
   for (int i = 0; i < m->n_whens; i++) {
-    int j = m->when_condition[i];
-    int fires = first ? m->when_at_start[i] && d[j] != 0 : in->w->events.rose[j] != 0;
-    in->w->events.firing[i] = fires;
-    if (fires) in->s->data[in->l.fresh + j] = 1;
-    any |= fires;
+    if (m->when_rank[i] != rank || !does_fire(in, i, first)) continue;
+    in->w->events.firing[i] = any = 1;
+    in->s->data[in->l.fresh + m->when_condition[i]] = 1;
   }
+  for (int i = 0; i < m->n_whens; i++)
+    if (m->when_rank[i] == rank) was[m->when_condition[i]] = d[m->when_condition[i]];
   return any;
 }
 
@@ -97,14 +114,13 @@ static int take_outcomes(const instant *in) {
   return ends ? FROT_TERMINATED : FROT_OK;
 }
 
-/* Tell what has changed since w->events.before; what has come to hold is in w->rose. */
+/* Tell what has changed since w->events.before. */
 static void tell_conditions(const instant *in) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   const double *d = in->s->data + in->l.d;
   for (int j = 0; j < m->n_conditions; j++) {
     int holds = d[j] != 0, held = w->events.before[j] != 0;
-    w->events.rose[j] = holds && !held;
     if (holds != held) frot_note_condition(m, in->recorder, in->s, in->t, j, holds);
   }
 }
@@ -120,16 +136,23 @@ static int first_cause(const instant *in) {
   return 0;
 }
 
+/* What values of a rank were before, for the next round: as `update` has told them. */
+static void keep_before(const instant *in, int rank) {
+  const frot_model *m = in->m;
+  const double *told = in->w->events.discrete + (m->n_discrete - m->n_held);
+  for (int k = 0; k < m->n_held; k++)
+    if (m->held[k].rank == rank) in->w->events.held[k] = told[k];
+}
+
 /* Call `update` at the values known; a discrete value after the event may need others, through the
  * equations: it is called again until they agree. Coordinates and speeds after `reinit` into q and
- * v, what the held values will be into w->held. */
-static int find_values(const instant *in, double *q, double *v) {
+ * v, what the held values of this rank will be into w->held. */
+static int find_values(const instant *in, int rank, double *q, double *v) {
   const frot_model *m = in->m;
   frot_state *s = in->s;
   frot_work *w = in->w;
   double *d = s->data + in->l.d, *discrete = d + m->n_conditions + m->n_contacts;
   size_t size = sizeof(double) * (size_t)(m->n_discrete - m->n_held);
-  memcpy(w->events.discrete_before, discrete, sizeof(double) * (size_t)m->n_discrete);
   for (int pass = 0; pass < CROWD; pass++) {
     int status = frot_solution(m, s, w, in->t, in->q, in->v, d, modes_of(in),
                                s->data + in->l.frozen, s->data + in->l.along, 1);
@@ -142,9 +165,7 @@ static int find_values(const instant *in, double *q, double *v) {
     frot_call(w, &m->update);
     if (!frot_all_finite(q, m->nq + m->nv) || !frot_all_finite(w->events.discrete, m->n_discrete))
       return frot_fail(s, FROT_NAN, in->t, -1, -1, -1, 0);
-    if (pass == 0)
-      memcpy(w->events.held, w->events.discrete + (m->n_discrete - m->n_held),
-             sizeof(double) * (size_t)m->n_held);
+    if (pass == 0) keep_before(in, rank);
     if (memcmp(discrete, w->events.discrete, size) == 0) return FROT_OK;
     memcpy(discrete, w->events.discrete, size);
     status = frot_settle_conditions(m, s, w, in->t, in->q, in->v);
@@ -153,51 +174,42 @@ static int find_values(const instant *in, double *q, double *v) {
   return frot_fail(s, FROT_CHATTER, in->t, -1, first_cause(in), -1, CROWD);
 }
 
-/* Put the conditions and the discrete values back that find_values has changed. */
-static int take_back(const instant *in) {
+/* The `when`s of one round, rank by rank: those that read what others set come after these. *fires:
+ * whether any does. */
+static int act_in_order(const instant *in, int first, int *fires, double *q, double *v) {
   const frot_model *m = in->m;
-  double *d = in->s->data + in->l.d;
-  memcpy(d, in->w->events.before, sizeof(double) * (size_t)m->n_conditions);
-  memcpy(d + m->n_conditions + m->n_contacts, in->w->events.discrete_before,
-         sizeof(double) * (size_t)m->n_discrete);
-  return frot_note_conditions(m, in->s, in->w, in->t, in->q, in->v);
-}
-
-/* The same of `when`s that fire together, where what some set makes the condition of another false
- * (a timer that is armed in this instant): that one does not fire. What makes its own condition
- * false has fired. */
-static int find_values_of_true(const instant *in, double *q, double *v) {
-  const frot_model *m = in->m;
-  double *firing = in->w->events.firing, *doubtful = in->w->events.doubtful;
+  frot_work *w = in->w;
   const double *d = in->s->data + in->l.d;
-  int status = find_values(in, q, v), some = 0, own = 0, others = 0;
-  for (int i = 0; status == FROT_OK && i < m->n_whens; i++) {
-    int fires = firing[i] != 0, false_now = fires && d[m->when_condition[i]] == 0;
-    doubtful[i] = false_now, some |= false_now, others |= fires && !false_now;
+  *fires = 0;
+  memset(w->events.firing, 0, sizeof(double) * (size_t)m->n_whens);
+  memcpy(w->events.discrete_before, d + m->n_conditions + m->n_contacts,
+         sizeof(double) * (size_t)m->n_discrete);
+  for (int rank = 0; rank < m->n_ranks; rank++) {
+    int more = find_firing(in, rank, first), status = FROT_OK;
+    *fires |= more;
+    if (more || rank == 0)
+      status = find_values(in, rank, q, v);
+    else
+      keep_before(in, rank);
+    if (status != FROT_OK) return status;
   }
-  if (status != FROT_OK || !some || !others) return status;
-  for (int i = 0; i < m->n_whens; i++)
-    if (doubtful[i] != 0) firing[i] = 0;
-  status = take_back(in);
-  if (status == FROT_OK) status = find_values(in, q, v);
-  for (int i = 0; status == FROT_OK && i < m->n_whens; i++)
-    if (doubtful[i] != 0 && d[m->when_condition[i]] != 0) firing[i] = 1, own = 1;
-  if (status != FROT_OK || !own) return status;
-  status = take_back(in);
-  return status == FROT_OK ? find_values(in, q, v) : status;
+  for (int j = 0; j < m->n_conditions; j++)
+    if (d[j] == 0) w->events.was[j] = 0; /* what it does has ended it: it may come to hold again */
+  return FROT_OK;
 }
 
-/* Apply what the `when`s of w->events.firing do; *changed: whether anything was to be done. */
-static int update(const instant *in, int fires, int *changed) {
+/* Apply what the `when`s of a round do; *changed: whether anything was to be done. */
+static int update(const instant *in, int first, int *changed) {
   const frot_model *m = in->m;
   frot_state *s = in->s;
   frot_work *w = in->w;
   double *q = w->step.z, *v = w->step.z + m->nq;
   double *held = s->data + in->l.d + in->l.nd - m->n_held;
   size_t held_size = sizeof(double) * (size_t)m->n_held;
+  int fires = 0;
   *changed = 0;
   memcpy(w->events.before, s->data + in->l.d, sizeof(double) * (size_t)m->n_conditions);
-  int status = find_values_of_true(in, q, v);
+  int status = act_in_order(in, first, &fires, q, v);
   if (status != FROT_OK) return status;
   *changed = fires || memcmp(held, w->events.held, held_size) != 0;
   if (!*changed) return FROT_OK;
@@ -237,8 +249,9 @@ static int fire_whens(const instant *in, int first, int *happened) {
   const double *d = s->data + in->l.d;
   double before[2], after[2];
   *happened = 0;
+  memcpy(in->w->events.was, in->w->events.before, sizeof(double) * (size_t)m->n_conditions);
   for (int round = 0;; round++) {
-    int fires = find_firing(in, first && round == 0), changed = 0;
+    int changed = 0, begins = first && round == 0, fires = some_fire(in, begins);
     if (!fires && m->n_held == 0) break;
     if (round == CROWD) return frot_fail(s, FROT_CHATTER, in->t, -1, first_cause(in), -1, round);
     if (round == 0 && fires && crowds(s, in->t))
@@ -246,7 +259,7 @@ static int fire_whens(const instant *in, int first, int *happened) {
     int status = FROT_OK;
     if (round == 0) status = frot_energies(m, s, in->w, in->t, in->q, in->v, d, before);
     if (status != FROT_OK) return frot_fail_evaluation(in->m, s, in->w, status, in->t);
-    status = update(in, fires, &changed);
+    status = update(in, begins, &changed);
     *happened |= changed;
     if (status != FROT_OK) return status;
     if (!changed) break;

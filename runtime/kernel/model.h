@@ -37,6 +37,7 @@ typedef struct {
   int n_watched; /* equations of `watched` */
   int n_vanishing;
   int n_held;  /* the last n_held discrete values are what others were before: see `update` */
+  int n_ranks; /* of `when`s and held values; those of one rank act together */
   int n_modes; /* the first n_modes discrete values are modes of contacts, which the text reads */
   int n_felt;  /* of these the first, that act on anything; the others are only looked at */
   int n_turns; /* orientations among the coordinates */
@@ -176,6 +177,7 @@ typedef struct {
   const int *q_alike;
   const frot_block *blocks;  /* n_blocks */
   const int *when_condition; /* n_whens: it fires when this condition comes to hold */
+  const int *when_rank;      /* n_whens: those of lower ranks act before, at one instant */
   const int *mode_contact;   /* n_modes: the contact whose mode it is */
   const unsigned char
       *when_at_start;           /* n_whens: 1 where it also fires if that holds at the start */

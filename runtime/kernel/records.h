@@ -194,9 +194,11 @@ typedef struct {
   const char *name, *place;
 } frot_load;
 
-/* A discrete value that is what another one was before. */
+/* A discrete value that is what another one was before: when the `when`s of lower ranks had acted.
+ */
 typedef struct {
   const char *of, *place;
+  int rank;
 } frot_held;
 
 /* A strong component of the text's equations that no explicit formula solves. Its unknowns are

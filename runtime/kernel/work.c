@@ -284,8 +284,8 @@ static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, a
 }
 
 static void bind_events(const frot_model *m, frot_event_work *w, arena *a) {
-  TAKE(w->rose, m->n_conditions), TAKE(w->firing, m->n_whens);
-  TAKE(w->doubtful, m->n_whens), TAKE(w->outcome, m->n_outcomes);
+  TAKE(w->was, m->n_conditions), TAKE(w->firing, m->n_whens);
+  TAKE(w->outcome, m->n_outcomes);
   TAKE(w->before, m->n_conditions), TAKE(w->known, m->n_conditions);
   TAKE(w->timer, 2 * m->n_timed), TAKE(w->discrete, m->n_discrete);
   TAKE(w->discrete_before, m->n_discrete), TAKE(w->held, m->n_held);

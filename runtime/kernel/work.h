@@ -231,7 +231,7 @@ typedef struct {
 
 /* Events of the text: conditions.h and happen.c. */
 typedef struct {
-  double *rose, *firing, *doubtful, *outcome, *before, *known, *timer;
+  double *was, *firing, *outcome, *before, *known, *timer;
   double *discrete, *discrete_before, *held, *normals;
 } frot_event_work;
 

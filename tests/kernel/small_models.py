@@ -350,6 +350,7 @@ def source(m: Small, folder: Path) -> str:
             for i, b in enumerate(m.blocks)
         ],
         ("int", "when_condition"): [c for c, _ in m.whens],
+        ("int", "when_rank"): [0] * len(m.whens),
         ("unsigned char", "when_at_start"): [int(x) for _, x in m.whens],
         ("frot_outcome", "outcomes"): [
             f'{{{kinds[k]}, "{text}", "small:{i + 1}:1"}}' for i, (k, text) in enumerate(m.outcomes)
@@ -363,7 +364,8 @@ def source(m: Small, folder: Path) -> str:
         "n_conditions": m.n_conditions, "n_located": m.n_conditions,
         "n_discrete": m.n_discrete, "n_blocks": len(m.blocks),
         "n_invariants": made["invariants"].numel_out(0) if m.invariants else 0,
-        "n_whens": len(m.whens), "n_outcomes": len(m.outcomes), "general": int(m.general),
+        "n_whens": len(m.whens), "n_ranks": 1,
+        "n_outcomes": len(m.outcomes), "general": int(m.general),
         "late_rates": int(m.late_rates is not None), "time_dependent": int(m.time_dependent),
         "n_position": n_position, "n_velocity": n_velocity, "n_statements": _statements(m),
         "n_parts": 1, "n_speed_parts": 1,
