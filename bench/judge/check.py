@@ -15,7 +15,7 @@ from typing import Protocol
 import numpy as np
 
 from judge.mechanics import Floats, Joint, Mechanics, Row, inertia
-from judge.motions import parts
+from judge.motions import accelerations, parts
 from judge.readings import Loads, start_sides, state_of
 from judge.scene import Contact, Pin, Scene
 
@@ -167,13 +167,23 @@ class Judge:
                 self.speed[f"{b.name}.w"] = max(self.speed[f"{b.name}.w"], spin)
 
     def _carried(self) -> dict[str, float]:
-        """The rounding of each body's speed (and angular) that comes from those it is joined to."""
+        """The rounding of each body's speed (and angular) that comes from those it is joined to.
+
+        What loads would bring about counts too, where reactions take all of it away.
+        """
         rounding = {}
-        for places, _ in parts(self.mechanics(float(self.result.time[0]))):
-            joined = [self.scene.bodies[int(k) // 3].name for k in places[:, 0]]
-            for end in ("", ".w"):
-                largest = max(self.speed.get(f"{name}{end}", 0.0) for name in joined)
-                rounding.update({f"{name}{end}": CARRIED * largest for name in joined})
+        now = self.mechanics(float(self.result.time[0]))
+        quick = accelerations(now)
+        for places, _ in parts(now):
+            joined = [self.scene.bodies[int(k) // 3] for k in places[:, 0]]
+            natural = math.sqrt(self.length * float(np.max(quick[places[:, :2]])))
+            largest = max(natural, *(self.speed[b.name] for b in joined))
+            widths = [b.size.at(now.look) for b in joined if b.turns and b.size is not None]
+            spins = [self.speed.get(f"{b.name}.w", 0.0) for b in joined]
+            spin = max(*spins, *(natural / x for x in widths), 0.0)
+            for b in joined:
+                rounding[b.name] = CARRIED * largest
+                rounding[f"{b.name}.w"] = CARRIED * spin
         return rounding
 
     # the whole examination

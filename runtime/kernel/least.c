@@ -8,6 +8,9 @@
 #include "tolerances.h"
 
 #define GOLDEN 0.6180339887498949
+/* Of the largest weight of friction: where its coefficient is zero an element still holds its row
+ * by what it would need, which is then beyond its bound; else others would strain after it. */
+#define NO_WEIGHT 1e-8
 
 /* The least and the largest of what a unit of each reaction that is no friction does to the group;
  * of friction itself where there is no other. */
@@ -33,21 +36,25 @@ static void list_sizes(const frot_problem *p, double *least, double *largest) {
  * is a force as the others have. Friction that follows is one too. */
 static void weigh_sparingly(const frot_problem *p) {
   frot_work *w = p->w;
-  double least, largest, most = 0, unit = 0;
+  double least, largest, most[3] = {0}, unit = 0;
   list_sizes(p, &least, &largest);
   for (int c = 0; c < p->unknowns; c++) {
     double size = 1 / w->reactions.unit_of[c];
+    int kind = c < p->held ? w->reactions.friction[c] : 0;
     w->reactions.weight[c] = c < p->held ? 1 : largest / size;
-    if (c >= p->held || w->reactions.friction[c] == 0) continue;
+    if (kind == 0) continue;
     w->reactions.weight[c] = sqrt(w->core.coefficient[2 * w->reactions.owner[c] + 1] / size);
-    if (w->reactions.friction[c] == 2 && w->reactions.weight[c] > most)
-      most = w->reactions.weight[c], unit = least / size / most;
+    if (w->reactions.weight[c] > most[kind])
+      most[kind] = w->reactions.weight[c], unit = kind == 2 ? least / size / most[kind] : unit;
   }
   for (int c = 0; c < p->held; c++) {
-    if (w->reactions.friction[c] == 0) continue;
-    w->reactions.weight[c] *= w->reactions.friction[c] == 2 ? unit : sqrt(least);
-    w->reactions.weight[c] = fmin(w->reactions.weight[c], largest * w->reactions.unit_of[c]);
-    w->reactions.weight[c] *= FROT_FRICTION_WEIGHT;
+    int kind = w->reactions.friction[c];
+    if (kind == 0) continue;
+    double weight = fmax(w->reactions.weight[c], NO_WEIGHT * most[kind]);
+    weight *= kind == 2 ? unit : sqrt(least);
+    weight = most[kind] > 0 ? fmin(weight, largest * w->reactions.unit_of[c])
+                            : largest * w->reactions.unit_of[c];
+    w->reactions.weight[c] = weight * FROT_FRICTION_WEIGHT;
   }
 }
 
