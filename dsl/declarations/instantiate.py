@@ -157,7 +157,7 @@ def _declaration(
 
 @dataclass(slots=True)
 class _Clause:
-    """What a component clause says, the same in every component of its class."""
+    """What a component clause says, the same in every component of its class with one role."""
 
     type: Kind | Class | None
     sizes: tuple[tree.Expression, ...]
@@ -168,8 +168,8 @@ class _Clause:
 
 
 def _clause(clause: tree.Component, outer_role: str, scope: Scope) -> _Clause:
-    known = scope.build.clauses.get(id(clause))
-    if isinstance(known, _Clause) and (known.role == outer_role or not outer_role):
+    known = scope.build.clauses.get((id(clause), outer_role))
+    if isinstance(known, _Clause):
         return known
     node, type_sizes = split_type(clause)
     words = {w.text for w in clause.prefixes}
@@ -185,7 +185,7 @@ def _clause(clause: tree.Component, outer_role: str, scope: Scope) -> _Clause:
             used += [e for e in (item.value, *(a.value for a in item.modifiers)) if e is not None]
         needs.append(_needs(used))
     made = _Clause(found, type_sizes, role, flow, "final" in words, tuple(needs))
-    scope.build.clauses[id(clause)] = made
+    scope.build.clauses[id(clause), outer_role] = made
     return made
 
 

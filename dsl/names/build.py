@@ -76,7 +76,7 @@ class Build:
     fresh: list[Instance] = field(default_factory=list)
     calls: list[Class] = field(default_factory=list)
     functions: dict[int, object] = field(default_factory=dict)
-    clauses: dict[int, object] = field(default_factory=dict)
+    clauses: dict[object, object] = field(default_factory=dict)
     before: list[tuple[checked.Call, checked.Variable, bool]] = field(default_factory=list)
     heights: dict[int, tuple[checked.Expression, int]] = field(default_factory=dict)
     size: int = 0

@@ -216,7 +216,7 @@ static int ends_modes(const frot_model *m, frot_state *s, const frot_work *w,
 /* The step has become too short. FROT_OK where it can go on with the other method, or an event is
  * at its start (s->pending), else the status of the fault. */
 static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a, int status) {
-  int ends = frot_condition_at_zero(m, s, w);
+  int ends = frot_condition_at_zero(m, s, w, a->passed);
   int over = a->passed >= 0 && ends >= 0; /* no method has a value beyond it */
   if (ends < 0 && ends_modes(m, s, w, a)) return FROT_OK;
   if (!over && !a->changed && frot_change_method(m, s)) {

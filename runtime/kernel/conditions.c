@@ -20,6 +20,8 @@
  * leaves its threshold a million times faster than it came to it. */
 #define CROSSINGS 8
 #define LONGEST 40
+/* Of the move across zero, so many at most since what else fires has passed it. */
+#define NEAR 64
 
 static int holds(const frot_model *m, const frot_work *w, int j) {
   return m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;
@@ -106,6 +108,24 @@ static int is_undone(const frot_model *m, frot_state *s, frot_work *w, const lat
   return after.wrong && !after.zero;
 }
 
+/* What has passed zero a few roundings of time before the instant to which the event moves on, and
+ * moves away from it, passes it at this event: beyond zero its equations may have no value. */
+static void fire_what_passes(const frot_model *m, frot_state *s, frot_work *w, const later *i) {
+  const double *d = s->data + w->layout.d, *value = w->core.condition;
+  double *fired = s->data + w->layout.fired + frot_condition_guard(m), *first = w->events.was;
+  later at_once = *i;
+  at_once.moved = 0;
+  look_later(m, s, w, &at_once);
+  memcpy(first, value, sizeof(double) * (size_t)m->n_located);
+  look_later(m, s, w, i);
+  for (int j = 0; j < m->n_located; j++) {
+    double moved = fabs(value[j] - first[j]);
+    if (fired[j] == 0 && holds(m, w, j) != (d[j] != 0) && fabs(value[j]) <= NEAR * moved &&
+        value[j] * (value[j] - first[j]) > 0)
+      fired[j] = 1;
+  }
+}
+
 int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q, double *v) {
   const double *fired = s->data + w->layout.fired + frot_condition_guard(m);
   int located = 0, timed = 0;
@@ -132,7 +152,7 @@ int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, doub
   }
   if (!(crossed > 0)) return FROT_OK;
   i.moved = crossed;
-  look_later(m, s, w, &i);
+  fire_what_passes(m, s, w, &i);
   memcpy(q, w->step.z, sizeof(double) * (size_t)m->nq);
   memcpy(v, w->step.z + m->nq, sizeof(double) * (size_t)m->nv);
   *t = time_of(&i);

@@ -222,11 +222,21 @@ int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, doub
   return passed;
 }
 
-int frot_condition_at_zero(const frot_model *m, const frot_state *s, const frot_work *w) {
+int frot_condition_at_zero(const frot_model *m, const frot_state *s, const frot_work *w,
+                           int passed) {
   int first = first_condition(w);
-  const double *guard = w->step.k + w->awake.n + first;
-  const double *size = s->data + w->layout.scale_g + frot_condition_guard(m);
-  for (int k = 0; k < w->awake.now->n_located; k++)
-    if (fabs(guard[k]) <= FROT_GUARD_FLOOR * size[w->awake.now->located[k]]) return first + k;
-  return -1;
+  const double *guard = w->step.k + w->awake.n + first, *later = guard + w->layout.nz;
+  const double *sizes = s->data + w->layout.scale_g + frot_condition_guard(m);
+  int found = -1;
+  double most = -1;
+  for (int k = 0; k < w->awake.now->n_located; k++) {
+    int j = w->awake.now->located[k];
+    double size = sizes[j];
+    if (!(fabs(guard[k]) <= FROT_GUARD_FLOOR * size)) continue;
+    if (j == passed) return first + k;
+    double moved = fabs(later[k] - guard[k]) / size;
+    if (moved == 0) continue;
+    if (moved > most || found < 0) found = first + k, most = moved > most ? moved : most;
+  }
+  return found;
 }

@@ -15,6 +15,7 @@
 #include "record.h"
 #include "work.h"
 #include "segment.h"
+#include "stay.h"
 #include "step.h"
 #include "stiffness.h"
 #include "supports.h"
@@ -22,6 +23,8 @@
 
 /* Events at one instant after which the modes will not settle. */
 #define CROWD 100
+/* And after which it is asked whether what they switch comes to rest. */
+#define RESTLESS 1
 #define MONITOR_EVERY 64
 /* First steps and scales of time where forces depend on it, in runs; the longest step: pace.c. */
 #define PART_OF_RUN 0.01
@@ -208,7 +211,8 @@ static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   double *x = s->data + l.x;
   memcpy(w->blocks.y, s->data + l.y, sizeof(double) * (size_t)m->ny);
-  int status = frot_cross(m, s, w, g.t1, x, x + m->nq);
+  int stays = s->crowded > RESTLESS && frot_stay(m, s, w, *g.t1, x);
+  int status = stays ? FROT_OK : frot_cross(m, s, w, g.t1, x, x + m->nq);
   double t = *g.t1;
   if (status == FROT_OK) status = frot_happen(m, s, w, t, x, x + m->nq, 0, recorder);
   memcpy(s->data + l.y, w->blocks.y, sizeof(double) * (size_t)m->ny);

@@ -36,10 +36,39 @@ def test_a_root_passes_zero_with_speed_at_any_tolerance(push: float) -> None:
             assert run.at(t)["x"] == pytest.approx(exact.at(t)["x"], abs=300 * tolerance + 1e-13)
 
 
-def test_an_equation_without_a_value_at_an_event_is_named() -> None:
-    """Both tanks are empty at once: the root of the second has no value beyond it."""
-    with pytest.raises(frot.FrotError) as told:
-        frot.compile("""
+RESTING = """
+model Resting
+  parameter Real part = 0.5;
+  Real x, y;
+initial
+  x = -1; y = 1;
+equation
+  der(x) = -2*sign(x)*sqrt(abs(x))*(1 1/s);
+  der(y) = -(if y > 0 then y^part else -(-y)^part)*(1 1/s) + (if time < 3 s then 0 else 1)*(1 1/s);
+  experiment(stop = 3.5 s);
+end Resting;
+"""
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-12])
+def test_what_a_root_brings_to_zero_stays_there_and_leaves_again(tolerance: float) -> None:
+    """x = -(1 - t)^2, y^(1 - p) = 1 - (1 - p) t up to zero; from 3 s on y is filled again."""
+    model = frot.compile(RESTING)
+    for part in (0.3, 0.5):
+        run = model.simulate(tolerance=tolerance, parameters={"part": part})
+        empty = 1 / (1 - part)
+        assert run.at(0.6)["x"] == pytest.approx(-0.16, rel=100 * tolerance)
+        assert all(run.at(t)["x"] == 0 for t in (1.01, 2.0, 3.0))
+        assert run.at(0.5 * empty)["y"] == pytest.approx(0.5**empty, rel=100 * tolerance)
+        assert all(run.at(t)["y"] == 0 for t in (empty + 0.01, 2.99))
+        assert 0.2 < run.at(3.5)["y"] < 0.5
+        assert len([e for e in run.events if e.liaison == "x >= 0"]) == 2
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-12])
+def test_two_tanks_are_empty_at_one_instant(tolerance: float) -> None:
+    """Both levels end as squares of the time left, in a ratio b/a that their equations give."""
+    model = frot.compile("""
 model Tanks
   Real h[2], q[2];
 initial
@@ -50,7 +79,10 @@ equation
   der(h[1]) = -q[1]/(1 s);
   der(h[2]) = (q[1] - q[2])/(1 s);
 end Tanks;
-""").simulate(stop=10)
-    diagnostic = told.value.diagnostics[0]
-    assert diagnostic.code == "E0904"
-    assert "the equation `q[2] = if h[2] > 0" in diagnostic.message
+""")
+    run = model.simulate(stop=10, tolerance=tolerance)
+    assert run.events[1].time == pytest.approx(3.3408069096586, abs=30 * tolerance**0.5)
+    assert run.at(9.0)["h[1]"] == pytest.approx(0, abs=1e-27)
+    assert run.at(9.0)["h[2]"] == pytest.approx(0, abs=1e-27)
+    ratio = run.at(3.34)["h[2]"] / run.at(3.34)["h[1]"]  # h = (a, b) (T - t)^2
+    assert (1 + ratio) * (1 - ratio) ** 0.5 == pytest.approx(ratio**0.5, rel=0.02)
