@@ -46,7 +46,7 @@ def declare(what: Declared, scope: Scope) -> Value | None:
         for count in shape:
             scope.build.grow(count, item.span)
         kind = replace(kind, type=kind.type.of_shape(shape))
-    is_top = scope.instance is scope.build.root
+    is_top = _is_of_model(scope)
     if what.role in ("parameter", "constant"):
         return _parameter(what, kind, scope)
     if what.role == "input" and is_top:
@@ -54,6 +54,11 @@ def declare(what: Declared, scope: Scope) -> Value | None:
     if what.role == "output" and is_top and item.value is not None:
         return _output(what, kind, scope)
     return _variable(what, kind, is_top and what.role == "output", scope)
+
+
+def _is_of_model(scope: Scope) -> bool:
+    """Whether what is declared is the model's own, perhaps as a member of its records."""
+    return all(of.kind == "record" for of in scope.instance.around[1:])
 
 
 def _parameter(what: Declared, kind: Kind, scope: Scope) -> checked.Parameter | None:
@@ -162,7 +167,7 @@ def _input(what: Declared, kind: Kind, scope: Scope) -> checked.Input | None:
     bounds = _bounds(kind, scope)
     if bounds is None:
         return None
-    name, own_unit = item.name.text, unit or kind.unit
+    name, own_unit = scope.dotted(item.name.text), unit or kind.unit
     found = checked.Input(name, kind.type, value, item.span, item.doc, own_unit, kind.name, bounds)
     hold(checked.Reference(found, found.type, item.name.span), name, bounds, kind, scope)
     return found
