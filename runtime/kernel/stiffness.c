@@ -52,6 +52,15 @@ typedef struct {
   double place, speed, other;
 } lengths;
 
+/* A speed that moves its place by the tolerance in the step, or by less, says nothing of what
+ * limits the step: one that others hold at zero is rounding, and its changes as large as itself. */
+static void raise_idle_speeds(const frot_model *m, const frot_state *s, frot_work *w, double h) {
+  double *own = w->sizes.own;
+  for (int j = 0; j < m->nq; j++)
+    if (m->q_speed[j] >= 0)
+      own[m->nq + m->q_speed[j]] = fmax(own[m->nq + m->q_speed[j]], s->tolerance * own[j] / h);
+}
+
 /* `packed`: x and y hold the awake states alone. */
 static lengths distance(const frot_model *m, const frot_work *w, const double *x, const double *y,
                         int packed) {
@@ -101,6 +110,7 @@ int frot_is_stiff(const frot_model *m, frot_state *s, frot_work *w, double h) {
   s->explicit_step = fmax(REMEMBERED * s->explicit_step, h);
   const double *start = frot_stage(w, 0), *end = frot_stage(w, DP_STAGES);
   frot_motion_sizes(m, s, w, h, start, 0);
+  raise_idle_speeds(m, s, w, h);
   double fastest = h * felt_rate(m, w);
   lengths way = distance(m, w, w->step.z1, w->step.z0, 0);
   if (!(way.place + way.speed + way.other > 0)) return 0;
