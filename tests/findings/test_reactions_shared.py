@@ -139,3 +139,48 @@ end Corner;
         result = model.simulate(parameters={"tilt": tilt, "push": push, "mu": mu})
         rolls = [e.time for e in result.events if e.kind == "roll_start"]
         assert rolls == pytest.approx([1 + 0.02 * 100 / push], rel=1e-9)
+
+
+WEDGED = """
+planar model Wedged
+  world(gravity = 9.81 m/s^2);
+  parameter Real mu = 0;
+  parameter Angle apart = 0.0442 rad;
+  parameter Angle turn = 0.2 rad;
+  parameter AngularVelocity spin = 1 rad/s;
+  curve one on ground: line(through = (0, 0) m, direction = (cos(turn), sin(turn)));
+  curve other on ground:
+    line(through = (0, 0) m, direction = (cos(turn + apart), sin(turn + apart)));
+  body beam: rod(mass = 0.86 kg, length = 0.53 m);
+  body bead: particle(mass = 1.7 kg);
+  curve groove on beam: line(through = (0, 0.1) m, direction = (1, 0));
+  liaison a: point_courbe(beam, one) with coulomb(0.48);
+  liaison b: point_courbe(beam, other) with coulomb(0.11);
+  liaison slide: point_courbe(bead, groove){law};
+initial
+  beam.position = (0, 0) m;
+  beam.angle = 0.3 rad;
+  beam.angular_velocity = spin;
+  slide.abscissa = 0.1 m; slide.slip = 0 m/s;
+  experiment(stop = 2 s);
+end Wedged;
+"""
+
+
+@functools.cache
+def wedged(law: str) -> frot.Model:
+    return frot.compile(WEDGED.replace("{law}", law))
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-10])
+@pytest.mark.parametrize("case", range(6))
+def test_a_coefficient_that_is_zero_holds_nothing(case: int, tolerance: float) -> None:
+    """A beam turns about a point held by two rough lines that cross nearly; in its groove, whose
+    coefficient happens to be zero, a bead comes to rest and goes back as in a smooth one."""
+    turned = {"turn": 0.2 + 0.77 * case, "apart": 0.0442 * (1 + case), "spin": 1 - 0.7 * case}
+    law = " with coulomb(mu*(1 + sin(bead.position.x/(1 m))*0.3))"
+    rough = wedged(law).simulate(tolerance=tolerance, parameters=turned)
+    smooth = wedged("").simulate(tolerance=tolerance, parameters=turned)
+    for name in ("bead.position.x", "beam.angle", "a.normal_force"):
+        largest = np.max(np.abs(smooth[name]))
+        assert np.max(np.abs(rough[name] - smooth[name])) <= 1e3 * tolerance * largest
