@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from judge.check import Judge
+from judge.check import OPEN, Judge
 from judge.family import Setting
 from judge.mechanics import Floats, Joint, Mechanics
 from judge.motions import CLEAR, Motion, Still, accelerations, count, distinct, motion, motions
@@ -272,14 +272,25 @@ def _modes(m: Motion) -> str:
 
 
 def judge_several(judge: Judge, most: int = 3) -> list[str]:
-    """Instants told to have several motions must have several that differ."""
+    """Instants told to have several motions must have several that differ.
+
+    What is told to be open has parted a little before the instant, or does at it.
+    """
     wrong = []
     for e in [e for e in judge.result.events if e.kind == "several"][:most]:
         now = judge.mechanics(e.time)
-        still = still_of(judge, now, min(max(1e3 * judge.tol, 1e-9), NEAR))
-        if count(now, still) > MOST:
+        touching = still_of(judge, now, min(max(1e3 * judge.tol, 1e-9), NEAR))
+        if count(now, touching) > MOST:
             continue
-        found = distinct([m for m in motions(now, still) if m.margin > -CLEAR], now)
-        if len(found) < 2:
-            wrong.append(f"several: '{e.text}', but {len(found)} differ in their accelerations")
+        row = judge.row(math.nextafter(e.time, -math.inf))
+        parted = {
+            name: replace(s, touching=s.touching and row.get(f"{name}.mode", 1) != OPEN)
+            for name, s in touching.items()
+        }
+        found = [
+            len(distinct([m for m in motions(now, still) if m.margin > -CLEAR], now))
+            for still in (touching, parted)
+        ]
+        if max(found) < 2:
+            wrong.append(f"several: '{e.text}', but {max(found)} differ in their accelerations")
     return wrong
