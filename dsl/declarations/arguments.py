@@ -52,6 +52,10 @@ def bind(
             scope.log.report("E0101", "a comma in a number", whole, help=help_text)
             return Arguments({}, False)
     for item in given:
+        if isinstance(item.value, tree.Call) and item.value.callee.span.text == "driven":
+            told = f"write '{what}(...) {item.value.span.text}'"
+            scope.log.report("E0204", "'driven' stands behind the bracket", item.span, help=told)
+            return Arguments({}, False)
         argument = _which(item, position, usable, by_name, what, bool(written), scope)
         if item.name is None:
             position += 1

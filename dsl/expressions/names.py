@@ -219,6 +219,9 @@ def _chosen(node: tree.Expression, size: int, scope: Scope) -> list[int] | None:
         one = whole_number(node, scope, "an index")
         values = None if one is None else [one]
     for value in values or ():
+        if not 1 <= value <= size and scope.build.unused:
+            scope.build.items_beyond += 1
+            return None
         if not 1 <= value <= size:
             message = f"the index must be from 1 to {size}"
             shown = f"it is {value}" if not isinstance(node, tree.Number) else ""

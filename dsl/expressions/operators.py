@@ -7,8 +7,10 @@ from fractions import Fraction
 
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe, pair, written_unit
+from frot.dsl.checked.walk import nodes
 from frot.dsl.expressions.array_calls import product
 from frot.dsl.expressions.expression import NUMERIC, agrees, expect, expression, is_whole
+from frot.dsl.expressions.known import known
 from frot.dsl.expressions.rates import all_alike
 from frot.dsl.expressions.seconds import seconds_missing
 from frot.dsl.names.build import Rule
@@ -181,7 +183,13 @@ def _unit_missing(node: tree.Infix, a: Type, b: Type) -> str:
 
 def _conditional(node: tree.Conditional, scope: Scope) -> checked.Expression | None:
     condition = expect(node.condition, BOOLEAN, scope)
-    yes, no = expression(node.yes, scope), expression(node.no, scope)
+    holds = None if condition is None else _never_changes(condition, scope)
+    (yes, beyond), (no, behind) = (
+        _branch(branch, holds in (None, which), scope)
+        for branch, which in ((node.yes, True), (node.no, False))
+    )
+    if beyond or behind:
+        return no if beyond else yes
     if condition is None or yes is None or no is None:
         return None
     if not (agrees(no.type, yes.type) or agrees(yes.type, no.type)):
@@ -199,6 +207,34 @@ def _conditional(node: tree.Conditional, scope: Scope) -> checked.Expression | N
         return None
     yes, no = branches
     return checked.If(condition, yes, no, kind, node.span)
+
+
+def _branch(
+    node: tree.Expression, counts: bool, scope: Scope
+) -> tuple[checked.Expression | None, bool]:
+    """A branch, and whether it is none: one that does not count may ask for an item that is not.
+
+    In a loop: `if i > 1 then x[i - 1] else 0`.
+    """
+    if counts:
+        return expression(node, scope), False
+    faults, asked = len(scope.log.diagnostics), scope.build.items_beyond
+    scope.build.unused += 1
+    found = expression(node, scope)
+    scope.build.unused -= 1
+    beyond = scope.build.items_beyond > asked and len(scope.log.diagnostics) == faults
+    return found, found is None and beyond
+
+
+def _never_changes(condition: checked.Expression, scope: Scope) -> bool | None:
+    """Whether a condition of numbers, constants and loops holds; None if a run may change it."""
+    for part in nodes(condition):
+        if isinstance(part, checked.Reference) and not (
+            isinstance(part.target, checked.Parameter) and part.target.constant
+        ):
+            return None
+    value = known(condition, scope)
+    return value if isinstance(value, bool) else None
 
 
 OPERATORS: Mapping[type, Rule] = {

@@ -51,6 +51,8 @@ class Build:
 
     `named` are the connectors whose variables a component's text names. `used` are the identities
     of what was named. `before` are the calls of `pre` and `change`, to be judged at the end.
+    `unused`: how deep in branches that never count; `items_beyond`: items asked for there that are
+    none.
     """
 
     log: Log
@@ -80,6 +82,8 @@ class Build:
     before: list[tuple[checked.Call, checked.Variable, bool]] = field(default_factory=list)
     heights: dict[int, tuple[checked.Expression, int]] = field(default_factory=dict)
     size: int = 0
+    unused: int = 0
+    items_beyond: int = 0
 
     def grow(self, count: int, span: Span) -> None:
         """Count what is made. Raises TooLarge, after telling it, past LARGEST."""

@@ -60,6 +60,15 @@ def test_a_slip_in_the_statement_that_uses_a_model_is_the_only_fault() -> None:
     assert only(text)[0] == "E0101"
 
 
+@pytest.mark.parametrize("before", ["", ", axis = (1, 0, 0)", ", (1, 0, 0)"])
+def test_a_drive_inside_of_the_bracket_is_told(before: str) -> None:
+    drive = "driven(displacement = 1 m)"
+    text = f"model M body b: particle(mass = 1 kg); liaison l: prismatique(ground, b{before}, "
+    code, message, remedy = only(f"{text}{drive}); end M;")
+    assert (code, message) == ("E0204", "'driven' stands behind the bracket")
+    assert f"prismatique(...) {drive}" in remedy
+
+
 @pytest.mark.parametrize("word", ["initial", "equation", "when", "driven", "end", "not", "with"])
 def test_a_word_of_the_language_as_a_name_is_told(word: str) -> None:
     found = told(f"planar model M\n parameter Real {word} = 3;\nend M;\n")

@@ -109,3 +109,28 @@ MODEL = "model M Real x[2](start = (1, 2)); Real y(start = 1); {} end M;"
 def test_what_has_no_meaning_is_told(text, code):
     with pytest.raises(frot.FrotError, match=code):
         frot.compile(MODEL.format(text)).simulate()
+
+
+def test_an_if_of_a_loop_looks_at_its_own_branch_only() -> None:
+    """A chain between walls: no item before the first nor behind the last; energy stays 1/2."""
+    model = frot.compile("""
+model Chain
+  parameter Integer n = 4;
+  Real x[n], v[n], F[n + 1];
+initial
+  x = (1, 0, 0, 0);
+  v = zeros(n);
+equation
+  for i in 1:n + 1 loop
+    F[i] = (if i == 1 then 0 else x[i - 1]) - (if i <= n then x[i] else 0);
+  end for;
+  for i in 1:n loop
+    der(x[i]) = v[i]*(1 1/s);
+    der(v[i]) = (F[i] - F[i + 1])*(1 1/s);
+  end for;
+end Chain;
+""")
+    end = model.simulate(stop=10).at(10)
+    energy = sum(end[f"v[{i}]"] ** 2 for i in range(1, 5))
+    energy += sum(end[f"F[{i}]"] ** 2 for i in range(1, 6))
+    assert energy == pytest.approx(2, abs=1e-6)
