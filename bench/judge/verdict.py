@@ -282,7 +282,8 @@ def judge_several(judge: Judge, most: int = 3) -> list[str]:
         touching = still_of(judge, now, min(max(1e3 * judge.tol, 1e-9), NEAR))
         if count(now, touching) > MOST:
             continue
-        row = judge.row(math.nextafter(e.time, -math.inf))
+        before = math.nextafter(e.time, -math.inf)
+        row = judge.row(max(before, float(judge.result.time[0])))
         parted = {
             name: replace(s, touching=s.touching and row.get(f"{name}.mode", 1) != OPEN)
             for name, s in touching.items()
