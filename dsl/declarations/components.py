@@ -117,6 +117,12 @@ def _attribute(
     """The value of an attribute that is of the variable's kind, its unit, whether it is right."""
     if given is None:
         return None, "", True
+    if given.parts or not given.has_value:
+        name, _, inside = given.span.text.partition("(")
+        if given.parts or inside.strip(" )") == "":  # what is no modifier was told
+            help_text = f"write '{name.strip()} = ...'"
+            scope.log.report("E0204", f"{what} in brackets", given.span, help=help_text)
+        return None, "", False
     _spread(given, kind)
     value, node = given_value(given, kind, scope)
     if value is None:

@@ -193,6 +193,11 @@ def initial_statement(element: tree.Element, scope: Scope) -> None:
             help="use a Boolean or Integer parameter, or an expression 'if c then a else b'",
         )
         return
+    if isinstance(element, tree.When):
+        message = "a 'when' in the section 'initial'"
+        help_text = "put it after the word 'equation'; 'when initial() then' acts at the start"
+        scope.log.report("E0501", message, element.span, help=help_text)
+        return
     assert isinstance(element, tree.Equation)
     if element.right is not None:
         _initial(element.left, element.right, element.span, False, scope)

@@ -60,6 +60,20 @@ def test_a_slip_in_the_statement_that_uses_a_model_is_the_only_fault() -> None:
     assert only(text)[0] == "E0101"
 
 
+@pytest.mark.parametrize("said", ["start(1)", "start(y = 1)", "start()", "nominal(1)", "max(2)"])
+def test_an_attribute_with_brackets_is_told(said: str) -> None:
+    for text in (f"model M Real x({said}); ", f"type T = Real({said}); model M T x; "):
+        code, _, remedy = only(f"{text}equation x = 1; end M;")
+        assert code == "E0204" or "a modifier is written 'name = value'" in remedy
+
+
+def test_a_when_of_a_loop_of_initial_is_told() -> None:
+    when = "when x > 1 then x = 2; end when;"
+    text = f"model M Real x; initial for i in 1:2 loop {when} end for; equation x = 1; end M;"
+    code, message, _ = only(text)
+    assert (code, message) == ("E0501", "a 'when' in the section 'initial'")
+
+
 @pytest.mark.parametrize("before", ["", ", axis = (1, 0, 0)", ", (1, 0, 0)"])
 def test_a_drive_inside_of_the_bracket_is_told(before: str) -> None:
     drive = "driven(displacement = 1 m)"
