@@ -12,6 +12,10 @@
 #include "terms.h"
 #include "ways.h"
 
+/* What a step leaves of the size that a force once had: at a jam in passing it is without bound,
+ * and nothing would be known of it ever after. */
+#define LEFT 0.3
+
 static const frot_contact_mode *modes_of(const frot_state *s, const frot_work *w) {
   return (const frot_contact_mode *)(const void *)(s->data + w->layout.modes);
 }
@@ -42,7 +46,7 @@ void frot_keep_friction(frot_state *s, const frot_work *w) {
   }
 }
 
-void frot_note_sizes(frot_state *s, const frot_work *w, const double *z) {
+void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z) {
   const frot_layout *l = &w->layout;
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n - FROT_QUADRATURES; k++) {
@@ -50,8 +54,11 @@ void frot_note_sizes(frot_state *s, const frot_work *w, const double *z) {
     s->data[l->scale_x + j] = fmax(s->data[l->scale_x + j], fabs(z[j]));
   }
   for (int k = 0; k < w->guards.count; k++) {
-    double *scale = s->data + l->scale_g + w->guards.list[k];
-    *scale = fmax(*scale, w->guards.size[k]);
+    int j = w->guards.list[k];
+    double *scale = s->data + l->scale_g + j, was = *scale;
+    double kept = frot_guard_is_force(m, s, w, k) ? LEFT : 1;
+    *scale = fmax(kept * was, w->guards.size[k]);
+    if (*scale < was) s->data[l->noise + m->nq + m->nv + j] *= *scale / was;
   }
   s->energy_scale = fmax(s->energy_scale, w->guards.end_kinetic);
 }
@@ -84,7 +91,7 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
     frot_turn_references(m, s, w);
     frot_measure_end(m, s, w, t, w->step.z0);
     frot_keep_friction(s, w);
-    frot_note_sizes(s, w, w->step.z0);
+    frot_note_sizes(m, s, w, w->step.z0);
     memcpy(frot_stage(w, 0) + w->awake.n, w->step.z, sizeof(double) * (size_t)w->guards.count);
   }
   if (status != FROT_OK || !s->from_posture) return status;

@@ -60,16 +60,6 @@ static int lost_at_once(const frot_state *s, const frot_work *w, int j, const do
   return rise < (s->jumped ? FROT_FLAT : -2 * FROT_ROUNDING) * inside;
 }
 
-/* Whether listed guard k is a force that holds: the reaction of a closed contact, what is left of a
- * bound of rest, or a pin's reaction in its direction; not a gap nor a speed. */
-static int is_force(const frot_model *m, const frot_state *s, const frot_work *w, int k) {
-  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-  int j = w->guards.list[k], e = (j - m->n_contacts) / 2;
-  if (j >= frot_condition_guard(m)) return 0;
-  if (j < m->n_contacts) return modes[j].closed;
-  return frot_element_mode(m, modes, e)->friction <= FROT_STICK || j != frot_element_guard(m, e);
-}
-
 /* Whether guard j is that of what is closed: no gap, no condition. */
 static int is_reaction_or_slip(const frot_model *m, const frot_state *s, const frot_work *w,
                                int j) {
@@ -84,7 +74,7 @@ double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_
   for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
   floor += FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
   double slack = fmax(FROT_LOCATED * inside, floor);
-  if (!is_force(m, s, w, k) || !(fabs(g[0]) <= slack)) slack = 0;
+  if (!frot_guard_is_force(m, s, w, k) || !(fabs(g[0]) <= slack)) slack = 0;
   return s->idle > IDLE && is_reaction_or_slip(m, s, w, j)
              ? fmax(slack, 2 * FROT_LOCATED * s->data[w->layout.scale_g + j])
              : slack;

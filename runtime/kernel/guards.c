@@ -192,3 +192,11 @@ int frot_slip_of_guard(const frot_model *m, const frot_state *s, const frot_work
   if (j < m->n_contacts || j >= frot_condition_guard(m) || j != frot_element_guard(m, e)) return -1;
   return frot_element_mode(m, modes, e)->friction > FROT_STICK ? e : -1;
 }
+
+int frot_guard_is_force(const frot_model *m, const frot_state *s, const frot_work *w, int k) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  int j = w->guards.list[k], e = (j - m->n_contacts) / 2;
+  if (j >= frot_condition_guard(m)) return 0;
+  if (j < m->n_contacts) return modes[j].closed;
+  return frot_element_mode(m, modes, e)->friction <= FROT_STICK || j != frot_element_guard(m, e);
+}

@@ -44,6 +44,10 @@ void frot_pass_references(const frot_model *m, frot_state *s, frot_work *w,
 /* Whether the sign of a bilateral reaction matters: friction follows it. */
 int frot_sign_matters(const frot_model *m, const frot_contact_mode *modes, int contact);
 
+/* Whether listed guard k is a force that holds: the reaction of a closed contact, what is left of a
+ * bound of rest, or a pin's reaction in its direction; not a gap nor a speed. */
+int frot_guard_is_force(const frot_model *m, const frot_state *s, const frot_work *w, int k);
+
 /* The element whose slip guard j follows in the modes of the state, or -1. */
 int frot_slip_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int j);
 

@@ -64,6 +64,19 @@ static void weigh_evenly(const frot_problem *p) {
     p->w->reactions.weight[c] = (1 + fmod(GOLDEN * (c + 1), 1)) * p->w->reactions.unit_of[c];
 }
 
+/* What an element without a coefficient takes of what others hold as well is rounding: it is none.
+ */
+static void leave_to_others(const frot_problem *p, double *x) {
+  const frot_work *w = p->w;
+  double largest = 0;
+  for (int c = 0; c < p->held; c++) largest = fmax(largest, fabs(x[c]));
+  for (int c = 0; c < p->held; c++) {
+    if (w->reactions.friction[c] == 0) continue;
+    if (w->core.coefficient[2 * w->reactions.owner[c] + 1] != 0) continue;
+    if (fabs(x[c]) <= FROT_ROUNDING * largest) x[c] = 0;
+  }
+}
+
 /* Passes: what friction the weights leave in the place of normal reactions, 1e-10 of them, is more
  * than a pin can bear whose reaction comes to zero. So it begins anew with what the normal
  * reactions of the pass before leave to it; the last pass takes away rounding. */
@@ -96,4 +109,5 @@ void frot_solve_least(const frot_problem *p, double *x) {
     frot_least_norm(copy, b, rows, n, FROT_RANK, step, scratch, w->linear.pivot);
     for (int c = 0; c < n; c++) x[c] += step[c] * w->reactions.weight[c] / w->reactions.unit_of[c];
   }
+  if (!w->reactions.evenly) leave_to_others(p, x);
 }
