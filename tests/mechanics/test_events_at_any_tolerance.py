@@ -57,3 +57,39 @@ def test_a_step_ends_at_events_and_little_besides(chain: frot.Model, tolerance: 
     # 15 of a step; that to an event is run two or three times more, oftener where it is long
     each = 60 if tolerance > 1e-5 else 42
     assert result.figures.evaluations < 15 * (steps + result.figures.rejected) + each * events
+
+
+STRUCK = """
+planar model Struck
+  world(gravity = 0 m/s^2);
+  parameter Force hard = 1e12 N;
+  parameter Angle turn = 0;
+  parameter Real mu = 0;
+  parameter Time off = 0.5 s;
+  curve floor on ground: line(through = (0, 0) m, direction = (cos(turn), sin(turn)));
+  body block: particle(mass = 1 kg);
+  liaison foot: contact_ponctuel(block, floor) with coulomb(mu);
+  Force press = hard*exp(-((time - 0.1 s)/(0.01 s))^2) + 1e-3 N/s*(off - time);
+  force f: on(block, value = press*(sin(turn), -cos(turn)));
+initial
+  block.position = (0, 0) m;
+  block.velocity = (cos(turn), sin(turn))*(1 m/s);
+  experiment(stop = 1 s, max_step = 1e-3 s);
+end Struck;
+"""
+
+
+@functools.cache
+def struck() -> frot.Model:
+    return frot.compile(STRUCK)
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-12])
+@pytest.mark.parametrize("turn", [0.0, 0.7, 2.5])
+def test_a_force_that_was_without_bound_is_seen_when_it_ends(turn: float, tolerance: float) -> None:
+    """A block that a blow of 1e12 N has pressed down is drawn off by 1e-3 N/s from 0.5 s on."""
+    result = struck().simulate(tolerance=tolerance, parameters={"turn": turn})
+    (event,) = result.events
+    assert event.kind == "separation"
+    assert abs(event.time - 0.5) <= 1e-9
+    assert abs(result["foot.gap"][-1] - 1e-3 * 0.5**3 / 6) <= 1e-9 * 1e-3
