@@ -25,6 +25,8 @@ OPEN, STICK, SLIP = 0, 1, 2
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
 # A speed is a sum along what joins bodies: known to a few roundings of the largest there.
 CARRIED = 1e-15
+# Part of a run that stopped within which it had stopped: an instant is known no better.
+AT_LAST = 1e-9
 # Parts of an interval over each of which a rule is taken; the finest sees a bell of a thousandth.
 PANELS = (2, 64, 2048)
 
@@ -188,9 +190,20 @@ class Judge:
 
     # the whole examination
 
-    def examine(self, rng: np.random.Generator, instants: int = 12, events: int = 6) -> Findings:
-        """Look at random instants, at events, and over random intervals."""
+    def examine(
+        self,
+        rng: np.random.Generator,
+        instants: int = 12,
+        events: int = 6,
+        *,
+        stopped: bool = False,
+    ) -> Findings:
+        """Look at random instants, at events, and over random intervals.
+
+        Of a run that `stopped`, what it did at last, before it knew, is judged with the stop.
+        """
         begin, end = float(self.result.time[0]), float(self.result.time[-1])
+        end -= AT_LAST * (end - begin) if stopped else 0.0
         marks = sorted({e.time for e in self.result.events if begin <= e.time <= end})
         times = [*rng.uniform(begin, end, instants), begin]
         chosen = [marks[int(k)] for k in rng.permutation(len(marks))[:events]]

@@ -111,7 +111,7 @@ def try_setting(
     assert result is not None
     rng = np.random.default_rng(seed)
     judge = Judge(structure.scene, setting.values, result, setting.tolerance)
-    found = judge.examine(rng)
+    found = judge.examine(rng, stopped=error is not None)
     found.faults += judge_several(judge)
     stop = Verdict(EXACT)
     if late:  # what was reached is judged

@@ -3,6 +3,8 @@ missed, and none costs more than a few steps."""
 
 from __future__ import annotations
 
+import functools
+
 import pytest
 
 import frot
