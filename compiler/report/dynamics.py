@@ -156,13 +156,14 @@ class Dynamics:
         now, held = self.at(state), self.held(used)
         nv = self.reduced.symbols.v.numel()
         load = now.force[:nv].copy()
+        read = [*held, *(row for row, _ in self.friction)]
+        made_of = load, now.mass, now.rows[read], now.bias[held]
+        if not all(np.all(np.isfinite(x)) for x in made_of):
+            return None
         strength = 1 + np.max(np.abs(load), initial=0.0)
         for (row, _), push in zip(self.friction, pushes, strict=True):
             load += now.rows[row, :nv] * (push * strength)
-        rows = now.rows[held, :nv]
-        if not all(np.all(np.isfinite(x)) for x in (load, now.mass, rows, now.bias[held])):
-            return None
-        return solve(now.mass[:nv, :nv], rows, load, -now.bias[held])
+        return solve(now.mass[:nv, :nv], now.rows[held, :nv], load, -now.bias[held])
 
 
 def _is_clear(values: Floats) -> bool:

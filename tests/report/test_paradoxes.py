@@ -1,5 +1,7 @@
 """Coefficients from which friction may leave no motion, against Painlevé's own."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -96,3 +98,19 @@ end Discs;
     assert line.at_start == pytest.approx((inertia + x * x) / (x * y), rel=1e-9)
     assert hill.at_start is None
     assert hill.least == pytest.approx(line.least, rel=1e-5)
+
+
+def test_numbers_beyond_all_others_leave_no_warning_of_numpy() -> None:
+    """What loads of infinite size do is not asked."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        frot.compile("""
+planar model Huge
+  body b: box(mass = 1e308 kg, size = (1, 1) m);
+  liaison l: contact_ponctuel(ground.line, b.corners[1]) with coulomb(1e300);
+  liaison k: contact_ponctuel(ground.line, b.corners[2]) with coulomb(0.3);
+initial
+  l.gap = 0 m;
+  k.gap = 0 m;
+end Huge;
+""").report()
