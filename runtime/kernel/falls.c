@@ -9,6 +9,7 @@
 #include "core.h"
 #include "error.h"
 #include "groups.h"
+#include "guards.h"
 #include "roots.h"
 #include "stages.h"
 #include "tolerances.h"
