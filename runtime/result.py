@@ -37,7 +37,7 @@ KINDS = (
 MODES = ("open", "stick", "slip")
 MOST_EVENTS = 40
 MOST_KEPT = 8
-MASKED = 1e-10  # part of an acceleration that rounding may make, from which on it is told
+MASKED = 1e-10  # part of an acceleration or a step that rounding may make, told from there on
 # Relative residual of the energy balance from which a run is not to be trusted.
 SUSPICIOUS = 1e-4
 ROLLING = ("free", "held", "rolling", "rolling")
@@ -98,10 +98,11 @@ class Figures:
 
     `unsearched`: instants with so many possible modes that one motion was found, and others were
     not looked for. `crossings`: steps through postures in which the relations of a loop depend on
-    each other: the motion goes straight on there. `blurred`: the largest error of a step there,
-    relative, that rounding made beyond the tolerance. `free`: speeds at the start that no liaison
-    holds. `masked`: what part of an acceleration may be rounding, at the start, where a light body
-    is held between heavy ones and its own inertia is lost among those that its joint carries.
+    each other: the motion goes straight on there. `blurred`: the largest error of a step, relative
+    to what moves, that rounding may have made beyond the tolerance. `free`: speeds at the
+    start that no liaison holds. `masked`: what part of an acceleration may be rounding, at the
+    start, where a light body is held between heavy ones and its own inertia is lost among those
+    that its joint carries.
     """
 
     steps: int
@@ -301,8 +302,13 @@ class Result(Mapping[str, "Floats"]):
                 f"  {_counted(figures.crossings, 'passage')} through postures in which the "
                 "relations of a loop depend on each other: it goes straight on there"
             )
-        if figures.blurred:
+        if figures.crossings and figures.blurred:
             lines.append(f"  rounding made errors of {figures.blurred:.1e} there")
+        elif figures.blurred > MASKED:
+            lines.append(
+                f"  warning: rounding may make {figures.blurred:.0e} of what moves in a step, "
+                "whatever the tolerance"
+            )
         if figures.masked > MASKED:
             lines.append(
                 f"  warning: rounding may make {figures.masked:.0e} of an acceleration, whatever "

@@ -5,6 +5,7 @@
 
 #include "awake.h"
 #include "blame.h"
+#include "blur.h"
 #include "crossing.h"
 #include "ends.h"
 #include "error.h"
@@ -35,7 +36,10 @@
 /* Power of the step's length that an error of order eight shrinks with at least. */
 #define SHRINKS 4
 #define LOUDEST 16 /* times that rounding may be larger than measured */
-#define LOOKS 7    /* at a guard that seems to dip, in ever shorter steps */
+#define HALF 0.5
+/* Part of an error that its halved step leaves at least where rounding made it. */
+#define LEFT 0.125
+#define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
 
 frot_attempt frot_attempt_from(double t) {
   return (frot_attempt){.t = t, .passed = -1, .guard = -1, .best_ratio = INFINITY};
@@ -133,6 +137,24 @@ static int needs_dense(const frot_model *m, const frot_state *s, const frot_work
   return frot_needs_inside(m, s) || frot_may_fall(s, w, rests(w));
 }
 
+/* Whether the step that ran is none for what rounding, beyond the bound, brings to it: too much of
+ * what moves, as next to a pole of reactions. It is halved, and where that leaves nearly as much no
+ * step is any good (a->h == 0): rounding decides where the motion goes. Passages have a rule of
+ * their own. */
+static int drowns(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
+  if (s->implicit || s->weak || !w->step.rounded) return 0;
+  double part = frot_part_of_motion(m, s, w, a->h);
+  int stays = a->drowned > 0 && part > LEFT * a->drowned;
+  if (!(part > FROT_DROWNED) && !stays) {
+    if (part > frot_step_tolerance(s)) s->statistics.blurred = fmax(s->statistics.blurred, part);
+    return 0;
+  }
+  a->drowned = part, a->to_due = 0;
+  a->h *= stays ? 0 : HALF;
+  s->statistics.rejected++;
+  return 1;
+}
+
 /* Try the step once: FROT_OK if it is good, with its dense output if it needs that; then s->h is
  * the next one's length. */
 static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
@@ -156,7 +178,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
     return FROT_DIVERGE;
   }
   if (s->weak) frot_judge_passage(m, s, w, a);
-  if (a->h == 0) return FROT_DIVERGE;
+  if (a->h == 0 || (a->ratio <= 1 && drowns(m, s, w, a))) return FROT_DIVERGE;
   if (a->ratio <= 1) {
     a->stiff = frot_is_stiff(m, s, w, h);
     a->stable = frot_stable_step(m, s, w, h);

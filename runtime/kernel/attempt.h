@@ -11,6 +11,7 @@ typedef struct {
   double stable;               /* most that the next one may be */
   double tried_h, tried_ratio; /* the length before, and its error over the bound; 0: none */
   double ratio;                /* of its error to the bound */
+  double drowned;              /* what rounding made of its error, in parts of the motion, or 0 */
   double loose; /* the same before its stages were put onto the relations of loops, or 0 */
   int to_due;   /* it ends where time changes a condition */
   int passed;   /* condition beyond which the last try had no value, or -1, at this */

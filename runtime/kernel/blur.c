@@ -108,3 +108,29 @@ void frot_excuse_noise(const frot_model *m, frot_state *s, frot_work *w, double 
     excuse(m, s, w, g, dp_e3, t, h, w->step.excused + m->nv);
   }
 }
+
+/* Whether friction follows reactions in the group, so that they may have a pole. */
+static int slips(const frot_model *m, const frot_state *s, const frot_work *w,
+                 const frot_group *g) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  for (int k = 0; k < g->n_elements; k++) {
+    const frot_element *e = &m->elements[g->elements[k]];
+    int friction = frot_element_mode(m, modes, g->elements[k])->friction;
+    int moves = friction == FROT_SLIP_FORWARD || friction == FROT_SLIP_BACKWARD;
+    if (moves && e->bound != FROT_BY_VALUE && modes[e->contact].closed) return 1;
+  }
+  return 0;
+}
+
+double frot_part_of_motion(const frot_model *m, const frot_state *s, frot_work *w, double h) {
+  double most = 0;
+  for (int i = 0; i < w->awake.now->n_groups; i++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[i]];
+    if (g->general || !slips(m, s, w, g)) continue;
+    const double *force = w->core.force + g->vector;
+    double motion = sqrt(frot_square_of(w, g, w->step.z1 + m->nq)) +
+                    h * sqrt(frot_dot(force, force, g->n_speeds));
+    if (motion > 0) most = fmax(most, sqrt(frot_square_of(w, g, w->step.beyond)) / motion);
+  }
+  return most;
+}

@@ -1,5 +1,5 @@
-/* What rounding does near singular postures (crossing.h): an error along weak rows, which is none
- * of the motion. */
+/* What rounding does to a step: near singular postures (crossing.h) an error along weak rows, which
+ * is none of the motion, elsewhere one of the motion. */
 #ifndef FROT_BLUR_H
 #define FROT_BLUR_H
 
@@ -11,5 +11,11 @@
  * may: a motion that leaves its way, or one that the step is too long for, is more than 1. After
  * frot_run_stages. */
 void frot_excuse_noise(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
+
+/* The errors beyond their bounds of the explicit step h that ran, over what moves in a group and
+ * what its loads bring in the step, both in the metric of its mass: of the group where that is
+ * most, among those in which friction follows reactions. What is small beside others counts as
+ * little as it does in them. */
+double frot_part_of_motion(const frot_model *m, const frot_state *s, frot_work *w, double h);
 
 #endif

@@ -65,7 +65,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
   double guard_tolerance = frot_guard_tolerance(s->tolerance);
   double e5[FROT_CHUNK], e3[FROT_CHUNK];
   int end = frot_width(w), n = w->awake.n, states = n - FROT_QUADRATURES;
-  w->step.worst = -1, w->step.noisy = 0;
+  w->step.worst = -1, w->step.noisy = 0, w->step.rounded = 0;
   for (int j = 0; j < end; j++) {
     int at = j % FROT_CHUNK, size = end - j < FROT_CHUNK ? end - j : FROT_CHUNK;
     if (at == 0) {
@@ -73,6 +73,8 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       frot_weigh_stages(w, dp_e3, DP_STAGES + 1, j, size, e3);
     }
     if (j >= states && j < n) continue; /* energies follow */
+    int speed = j < states ? w->awake.now->states[j] - m->nq : -1;
+    if (speed >= 0) w->step.beyond[speed] = 0;
     if (e5[at] == 0 && e3[at] == 0) continue;
     double bound, noise = 0, fifth = h * e5[at], third = h * e3[at];
     if (j < n) {
@@ -99,6 +101,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
     double error = joint > 0 ? fifth * fifth / joint : joint;
     error += DOUBTED * h * w->step.doubt[j];
+    if (error > bound && speed >= 0) w->step.beyond[speed] = error, w->step.rounded = 1;
     double ratio = error > 0 ? error / (bound + noise) : error; /* both may underflow */
     if (!(ratio <= worst)) {
       worst = ratio, w->step.worst = j < states ? w->awake.now->states[j] : -1;

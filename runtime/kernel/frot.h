@@ -109,10 +109,10 @@ typedef struct {
   long long steps, rejected, evaluations, events;
   long long implicit_steps, jacobians; /* steps of the implicit method among `steps` */
   long long unsearched; /* instants at which other motions were not looked for: too many modes */
-  double blurred; /* largest error of a step, relative, that rounding made there beyond its bound */
-  long long crossings; /* steps through postures in which rows that hold depend on each other */
-  long long free;      /* speeds at the start that no permanent row holds */
-  double masked;       /* part of an acceleration that rounding of the inertias may make there */
+  double blurred;       /* largest error of a step, relative, that rounding made beyond its bound */
+  long long crossings;  /* steps through postures in which rows that hold depend on each other */
+  long long free;       /* speeds at the start that no permanent row holds */
+  double masked;        /* part of an acceleration that rounding of the inertias may make there */
 } frot_statistics;
 
 /* The model compiled together with the kernel. */

@@ -66,7 +66,7 @@ static inline double frot_guard_tolerance(double tolerance) {
 #define FROT_TOUCH 1e-9
 /* Guards are looked at from this part of their size on. */
 #define FROT_GUARD_FLOOR 1e-12
-/* Part of its size that rounding may hide at most. */
+/* Part of its size that rounding may hide at most: of a guard, of what moves in a step. */
 #define FROT_DROWNED 1e-3
 /* A located guard below this part of its size has fallen; above, it was a dip. */
 #define FROT_LOCATED 1e-9

@@ -272,7 +272,8 @@ static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, a
   TAKE(w->guards.end_reaction, 2 * m->n_elements);
   TAKE(w->guards.end_friction, m->n_elements);
   TAKE(p->k, DP_ALL * l->nz), TAKE(p->first, l->nz), TAKE(p->doubt, l->nz),
-      TAKE(p->excused, 2 * m->nv), TAKE(p->z0, l->nz), TAKE(p->z1, l->nz), TAKE(p->z, l->nz);
+      TAKE(p->excused, 2 * m->nv), TAKE(p->beyond, m->nv), TAKE(p->z0, l->nz), TAKE(p->z1, l->nz),
+      TAKE(p->z, l->nz);
   TAKE(p->y_end, m->ny), TAKE(p->f, DP_DENSE * l->nz), TAKE(p->parameters, m->np);
   TAKE(w->sizes.change, m->nq), TAKE(w->sizes.own, m->nq + m->nv), TAKE(w->sizes.alike, m->nq);
   TAKE(w->sizes.states, m->nq);

@@ -203,15 +203,16 @@ typedef struct {
  * whose error is the worst, or -1, and what part of that rounding may be (error.h); blur.h. Between
  * steps z1 and z are scratch. crossing.h: what is left of each row in each stage ((DP_STAGES + 1) x
  * n_rows) and its first direction; the slope at the start, what is doubtful in slopes near
- * postures, and excused in errors; the parameters while noise.c moves them. */
+ * postures, and excused in errors; errors of speeds that are beyond their bounds, else 0 (nv), and
+ * whether one is; the parameters while noise.c moves them. */
 typedef struct {
-  double *left, *direction, *first, *doubt, *excused, *motion, *parameters;
+  double *left, *direction, *first, *doubt, *excused, *beyond, *motion, *parameters;
   unsigned char *near;
   int little; /* little is left of one in a stage, crossing.c */
   int *order,
       *ordered; /* crossing.h: rows of loops as they are measured, and how many a group has */
   double *k, *z0, *z1, *z, *y_end, *f;
-  int worst;
+  int worst, rounded;
   double noisy, turning;
   double looked; /* time from which on somebody looks inside the steps: run.c */
 } frot_step_work;
