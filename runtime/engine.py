@@ -95,10 +95,10 @@ def as_floats(numbers: array[float]) -> Floats:
 
 
 def _joined(chunks: list[array[float]]) -> array[float]:
-    """One array; what is one already is not copied."""
+    """One array; what is one already is not copied, and each of the others given back at once."""
     whole = chunks.pop(0) if chunks else zeros(0)
-    for chunk in chunks:
-        whole.extend(chunk)
+    while chunks:
+        whole.extend(chunks.pop(0))
     return whole
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 HEAD = 3  # length, how far back what stands still is, what it tells of its inside
-INSIDE = 1  # of the stages of an explicit step, else the vectors of a dense output
+IMPLICIT = 4  # so many vectors tell the inside of a Rosenbrock step
 
 
 def records(record: Sequence[float]) -> list[np.ndarray]:

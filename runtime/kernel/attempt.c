@@ -27,8 +27,10 @@
 #define PATIENCE 2
 /* Part of an error from which on what is left of an older measure is measured again at once. */
 #define NOISY 0.01
-/* Rejections after which the sizes of states no longer shrink with the step. */
+/* Rejections after which the sizes of states no longer shrink with the step, if the error has not
+ * fallen by so much beside its bound: of what grows as a high power of time it never does. */
 #define HOLD 6
+#define HARDLY 0.1
 /* Shrinking of steps after which rounding of a guard is asked for, though none was rejected, where
  * its error is this part of the bound: errors of order eight would have vanished. */
 #define UNHEARD 8
@@ -42,7 +44,8 @@
 #define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
 
 frot_attempt frot_attempt_from(double t) {
-  return (frot_attempt){.t = t, .passed = -1, .guard = -1, .best_ratio = INFINITY};
+  return (frot_attempt){
+      .t = t, .passed = -1, .guard = -1, .best_ratio = INFINITY, .stubborn = INFINITY};
 }
 
 /* Whether nothing moves, nor starts to, at a stage. */
@@ -167,7 +170,8 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   a->passed = status == FROT_NAN ? frot_condition_passed(m, s, w, t, h, &a->part) : -1;
   a->ratio = status == FROT_OK ? frot_error_ratio(m, s, w, t, h) : NAN;
   see_noise(s, a);
-  if (a->ratio <= 1 && (shrinks_unheard(s, w, a) || (!s->implicit && s->noise_measured < 0)))
+  if (a->ratio <= 1 && (shrinks_unheard(s, w, a) || (w->step.pardoned && s->heard_at != t) ||
+                        (!s->implicit && s->noise_measured < 0)))
     a->tried_ratio = a->ratio = hear(m, s, w, t, h);
   if (a->loose > 0) frot_judge_tie(s, a->ratio, a->loose), a->loose = 0;
   a->forced = a->blurred;
@@ -216,7 +220,10 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   if ((a->ratio > 1 && w->step.noisy > NOISY) ||
       ((a->ratio > 1 || unfound) && a->rejections % PATIENCE == 0))
     measure_noise(m, s, w, t + h);
-  if (a->rejections % HOLD == 0) frot_hold_worth(s, w);
+  if (a->rejections % HOLD == 0) {
+    if (a->ratio > HARDLY * a->stubborn) frot_hold_worth(s, w);
+    a->stubborn = isfinite(a->ratio) ? a->ratio : INFINITY;
+  }
   frot_shorten(m, s, w, a);
   if (s->weak && a->passed < 0) frot_shorten_passage(m, s, w, a, h);
   return status == FROT_OK ? FROT_DIVERGE : status;

@@ -12,6 +12,7 @@ typedef struct {
   double tried_h, tried_ratio; /* the length before, and its error over the bound; 0: none */
   double ratio;                /* of its error to the bound */
   double drowned;              /* what rounding made of its error, in parts of the motion, or 0 */
+  double stubborn;             /* that ratio when sizes were last looked at, or INFINITY */
   double loose; /* the same before its stages were put onto the relations of loops, or 0 */
   int to_due;   /* it ends where time changes a condition */
   int passed;   /* condition beyond which the last try had no value, or -1, at this */

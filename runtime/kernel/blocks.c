@@ -41,7 +41,7 @@ static int factor(const problem *p) {
   frot_work *w = p->w;
   int n = p->block->count;
   memcpy(w->blocks.lu, w->blocks.j, sizeof(double) * (size_t)(n * n));
-  return frot_lu(w->blocks.lu, n, w->blocks.pivot, w->blocks.scale);
+  return frot_lu(w->blocks.lu, n, 1, w->blocks.pivot, w->blocks.scale);
 }
 
 /* The Newton step into w->blocks.step; of least norm where the Jacobian is singular. */

@@ -3,6 +3,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "tolerances.h"
+
 static void swap(double *a, double *b) {
   double t = *a;
   *a = *b, *b = t;
@@ -37,6 +39,7 @@ int frot_complex_lu(double *re, double *im, int n, int *pivot, const double *sca
       double size = fabs(re[n * k + i]) + fabs(im[n * k + i]);
       if (size > most) most = size, best = i;
     }
+    if (fabs(re[(n + 1) * k]) + fabs(im[(n + 1) * k]) >= FROT_ENOUGH_PIVOT * most) best = k;
     pivot[k] = best;
     if (!(most > 4 * n * DBL_EPSILON) || isinf(most)) return 1;
     for (int j = k; best != k && j < n; j++)

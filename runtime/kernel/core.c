@@ -210,7 +210,7 @@ static int general_group(const frot_model *m, frot_work *w, const frot_group *g)
     for (int k = 0; k < n; k++) matrix[reads * n + k] = -effect[k];
   }
   memcpy(lu, matrix, sizeof(double) * (size_t)(n * n));
-  if (frot_lu(lu, n, pivot, scale)) return FROT_SINGULAR;
+  if (frot_lu(lu, n, 1, pivot, scale)) return FROT_SINGULAR;
   double *z = w->core.force + g->vector, *rest = w->core.rest;
   for (int k = 0; k < n; k++) z[k] = rest[k] = w->core.h[g->unknowns[k]];
   frot_lu_apply(lu, n, pivot, scale, z);

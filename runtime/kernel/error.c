@@ -65,7 +65,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
   double guard_tolerance = frot_guard_tolerance(s->tolerance);
   double e5[FROT_CHUNK], e3[FROT_CHUNK];
   int end = frot_width(w), n = w->awake.n, states = n - FROT_QUADRATURES;
-  w->step.worst = -1, w->step.noisy = 0, w->step.rounded = 0;
+  w->step.worst = -1, w->step.noisy = 0, w->step.rounded = w->step.pardoned = 0;
   for (int j = 0; j < end; j++) {
     int at = j % FROT_CHUNK, size = end - j < FROT_CHUNK ? end - j : FROT_CHUNK;
     if (at == 0) {
@@ -76,7 +76,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     int speed = j < states ? w->awake.now->states[j] - m->nq : -1;
     if (speed >= 0) w->step.beyond[speed] = 0;
     if (e5[at] == 0 && e3[at] == 0) continue;
-    double bound, noise = 0, fifth = h * e5[at], third = h * e3[at];
+    double bound, noise = 0, rounding = 0, fifth = h * e5[at], third = h * e3[at];
     if (j < n) {
       int state = w->awake.now->states[j], plain = state < m->nq && m->q_speed[state] < 0;
       if (state >= m->nq) {
@@ -86,7 +86,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       noise = (plain ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN) * h *
               frot_noise_of_rate(m, s, w, state, h);
       bound = tolerance * size_at_start(m, s, w, state, h);
-      if (plain) bound = fmax(bound, noise), noise = 0; /* no inertia smooths it */
+      if (plain) rounding = noise, noise = 0; /* no inertia smooths it */
     } else {
       double largest = FROT_GUARD_LOOSEST * s->data[l->scale_g + w->guards.list[j - n]];
       for (int k = 0; k <= DP_STAGES; k++) {
@@ -102,6 +102,8 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     double error = joint > 0 ? fifth * fifth / joint : joint;
     error += DOUBTED * h * w->step.doubt[j];
     if (error > bound && speed >= 0) w->step.beyond[speed] = error, w->step.rounded = 1;
+    w->step.pardoned |= error > bound && error <= rounding;
+    bound = fmax(bound, rounding);
     double ratio = error > 0 ? error / (bound + noise) : error; /* both may underflow */
     if (!(ratio <= worst)) {
       worst = ratio, w->step.worst = j < states ? w->awake.now->states[j] : -1;

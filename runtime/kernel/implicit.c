@@ -132,12 +132,15 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
   const double *error =
       row(l, w, frot_has_motion(m) ? FROT_RADAU_ERROR : FIRST_ROW + RO_STAGES - 1);
   const double *damping = frot_jacobian_damping(m, w, h);
-  w->step.worst = -1, w->step.noisy = 0;
+  w->step.worst = -1, w->step.noisy = 0, w->step.pardoned = 0;
   for (int k = 0; k < frot_order(m); k++) {
     if (error[k] == 0) continue;
     double bound = fmax(tolerance * w->sizes.own[k], DBL_MIN);
     double noise = frot_noise_of_rate(m, s, w, k, h);
-    if (noise > 0) bound = fmax(bound, FROT_NOISE_OF_RATES * h * noise / damping[k]);
+    double rounding = noise > 0 ? FROT_NOISE_OF_RATES * h * noise / damping[k] : 0;
+    int plain = k < m->nq && m->q_speed[k] < 0;
+    w->step.pardoned |= plain && fabs(error[k]) > bound && fabs(error[k]) <= rounding;
+    bound = fmax(bound, rounding);
     double ratio = fabs(error[k]) / bound;
     if (!(ratio <= worst)) worst = ratio, w->step.worst = k;
     if (isnan(worst)) break;

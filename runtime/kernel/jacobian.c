@@ -7,6 +7,7 @@
 #include "mechanics.h"
 #include "radau.h"
 #include "sparse_lu.h"
+#include "tolerances.h"
 
 /* Sizes tried for the bound of the eigenvalues. */
 #define BOUND_PASSES 4
@@ -64,7 +65,7 @@ frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *
  * J <- f_x - f_y (r_y)^-1 r_x. */
 static int condense(const frot_model *m, const frot_jacobian *j, int ny) {
   int n = frot_order(m);
-  if (frot_lu(j->block_y, ny, j->block_pivot, j->block_scale)) return FROT_SINGULAR;
+  if (frot_lu(j->block_y, ny, 1, j->block_pivot, j->block_scale)) return FROT_SINGULAR;
   for (int c = 0; c <= n; c++) {
     double *x = c < n ? j->block_q + ny * c : j->block_t;
     double *into = c < n ? j->entries + n * c : j->rate;
@@ -113,7 +114,7 @@ int frot_jacobian_factor(const frot_model *m, frot_work *w, double shift) {
     return frot_sparse_factor(&m->pattern, j.entries, shift, j.factors, j.scratch, j.growth);
   for (int i = 0; i < n * n; i++) j.factors[i] = -j.entries[i];
   for (int i = 0; i < n; i++) j.factors[n * i + i] += shift;
-  return frot_lu(j.factors, n, j.pivot, j.scale);
+  return frot_lu(j.factors, n, FROT_ENOUGH_PIVOT, j.pivot, j.scale);
 }
 
 void frot_jacobian_solve(const frot_model *m, const frot_work *w, const double *b, double *x) {

@@ -261,12 +261,13 @@ static void equilibrate(double *a, int n, double *scale) {
   }
 }
 
-int frot_lu(double *a, int n, int *pivot, double *scale) {
+int frot_lu(double *a, int n, double enough, int *pivot, double *scale) {
   equilibrate(a, n, scale);
   for (int k = 0; k < n; k++) {
     int best = k;
     for (int i = k + 1; i < n; i++)
       if (fabs(AT(a, n, i, k)) > fabs(AT(a, n, best, k))) best = i;
+    if (fabs(AT(a, n, k, k)) >= enough * fabs(AT(a, n, best, k))) best = k;
     pivot[k] = best;
     if (!(fabs(AT(a, n, best, k)) > 4 * n * DBL_EPSILON)) return 1;
     for (int j = k; best != k && j < n; j++) {

@@ -34,9 +34,10 @@ int frot_lu_solve(double *a, double *b, int n, int *pivot, int *sign);
 void frot_lu_again(const double *a, double *b, int n, const int *pivot);
 
 /* LU of a (n x n) with partial pivoting, rows and columns scaled by powers of two first, so that
- * units do not matter. `pivot` takes n integers, `scale` 2 n doubles. Returns 0, or 1 when a is
- * singular to rounding or no number. frot_lu_apply: x <- a^-1 x by the factors. */
-int frot_lu(double *a, int n, int *pivot, double *scale);
+ * units do not matter. A row stays where its pivot is `enough` times the largest: 1 for the largest
+ * alone. `pivot` takes n integers, `scale` 2 n doubles. Returns 0, or 1 when a is singular to
+ * rounding or no number. frot_lu_apply: x <- a^-1 x by the factors. */
+int frot_lu(double *a, int n, double enough, int *pivot, double *scale);
 void frot_lu_apply(const double *a, int n, const int *pivot, const double *scale, double *x);
 
 /* a'b. */

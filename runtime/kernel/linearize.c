@@ -232,7 +232,7 @@ static void solve(problem *p) {
   if (rows == n) {
     for (int k = 0; k < n; k++)
       memcpy(scratch->lu + n * k, entry(p, 0, k), sizeof(double) * (size_t)n);
-    if (!frot_lu(scratch->lu, n, scratch->pivot, scratch->scale)) {
+    if (!frot_lu(scratch->lu, n, 1, scratch->pivot, scratch->scale)) {
       for (int c = 0; c < p->n_columns; c++)
         frot_lu_apply(scratch->lu, n, scratch->pivot, scratch->scale, right_of(p, c));
       return;

@@ -13,8 +13,11 @@
 
 /* Part of what rounding may make of terms at most that it usually makes. */
 #define USUAL 0.25
-/* What is left of an older measure by a new one: a few samples of rounding may all be small. */
+/* What is left of an older measure by a new one: a few samples of rounding may all be small. Of the
+ * rate of a state that no inertia smooths, in a later step, so much of that: as it dies out its
+ * terms fade as fast as what it is worth (sizes.c). */
 #define BEFORE 0.5
+#define FADED 0.2
 /* What noise of slopes makes of speeds in the stages, and these of the error of a coordinate, over
  * what it makes of that of a speed: |e' A| / |e| of the method of order eight. */
 #define BY_STAGES 4
@@ -197,11 +200,14 @@ int frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double 
       largest[j] = fmax(largest[j], fabs(frot_stage(w, i)[j]));
   }
   double before = s->noise_measured < 0 ? 0 : BEFORE;
-  s->noise_shown = 0, s->noise_measured = 1;
+  double now = *frot_segment_at(m, s->data + w->layout.segment).t1;
+  double plain = s->heard_at == now ? before : before * FADED;
+  s->noise_shown = 0, s->noise_measured = 1, s->heard_at = now;
   int astray = strays(m, s, w, t);
   if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return 0;
   note_neighbours(m, w, size);
-  for (int j = 0; j < n + w->layout.ng; j++) noise[j] *= before;
+  for (int j = 0; j < n + w->layout.ng; j++)
+    noise[j] *= j < m->nq && m->q_speed[j] < 0 ? plain : before;
   add_rounding(m, s, w, t, w->step.z0, NULL);
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {

@@ -99,6 +99,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->crowded_since = s->left_at = t, s->told = s->statistics.events;
   s->measured = s->weak = s->tied = s->no_better = s->from_posture = s->unmeasured =
       s->noise_measured = 0;
+  s->heard_at = NAN;
   s->across = s->foreseen = INFINITY;
   for (int i = 0; i < m->n_rows; i++) s->data[l.posture + i] = NAN;
   frot_choose_first(m, s);
@@ -229,7 +230,7 @@ static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
 static int end_of_run(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
   if (recorder && recorder->segments && !s->ended_recorded) {
     if (!frot_has_room(m, recorder)) return FROT_FULL;
-    frot_record(m, s, w, recorder, FROT_VECTORS);
+    frot_record(m, s, w, recorder, 0);
     s->ended_recorded = 1;
   }
   frot_tell(m, s, recorder);

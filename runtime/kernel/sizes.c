@@ -19,8 +19,10 @@
 #define LASTING_STEPS 16
 /* Sweeps there and back over the Jacobian: each brings sizes along a chain in order. */
 #define SWEEPS 3
-/* What a step leaves of the memory. */
+/* What a step leaves of the memory: an explicit one, and an implicit one, in which a state may die
+ * out by more than that only where its error is felt. */
 #define LEFT 0.3
+#define LEFT_STIFF 0.1
 
 /* fmax is a call, for what it does with NaN. */
 static double larger(double a, double b) { return a > b ? a : b; }
@@ -125,10 +127,10 @@ void frot_raise_small(const frot_model *m, const frot_state *s, frot_work *w, do
 }
 
 void frot_note_worth(frot_state *s, const frot_work *w, const double *z) {
-  double *worth = s->data + w->layout.worth;
+  double *worth = s->data + w->layout.worth, left = s->implicit ? LEFT_STIFF : LEFT;
   for (int i = 0; i < w->sizes.count; i++) {
     int j = w->sizes.states[i];
-    worth[j] = larger(LEFT * worth[j], fabs(z[j]));
+    worth[j] = larger(left * worth[j], fabs(z[j]));
   }
 }
 

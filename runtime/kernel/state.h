@@ -86,6 +86,7 @@ struct frot_state {
   double caution;            /* part of their length that steps are to have: length.c */
   int noise_measured; /* rounding is known; < 0: from before the last event, of another system */
   int noise_shown;    /* an error was seen that rounding made, and rounding not measured since */
+  double heard_at;    /* start of the step in which it was measured last, NaN: in none */
   double noise_level; /* how much larger it was than measured */
   double heard;       /* the longest step planned since rounding was measured last */
   double due;         /* when time next changes a condition, INFINITY if never */

@@ -27,7 +27,7 @@ static int through_blocks(const frot_opening *p, int n) {
   w->call.res[0] = slopes, w->call.res[1] = lu;
   frot_evaluate_part(p, &part->slopes);
   if (!frot_all_finite(lu, own * own) || !frot_all_finite(slopes, nx * own)) return FROT_NAN;
-  if (frot_lu(lu, own, w->opening.slopes_pivot, scale)) return FROT_NAN;
+  if (frot_lu(lu, own, 1, w->opening.slopes_pivot, scale)) return FROT_NAN;
   for (int i = 0; i < n; i++) {
     memcpy(by, w->opening.residual_y + own * i, sizeof(double) * (size_t)own);
     frot_lu_apply(lu, own, w->opening.slopes_pivot, scale, by);

@@ -93,8 +93,7 @@ static void show(const frot_model *m, frot_state *s, frot_work *w, const frot_at
                  frot_recorder *recorder) {
   frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
   frot_return_to_stages(w, a);
-  if (recorder && recorder->segments)
-    frot_record(m, s, w, recorder, a->dense ? FROT_VECTORS : FROT_INSIDE);
+  if (recorder && recorder->segments) frot_record(m, s, w, recorder, !a->dense);
   if (!a->dense && *g.t1 > w->step.looked) frot_look_inside(m, s, w, &g);
 }
 

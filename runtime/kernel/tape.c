@@ -102,8 +102,16 @@ static void read_awake(const frot_model *m, const frot_work *w, const frot_segme
   read_states(w, from, g->x0, 0);
 }
 
+/* The vectors of its dense output that are not zero: the implicit methods, and what rests, need
+ * fewer. */
+static int vectors_of(const frot_work *w, const frot_segment *g) {
+  int nx = w->layout.nx, end = DP_DENSE * nx;
+  while (end > 0 && g->f[end - 1] == 0) end--;
+  return (end + nx - 1) / nx;
+}
+
 void frot_record(const frot_model *m, const frot_state *s, const frot_work *w,
-                 frot_recorder *recorder, int inside) {
+                 frot_recorder *recorder, int stages) {
   double *record = recorder->segments + recorder->segment_used;
   frot_segment g = frot_segment_at(m, (double *)s->data + w->layout.segment);
   tape to = {record + FROT_RECORD_HEAD};
@@ -115,15 +123,16 @@ void frot_record(const frot_model *m, const frot_state *s, const frot_work *w,
   } else {
     write_awake(m, w, &g, &to);
   }
-  if (inside == FROT_INSIDE) {
+  int vectors = stages ? FROT_INSIDE : vectors_of(w, &g);
+  if (stages) {
     write_states(w, &to, w->step.z1, whole);
     for (int i = 0; i < DP_INSIDE; i++) write_stage(w, &to, frot_stage(w, dp_inside[i]), whole);
   } else {
-    for (int i = 0; i < DP_DENSE; i++) write_states(w, &to, g.f + i * w->layout.nx, whole);
+    for (int i = 0; i < vectors; i++) write_states(w, &to, g.f + i * w->layout.nx, whole);
   }
   record[0] = (double)(to.at - record);
   record[1] = (double)(recorder->segment_used - recorder->whole);
-  record[2] = inside;
+  record[2] = vectors;
   recorder->last = recorder->segment_used;
   recorder->segment_used += to.at - record;
 }
@@ -161,7 +170,7 @@ frot_segment frot_read_record(const frot_model *m, frot_state *s, frot_work *w,
   if (record[2] == FROT_INSIDE)
     read_stages(m, s, w, &g, &from, whole);
   else
-    for (int i = 0; i < DP_DENSE; i++) read_states(w, &from, g.f + i * w->layout.nx, whole);
+    for (int i = 0; i < (int)record[2]; i++) read_states(w, &from, g.f + i * w->layout.nx, whole);
   frot_wake(w);
   return g;
 }

@@ -7,17 +7,17 @@
 
 #include "work.h"
 
-/* What a recorded segment tells of its inside: the vectors of its dense output, or its end and its
- * stages. */
-enum frot_inside { FROT_VECTORS = 0, FROT_INSIDE = 1 };
+/* What a recorded segment tells of its inside, in the last place of its head: so many vectors of
+ * its dense output, those after which are zero, or its end and its stages. */
+#define FROT_INSIDE (-1)
 
 /* Whether the recorder takes one more segment; one without room for segments takes any. */
 int frot_has_room(const frot_model *m, const frot_recorder *recorder);
 
-/* Append the current segment, with those awake that are in its step; there is room. FROT_INSIDE:
- * the step is in the scratch memory still. */
+/* Append the current segment, with those awake that are in its step; there is room. `stages`:
+ * the step is in the scratch memory still, and these are written. */
 void frot_record(const frot_model *m, const frot_state *s, const frot_work *w,
-                 frot_recorder *recorder, int inside);
+                 frot_recorder *recorder, int stages);
 
 /* The whole of a recorded segment, in w->tape where it does not stand by itself. */
 frot_segment frot_read_record(const frot_model *m, frot_state *s, frot_work *w,

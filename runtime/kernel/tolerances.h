@@ -102,6 +102,9 @@ static inline double frot_size_of_time(double t, double h_max) {
 #define FROT_AGREES 1e-9
 /* Pivot of a scaled square system below which it is singular. */
 #define FROT_SINGULAR_PIVOT 1e-14
+/* Part of the largest that a pivot on the diagonal has at least where it is taken all the same:
+ * what a state does not depend on then does not reach it by rounding. */
+#define FROT_ENOUGH_PIVOT 0.1
 /* Part of the sizes of its terms that a pivot of a sparse factor must keep, and the term below
  * which digits are lost by underflow. */
 #define FROT_LEAST_PIVOT 1e-9

@@ -200,7 +200,8 @@ typedef struct {
 
 /* stages.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones at the
  * stage that runs, unknowns of the blocks at the end, dense output f (DP_DENSE x nz); the state
- * whose error is the worst, or -1, and what part of that rounding may be (error.h); blur.h. Between
+ * whose error is the worst, or -1, and what part of that rounding may be, whether one passes for
+ * rounding alone (error.h); blur.h. Between
  * steps z1 and z are scratch. crossing.h: what is left of each row in each stage ((DP_STAGES + 1) x
  * n_rows) and its first direction; the slope at the start, what is doubtful in slopes near
  * postures, and excused in errors; errors of speeds that are beyond their bounds, else 0 (nv), and
@@ -212,7 +213,7 @@ typedef struct {
   int *order,
       *ordered; /* crossing.h: rows of loops as they are measured, and how many a group has */
   double *k, *z0, *z1, *z, *y_end, *f;
-  int worst, rounded;
+  int worst, rounded, pardoned;
   double noisy, turning;
   double looked; /* time from which on somebody looks inside the steps: run.c */
 } frot_step_work;
