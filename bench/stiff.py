@@ -224,10 +224,10 @@ def main() -> None:
         "order 5 and an estimate of order 4: its steps shorten by the fifth root of the "
         "tolerance, each with a matrix of its own, where CVODE keeps one for many.",
         "",
-        "E5 at 1e-6 is off by more than its tolerance: of a first concentration that dies out in "
-        "steps of many of its time constants the estimate of the error sees less than is left, and "
-        "what is left feeds the second one. Written with the rate of the third one, whose "
-        "terms cancel, E5 has no digits beyond 1e9 s at any tolerance.",
+        "E5 has a first concentration that dies out over hundreds of decades and feeds one that "
+        "ends at 1e-22: what rounding did to rates is measured anew where it would let an error "
+        "pass. Written with the rate of the third one, whose terms cancel, E5 has no digits beyond "
+        "1e9 s at any tolerance.",
     ]
     common.write(common.RESULTS / "stiff.md", lines)
     draw(points, common.RESULTS / "stiff.png")
