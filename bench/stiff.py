@@ -217,12 +217,12 @@ def main() -> None:
         ),
         "",
         "Compare times at equal errors: Frot's error is near or below its tolerance, that of "
-        "CVODE mostly ten to a thousand times its own. So compared, Frot is ahead on Robertson, "
-        "the Oregonator and the ring modulator as far as CVODE's errors go, and level on "
-        "pollution; on van der Pol CVODE takes two thirds of Frot's time, on HIRES down to a "
-        "quarter below 1e-6, on E5 less than a third. There the Rosenbrock method pays for its "
-        "order 5 and an estimate of order 4: its steps shorten by the fifth root of the "
-        "tolerance, each with a matrix of its own, where CVODE keeps one for many.",
+        "CVODE mostly ten to a thousand times its own. So compared, Frot is ahead on the ring "
+        "modulator, level on Robertson, the Oregonator, van der Pol and pollution as far as "
+        "CVODE's errors go; on HIRES CVODE takes down to a quarter of Frot's time, on E5 half. "
+        "There the Rosenbrock method pays for its order 5 and an estimate of order 4: its steps "
+        "shorten by the fifth root of the tolerance, each with a matrix of its own, where CVODE "
+        "keeps one for many.",
         "",
         "E5 has a first concentration that dies out over hundreds of decades and feeds one that "
         "ends at 1e-22: what rounding did to rates is measured anew where it would let an error "
