@@ -79,7 +79,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->statistics = (frot_statistics){0};
   s->options = options ? *options : (frot_options){0, FROT_REST, 0};
   s->t = s->began = t;
-  s->h = 0, s->caution = 0.8;
+  s->h = s->heard = 0, s->caution = 0.8;
   int status = frot_settle_parameters(m, s, w, NULL);
   if (status != FROT_OK) return status;
   frot_hold_given(m, s);
@@ -103,6 +103,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   s->across = s->foreseen = INFINITY;
   for (int i = 0; i < m->n_rows; i++) s->data[l.posture + i] = NAN;
   frot_choose_first(m, s);
+  memset(s->data + l.slope, 0, sizeof(double) * (size_t)l.nz);
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.worth, 0, sizeof(double) * (size_t)m->nq);

@@ -142,6 +142,14 @@ def test_van_der_pol_goes_from_one_method_to_the_other_and_back(tolerance: float
     assert changes >= 5  # into the slow branch, and twice out of one and into the next
 
 
+def test_what_is_started_again_runs_as_at_first() -> None:
+    """A rate of the run before is none of this one's."""
+    made = engine(robertson("auto", 1e11), 1e-4)
+    first = run(made, 1e11)
+    assert made.start(0.0, 1e-4, "rest") == OK
+    assert np.array_equal(run(made, 1e11).segments, first.segments)
+
+
 @pytest.mark.parametrize("mu", [1e4, 1e6])
 def test_van_der_pol_on_its_slow_branch(mu: float) -> None:
     """There log x - x^2/2 = t/mu + const to the second order in 1/mu."""
