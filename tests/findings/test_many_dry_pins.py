@@ -196,3 +196,23 @@ end ThreeLegs;
         for name in ("O1", "O2", "O3", "A1", "A2", "A3"):
             bound = 0.005 * np.hypot(now[f"{name}.force.x"], now[f"{name}.force.y"])
             assert abs(now[f"{name}.torque"]) <= mu * bound * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-7, 1e-9])
+def test_friction_of_pins_has_a_second_solution(finding, tolerance: float) -> None:
+    """Where the solution that goes on lets nothing move as it must, another one does."""
+    model = finding("folded_chain")
+    result, exact = model.simulate(tolerance=tolerance), model.simulate(tolerance=1e-12)
+    assert result.time[-1] == exact.time[-1]
+    assert [(e.kind, e.liaison) for e in result.events] == [
+        (e.kind, e.liaison) for e in exact.events
+    ]
+    assert abs(result["b0.angle"][-1] - exact["b0.angle"][-1]) <= 100 * tolerance
+    times = np.linspace(0.56, 0.58, 41)
+    now = result.at(times)
+    for k in (0, 1, 4, 5):
+        force = np.hypot(now[f"j{k}.force.x"], now[f"j{k}.force.y"])
+        bound = 0.39035194460713274 * 0.024887619396974748 * force
+        slips = now[f"j{k}.mode"] == 2
+        law = -np.sign(now[f"j{k}.speed"]) * bound
+        assert np.all(np.abs(now[f"j{k}.torque"] - law)[slips] <= 1e-9 * bound[slips])
