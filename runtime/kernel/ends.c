@@ -58,6 +58,7 @@ void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, con
     double *scale = s->data + l->scale_g + j, was = *scale;
     double kept = frot_guard_is_force(m, s, w, k) ? LEFT : 1;
     *scale = fmax(kept * was, w->guards.size[k]);
+    s->data[l->most_g + j] = fmax(s->data[l->most_g + j], *scale);
     if (*scale < was) s->data[l->noise + m->nq + m->nv + j] *= *scale / was;
   }
   s->energy_scale = fmax(s->energy_scale, w->guards.end_kinetic);

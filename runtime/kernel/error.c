@@ -88,7 +88,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       bound = tolerance * size_at_start(m, s, w, state, h);
       if (plain) rounding = noise, noise = 0; /* no inertia smooths it */
     } else {
-      double largest = FROT_GUARD_LOOSEST * s->data[l->scale_g + w->guards.list[j - n]];
+      double largest = FROT_GUARD_LOOSEST * s->data[l->most_g + w->guards.list[j - n]];
       for (int k = 0; k <= DP_STAGES; k++) {
         double size = fabs(frot_stage(w, k)[j]);
         if (size > largest) largest = size;

@@ -98,7 +98,7 @@ int frot_may_fall(const frot_state *s, const frot_work *w, int rests) {
 
 int frot_meets_stages(const frot_state *s, const frot_work *w, double h) {
   for (int k = 0; k < w->guards.count; k++) {
-    double g[7], largest = s->data[w->layout.scale_g + w->guards.list[k]], off = 0;
+    double g[7], largest = s->data[w->layout.most_g + w->guards.list[k]], off = 0;
     frot_guard_polynomial(s, w, k, h, g);
     for (int i = 1; i < DP_STAGES; i++) {
       double value = frot_stage(w, i)[w->awake.n + k];

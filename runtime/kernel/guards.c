@@ -183,6 +183,7 @@ void frot_pass_references(const frot_model *m, frot_state *s, frot_work *w,
 void frot_forget_guards(const frot_model *m, frot_state *s, int first, int count) {
   frot_layout l = frot_layout_of(m);
   memset(s->data + l.scale_g + first, 0, sizeof(double) * (size_t)count);
+  memset(s->data + l.most_g + first, 0, sizeof(double) * (size_t)count);
   memset(s->data + l.noise + m->nq + m->nv + first, 0, sizeof(double) * (size_t)count);
 }
 

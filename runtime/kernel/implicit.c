@@ -259,7 +259,7 @@ int frot_implicit_follows_guards(const frot_model *m, const frot_state *s, const
   double tolerance = frot_guard_tolerance(s->tolerance);
   for (int g = 0; g < w->guards.count; g++) {
     double size = fmax(fabs(row(&l, w, 0)[l.nx + g]), fabs(row(&l, w, DP_STAGES)[l.nx + g]));
-    size = fmax(size, FROT_GUARD_LOOSEST * s->data[l.scale_g + w->guards.list[g]]);
+    size = fmax(size, FROT_GUARD_LOOSEST * s->data[l.most_g + w->guards.list[g]]);
     if (!(jacobian.misfit[g] <= tolerance * size)) return 0;
   }
   return 1;

@@ -106,6 +106,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   memset(s->data + l.slope, 0, sizeof(double) * (size_t)l.nz);
   memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
   memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
+  memset(s->data + l.most_g, 0, sizeof(double) * (size_t)l.ng);
   memset(s->data + l.worth, 0, sizeof(double) * (size_t)m->nq);
   memset(s->data + l.noise, 0, sizeof(double) * (size_t)(m->nq + m->nv + l.ng));
   memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);

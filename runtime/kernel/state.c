@@ -38,6 +38,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.slope = at, at += l.nz;
   l.scale_x = at, at += l.nx;
   l.scale_g = at, at += l.ng;
+  l.most_g = at, at += l.ng;
   l.worth = at, at += m->nq;
   l.noise = at, at += m->nq + m->nv + l.ng;
   l.along = at, at += 2 * m->n_elements;
