@@ -71,9 +71,10 @@ static int is_reaction_or_slip(const frot_model *m, const frot_state *s, const f
 double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int k,
                            double h, const double g[7]) {
   int j = w->guards.list[k];
-  double inside = 0, floor = FROT_GUARD_FLOOR * s->data[w->layout.scale_g + j];
+  double inside = 0, scale = s->data[w->layout.scale_g + j], floor = FROT_GUARD_FLOOR * scale;
   for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
   floor += FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
+  if (scale > 0) floor = fmin(floor, FROT_DROWNED * scale);
   double slack = fmax(FROT_LOCATED * inside, floor);
   if (!frot_guard_is_force(m, s, w, k) || !(fabs(g[0]) <= slack)) slack = 0;
   return s->idle > IDLE && is_reaction_or_slip(m, s, w, j)
