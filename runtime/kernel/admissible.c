@@ -263,12 +263,21 @@ int frot_is_exact(const frot_instant *in, const int *chosen, int count) {
   return 1;
 }
 
+void frot_begin_directions(const frot_instant *in) {
+  const double *from = in->s->data + in->l.along, *turn = in->w->search.turn;
+  double *along = in->w->reactions.along;
+  for (int e = 0; e < in->m->n_elements; e++, from += 2, along += 2) {
+    along[0] = turn[0] * from[0] - turn[1] * from[1];
+    along[1] = turn[1] * from[0] + turn[0] * from[1];
+  }
+}
+
 int frot_is_admissible(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
   w->search.against = 0;
-  memcpy(w->reactions.along, in->s->data + in->l.along, sizeof(double) * 2 * (size_t)m->n_elements);
+  frot_begin_directions(in);
   if (frot_group_reactions(m, w, g, w->search.trial, in->resists)) return 0;
   if (!w->reactions.dependent) return frot_reactions_hold(in, chosen, count) && goes_on(in, g);
   return frot_others_carry(in, chosen, count) && goes_on(in, g);

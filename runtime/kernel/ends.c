@@ -10,11 +10,12 @@
 #include "spare.h"
 #include "stages.h"
 #include "terms.h"
+#include "tolerances.h"
 #include "ways.h"
 
 /* What a step leaves of the size that a force once had: at a jam in passing it is without bound,
  * and nothing would be known of it ever after. */
-#define LEFT 0.3
+#define LEFT 0.5
 
 static const frot_contact_mode *modes_of(const frot_state *s, const frot_work *w) {
   return (const frot_contact_mode *)(const void *)(s->data + w->layout.modes);
@@ -46,7 +47,8 @@ void frot_keep_friction(frot_state *s, const frot_work *w) {
   }
 }
 
-void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z) {
+void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z,
+                     const double *guards) {
   const frot_layout *l = &w->layout;
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n - FROT_QUADRATURES; k++) {
@@ -56,7 +58,8 @@ void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, con
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
     double *scale = s->data + l->scale_g + j, was = *scale;
-    double kept = frot_guard_is_force(m, s, w, k) ? LEFT : 1;
+    int fades = frot_guard_is_force(m, s, w, k) && fabs(guards[k]) > FROT_LOCATED * was;
+    double kept = fades ? LEFT : 1;
     *scale = fmax(kept * was, w->guards.size[k]);
     s->data[l->most_g + j] = fmax(s->data[l->most_g + j], *scale);
     if (*scale < was) s->data[l->noise + m->nq + m->nv + j] *= *scale / was;
@@ -87,12 +90,15 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
   int status = frot_slope(m, s, w, t, w->step.z0, frot_stage(w, 0));
   if (status == FROT_OK) {
     if (!s->from_posture) frot_note_spare(m, s, w);
-    for (int k = 0; k < m->n_groups; k++) s->data[l->sign + k] = w->reactions.sign[k];
+    for (int i = 0; i < w->awake.now->n_groups; i++) {
+      int k = w->awake.now->groups[i];
+      s->data[l->sign + k] = w->reactions.sign[k];
+    }
     memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
     frot_turn_references(m, s, w);
     frot_measure_end(m, s, w, t, w->step.z0);
     frot_keep_friction(s, w);
-    frot_note_sizes(m, s, w, w->step.z0);
+    frot_note_sizes(m, s, w, w->step.z0, w->step.z);
     memcpy(frot_stage(w, 0) + w->awake.n, w->step.z, sizeof(double) * (size_t)w->guards.count);
   }
   if (status != FROT_OK || !s->from_posture) return status;

@@ -16,8 +16,10 @@ void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t
 /* The friction measured there is that at the start of the next step. */
 void frot_keep_friction(frot_state *s, const frot_work *w);
 
-/* Note how large values and guards have been, forces a moment ago, after frot_measure_end at z. */
-void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z);
+/* Note how large values and guards have been, forces a moment ago, after frot_measure_end at z;
+ * `guards`: the values of those listed. One that is at zero keeps its size until it is not. */
+void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z,
+                     const double *guards);
 
 /* Turn the pins' references to their reactions at the end of the step, and with them the guards in
  * its slope. */

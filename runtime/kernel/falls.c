@@ -16,6 +16,8 @@
 
 #define SAMPLES 8 /* places at which a guard that seems to dip may have risen again */
 #define IDLE 10   /* falls to no effect, one after the other, after which one is to be clear */
+/* Part of its largest size below which what was measured of a force is no longer of this one. */
+#define FADED 1e-2
 /* Part of the step in which a condition moves as its slope at the start says. */
 #define AT_ONCE 1e-6
 /* What the polynomial of a guard, of degree six, dips at most below its values at the stages, in
@@ -71,10 +73,12 @@ static int is_reaction_or_slip(const frot_model *m, const frot_state *s, const f
 double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int k,
                            double h, const double g[7]) {
   int j = w->guards.list[k];
-  double inside = 0, scale = s->data[w->layout.scale_g + j], floor = FROT_GUARD_FLOOR * scale;
+  double inside = 0, floor = FROT_GUARD_FLOOR * s->data[w->layout.scale_g + j];
   for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
   floor += FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
-  if (scale > 0) floor = fmin(floor, FROT_DROWNED * scale);
+  double size = s->data[w->layout.scale_g + j];
+  if (size > 0 && size < FADED * s->data[w->layout.most_g + j])
+    floor = fmin(floor, FROT_DROWNED * size);
   double slack = fmax(FROT_LOCATED * inside, floor);
   if (!frot_guard_is_force(m, s, w, k) || !(fabs(g[0]) <= slack)) slack = 0;
   return s->idle > IDLE && is_reaction_or_slip(m, s, w, j)

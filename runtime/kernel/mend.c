@@ -115,8 +115,7 @@ static int mend(const frot_instant *in, const int *chosen, int count, int forced
 int frot_mend_modes(const frot_instant *in, const int *chosen, int count, int forced) {
   frot_contact_mode *trial = in->w->search.trial, *slack = in->w->search.guess;
   size_t modes = sizeof *trial * (size_t)(in->m->n_contacts + in->m->n_elements);
-  memcpy(in->w->reactions.along, in->s->data + in->l.along,
-         sizeof(double) * 2 * (size_t)in->m->n_elements);
+  frot_begin_directions(in);
   for (int c = 0; c < count; c++) put_right(in, chosen[c], forced);
   if (!mend(in, chosen, count, forced, 0)) return 0;
   if (frot_is_exact(in, chosen, count)) return 1;

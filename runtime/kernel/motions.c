@@ -6,10 +6,7 @@
 #include "options.h"
 #include "search.h"
 
-/* Directions all around, and the turn from one to the next. */
-#define TURNS 8
-#define C_TURN 0.7071067811865476
-#define S_TURN 0.7071067811865476
+#define HALF 0.7071067811865476 /* sine of an eighth of a turn */
 
 /* Elements of the contacts chosen that start to slip against less friction than held them: from now
  * on they are looked at with that. Returns how many. */
@@ -113,27 +110,28 @@ static int look_from_here(const frot_instant *in, const int *chosen, int count, 
   return motions;
 }
 
-/* Turn the directions that the pins' reactions are looked for from; returns whether there are any.
- */
-static int turn_directions(const frot_instant *in, const int *chosen, int count) {
-  int own[FROT_LAWS_OF_CONTACT], any = 0;
+static int has_pins(const frot_instant *in, const int *chosen, int count) {
+  int own[FROT_LAWS_OF_CONTACT];
   for (int c = 0; c < count; c++) {
     int laws = frot_laws_of(in->m, chosen[c], own);
-    for (int k = 0; k < laws; k++) {
-      if (in->m->elements[own[k]].bound != FROT_BY_PIN) continue;
-      double *along = in->s->data + in->l.along + 2 * own[k], first = along[0], second = along[1];
-      along[0] = C_TURN * first - S_TURN * second, along[1] = S_TURN * first + C_TURN * second;
-      any = 1;
-    }
+    for (int k = 0; k < laws; k++)
+      if (in->m->elements[own[k]].bound == FROT_BY_PIN) return 1;
   }
-  return any;
+  return 0;
 }
 
 int frot_look_for_motions(const frot_instant *in, const int *chosen, int count, int *unsearched) {
-  int motions = look_from_here(in, chosen, count, unsearched), lasts = in->w->search.lasts;
-  for (int k = 0; k < TURNS && (motions == 0 || !lasts); k++) {
-    if (!turn_directions(in, chosen, count)) break;
-    motions = look_from_here(in, chosen, count, unsearched), lasts = in->w->search.lasts;
+  /* once around: where no other direction serves it is as it was */
+  static const double ways[][2] = {{1, 0},        {HALF, HALF},  {0, 1},
+                                   {-HALF, HALF}, {-1, 0},       {-HALF, -HALF},
+                                   {0, -1},       {HALF, -HALF}, {1, 0}};
+  int motions = 0, pins = has_pins(in, chosen, count);
+  for (size_t k = 0; k < (pins ? sizeof ways / sizeof *ways : 1); k++) {
+    memcpy(in->w->search.turn, ways[k], sizeof ways[k]);
+    if (k > 0) take_back(in, chosen, count);
+    motions = look_from_here(in, chosen, count, unsearched);
+    if (motions > 0 && in->w->search.lasts) break;
   }
+  memcpy(in->w->search.turn, ways[0], sizeof ways[0]);
   return motions;
 }

@@ -25,6 +25,10 @@ typedef struct {
 /* Whether a law's coefficients can ever bound anything: a constant zero is skipped. */
 int frot_bounds_something(const frot_model *m, const frot_work *w, int element);
 
+/* Directions that the pins' reactions are looked for from, into w->reactions.along: those of the
+ * state, turned by w->search.turn. */
+void frot_begin_directions(const frot_instant *in);
+
 /* Whether the reactions of w->search.trial over `count` contacts `chosen` satisfy every inequality.
  * Where they are not unique, sets those elements at their bounds and those contacts without load
  * that let the others carry. */

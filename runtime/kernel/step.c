@@ -131,7 +131,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   s->statistics.steps++;
   s->statistics.implicit_steps += s->implicit, s->was_implicit = s->implicit;
   memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
-  frot_note_sizes(m, s, w, w->step.z1);
+  frot_note_sizes(m, s, w, w->step.z1, frot_stage(w, DP_STAGES) + w->awake.n);
   frot_note_worth(s, w, w->step.z1);
   if (guard >= 0) s->last_ratio = 0;
   if (guard >= 0) frot_fire_guards(m, s, w, guard, a->t, a->h);

@@ -252,13 +252,14 @@ typedef struct {
       *moved_from;
   double *along; /* directions of pins' reactions in `best`: there may be solutions in others */
   int *choice, *component, *chosen;
-  int exact;   /* whether `best` needs no slack: frot_is_exact */
-  int lasts;   /* and whether it lasts: frot_lasts */
-  int falls;   /* 1 + what falls later by no more than slack admits, or what begins and does not
-                  grow, in the motion looked at last, 0: lasting.c */
-  int fades;   /* the same of `best` */
-  int against; /* elements that a little later go against what was last found good: ahead.c */
-  int corners; /* that may still be looked at in this search: others.c */
+  double turn[2]; /* cosine and sine of where pins' reactions are looked for from: motions.h */
+  int exact;      /* whether `best` needs no slack: frot_is_exact */
+  int lasts;      /* and whether it lasts: frot_lasts */
+  int falls;      /* 1 + what falls later by no more than slack admits, or what begins and does not
+                     grow, in the motion looked at last, 0: lasting.c */
+  int fades;      /* the same of `best` */
+  int against;    /* elements that a little later go against what was last found good: ahead.c */
+  int corners;    /* that may still be looked at in this search: others.c */
 } frot_search_work;
 
 /* share.c: the tableau and its basic columns; the columns as they were, whose they are; of contacts
