@@ -73,17 +73,15 @@ static int is_reaction_or_slip(const frot_model *m, const frot_state *s, const f
 double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int k,
                            double h, const double g[7]) {
   int j = w->guards.list[k];
-  double inside = 0, floor = FROT_GUARD_FLOOR * s->data[w->layout.scale_g + j];
+  double size = s->data[w->layout.scale_g + j], most = s->data[w->layout.most_g + j];
+  double inside = 0, floor = FROT_GUARD_FLOOR * size;
   for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
   floor += FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
-  double size = s->data[w->layout.scale_g + j];
-  if (size > 0 && size < FADED * s->data[w->layout.most_g + j])
-    floor = fmin(floor, FROT_DROWNED * size);
+  if (size > 0 && size < FADED * most) floor = fmin(floor, FROT_DROWNED * size);
   double slack = fmax(FROT_LOCATED * inside, floor);
   if (!frot_guard_is_force(m, s, w, k) || !(fabs(g[0]) <= slack)) slack = 0;
-  return s->idle > IDLE && is_reaction_or_slip(m, s, w, j)
-             ? fmax(slack, 2 * FROT_LOCATED * s->data[w->layout.scale_g + j])
-             : slack;
+  return s->idle > IDLE && is_reaction_or_slip(m, s, w, j) ? fmax(slack, 2 * FROT_LOCATED * size)
+                                                           : slack;
 }
 
 int frot_may_fall(const frot_state *s, const frot_work *w, int rests) {
