@@ -35,6 +35,8 @@ _TEXT = 1024
 # first cost more than a short run; in a recorded step, the place of the time at which it begins.
 _CHUNK, _LARGEST_CHUNK = 2**13, 2**24
 _BEGIN = 3
+# Events that the first chunk has room for.
+_EVENTS = 2**8
 # Bytes of recorded steps after which a run is told to be too long.
 MOST_MEMORY = 2**30
 
@@ -207,10 +209,10 @@ class Engine:
         events: list[RawEvent],
         interrupted: list[BaseException],
     ) -> Run:
-        capacity, last = _CHUNK, 0.0
+        capacity, room, last = _CHUNK, _EVENTS, 0.0
         while True:
             buffer = zeros(max(capacity, self.segment_size))
-            raw = (RawEvent * (256 + self._library.frot_events_at_once(self._model)))()
+            raw = (RawEvent * (room + self._library.frot_events_at_once(self._model)))()
             recorder = Recorder(_address(buffer), len(buffer), 0, raw, len(raw), 0)
             status = self._unless_refused(
                 int(
@@ -233,7 +235,11 @@ class Engine:
             taken = 8 * sum(len(chunk) for chunk in chunks)
             if status != FULL or taken > MOST_MEMORY:
                 return Run(status, _joined(chunks), events, last)
-            capacity = min(2 * capacity, _LARGEST_CHUNK)
+            # only what was short is given more: zeros that nobody fills take time too
+            if recorder.event_count > room:
+                room *= 2
+            else:
+                capacity = min(2 * capacity, _LARGEST_CHUNK)
 
     def values(self, record: array[float], times: array[float]) -> array[float]:
         """All variables at each of the times, over segments in order; times in ascending order.
