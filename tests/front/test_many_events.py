@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from array import array
 
-import frot
 import pytest
 from frot.runtime import engine
+
+import frot
 
 TICKS = """model M
   parameter Time T = 0.1 ms;
