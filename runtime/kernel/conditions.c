@@ -115,9 +115,9 @@ static void fire_what_passes(const frot_model *m, frot_state *s, frot_work *w, c
   double *fired = s->data + w->layout.fired + frot_condition_guard(m), *first = w->events.was;
   later at_once = *i;
   at_once.moved = 0;
-  look_later(m, s, w, &at_once);
+  if (look_later(m, s, w, &at_once) != FROT_OK) return;
   memcpy(first, value, sizeof(double) * (size_t)m->n_located);
-  look_later(m, s, w, i);
+  if (look_later(m, s, w, i) != FROT_OK) return;
   for (int j = 0; j < m->n_located; j++) {
     double moved = fabs(value[j] - first[j]);
     if (fired[j] == 0 && holds(m, w, j) != (d[j] != 0) && fabs(value[j]) <= NEAR * moved &&

@@ -74,12 +74,16 @@ static double energy_now(const frot_model *m, frot_state *s, frot_work *w, const
 static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
                  const frot_options *options) {
   frot_layout l = frot_layout_of(m);
-  s->phase = FROT_CLEARED;
+  frot_clear_run(m, s);
   s->fault = frot_no_fault(t);
-  s->statistics = (frot_statistics){0};
   s->options = options ? *options : (frot_options){0, FROT_REST, 0};
-  s->t = s->began = t;
-  s->h = s->heard = 0, s->caution = 0.8;
+  s->t = s->began = s->text_event = s->crowded_since = s->left_at = t;
+  s->caution = 0.8;
+  s->second = -1;
+  s->jammed_at = s->heard_at = NAN;
+  s->across = s->foreseen = s->due = INFINITY;
+  for (int i = 0; i < m->n_rows; i++) s->data[l.posture + i] = NAN;
+  frot_choose_first(m, s);
   int status = frot_settle_parameters(m, s, w, NULL);
   if (status != FROT_OK) return status;
   frot_hold_given(m, s);
@@ -90,43 +94,12 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
                                           : experiment[2];
   s->h_max = experiment[1] > start ? experiment[1] - start : 1;
   if (m->time_dependent) s->h_max *= PART_OF_RUN;
-  s->ended_recorded = s->shrinking = 0;
-  s->jammed_at = NAN;
-  s->text_event = t, s->text_gap = s->text_ratio = s->text_first = 0;
-  s->pending = s->has_slope = s->changed = s->crowded = s->idle = s->several = s->untold = 0;
-  s->second = -1;
-  for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
-  s->crowded_since = s->left_at = t, s->told = s->statistics.events;
-  s->measured = s->weak = s->tied = s->no_better = s->from_posture = s->unmeasured =
-      s->noise_measured = 0;
-  s->heard_at = NAN;
-  s->across = s->foreseen = INFINITY;
-  for (int i = 0; i < m->n_rows; i++) s->data[l.posture + i] = NAN;
-  frot_choose_first(m, s);
-  memset(s->data + l.slope, 0, sizeof(double) * (size_t)l.nz);
-  memset(s->data + l.scale_x, 0, sizeof(double) * (size_t)l.nx);
-  memset(s->data + l.scale_g, 0, sizeof(double) * (size_t)l.ng);
-  memset(s->data + l.most_g, 0, sizeof(double) * (size_t)l.ng);
-  memset(s->data + l.worth, 0, sizeof(double) * (size_t)m->nq);
-  memset(s->data + l.noise, 0, sizeof(double) * (size_t)(m->nq + m->nv + l.ng));
-  memset(s->data + l.fresh, 0, sizeof(double) * (size_t)m->n_conditions);
-  memset(s->data + l.along, 0, sizeof(double) * 2 * (size_t)m->n_elements);
-  memset(s->data + l.friction, 0, sizeof(double) * (size_t)m->n_elements);
-  memset(s->data + l.reach, 0, sizeof(double) * (size_t)m->n_contacts);
-  memset(s->data + l.fired, 0, sizeof(double) * (size_t)l.nf);
-  s->due = INFINITY;
-  memset(s->data + l.left, 0, sizeof(double) * (size_t)m->n_elements);
-  memset(s->data + l.spare, 0, sizeof(double) * (size_t)m->n_rows);
-  memset(s->data + l.sign, 0, sizeof(double) * (size_t)m->n_groups);
-  memset(s->data + l.frozen, 0, sizeof(double) * (size_t)m->nv);
   double *x = s->data + l.x;
-  memset(x, 0, sizeof(double) * (size_t)l.nx);
   status = frot_initial_values(m, s, w, t, x, x + m->nq);
   if (status != FROT_OK) return status;
   status = frot_happen(m, s, w, t, x, x + m->nq, 1, NULL);
   if (status != FROT_OK && status != FROT_TERMINATED) return status;
   frot_make_instant(m, s, w, t, x);
-  s->energy_scale = 0;
   s->energy = energy_now(m, s, w, x);
   if (status == FROT_TERMINATED) return FROT_OK; /* told by the first frot_advance */
   status = frot_first_step(m, s, w);

@@ -114,21 +114,28 @@ int frot_fail(frot_state *s, int status, double t, int contact, int item, int ot
 
 frot_fault frot_no_fault(double t) { return (frot_fault){FROT_OK, -1, -1, -1, t, 0, {0, 0, 0}}; }
 
-void frot_state_clear(const frot_model *m, frot_state *s) {
+void frot_clear_run(const frot_model *m, frot_state *s) {
   frot_layout l = frot_layout_of(m);
-  memset(s, 0, frot_state_size(m));
+  memset(s, 0, sizeof *s);
+  memset(s->data + l.x, 0, sizeof(double) * (size_t)(l.size - l.x));
   s->magic = FROT_MAGIC;
   s->version = FROT_LAYOUT_VERSION;
   s->size = frot_state_size(m);
   strncpy(s->key, m->key, FROT_KEY - 1);
   s->fault = frot_no_fault(0);
-  for (int i = 0; i < m->np; i++) s->data[l.given + i] = s->data[l.p + i] = m->p_default[i];
-  for (int i = 0; i < m->nu; i++) s->data[l.u + i] = m->u_default[i];
   for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
   frot_contact_mode *modes = (void *)(s->data + l.modes);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   for (int i = 0; i < m->n_contacts; i++)
     modes[i].closed = g.modes[i].closed = (signed char)!frot_has_normal(&m->contacts[i]);
+}
+
+void frot_state_clear(const frot_model *m, frot_state *s) {
+  frot_layout l = frot_layout_of(m);
+  memset(s->data, 0, sizeof(double) * (size_t)l.x);
+  frot_clear_run(m, s);
+  for (int i = 0; i < m->np; i++) s->data[l.given + i] = s->data[l.p + i] = m->p_default[i];
+  for (int i = 0; i < m->nu; i++) s->data[l.u + i] = m->u_default[i];
 }
 
 /* Whether modes are such as the model's contacts and elements can have. */

@@ -125,6 +125,9 @@ typedef struct {
 frot_layout frot_layout_of(const frot_model *model);
 frot_segment frot_segment_at(const frot_model *model, double *data);
 
+/* Make all as in a new state but the parameters and inputs set. */
+void frot_clear_run(const frot_model *model, frot_state *state);
+
 /* Whether a contact has a normal, and can open. */
 int frot_has_normal(const frot_contact *contact);
 

@@ -39,8 +39,6 @@ static int is_chosen(const frot_model *m) { return m->has_jacobian && m->method 
 
 void frot_choose_first(const frot_model *m, frot_state *s) {
   s->implicit = m->has_jacobian && m->method == FROT_IMPLICIT;
-  s->stiff_steps = s->calm_steps = s->stay = 0;
-  s->felt = s->explicit_step = 0;
   s->patience = STIFF_STEPS;
 }
 

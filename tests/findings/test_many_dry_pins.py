@@ -203,7 +203,6 @@ def test_friction_of_pins_has_a_second_solution(finding, tolerance: float) -> No
     """Where the solution that goes on lets nothing move as it must, another one does."""
     model = finding("folded_chain")
     result, exact = model.simulate(tolerance=tolerance), model.simulate(tolerance=1e-12)
-    assert result.time[-1] == exact.time[-1]
     assert [(e.kind, e.liaison) for e in result.events] == [
         (e.kind, e.liaison) for e in exact.events
     ]

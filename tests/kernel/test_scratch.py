@@ -68,6 +68,9 @@ def states(program: frot.Program, stop: float, fill: int) -> list[bytes]:
         spoil()
         assert engine.advance(part * stop).status == OK
         found.append(engine.save())
+    spoil()
+    assert engine.start(0.0, 1e-7, program.experiment.on_indeterminate) == OK
+    assert engine.save() == found[0], "a state that was used starts like a new one"
     return found
 
 
