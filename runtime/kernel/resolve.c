@@ -91,6 +91,13 @@ static int only_loops(const frot_instant *in, int contact) {
   return g->n_elements == 0;
 }
 
+/* Whether the modes have ended for want of reactions beyond the instant, and no others last: what
+ * goes on in them would do so by rounding, beyond a pole. */
+static int has_jammed(const frot_instant *in, int contact) {
+  return !in->w->search.lasts && in->s->jammed_at == in->t &&
+         in->s->jammed == in->m->contact_group[contact];
+}
+
 /* The modes into w->search.best, component after component; each that has several motions is told.
  */
 static int choose_modes(const frot_instant *in, double t, int first, frot_recorder *recorder) {
@@ -109,6 +116,8 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
     int motions = frot_look_for_motions(in, chosen, count, &unsearched);
     in->s->statistics.unsearched += unsearched;
     if (!w->search.lasts) in->s->fleeting = chosen[0];
+    if (motions > 0 && has_jammed(in, chosen[0]))
+      return frot_fail_step(m, in->s, w, FROT_DIVERGE, t, 0);
     if (motions == 0) {
       int fault = unsearched                  ? FROT_TOO_LARGE
                   : only_loops(in, chosen[0]) ? FROT_POSTURE
@@ -179,7 +188,8 @@ static int find_lasting_modes(frot_instant *in, double *q, double *v, int first,
   memcpy(found->closable, found->best, modes);
   for (int pass = 0;; pass++) {
     int status = find_modes(in, q, v, first, recorder);
-    int ended = status == FROT_IMPASSE || (status == FROT_OK && s->fleeting >= 0);
+    int told = status == FROT_OK || status == FROT_DIVERGE;
+    int ended = status == FROT_IMPASSE || (told && s->fleeting >= 0);
     if (!ended || pass == 2 || (pass == 0 && !any_slight(in, part))) return status;
     in->slight = pass == 0 ? part : 0; /* else as they were */
     s->phase = phase, s->fault = frot_no_fault(in->t);
