@@ -30,15 +30,17 @@ static void list_closable(const frot_instant *in, int first) {
   }
 }
 
-/* A gap that closes with speed is an impact. */
+/* A gap that closes with speed is an impact. What the motion as a whole leaves of it by rounding is
+ * none: speeds that only rounding ever made are no measure of it. */
 static int refuse_impacts(const frot_instant *in, double t) {
   const frot_model *m = in->m;
   for (int i = 0; i < m->n_contacts; i++) {
     if (in->w->search.before[i].closed || !in->w->search.best[i].closed) continue;
     int row = m->contacts[i].row_n;
     double rate = in->w->core.rate[row];
-    if (rate < -FROT_TOUCH * frot_typical_speed(in, row))
-      return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
+    double none =
+        FROT_TOUCH * frot_typical_speed(in, row) + FROT_ZERO * frot_row_speed(m, in->w, row, in->v);
+    if (rate < -none) return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
   }
   return FROT_OK;
 }
