@@ -5,6 +5,7 @@
 
 #include "blame.h"
 #include "blocks.h"
+#include "conditions.h"
 #include "core.h"
 #include "groups.h"
 #include "mechanics.h"
@@ -68,4 +69,38 @@ int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, 
     frot_open(m, modes, i);
   }
   return status == FROT_OK ? status : frot_fail_evaluation(m, s, w, status, t);
+}
+
+/* Whether condition j is that of an end of an open contact that meets something now. */
+static int may_pass(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
+  const frot_layout *l = &w->layout;
+  const frot_contact_mode *modes = (const void *)(s->data + l->modes);
+  int i = m->conditions[j].contact;
+  return i >= 0 && !modes[i].closed && s->data[l->fired + i] != 0 && s->data[l->d + j] == 0;
+}
+
+int frot_fire_ends(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q,
+                   double *v) {
+  const double *slope = s->data + w->layout.slope, *value = w->core.condition;
+  double *fired = s->data + w->layout.fired + frot_condition_guard(m), *now = w->events.was,
+         *there = w->step.z, size = frot_size_of_time(*t, s->h_max), far = FROT_APART * size;
+  int any = 0;
+  for (int j = 0; j < m->n_located; j++) any |= may_pass(m, s, w, j);
+  if (!any) return FROT_OK;
+  int status = frot_look(m, s, w, *t, q, v);
+  memcpy(now, value, sizeof(double) * (size_t)m->n_conditions);
+  for (int k = 0; k < m->nq; k++) there[k] = q[k] + far * slope[k];
+  for (int k = 0; k < m->nv; k++) there[m->nq + k] = v[k] + far * slope[m->nq + k];
+  if (status == FROT_OK) status = frot_look(m, s, w, *t + far, there, there + m->nq);
+  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, *t);
+  double later = 0;
+  for (int j = 0; j < m->n_located; j++) {
+    double rate = (value[j] - now[j]) / far;
+    if (!may_pass(m, s, w, j) || !(rate > 0) || !(-now[j] <= FROT_LOCATED * size * rate)) continue;
+    fired[j] = 1, later = fmax(later, -now[j] / rate);
+  }
+  *t += later;
+  for (int k = 0; k < m->nq; k++) q[k] += later * slope[k];
+  for (int k = 0; k < m->nv; k++) v[k] += later * slope[m->nq + k];
+  return FROT_OK;
 }

@@ -19,4 +19,10 @@ void frot_note_normals(const frot_model *m, frot_work *w);
 int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, frot_recorder *recorder);
 
+/* Fire the ends by which open contacts pass that meet something now: a corner that meets another
+ * one and goes on beyond it. Moves t and (q, v) on to where they are passed, nearer than events are
+ * located. FROT_OK or the status of the fault recorded. */
+int frot_fire_ends(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q,
+                   double *v);
+
 #endif

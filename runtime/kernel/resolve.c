@@ -30,8 +30,8 @@ static void list_closable(const frot_instant *in, int first) {
   }
 }
 
-/* A gap that closes with speed is an impact. What the motion as a whole leaves of it by rounding is
- * none: speeds that only rounding ever made are no measure of it. */
+/* A gap that closes with speed is an impact, one that opens stays open. What the motion as a whole
+ * leaves of a speed by rounding is none: what only rounding ever moved is no measure of it. */
 static int refuse_impacts(const frot_instant *in, double t) {
   const frot_model *m = in->m;
   for (int i = 0; i < m->n_contacts; i++) {
@@ -40,6 +40,7 @@ static int refuse_impacts(const frot_instant *in, double t) {
     double rate = in->w->core.rate[row];
     double none =
         FROT_TOUCH * frot_typical_speed(in, row) + FROT_ZERO * frot_row_speed(m, in->w, row, in->v);
+    if (rate > none) in->w->search.best[i].closed = 0;
     if (rate < -none) return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
   }
   return FROT_OK;

@@ -7,6 +7,7 @@
 #include "blame.h"
 #include "blocks.h"
 #include "conditions.h"
+#include "edges.h"
 #include "groups.h"
 #include "happen.h"
 #include "initial.h"
@@ -188,7 +189,8 @@ static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
   double *x = s->data + l.x;
   memcpy(w->blocks.y, s->data + l.y, sizeof(double) * (size_t)m->ny);
   int stays = s->crowded > RESTLESS && frot_stay(m, s, w, *g.t1, x);
-  int status = stays ? FROT_OK : frot_cross(m, s, w, g.t1, x, x + m->nq);
+  int status = frot_fire_ends(m, s, w, g.t1, x, x + m->nq);
+  if (status == FROT_OK && !stays) status = frot_cross(m, s, w, g.t1, x, x + m->nq);
   double t = *g.t1;
   if (status == FROT_OK) status = frot_happen(m, s, w, t, x, x + m->nq, 0, recorder);
   memcpy(s->data + l.y, w->blocks.y, sizeof(double) * (size_t)m->ny);

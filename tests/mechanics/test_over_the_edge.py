@@ -1,10 +1,12 @@
-"""A box slides over the edge of another: its face rests on the corner there, without a blow."""
+"""A box slides over the edge of another: on the corner there, round it and off, without a blow."""
 
 from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import frot
 
@@ -60,3 +62,38 @@ def test_the_corner_takes_over_where_the_face_comes_to_it(
     assert times[:2] == pytest.approx([after(1.5 * size)] * 2, abs=near)
     assert times[2] == pytest.approx(after((2 - mu / 2) * size), abs=near)
     assert len(kept) == 3
+
+
+def slides_off(v: float) -> tuple[float, float, float]:
+    """When the rear corner comes to the edge, with angle and speed there, without friction.
+
+    G = corner - s e1 + e2/2, so that (1/6 + s^2) a = s (g cos x - 2 s' w - w^2/2) and
+    s'' = s w^2 + g sin x - a/2, for a box of 1 m and 1 kg.
+    """
+
+    def rates(_: float, z: np.ndarray) -> list[float]:
+        x, s, w, along = z
+        a = s * (G * np.cos(x) - 2 * along * w - w * w / 2) / (1 / 6 + s * s)
+        return [w, along, a, s * w * w + G * np.sin(x) - a / 2]
+
+    def rear(_: float, z: np.ndarray) -> float:
+        return float(z[1] + 0.5)
+
+    rear.terminal = True  # type: ignore[attr-defined]
+    run = solve_ivp(rates, (0, 9), [0, 0, 0, -v], "DOP853", events=rear, rtol=1e-12, atol=1e-13)
+    return 2 / v + run.t[-1], run.y[0, -1], run.y[2, -1]
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-7, 1e-9, 1e-12])
+@pytest.mark.parametrize("v", [3, -3, 4.1, -2.2])
+def test_what_slides_off_falls(model: frot.Model, v: float, tolerance: float) -> None:
+    """The rear corner passes that of the table, beside which nothing is met."""
+    at, angle, speed = slides_off(abs(v))
+    result = model.simulate(stop=at + 0.3, tolerance=tolerance, parameters={"v": v})
+    last, end, way = result.events[-1], result.at(at + 0.3), math.copysign(1, v)
+    near = 3 * tolerance + 1e-10
+    assert last.after == "open"
+    assert last.time == pytest.approx(at, abs=near)
+    assert end["load.angular_velocity"] == pytest.approx(way * speed, abs=near * abs(speed))
+    assert end["load.angle"] == pytest.approx(way * (angle + 0.3 * speed), abs=near)
+    assert end["load.acceleration.y"] == pytest.approx(-G, abs=1e-9)
