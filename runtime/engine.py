@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 OK, FULL, STOPPED, TERMINATED = 0, 1, 2, 3
-VANISHED = 32
+NAN, VANISHED = 17, 32
 # A change of parameters or inputs that was taken back, and the message that tells it.
 REFUSALS = {10: "E0401", 24: "E0908"}
 INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
@@ -278,9 +278,13 @@ class Engine:
         width = len(self.program.variables)
         lost = next((k for k, value in enumerate(values) if not math.isfinite(value)), 0)
         row, column = divmod(lost, width)
+        places = tuple(f"at {place}" for place in self.fault_places)
         if status == VANISHED:
-            places = tuple(f"at {place}" for place in self.fault_places)
             log.report("E0911", self.fault_text, None, notes=places)
+            return NoValues(log, times[row])
+        if places and self.fault.status == NAN and self.fault.t == times[row]:
+            remedy = "correct the expression, or keep the motion away from there"
+            log.report("E0904", self.fault_text, None, notes=places, help=remedy)
             return NoValues(log, times[row])
         what = f"variable '{self.program.variables[column].name}' has no finite value"
         if all(math.isnan(value) for value in values[row * width : (row + 1) * width]):

@@ -18,6 +18,16 @@ def report_unbalanced(
     log: Log,
 ) -> None:
     """Report E0603 for the unknowns and E0604 for the equations, each with its places."""
+    if found.unknowns and all(unknowns[j].span is None for j in found.unknowns):
+        moved = _listed([unknowns[j].name for j in found.unknowns])
+        log.report(
+            "E0603",
+            f"too few equations: nothing determines the acceleration of {moved}, for forces that "
+            "follow accelerations take its inertia away",
+            origins[found.equations[0]].span if found.equations else None,
+            help="let such a force act through a state, or give the body another mass",
+        )
+        return
     if found.unknowns:
         names = [unknowns[j].name for j in found.unknowns]
         spans = {unknowns[j].span: unknowns[j].name for j in found.unknowns}

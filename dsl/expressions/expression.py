@@ -73,7 +73,9 @@ def fitting(
     if is_number and kind.enumeration is None:
         wanted, shown = "a whole number", "a number that may be none"
     help_text = ""
-    if kind.base not in NUMERIC:
+    if is_number and kind.enumeration is None:
+        help_text = "round it: 'floor(...)'"
+    elif kind.base not in NUMERIC:
         pass
     elif isinstance(node, tree.Number) and not node.unit and kind.is_scalar:
         help_text = f"write the unit: '{node.span.text} {unit or kind.dimension.unit}'"
@@ -88,7 +90,7 @@ def fitting(
         node.span,
         caret=shown,
         help=help_text
-        if help_text and not kind.dimension.is_one
+        if help_text and (is_number or not kind.dimension.is_one)
         else remedy or seconds_missing(kind, found),
     )
     return None

@@ -21,6 +21,7 @@ from frot.dsl.quantities.dimensions import REAL
 from frot.dsl.quantities.units import is_unit
 from frot.dsl.text import tree
 
+_WORDS = ("true", "false", "pi", "time", "ground")
 _MODES = tuple(f"Mode.{name}" for name in MODES)
 
 
@@ -81,17 +82,20 @@ def _built_in(node: tree.Name, scope: Scope) -> Thing | None:
             "E0201",
             f"unknown name {node.text!r}",
             node.span,
-            help=_product_in_unit(node) or did_you_mean(node.text, scope.visible(), scope.log),
+            help=_unit_apart(node)
+            or did_you_mean(node.text, (*scope.visible(), *_WORDS), scope.log),
         )
     return None
 
 
-def _product_in_unit(node: tree.Name) -> str:
-    """The remedy where a unit is written as a product: `2 N*m`."""
+def _unit_apart(node: tree.Name) -> str:
+    """The remedy where a unit is written as a product or with blanks: `2 N*m`, `3 m / s`."""
     text, start = node.span.source.text, node.span.start
-    before = re.search(r"([\d.]+)[ \t]+(\w+)\*$", text[max(start - 60, 0) : start])
+    before = re.search(r"([\d.]+)[ \t]+(\w+)([ \t]*[*/][ \t]*)$", text[max(start - 60, 0) : start])
     if before is None or not is_unit(before[2]) or not is_unit(node.text):
         return ""
+    if "/" in before[3]:
+        return f"a unit has no blanks: '{before[1]} {before[2]}/{node.text}'"
     return f"in a unit a product is a point: '{before[1]} {before[2]}.{node.text}'"
 
 
@@ -225,6 +229,7 @@ def _chosen(node: tree.Expression, size: int, scope: Scope) -> list[int] | None:
         if not 1 <= value <= size:
             message = f"the index must be from 1 to {size}"
             shown = f"it is {value}" if not isinstance(node, tree.Number) else ""
-            scope.log.report("E0304", message, node.span, caret=shown)
+            remedy = "items are counted from 1" if value < 1 else "name an item that there is"
+            scope.log.report("E0304", message, node.span, caret=shown, help=remedy)
             return None
     return None if values is None else [v - 1 for v in values]

@@ -106,7 +106,7 @@ _NAMES = {
         "wrong arguments",
         "Arguments are given by position or by name; one is missing, unknown, given twice or "
         "one too many.",
-        "Give the arguments that the note lists.",
+        "Give the arguments that it takes; docs/language.md lists them.",
         snippet("body ball: disc(mass = 1 kg);"),
     ),
     "E0205": (

@@ -9,6 +9,36 @@ from frot.dsl.catalogue import plain
 from frot.dsl.messages.diagnostics import LIMIT, Log
 
 _CANDIDATES = 2000
+# What the same is called elsewhere.
+_ELSEWHERE = {
+    **dict.fromkeys(("cube", "square", "rectangle", "block", "cuboid"), "box"),
+    **dict.fromkeys(("bar", "beam", "stick", "link"), "rod"),
+    **dict.fromkeys(("wheel", "circle"), "disc"),
+    **dict.fromkeys(("point", "mass", "pointmass", "point_mass"), "particle"),
+    **dict.fromkeys(("friction", "dry_friction", "frottement", "dry"), "coulomb"),
+    **dict.fromkeys(("hinge", "pin"), "pivot"),
+    **dict.fromkeys(("slider", "slide"), "prismatic"),
+    **dict.fromkeys(("fixed", "rigid", "clamp"), "weld"),
+    **dict.fromkeys(("rope", "cable", "string"), "thread"),
+    **dict.fromkeys(("gravity", "force"), "on"),
+    **dict.fromkeys(("ball", "ball_joint"), "spherical"),
+    **dict.fromkeys(("torsion", "moment"), "couple"),
+    "ln": "log",
+    "arcsin": "asin",
+    "arccos": "acos",
+    "arctan": "atan",
+    "arctan2": "atan2",
+    "sgn": "sign",
+    "fabs": "abs",
+    "pow": "^",
+    "True": "true",
+    "False": "false",
+    "TRUE": "true",
+    "FALSE": "false",
+    "PI": "pi",
+    "t": "time",
+    "derivative": "der",
+}
 
 
 def near(word: str, names: Iterable[str]) -> str:
@@ -18,6 +48,8 @@ def near(word: str, names: Iterable[str]) -> str:
     one.
     """
     names = list(names)
+    if _ELSEWHERE.get(word) in names:
+        return _ELSEWHERE[word]
     wanted = plain(word).lower()
     begun = [n for n in names if plain(n).lower().startswith(wanted)] if wanted else []
     if len(begun) == 1:

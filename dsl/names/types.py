@@ -103,12 +103,11 @@ def _tell_unknown(node: tree.Expression, scope: Scope) -> None:
             if not owner.space.knows(node.name.text):
                 return
             names, last = list(owner.space.definitions), node.name.text
-    scope.log.report(
-        "E0206",
-        f"unknown type {written!r}",
-        node.span,
-        help=did_you_mean(last, names, scope.log),
-    )
+    help_text = did_you_mean(last, names, scope.log)
+    if last == written and "." in written:
+        first = written.partition(".")[0]
+        help_text = f"where {first!r} is a library, write 'import {first};' before"
+    scope.log.report("E0206", f"unknown type {written!r}", node.span, help=help_text)
 
 
 # ------------------------------------------------------------------ `type Name = ...;`

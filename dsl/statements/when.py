@@ -138,6 +138,8 @@ def _action(leaf: tree.Equation | tree.When | tree.IfEquation, scope: Scope) -> 
                 return _terminate(call, scope)
             case "assert":
                 return assertion(call, scope)
+    if name == "experiment" and scope.log.failed:
+        return None  # the 'end when' that is missing before it was told
     what = f"{name!r}" if name else "this"
     scope.log.report(
         "E0518",

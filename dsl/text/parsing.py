@@ -89,6 +89,11 @@ class _Reader:
                 self.reported += 1
                 offset = self._resume(token)
                 continue
+            if self._ends_nothing(token):
+                messages.closes_nothing(self.log, self.source, token)
+                self.reported += 1
+                offset = self._resume(token)
+                continue
             if self._shift(token):
                 offset = token.end
                 continue
@@ -180,6 +185,16 @@ class _Reader:
         if not self.statement or self.previous is None or not self._in_block():
             return False
         place = self.previous.end
+        for word in _BLOCKS:
+            # `end;`, or the `end` of what the block stands in.
+            if self.previous.type == "END" and self._fits(word):
+                messages.missing_block_end(self.log, self.source, self.previous, word.lower())
+                self.reported += 1
+                self._put(word, place)
+                if token.type != "SEMICOLON":
+                    self._put("SEMICOLON", place)
+                    self._put("END", place)
+                return self.reported < LIMIT
         for word in ("THEN", "LOOP"):
             # The word is missing where a line ended, or where what follows is a statement.
             if self._ends_line(token) and self._fits(word, token.type):
@@ -205,6 +220,12 @@ class _Reader:
                 self._put(kind, place)
             return self.reported < LIMIT
         return False
+
+    def _ends_nothing(self, token: Lexeme) -> bool:
+        """Whether `end when` stands where no `when` is open."""
+        if token.type != "IDENT" or self.previous is None or self.previous.type != "END":
+            return False
+        return self.source.text[token.start : token.end].upper() in _BLOCKS
 
     def _separates(self, token: Lexeme) -> bool:
         """Whether `;` stands where `,` is meant: the parenthesis is closed on the same line."""

@@ -85,7 +85,29 @@ _FOREIGN = {
     "\\": "a quotient is written 'a/b'",
     "@": "a product of matrices is written 'A*B'",
     "~": "a condition is negated by 'not'",
+    "°": "leave a space between a number and its unit: '20 °', or write '20 deg'",
+    "$": "names have letters, digits and '_'",
 }
+# Words of Modelica that have no place here, and how the same is said.
+_MODELICA = {
+    "discrete": "leave the word out: a variable that a 'when' gives its values keeps them between",
+    "algorithm": "there are equations only: write 'equation', and 'left = right;' without order",
+    "protected": "leave the word out: every declaration can be read from outside",
+    "public": "leave the word out: every declaration can be read from outside",
+    "inner": "leave the word out, and hand the value down as a parameter of the part",
+    "outer": "leave the word out, and declare the value as a parameter of this model",
+    "replaceable": "leave the word out, and choose the part where it is declared",
+    "redeclare": "declare the part in the model that is built, by its own type",
+    "annotation": "leave it out; a run is described by 'experiment(stop = 1 s);'",
+    "block": "write 'model'",
+    "class": "write 'model'",
+    "within": "leave it out: a file is a member of the folder it lies in",
+    "encapsulated": "leave the word out",
+    "each": "leave the word out: a value of one item is given to all of them",
+    "elif": "write 'elseif'",
+    "elsif": "write 'elseif'",
+}
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
 _COMMA = re.compile(r"(\d+),(\d+)")
 _LIAISON = ("LIAISON", "JOINT")
 _SINGLE = ("FRAME", "CURVE", "SURFACE")
@@ -154,6 +176,21 @@ def missing_end(log: Log, source: Source, name: str, token: Lexeme) -> None:
     )
 
 
+def missing_block_end(log: Log, source: Source, previous: Lexeme, word: str) -> None:
+    """`end` closes a block of statements without its word."""
+    remedy = f"write 'end {word};' where the {word!r} ends"
+    log.report("E0101", f"'end' of {word!r} without its word", _span(source, previous), help=remedy)
+
+
+def closes_nothing(log: Log, source: Source, token: Lexeme) -> None:
+    """`end when` without a `when`."""
+    word = source.text[token.start : token.end]
+    remedy = "take it away"
+    log.report(
+        "E0105", f"'end {word}' where no {word!r} is open", _span(source, token), help=remedy
+    )
+
+
 def unexpected(
     log: Log,
     source: Source,
@@ -167,7 +204,12 @@ def unexpected(
     text = source.text
     word = text[token.start : token.end]
     span = _span(source, token)
-    if token.type == JUNK:
+    foreign = _of_modelica(text, previous, token, statement)
+    if foreign is not None:
+        found = text[foreign.start : foreign.end].rpartition(" ")[2]
+        place = Span(source, foreign.end - len(found), foreign.end)
+        log.report("E0101", f"{found!r} is no word of this language", place, help=_MODELICA[found])
+    elif token.type == JUNK:
         _junk(log, source, token)
     elif (
         previous is not None
@@ -176,11 +218,14 @@ def unexpected(
         and previous.end == token.start
     ):
         number = text[previous.start : previous.end]
+        remedy = f"for a unit leave a space: '{number} {word}'; for a product: '{number}*{word}'"
+        if (power := word.translate(_RAISED)).isdigit():
+            remedy = f"a power is written '{number}^{power}'"
         log.report(
             "E0106",
             f"a number and the word {word!r} are glued together",
             Span(source, previous.start, token.end),
-            help=f"for a unit leave a space: '{number} {word}'; for a product: '{number}*{word}'",
+            help=remedy,
         )
     elif token.type == "COLON" and text.startswith(":=", token.start):
         log.report(
@@ -207,6 +252,15 @@ def unexpected(
     elif previous is not None and text[previous.start : previous.end].endswith(" %"):
         remedy = "the remainder of a division is 'mod(a, b)'; after a number '%' is a hundredth"
         log.report("E0101", f"unexpected {_shown(word)!r} after '%'", span, help=remedy)
+    elif word == "*" and text.startswith("*/", token.start):
+        both = Span(source, token.start, token.start + 2)
+        log.report("E0101", "'*/' without a comment to end", both, help="'/*' opens a comment")
+    elif word == ")" and _none_open(statement):
+        remedy = "take it away, or put '(' where it begins"
+        log.report("E0101", "this ')' closes nothing", span, help=remedy)
+    elif word == ":" and previous is not None and text[previous.start] in "[,":
+        remedy = "write the range in full: 'A[2, 1:3]'"
+        log.report("E0101", "a range without its ends", span, help=remedy)
     elif word == "[" and statement and statement[0].type in _SINGLE:
         what = text[statement[0].start : statement[0].end]
         remedy = f"put the {what} into a model beside its body, and declare an array of that model"
@@ -236,6 +290,23 @@ def unexpected(
         log.report("E0105", "'end' without a model to end", span)
     else:
         _misplaced(log, source, previous, token, expected, statement)
+
+
+def _of_modelica(
+    text: str, previous: Lexeme | None, token: Lexeme, statement: Sequence[Lexeme]
+) -> Lexeme | None:
+    """The word of Modelica that the token, or what stands before it, is."""
+    first = statement[0] if statement and previous is not None else None
+    followed = len(statement) > 1 and text[statement[1].start].isalpha()
+    for place in (token, previous, first if followed else None):
+        if place is not None and text[place.start : place.end].rpartition(" ")[2] in _MODELICA:
+            return place
+    return None
+
+
+def _none_open(statement: Sequence[Lexeme]) -> bool:
+    closing = sum(t.type in ("RPAR", "CLOSE_UNIT") for t in statement)
+    return sum(t.type == "LPAR" for t in statement) <= closing
 
 
 def _is_update(text: str, previous: Lexeme, token: Lexeme) -> bool:

@@ -168,8 +168,10 @@ int frot_name_vanished_there(const frot_model *m, frot_state *s, frot_work *w, i
   int phase = s->phase;
   frot_fault fault = s->fault;
   s->fault = frot_no_fault(t), s->fault.status = status;
-  status = frot_name_vanished(m, s, w, status, w->step.z1);
+  int found = frot_name_vanished(m, s, w, status, w->step.z1);
+  if (found == FROT_NAN && phase != FROT_FAULTED) frot_fail_evaluation(m, s, w, found, t);
   s->phase = phase;
-  if (status != FROT_VANISHED) s->fault = fault;
-  return status;
+  /* where the run itself has failed, that is what is told */
+  if (found != FROT_VANISHED && (found != FROT_NAN || phase == FROT_FAULTED)) s->fault = fault;
+  return found;
 }

@@ -164,7 +164,7 @@ static int find_values(const instant *in, int rank, double *q, double *v) {
     w->call.res[3] = w->events.outcome;
     frot_call(w, &m->update);
     if (!frot_all_finite(q, m->nq + m->nv) || !frot_all_finite(w->events.discrete, m->n_discrete))
-      return frot_fail(s, FROT_NAN, in->t, -1, -1, -1, 0);
+      return frot_fail(s, FROT_NAN, in->t, -1, m->n_loads + m->n_watched + first_cause(in), -1, 0);
     if (pass == 0) keep_before(in, rank);
     if (memcmp(discrete, w->events.discrete, size) == 0) return FROT_OK;
     memcpy(discrete, w->events.discrete, size);

@@ -267,6 +267,11 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                  m->blocks[f->other].name, f->t);
         return;
       }
+      if (f->item >= m->n_loads + m->n_watched) {
+        snprintf(text, size, "what follows from `%s` at t = %.17g is no finite number",
+                 cause_name(m, f->item - m->n_loads - m->n_watched), f->t);
+        return;
+      }
       if (f->item >= m->n_loads) {
         snprintf(text, size,
                  "the equation `%s` gives no finite number at t = %.17g: look for a division by "
@@ -368,9 +373,12 @@ void frot_fault_places(const frot_model *m, const frot_state *s, char *text, siz
   if (f->status == FROT_CHATTER && f->item >= 0) places[0] = cause_place(m, f->item);
   if (f->status == FROT_CHATTER && f->other >= 0) places[1] = cause_place(m, f->other);
   if (f->status == FROT_CHECK && f->item >= 0) places[0] = m->checks[f->item].place;
-  if (f->status == FROT_NAN && f->item >= 0)
-    places[0] =
-        f->item < m->n_loads ? m->loads[f->item].place : m->equations[f->item - m->n_loads].place;
+  if (f->status == FROT_NAN && f->item >= 0) {
+    int past = f->item - m->n_loads - m->n_watched;
+    places[0] = f->item < m->n_loads ? m->loads[f->item].place
+                : past < 0           ? m->equations[f->item - m->n_loads].place
+                                     : cause_place(m, past);
+  }
   if (f->status == FROT_NAN && f->other >= 0) places[0] = m->blocks[f->other].place;
   if (f->status == FROT_DIVERGE && f->other >= 0 && m->states)
     places[0] = m->states[f->other].place;

@@ -40,12 +40,53 @@ MODEL = "model M\n Length a; Real b;\nequation\n {}\nend M;\n"
         ("# b = 3;", "'#'", "'// ...'"),
         ("b = 3 % 2;", "after '%'", "'mod(a, b)'"),
         ("b += 2;", "'+='", "pre(x) + ..."),
+        ("b = 3²;", "glued together", "'3^2'"),
+        ("b = 3°;", "'°'", "'20 °'"),
+        ("b = 3; */", "without a comment to end", "'/*'"),
+        ("b = 3 + 2);", "closes nothing", "put '('"),
+        ("a = 3 m);", "closes nothing", "put '('"),
+        ("b = sum(A[1, :]);", "without its ends", "1:3"),
+        ("b = 1; a = 3 m / s;", "unknown name 's'", "'3 m/s'"),
+        ("b = if time > 1 s then 3 elif time > 2 s then 2 else 4;", "'elif'", "'elseif'"),
+        ("when time > 1 s then b = 3; end;", "without its word", "'end when;'"),
+        ("when time > 1 s then b = 3;", "without its word", "'end when;'"),
+        ("for i in 1:3 loop b = 3; end;", "without its word", "'end for;'"),
+        ("b = 3; end when;", "no 'when' is open", "away"),
+        ("algorithm b := 3;", "'algorithm' is no word", "'equation'"),
+        ("b = True;", "unknown name 'True'", "'true'"),
+        ("b = ln(2);", "unknown function 'ln'", "'log'"),
     ],
 )
 def test_a_slip_in_the_signs_is_told(slip: str, words: str, remedy: str) -> None:
     _, message, help_text = only(MODEL.format(slip))
     assert words in message
     assert remedy in help_text
+
+
+@pytest.mark.parametrize(
+    ("written", "word", "remedy"),
+    [
+        ("discrete Real k(start = 0);", "discrete", "between"),
+        ("protected\n Real k;", "protected", "from outside"),
+        ("Real k annotation(a = 1);", "annotation", "experiment"),
+        ("inner Real k;", "inner", "parameter"),
+    ],
+)
+def test_words_of_modelica_are_told(written: str, word: str, remedy: str) -> None:
+    _, message, help_text = only(f"model M\n {written}\nequation\n k = 1;\nend M;\n")
+    assert message == f"'{word}' is no word of this language" and remedy in help_text
+
+
+@pytest.mark.parametrize(
+    ("declared", "meant"),
+    [("body b: cube(1 kg)", "box"), ("liaison l: hinge(ground, ground)", "pivot")],
+)
+def test_names_of_other_tools_lead_to_those_of_this_one(declared: str, meant: str) -> None:
+    assert only(f"planar model M\n {declared};\nend M;\n")[2] == f"did you mean '{meant}'?"
+
+
+def test_a_library_that_is_not_imported_is_told() -> None:
+    assert "'import Electrical;'" in only("model M\n Electrical.Ground g;\nend M;\n")[2]
 
 
 @pytest.mark.parametrize("declared", ["frame f[2] on b", "curve c[2] on b: circle(radius = 1 m)"])
