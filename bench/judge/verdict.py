@@ -13,11 +13,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from judge.check import OPEN, Judge
+from judge.check import Judge
 from judge.family import Setting
 from judge.mechanics import Floats, Joint, Mechanics
 from judge.motions import CLEAR, Motion, Still, accelerations, count, distinct, motion, motions
 from judge.scene import Contact, Pin, Scene
+from judge.seen import OPEN
 
 EXACT, CONFIRMED, REFUTED, SILENT, SLOW, UNCLEAR = (
     "exact",
