@@ -107,7 +107,9 @@ def law(
     word = "c" if isinstance(c, Pin) else "t"
     if c.mu is not None:
         arm = 1.0 if isinstance(c, Contact) else (c.radius.at(now.look) if c.radius else 1.0)
-        friction(seen, joint, row, loads, t, word, normal, mode, load, least=1e-3 * arm)
+        friction(
+            seen, joint, row, loads, t, word, normal=normal, mode=mode, load=load, least=1e-3 * arm
+        )
     elif word in z:
         seen.found.hold("no friction", z[word], 0.0, t, name)
     if isinstance(c, Contact) and c.delta is not None:
@@ -121,10 +123,10 @@ def friction(
     loads: Loads,
     t: float,
     word: str,
+    *,
     normal: float,
     mode: int,
     load: float,
-    *,
     least: float,
 ) -> None:
     """Coulomb: rest within the bound, exactly the bound in motion, against the slip.
