@@ -121,7 +121,7 @@ def _counts(of: Class, connector: Instance) -> tuple[int, int]:
 
 def warn_angles(model: checked.Model, log: Log) -> None:
     """Report bare numbers beyond one turn where an angle is given; a bare number is in radians."""
-    for value in _angles(model):
+    for value in (leaf for angle in _angles(model) for leaf in _leaves(angle)):
         literal = value.operand if isinstance(value, checked.Unary) else value
         if not isinstance(literal, checked.Literal) or literal.unit:
             continue
@@ -149,12 +149,49 @@ def _angles(model: checked.Model) -> Iterator[checked.Expression]:
     for frame in model.frames:
         if frame.angle is not None:
             yield frame.angle
-    for equation in model.initial:
-        if _is_angle(equation.left):
-            yield equation.right
+    for output in model.outputs:
+        if output.quantity == "Angle":
+            yield output.value
+    for liaison in model.liaisons:
+        yield from (value for name, value in liaison.driven.items() if name.startswith("angle"))
+    for left, right in _set_equal(model):
+        if _is_angle(left):
+            yield right
+        elif _is_angle(right):
+            yield left
+    for when in model.whens:
+        for action in (action for _, actions in when.branches for action in actions):
+            if (isinstance(action, checked.Reinit) and _is_angle(action.target)) or (
+                isinstance(action, checked.Assign) and action.variable.quantity == "Angle"
+            ):
+                yield action.value
+
+
+def _set_equal(model: checked.Model) -> Iterator[tuple[checked.Expression, checked.Expression]]:
+    """The sides of all equations, those of every branch too."""
+    left = [*model.equations, *model.initial][::-1]
+    while left:
+        equation = left.pop()
+        if isinstance(equation, checked.IfEquations):
+            left.extend(one for _, branch in equation.branches[::-1] for one in branch[::-1])
+        else:
+            yield equation.left, equation.right
+
+
+def _leaves(node: checked.Expression) -> Iterator[checked.Expression]:
+    """What stands in the items of a tuple and the branches of an `if`."""
+    if isinstance(node, checked.Vector):
+        for item in node.items:
+            yield from _leaves(item)
+    elif isinstance(node, checked.If):
+        yield from (*_leaves(node.yes), *_leaves(node.no))
+    else:
+        yield node
 
 
 def _is_angle(node: checked.Expression) -> bool:
+    while isinstance(node, checked.Element):
+        node = node.operand
     match node:
         case checked.Quantity(name="angle"):
             return True

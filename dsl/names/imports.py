@@ -73,6 +73,8 @@ class Libraries:
 
     def _import(self, statement: tree.Import, space: Namespace) -> None:
         target = self._target(statement, space)
+        if target is not None and not statement.all:
+            self._once(statement, target, space)
         if target is not None and isinstance(target, tuple):
             space.constants[(statement.alias or statement.path[-1]).text] = target
             return
@@ -85,6 +87,22 @@ class Libraries:
             space.stars.append(imported)
         else:
             space.imports[(statement.alias or statement.path[-1]).text] = imported
+
+    def _once(
+        self, statement: tree.Import, target: Class | tuple[Class, str], space: Namespace
+    ) -> None:
+        """Report a name under which something else is imported already."""
+        name = (statement.alias or statement.path[-1]).text
+        first = space.imports.get(name)
+        other = space.constants.get(name) if first is None else first.target
+        if other is not None and other != target:
+            self.log.report(
+                "E0212",
+                f"{name!r} is imported twice, and not the same",
+                statement.span,
+                labels=() if first is None else (Label(first.statement.span, "first here"),),
+                help=f"give one of them another name: 'import {_dotted(statement)} as Name;'",
+            )
 
     def _target(self, statement: tree.Import, space: Namespace) -> Class | tuple[Class, str] | None:
         """The definition an import names, or the package and name of a constant."""
@@ -165,6 +183,10 @@ def tell_clashes(libraries: Libraries) -> None:
                 labels=(Label(other.statement.span, "here too"),),
                 help=f"import the one that is meant by its name: 'import {packages[0]}.{name};'",
             )
+
+
+def _dotted(statement: tree.Import) -> str:
+    return ".".join(word.text for word in statement.path)
 
 
 def _holds(package: Class, name: str) -> bool:

@@ -205,7 +205,7 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
                          : check->rule == FROT_NOT_BELOW_MIN ? "it must not be below that"
                          : check->rule == FROT_NOT_ABOVE_MAX ? "it must not be above that"
                                                              : "it must be a finite number";
-      snprintf(text, size, "the %s is %.17g: %s", check->subject, f->value, rule);
+      snprintf(text, size, "the %s is %.15g: %s", check->subject, f->value, rule);
       return;
     }
     case FROT_INITIAL:

@@ -167,3 +167,18 @@ def test_a_file_reads_the_same_files_however_its_user_goes_there(tmp_path: Path)
         for way in (".", "./.", "inner/..", "link/..", "inner/../inner/..")
     }
     assert seen == {(tmp_path / "Electrical.frot",)}
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "told"),
+    [("P.A", "Q.A", True), ("P.k", "Q.k", True), ("P.A", "P.A", False), ("P.k", "P.k", False)],
+)
+def test_a_name_stands_for_one_import(first: str, second: str, told: bool) -> None:
+    text = (
+        "package P\n constant Real k = 1;\n model A\n  Real x = 1;\n end A;\nend P;\n"
+        "package Q\n constant Real k = 2;\n model A\n  Real x = 2;\n end A;\nend Q;\n"
+        f"model M\n import {first};\n import {second};\n Real y = 1;\nend M;\n"
+    )
+    log = Log()
+    compile_text(text, log)
+    assert [d.code for d in log if d.is_error] == (["E0212"] if told else [])
