@@ -195,9 +195,12 @@ class Variables:
 
 
 def may_be_held(node: Quantity) -> bool:
-    """Whether a variable is a motion that friction may hold."""
+    """Whether a variable is a motion that friction may hold, or the power of friction on it."""
     liaison = node.owner
-    return node.name in HELD and isinstance(liaison, Liaison) and bool(liaison.laws)
+    if not isinstance(liaison, Liaison) or not liaison.laws:
+        return False
+    rolls = any(law.kind.name == "rolling_resistance" for law in liaison.laws)
+    return node.name in HELD or (node.name == "power" and not rolls)
 
 
 def _is_round(inertia: ca.SX) -> bool:

@@ -161,7 +161,13 @@ def _items(
         size = thing.type.shape[0]
     else:
         shown = describe(thing.type) if isinstance(thing, checked.Expression) else kind_of(thing)
-        scope.log.report("E0304", f"{shown} has no index", node.span)
+        remedy = "an index follows the name of an array"
+        if isinstance(thing, checked.Liaison) and thing.kind.name == "appui_faces":
+            remedy = (
+                "results tell its corners one by one; a text names the whole, or a place of the "
+                "body, as 'block.corners[1].position'"
+            )
+        scope.log.report("E0304", f"{shown} has no index", node.span, help=remedy)
         return None
     chosen = _chosen(first, size, scope)
     if chosen is None:
