@@ -18,6 +18,9 @@
  * leave of what was missed at most where it is made with those of the last. */
 #define MANY 10
 #define FASTER 0.02
+/* Part of a row that sticks which the rows before it must leave: what would be moved far by keeping
+ * it slips as little as it can. */
+#define FREE 0.1
 
 static int is_kept(const frot_model *m, const frot_contact_mode *modes, int contact) {
   const frot_contact *c = &m->contacts[contact];
@@ -73,11 +76,12 @@ static double miss(double value, double bound) {
  * w->span.basis: they serve as long as what is missed falls to a small part of what was before. */
 typedef struct {
   const frot_group *group;
-  int n;
+  int n, kept;
   double missed;
 } frame;
 
-void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *g, int n) {
+void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *g, int n,
+                           int kept) {
   int ns = g->n_speeds, rank = 0;
   for (int i = 0; i < n; i++) {
     int row = w->relations.rows[i];
@@ -88,7 +92,8 @@ void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *
     frot_inwards(w, g, x);
     double length = sqrt(frot_dot(x, x, ns));
     double rest = frot_reject(x, w->span.basis, rank, ns, parts);
-    if (!(rest > frot_least_length(m, w, row, length))) continue;
+    double least = i < kept ? frot_least_length(m, w, row, length) : FREE * length;
+    if (!(rest > least)) continue;
     for (int k = 0; k < ns; k++) x[k] /= rest;
     parts[rank] = rest;
     w->linear.pivot[i] = rank++;
@@ -113,16 +118,19 @@ static void correction(frot_work *w, const frot_group *g, int n) {
   frot_outwards(w, g, step);
 }
 
-/* The correction of what n rows of the group miss, `missed` times what is rounding at most. */
-static void correct(const frot_model *m, frot_work *w, const frot_group *g, int n, double missed,
-                    frame *f) {
-  int serves = f->group == g && f->n == n && n >= MANY && missed <= FASTER * f->missed;
-  if (!serves) frot_orthonormal_rows(m, w, g, n);
-  *f = (frame){g, n, missed};
+/* The correction of what the first `kept` of n rows of the group miss, `missed` times what is
+ * rounding at most, while the others stay where they can. */
+static void correct(const frot_model *m, frot_work *w, const frot_group *g, int n, int kept,
+                    double missed, frame *f) {
+  int serves =
+      f->group == g && f->n == n && f->kept == kept && n >= MANY && missed <= FASTER * f->missed;
+  if (!serves) frot_orthonormal_rows(m, w, g, n, kept);
+  *f = (frame){g, n, kept, missed};
   correction(w, g, n);
 }
 
-/* Coordinates onto the gaps that are closed. */
+/* Coordinates onto the gaps that are closed. What sticks is not moved by that: it would creep, and
+ * a corner that rests on another one would come off it. */
 static int project_positions(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                              const double *v, const double *d, const frot_contact_mode *modes,
                              frame *f, int *moved) {
@@ -141,7 +149,12 @@ static int project_positions(const frot_model *m, frot_state *s, frot_work *w, d
         missed = fmax(missed, miss(w->core.gap[c], bound));
       }
       if (!(missed > 1)) continue;
-      correct(m, w, g, n, missed, f);
+      for (int i = 0; i < g->n_elements; i++) {
+        if (!is_stuck(m, modes, NULL, g->elements[i])) continue;
+        w->relations.residual[at] = 0;
+        w->relations.rows[at++] = m->elements[g->elements[i]].row;
+      }
+      correct(m, w, g, at, n, missed, f);
       frot_displace(m, g, q, w->relations.step, -1);
       any = *moved = 1;
     }
@@ -169,7 +182,7 @@ static int project_speeds(const frot_model *m, frot_state *s, frot_work *w, doub
         missed = fmax(missed, miss(w->core.rate[row], bound));
       }
       if (!(missed > 1)) continue;
-      correct(m, w, g, n, missed, f);
+      correct(m, w, g, n, n, missed, f);
       for (int i = 0; i < g->n_speeds; i++) v[g->unknowns[i]] -= w->relations.step[i];
       any = *moved = 1;
     }
@@ -191,7 +204,7 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     return done;
   }
   if (m->n_rows == 0 || frot_holding_rows(m, w, modes, stuck, 0) == 0) return FROT_OK;
-  frame f = {NULL, 0, INFINITY};
+  frame f = {NULL, 0, 0, INFINITY};
   int status = frot_metric(m, w);
   if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, &f, moved);
   if (status == FROT_OK) status = project_speeds(m, s, w, t, q, v, d, modes, stuck, &f, moved);

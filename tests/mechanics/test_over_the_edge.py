@@ -97,3 +97,43 @@ def test_what_slides_off_falls(model: frot.Model, v: float, tolerance: float) ->
     assert end["load.angular_velocity"] == pytest.approx(way * speed, abs=near * abs(speed))
     assert end["load.angle"] == pytest.approx(way * (angle + 0.3 * speed), abs=near)
     assert end["load.acceleration.y"] == pytest.approx(-G, abs=1e-9)
+
+
+STACK = """
+planar model Stack
+  parameter Length r = 0.1 m;
+  parameter Real foot = 0;
+  parameter Velocity v = 0.5 m/s;
+  body low: box(mass = 50 g, size = (2*r, r));
+  body middle: box(mass = 50 g, size = (2*r, r));
+  body load: box(mass = 50 g, size = (2*r, r));
+  liaison feet: appui_faces(low.bottom, ground.line) with coulomb(foot);
+  liaison between: appui_faces(middle.bottom, low.top) with coulomb(0.1);
+  liaison on: appui_faces(load.bottom, middle.top);
+initial
+  low.position = (0 m, r/2);
+  middle.position = (0 m, 1.5*r);
+  load.position = (0 m, 2.5*r);
+  load.velocity = (v, 0 m/s);
+end Stack;
+"""
+
+
+@pytest.fixture(scope="module")
+def stack() -> frot.Model:
+    return frot.compile(STACK)
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 7.7e-5, 1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize(("v", "foot"), [(0.5, 0), (-0.5, 0), (0.4, 0.3), (0.7, 0.001)])
+def test_what_sticks_below_does_not_creep(
+    stack: frot.Model, v: float, foot: float, tolerance: float
+) -> None:
+    """Corners that rest on corners stay there while what tips above slides off."""
+    result = stack.simulate(stop=0.7, tolerance=tolerance, parameters={"v": v, "foot": foot})
+    apart = result["middle.position.x"] - result["low.position.x"]
+    assert {e.liaison[:2] for e in result.events} <= {"on", "fe"}
+    assert not result["on.normal_force"][-1]
+    assert np.abs(apart).max() < 1e-14
+    if foot == 0.3:
+        assert np.abs(result["low.position.x"]).max() < 1e-15
