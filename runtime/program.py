@@ -36,7 +36,8 @@ class ParameterInfo:
 
     So are `min` and `max`, at the default parameters.
 
-    `dependent`: the value follows from other parameters unless it is set.
+    `dependent`: the value follows from other parameters unless it is set. `literals` are those of
+    an enumeration, which count from 1.
     """
 
     name: str
@@ -47,6 +48,7 @@ class ParameterInfo:
     dependent: bool = False
     min: float | None = None
     max: float | None = None
+    literals: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,4 +201,5 @@ def _unit(entry: dict[str, Any]) -> Unit:
 
 
 def _parameter(entry: dict[str, Any]) -> ParameterInfo:
-    return ParameterInfo(**{**entry, "unit": _unit(entry["unit"])})
+    literals = tuple(entry.get("literals", ()))
+    return ParameterInfo(**{**entry, "unit": _unit(entry["unit"]), "literals": literals})

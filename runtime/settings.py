@@ -156,7 +156,7 @@ def parameter_value(info: ParameterInfo, value: object) -> float:
     """A value in SI from a number, a truth value or a text such as `12 mm`; FrotError if bad."""
     try:
         if isinstance(value, str):
-            number = _from_text(info, value)
+            number = _literal(info, value) or _from_text(info, value)
         elif isinstance(value, (bool, int, float)):
             number = float(value)
         else:
@@ -167,6 +167,8 @@ def parameter_value(info: ParameterInfo, value: object) -> float:
             raise ValueError(f"{value!r} is not true or false")
         if info.type == "integer" and number != round(number):
             raise ValueError(f"{value!r} is not an integer")
+        if info.literals and not 1 <= number <= len(info.literals):
+            raise ValueError(f"{value!r} is none of its values")
     except OverflowError:
         told = f"bad value of '{info.name}': a number of so many digits is too large"
         raise fail("E0806", told, help=_expected(info)) from None
@@ -176,6 +178,8 @@ def parameter_value(info: ParameterInfo, value: object) -> float:
 
 
 def _expected(info: ParameterInfo) -> str:
+    if info.literals:
+        return f"write one of {', '.join(info.literals)}"
     if info.type == "boolean":
         return "write true or false"
     if info.type == "integer":
@@ -185,11 +189,19 @@ def _expected(info: ParameterInfo) -> str:
     return f"write a number in {info.unit.name}, or one with its unit"
 
 
+def _literal(info: ParameterInfo, text: str) -> int:
+    """The number of a literal, written as `red` or `Colour.red`; 0 where it is none."""
+    word = text.strip().rpartition(".")[2]
+    return info.literals.index(word) + 1 if word in info.literals else 0
+
+
 def _from_text(info: ParameterInfo, text: str) -> float:
     try:
         return float(text)
     except ValueError:
         pass
+    if info.literals:
+        raise ValueError(f"{text!r} is none of its values")
     from fractions import Fraction
 
     from frot.dsl import parse_value

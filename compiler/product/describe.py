@@ -110,6 +110,7 @@ def parameters_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
             p.doc,
             dependent,
             **_limits(p.bounds, values),
+            literals=_literals(p),
         )
         for p, dependent in zip(lowered.reduced.symbols.parameters, lowered.dependent, strict=True)
     )
@@ -127,6 +128,7 @@ def inputs_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
             i.doc,
             dependent=False,
             **_limits(i.bounds, values),
+            literals=_literals(i),
         )
         for i in lowered.reduced.symbols.inputs
     )
@@ -137,6 +139,11 @@ def _limits(
 ) -> dict[str, float]:
     """`min` and `max`, as far as they are numbers at the default parameters."""
     return {name: as_number(evaluate(bound, values)) for name, bound in bounds}
+
+
+def _literals(declared: Parameter | Input) -> tuple[str, ...]:
+    of = declared.type.enumeration
+    return () if of is None else of.literals
 
 
 def _unit(declared: Parameter | Input) -> Unit:

@@ -90,8 +90,9 @@ class _Reader:
                 offset = self._resume(token)
                 continue
             if self._ends_nothing(token):
-                messages.closes_nothing(self.log, self.source, token)
-                self.reported += 1
+                if not self.reported:  # else its beginning was lost with a fault that was told
+                    messages.closes_nothing(self.log, self.source, token)
+                    self.reported += 1
                 offset = self._resume(token)
                 continue
             if self._shift(token):

@@ -269,3 +269,10 @@ def test_missing_seconds_are_named(equation: str, remedy: str) -> None:
 def test_missing_seconds_of_an_output_are_named() -> None:
     text = "model M\n Real b;\n output Real d = der(b);\nequation\n b = 1;\nend M;\n"
     assert "'(1 s)*der(...)'" in only(text)[2]
+
+
+def test_the_end_of_a_block_whose_beginning_is_lost_is_no_second_fault() -> None:
+    text = (
+        "model M\n Real x;\nequation\n when time > 1 s, time > 2 s then x = 1; end when;\nend M;\n"
+    )
+    assert only(text)[0] == "E0101"
