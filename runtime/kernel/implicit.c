@@ -173,13 +173,12 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
 /* State inside the step by the vectors w->f. */
 static void inside(const frot_model *m, const frot_layout *l, const frot_work *w, double theta,
                    double *z) {
-  double one = 1 - theta;
   const double *f = w->step.f;
   for (int k = 0; k < frot_order(m); k++) {
-    double sum = one * (f[3 * l->nz + k] + theta * f[4 * l->nz + k]);
-    sum = theta * (f[2 * l->nz + k] + sum);
-    sum = one * (f[l->nz + k] + sum);
-    z[k] = w->step.z0[k] + theta * (f[k] + sum);
+    double sum = 0;
+    for (int i = DP_DENSE - 1; i >= 0; i--)
+      sum = (sum + f[i * l->nz + k]) * (i % 2 == 0 ? theta : 1 - theta);
+    z[k] = w->step.z0[k] + sum;
   }
 }
 
@@ -231,7 +230,8 @@ int frot_implicit_dense(const frot_model *m, frot_state *s, frot_work *w, double
   frot_layout l = frot_layout_of(m);
   if (frot_has_motion(m)) {
     memset(w->step.f, 0, sizeof(double) * (size_t)(DP_DENSE * l.nz));
-    frot_radau_dense(m, w);
+    int status = frot_radau_dense(m, s, w, t, h);
+    if (status != FROT_OK) return status;
     return w->guards.count > 0 ? follow_guards(m, s, w, &l, t, h) : FROT_OK;
   }
   for (int i = 0; i < DP_DENSE; i++) { /* what no state fills below */

@@ -26,6 +26,7 @@
 /* How far beyond its end, in its lengths, the last step shows where the next one goes. */
 #define BEYOND 2
 
+typedef char frot_radau_vectors_suffice[RA_VECTORS <= DP_DENSE ? 1 : -1];
 typedef char frot_radau_rows_suffice[FROT_RADAU_ERROR < DP_STAGES ? 1 : -1];
 
 typedef struct {
@@ -250,15 +251,51 @@ int frot_radau_stages(const frot_model *m, frot_state *s, frot_work *w, double t
   return status;
 }
 
-void frot_radau_dense(const frot_model *m, frot_work *w) {
-  int count = frot_order(m) + FROT_QUADRATURES, nz = w->layout.nz;
-  double *last = row(w, FROT_RADAU_MOVED + RA_STAGES - 1);
-  for (int k = 0; k < count; k++) {
-    last[k] = w->step.z1[k] - w->step.z0[k]; /* the end may have been put onto the relations */
+/* What the polynomial is off at a place between, in w->implicit's scratch: with d what its rate
+ * misses there and S = (I - h/ra_gamma J)^-1 it is h/ra_gamma S d + (left - 1/ra_gamma) h S^2 d,
+ * which is -J^-1 d of what is stiff, and left h d of what is not. */
+static int miss(const frot_model *m, frot_state *s, frot_work *w, double t, double h, int k) {
+  int n = frot_order(m), count = n + FROT_QUADRATURES;
+  double *off = scratch_of(m, w).change + k * count, *again = scratch_of(m, w).moved;
+  double *slope = row(w, DP_STAGES + 1), *rate = row(w, DP_STAGES + 2), *z = w->step.z;
+  for (int j = 0; j < count; j++) {
+    double value = w->step.z0[j], sum = 0;
     for (int i = 0; i < RA_STAGES; i++) {
-      double sum = 0;
-      for (int r = 0; r < RA_STAGES; r++) sum += ra_dense[i][r] * row(w, FROT_RADAU_MOVED + r)[k];
+      double moved = row(w, FROT_RADAU_MOVED + i)[j];
+      value += ra_value[k][i] * moved, sum += ra_rate[k][i] * moved;
+    }
+    z[j] = value, rate[j] = sum / h;
+  }
+  for (int j = 0; j < m->ny; j++) {
+    double first = s->data[w->layout.y + j];
+    w->blocks.y[j] = first + ra_between[k] * (w->step.y_end[j] - first);
+  }
+  int status = frot_slope(m, s, w, t + ra_between[k] * h, z, slope);
+  if (status != FROT_OK) return status;
+  for (int j = 0; j < count; j++) off[j] = slope[j] - rate[j];
+  for (int j = n; j < count; j++) off[j] *= ra_left[k] * h;
+  frot_jacobian_solve(m, w, off, off);
+  for (int j = 0; j < n; j++) again[j] = ra_gamma / h * off[j];
+  frot_jacobian_solve(m, w, again, again);
+  for (int j = 0; j < n; j++) off[j] += (ra_left[k] * ra_gamma - 1) * again[j];
+  return FROT_OK;
+}
+
+int frot_radau_dense(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+  int count = frot_order(m) + FROT_QUADRATURES, nz = w->layout.nz;
+  double *last = row(w, FROT_RADAU_MOVED + RA_STAGES - 1), *off = scratch_of(m, w).change;
+  for (int k = 0; k < count; k++) /* the end may have been put onto the relations */
+    last[k] = w->step.z1[k] - w->step.z0[k];
+  for (int k = 0; k < RA_BETWEEN; k++) {
+    int status = miss(m, s, w, t, h, k);
+    if (status != FROT_OK) return status;
+  }
+  for (int k = 0; k < count; k++)
+    for (int i = 0; i < RA_VECTORS; i++) {
+      double sum = ra_bubble[i][0] * off[k] + ra_bubble[i][1] * off[count + k];
+      for (int r = 0; i < RA_STAGES && r < RA_STAGES; r++)
+        sum += ra_dense[i][r] * row(w, FROT_RADAU_MOVED + r)[k];
       w->step.f[i * nz + k] = sum;
     }
-  }
+  return FROT_OK;
 }

@@ -11,6 +11,8 @@
 
 #define RA_STAGES 5
 #define RA_PAIRS 2
+#define RA_BETWEEN 2
+#define RA_VECTORS 7
 
 /* Nodes. */
 static const double ra_c[RA_STAGES] = {0.05710419611451768, 0.2768430136381238, 0.5835904323689168,
@@ -63,6 +65,22 @@ static const double ra_TI[RA_STAGES][RA_STAGES] = {
 static const double ra_e[RA_STAGES] = {-4.418997716796381, 0.57923485225667, -0.199237560953468,
                                        0.09416748369194548, -0.03181316888549383};
 
+/* Places between the stages, the polynomial through the Z_i and h times its rate there. */
+static const double ra_between[RA_BETWEEN] = {0.43, 0.73};
+static const double ra_value[RA_BETWEEN][RA_STAGES] = {
+    {-0.4958389250202608, 0.7671631887191346, 0.5546915259899694, -0.13795773624884328,
+     0.04089482836},
+    {0.3404356333146267, -0.32124073107806406, 0.7209430404343896, 0.5646337827690477,
+     -0.10696315364},
+};
+static const double ra_rate[RA_BETWEEN][RA_STAGES] = {
+    {0.8601128577664539, -4.282455209906301, 4.136819877787831, -0.4513060856479843, 0.11047486},
+    {-0.33194852874698155, 0.5447267706417427, -4.55571867031443, 4.623881468419669, -0.45082274},
+};
+/* What the rate misses there, integrated from the start, in what it misses there, of a motion that
+ * is not stiff: its error is the polynomial that is zero at the nodes. */
+static const double ra_left[RA_BETWEEN] = {-0.0038384397366376427, -0.023363618112933568};
+
 /* Vectors of the dense output by the Z_i: x + theta (f_0 + (1 - theta) (f_1 + theta (f_2 + ...))).
  */
 static const double ra_dense[RA_STAGES][RA_STAGES] = {
@@ -71,6 +89,17 @@ static const double ra_dense[RA_STAGES][RA_STAGES] = {
     {-36.19335816765893, 10.611734614705874, -10.029661925319592, 18.811285478272644, -11.2},
     {-144.05356518917776, 63.63016294236274, -17.885204671340986, -5.291393081843982, 5.6},
     {199.88739542347736, -127.022853068795, 92.10283313613321, -64.16737549081559, 25.2},
+};
+
+/* And by what is added at the places between. */
+static const double ra_bubble[RA_VECTORS][RA_BETWEEN] = {
+    {0.0, 0.0},
+    {20.877974155425537, 9.926113422526127},
+    {-59.487926360664545, -75.71546982764116},
+    {-470.1834179660217, -185.59523701653504},
+    {1017.0147410505919, 1014.7719675680199},
+    {1829.825734882364, 604.3387195389163},
+    {-3603.5955391556404, -2908.5820726471907},
 };
 
 #endif
