@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from judge.energies import balance
 from judge.instants import instant, jump
-from judge.intervals import balance, integrals
+from judge.integrals import integrals
 from judge.seen import Findings, Seen
 
 # Part of a run that stopped within which it had stopped: an instant is known no better.

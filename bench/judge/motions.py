@@ -15,10 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from judge.mechanics import Floats, Joint, Mechanics
+from judge.mechanics import Floats, Joint, Mechanics, Row
 from judge.scene import Contact, Pin
 
 CLEAR = 1e-6
+# Part of what the quickest of joined bodies accelerates by that rounding leaves in all of them,
+# by `CLEAR` of it.
+SHOWS = 1e-8
 MOST = 3000
 
 
@@ -92,6 +95,22 @@ def motions(now: Mechanics, still: Mapping[str, Still]) -> Iterator[Motion]:
             yield found
 
 
+@dataclass(slots=True)
+class Inequality:
+    """line z + constant >= 0, of an acceleration of a row or of `factor` times a joint's force."""
+
+    line: Floats
+    constant: float
+    of: Joint | Row
+    factor: float = 1.0
+
+    def size(self, now: Mechanics, quick: Floats) -> float:
+        """What its terms are beside such accelerations of all bodies."""
+        if isinstance(self.of, Row):
+            return float(self.of.reach @ quick + self.of.bias_size)
+        return self.factor * force_size(now, self.of, quick)
+
+
 class System:
     """Equations and inequalities of one combination, with rows scaled to size one."""
 
@@ -107,7 +126,7 @@ class System:
         self.right = np.zeros(n + k)
         self.sizes = np.concatenate([now.load_size, np.zeros(k)])
         self.bends: list[tuple[int, str, float]] = []  # rows whose law holds a norm
-        self.inequalities: list[tuple[Floats, float, float]] = []
+        self.inequalities: list[Inequality] = []
         self.matrix[:n, :n] = np.diag(now.mass)
         self.right[:n] = now.load
         for (name, word), at in self.index.items():
@@ -121,45 +140,41 @@ class System:
         self.right[at] = -row.bias
         self.sizes[at] = row.reach @ accelerations(self.now) + row.bias_size
 
-    def _at_least(self, terms: Mapping[int, float], constant: float, size: float) -> None:
+    def _at_least(self, terms: Mapping[int, float], joint: Joint, factor: float = 1.0) -> None:
+        """A force, or a couple of `factor` m, that is not negative."""
         line = np.zeros(len(self.right))
         for at, x in terms.items():
             line[at] += x
-        self.inequalities.append((line, constant, size))
+        self.inequalities.append(Inequality(line, 0.0, joint, factor))
 
-    def _acceleration(self, joint: Joint, word: str, sign: int, size: float) -> None:
+    def _acceleration(self, joint: Joint, word: str, sign: int) -> None:
         """Sign * (J a + c) >= 0."""
-        row = joint.rows[word]
-        terms = {i: sign * x for i, x in enumerate(row.jacobian) if x != 0}
-        self._at_least(terms, sign * row.bias, size)
+        row, line = joint.rows[word], np.zeros(len(self.right))
+        line[: self.now.n] = sign * row.jacobian
+        self.inequalities.append(Inequality(line, sign * row.bias, row))
 
     def _liaison(self, joint: Joint, mode: Choice, still: Still) -> None:
-        name, c, now = joint.liaison.name, joint.liaison, self.now
-        # sizes: of an acceleration of this row, and of a force on it, by the loads of its bodies
-        word = "n" if isinstance(c, Contact) else "x"
-        quick = accelerations(now)
-        speeding = float(joint.rows[word].reach @ quick + joint.rows[word].bias_size)
+        name, c = joint.liaison.name, joint.liaison
         if not mode.closed:
             if still.touching:  # what is apart, or parts with speed, may accelerate as it likes
-                self._acceleration(joint, "n", 1, speeding)
+                self._acceleration(joint, "n", 1)
             return
-        weight = force_size(now, joint)
         if isinstance(c, Pin):
             for w in ("x", "y"):
                 self._rest(self.index[name, w], joint, w)
             if c.mu is not None:
-                self._law(joint, "c", mode.slip, still.slip, None, joint.mu, joint.mu_s, weight)
+                self._law(joint, "c", mode.slip, still.slip, None, joint.mu, joint.mu_s)
             return
         normal = self.index[name, "n"]
         self._rest(normal, joint, "n")
         bounded = c.mu is not None or c.delta is not None
         if not c.bilateral or bounded:
-            self._at_least({normal: mode.side}, 0.0, weight)
+            self._at_least({normal: mode.side}, joint)
         side = (normal, mode.side)
         if c.mu is not None:
-            self._law(joint, "t", mode.slip, still.slip, side, joint.mu, joint.mu_s, weight)
+            self._law(joint, "t", mode.slip, still.slip, side, joint.mu, joint.mu_s)
         if c.delta is not None:
-            self._law(joint, "r", mode.roll, still.roll, side, joint.delta, joint.delta, weight)
+            self._law(joint, "r", mode.roll, still.roll, side, joint.delta, joint.delta)
 
     def _law(
         self,
@@ -170,20 +185,19 @@ class System:
         normal: tuple[int, int] | None,
         bound: float,
         rest: float,
-        weight: float,
     ) -> None:
         name = joint.liaison.name
         at = self.index[name, word]
         if rest == 0:  # a law that bounds nothing
             self.matrix[at, at] = 1
-            self.sizes[at] = weight  # what is zero is so to the rounding of the others
+            # what is zero is so to the rounding of the others
+            self.sizes[at] = force_size(self.now, joint, accelerations(self.now))
             return
         if way == 0:
             self._rest(at, joint, word)
             if normal is not None:
-                size = rest * weight if rest > 0 else weight
                 for sign in (1, -1):
-                    self._at_least({normal[0]: rest * normal[1], at: sign}, 0.0, size)
+                    self._at_least({normal[0]: rest * normal[1], at: sign}, joint, rest)
             return
         self.matrix[at, at] = 1
         if normal is not None:
@@ -191,9 +205,7 @@ class System:
         else:
             self.bends.append((at, name, way * bound))
         if not moving:
-            row = joint.rows[word]
-            size = float(row.reach @ accelerations(self.now) + row.bias_size)
-            self._acceleration(joint, word, way, size)
+            self._acceleration(joint, word, way)
 
 
 def acting(joint: Joint) -> list[str]:
@@ -238,14 +250,27 @@ def parts(now: Mechanics) -> list[tuple[NDArray[np.intp], list[Joint]]]:
     ]
 
 
-def force_size(now: Mechanics, joint: Joint) -> float:
-    """Size of the forces at the bodies of a joint."""
+def felt(system: System, z: Floats) -> Floats:
+    """Sizes of the accelerations by the loads and reactions that act on each body in a solution.
+
+    What loads could bring about anywhere among joined bodies says nothing of a heavy one beside a
+    light one, but that it brings rounding.
+    """
+    now = system.now
+    push = now.load_size.copy()
+    for (name, word), at in system.index.items():
+        push += np.abs(now.joints[name].rows[word].jacobian * z[at])
+    quick = accelerations(now)
+    return np.minimum(quick, np.maximum(push / now.mass, SHOWS * quick))
+
+
+def force_size(now: Mechanics, joint: Joint, quick: Floats) -> float:
+    """Size of the forces at the bodies of a joint, with such accelerations."""
     word = "n" if "n" in joint.rows else "x"
     touched = np.abs(joint.rows[word].jacobian) > 0
     if "y" in joint.rows:
         touched |= np.abs(joint.rows["y"].jacobian) > 0
     touched[2::3] = False
-    quick = accelerations(now)
     return float(np.max((now.mass * quick)[touched], initial=0.0))
 
 
@@ -368,11 +393,13 @@ def _margin(
     One of which loads say no size (a turn about pins that forces alone bring about) has that of
     its own terms.
     """
-    lines = []
-    for line, constant, given in system.inequalities:
-        size = given if given > 0 else float(np.abs(line) @ np.abs(z)) + abs(constant)
+    lines, quick = [], felt(system, z)
+    for given in system.inequalities:
+        size = given.size(system.now, quick)
+        if not size > 0:
+            size = float(np.abs(given.line) @ np.abs(z)) + abs(given.constant)
         if size > 0:
-            lines.append((line / size, constant / size))
+            lines.append((given.line / size, given.constant / size))
     curved = [
         (name, joint)
         for name, joint in system.now.joints.items()
@@ -383,7 +410,7 @@ def _margin(
         found = []
         for name, joint in curved:
             x, y, c = (z[system.index[name, w]] for w in "xyc")
-            size = max(force_size(system.now, joint), abs(np.hypot(x, y)))
+            size = max(force_size(system.now, joint, quick), abs(np.hypot(x, y)))
             if joint.mu_s * size > 0:
                 found.append(float((joint.mu_s * np.hypot(x, y) - abs(c)) / (joint.mu_s * size)))
         return found

@@ -17,8 +17,6 @@ from judge.scene import Pin, Scene
 EXACT = 1e-8
 SLACK = 300.0
 OPEN, STICK, SLIP = 0, 1, 2
-# A speed is a sum along what joins bodies: known to a few roundings of the largest there.
-CARRIED = 1e-15
 
 
 class Happening(Protocol):
@@ -78,7 +76,7 @@ class Seen:
         self.sides = start_sides(scene, self.mechanics(begin, {}))
         self.length, self.speed = self._sizes()
         self._natural()
-        self.carried = self._carried()
+        self.joined = self._joined()
 
     def look(self, t: float, row: Mapping[str, float]) -> Callable[[str], float]:
         """Parameters, `time` and variables of a row by name."""
@@ -142,12 +140,12 @@ class Seen:
                 spin = speed / b.size.at(now.look)
                 self.speed[f"{b.name}.w"] = max(self.speed[f"{b.name}.w"], spin)
 
-    def _carried(self) -> dict[str, float]:
-        """The rounding of each body's speed (and angular) that comes from those it is joined to.
+    def _joined(self) -> dict[str, float]:
+        """The largest speed (and angular) among the bodies that each is joined to.
 
         What loads would bring about counts too, where reactions take all of it away.
         """
-        rounding = {}
+        joined_to = {}
         now = self.mechanics(float(self.result.time[0]))
         quick = accelerations(now)
         for places, _ in parts(now):
@@ -158,9 +156,8 @@ class Seen:
             spins = [self.speed.get(f"{b.name}.w", 0.0) for b in joined]
             spin = max(*spins, *(natural / x for x in widths), 0.0)
             for b in joined:
-                rounding[b.name] = CARRIED * largest
-                rounding[f"{b.name}.w"] = CARRIED * spin
-        return rounding
+                joined_to[b.name], joined_to[f"{b.name}.w"] = largest, spin
+        return joined_to
 
     def kept(self, joint: Joint) -> bool:
         """Whether the liaison can never part."""

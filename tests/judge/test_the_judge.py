@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from judge.check import Judge
 from judge.family import Setting, Structure
+from judge.integrals import shaken_by_errors
 from judge.mechanics import Floats
-from judge.motions import distinct, motions
+from judge.motions import CLEAR, distinct, motions
 from judge.scene import Contact, Force, Pin, Scene
 from judge.trial import try_setting
 from judge.values import name
@@ -156,6 +157,37 @@ def test_a_dry_pin_turns_beside_a_bar_on_three_feet() -> None:
     a = found[0].acceleration
     force = np.hypot(a[0], a[1] + 9.81)
     assert a[2] == pytest.approx((-9.81 / 2 - 0.3 * 0.05 * force) * 3, rel=1e-12)
+
+
+@pytest.mark.parametrize(("tilt", "rests"), [(0.29, True), (0.31, False)])
+def test_a_light_body_hides_no_slip_of_a_heavy_one(tilt: float, rests: bool) -> None:
+    """Its quickness is no measure of forces: a bead of 1 kg rests where tan(tilt) < mu alone."""
+    s = Scene("Slope")
+    bead, rod = s.body("bead", "particle"), s.body("rod", "rod")
+    mu, push = s.parameter("mu", "Real"), s.parameter("push", "Force")
+    slope = s.line("slope", None)
+    s.contacts.append(Contact("foot", slope, s.middle(bead), mu=mu, bilateral=True))
+    s.pins.append(Pin("eye", s.middle(bead), s.end(rod, "start")))
+    s.forces.append(Force("on_rod", "on", (s.middle(rod),), (push, push)))
+    values = {"m_bead": 1.0, "m_rod": 1e-12, "l_rod": 1.0, "mu": math.tan(0.3), "push": 1e-3}
+    values |= {"x_slope": 0.0, "y_slope": 0.0, "a_slope": tilt}
+    values |= {f"{c}0_{b}": 0.0 for c in "xyauvw" for b in ("bead", "rod")} | {"x0_rod": 0.5}
+    judge = Judge(s, values, Start(s, values, 1.0), 1e-9)
+    now = judge.mechanics(0.0)
+    found = [m for m in motions(now, still_of(judge, now, 1e-6)) if m.margin > -CLEAR]
+    assert any(m.modes["foot"].slip == 0 for m in found) == rests
+
+
+def test_errors_of_a_state_shake_what_a_stiff_load_moves() -> None:
+    """A bead of 1e-4 kg in a drag of 1e4 N.s/m: what 2 m/s miss by 1e-9 are 0.2 m/s^2."""
+    s = Scene("Stiff")
+    bead = s.body("bead", "particle")
+    c = s.parameter("c", "Damping")
+    s.forces.append(Force("drag", "drag", (s.middle(bead),), (c,)))
+    values = {"m_bead": 1e-4, "c": 1e4}
+    values |= {f"{c}0_bead": x for c, x in zip("xyauvw", (0, 0, 0, 2.0, 0, 0), strict=True)}
+    judge = Judge(s, values, Start(s, values, 1.0), 1e-9)
+    assert shaken_by_errors(judge, 0.0)[:2] == pytest.approx([0.2, 0.2], rel=1e-6)
 
 
 ROD = """
