@@ -58,6 +58,10 @@ class Loads:
             for joined in (places[:, :2], places[:, 2]):
                 quickest = np.max(np.abs(self.acceleration[joined]), initial=0.0)
                 size[joined] = np.maximum(size[joined], CARRIED * now.mass[joined] * quickest)
+            longest = np.max(arms[places[:, 2]], initial=0.0)  # couples act on others as forces
+            if longest > 0:
+                couple = np.max(size[places[:, 2]], initial=0.0)
+                size[places[:, :2]] = np.maximum(size[places[:, :2]], CARRIED * couple / longest)
         size = np.maximum(size, NOTHING * np.max(size, initial=0.0))
         self.rest, self.size = rest, size + self._formed(size)
         self.acceleration_size = self._acceleration_size()

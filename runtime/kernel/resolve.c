@@ -17,6 +17,9 @@
 #include "tolerances.h"
 #include "zeros.h"
 
+/* Events at one instant after which slips may come to zero in turn, ever faster: to no end. */
+#define IN_TURN 50
+
 /* A reaction that reached its upper bound (first guard) lets the body go backward. */
 static int left_by(const double *fired) { return fired[0] != 0 ? -1 : (fired[1] != 0 ? 1 : 0); }
 
@@ -173,9 +176,19 @@ static int any_slight(const frot_instant *in, double part) {
   return 0;
 }
 
+/* Whether a slip ends at an instant crowded with events: the next one may bring it back. */
+static int ends_in_turn(const frot_instant *in) {
+  int ends = 0;
+  for (int e = 0; e < in->m->n_elements; e++) {
+    int slips = frot_element_mode(in->m, in->w->search.before, e)->friction > FROT_STICK;
+    ends |= slips && in->fired[frot_element_guard(in->m, e)] != 0;
+  }
+  return ends && in->s->crowded > IN_TURN;
+}
+
 /* The same where a slip runs into an impasse, which would stop it at once (L. Lecornu's tangential
- * impact): one that is no more than the run tells from rest is rest, if modes are found then that
- * last. */
+ * impact), or where slips end in turn: one that is no more than the run tells from rest is rest, if
+ * modes are found then that last. */
 static int find_lasting_modes(frot_instant *in, double *q, double *v, int first,
                               frot_recorder *recorder) {
   const frot_model *m = in->m;
@@ -189,7 +202,9 @@ static int find_lasting_modes(frot_instant *in, double *q, double *v, int first,
   memcpy(kept, q, sizeof(double) * (size_t)m->nq);
   memcpy(kept + m->nq, v, sizeof(double) * (size_t)m->nv);
   memcpy(found->closable, found->best, modes);
-  for (int pass = 0;; pass++) {
+  int in_turn = ends_in_turn(in);
+  in->slight = in_turn ? part : 0;
+  for (int pass = in_turn;; pass++) {
     int status = find_modes(in, q, v, first, recorder);
     int told = status == FROT_OK || status == FROT_DIVERGE;
     int ended = status == FROT_IMPASSE || (told && s->fleeting >= 0);

@@ -52,3 +52,21 @@ def test_a_run_ends_at_a_pole_of_a_bounded_reaction(
         ends.append(float(told.value.result.time[-1]))
     for tolerance, end in zip(TOLERANCES, ends, strict=False):
         assert end == pytest.approx(ends[-1], abs=tolerance + 1e-10)
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
+def test_slips_that_come_to_zero_in_turn_have_a_limit(finding: Finding, tolerance: float) -> None:
+    """The run ended in E0903 beside it: loads hardly change, so that each round is a part r of the
+    one before, and the limit of their instants is t + (t - s) r / (1 - r).
+    """
+    result = finding("slips_in_turn").simulate(tolerance=tolerance)
+    (limit,) = [e.time for e in result.events if e.liaison == "pin" and e.time > 1e-7]
+    rounds = [e.time for e in result.events if e.kind == "reaction"][1::2]
+    before, then, now = rounds[60:63]
+    part = (now - then) / (then - before)
+    assert limit == pytest.approx(now + (now - then) * part / (1 - part), rel=1e-8)
+    assert result.time[-1] == pytest.approx(1e-5)
+    # both slips begin there, and grow alike
+    for slip in ("touch.slip", "pin.speed"):
+        soon, later = result.at(limit + 1e-9)[slip], result.at(limit + 2e-9)[slip]
+        assert later == pytest.approx(2 * soon, rel=1e-3) and soon != 0
