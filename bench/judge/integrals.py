@@ -109,9 +109,7 @@ def _sizes(seen: Seen, body: Body) -> list[tuple[str, float]]:
     return found
 
 
-def _missed(
-    seen: Seen, a: float, b: float, panels: int
-) -> Iterator[tuple[str, str, float, float]]:
+def _missed(seen: Seen, a: float, b: float, panels: int) -> Iterator[tuple[str, str, float, float]]:
     """The names of values and of their rates, what they differ by and what is allowed."""
     coarse, fine = (seen.result.at(gauss_places(a, b, n)) for n in (panels // 2, panels))
     ends = seen.result.at(np.array([a, b]))
