@@ -30,6 +30,7 @@ from frot.compiler.equations.given import Given
 from frot.compiler.equations.index import reduce_index
 from frot.compiler.equations.order import Component, closure
 from frot.compiler.equations.origins import Origin
+from frot.compiler.equations.roots import Roots
 from frot.compiler.equations.slopes import without_what_cancels
 from frot.compiler.equations.tear import tear
 from frot.compiler.lowering.assembled import (
@@ -50,6 +51,7 @@ from frot.dsl.data.classes import dataclass, field, replace
 class Solving:
     """What is known while the components are gone through."""
 
+    roots: Roots
     known: dict[int, ca.SX] = field(default_factory=dict)
     y: list[ca.SX] = field(default_factory=list)
     blocks: list[Block] = field(default_factory=list)
@@ -96,7 +98,9 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
         return None
     core, late = _core_components(found, reduced)
     y, blocks = followed_blocks(reduced)
-    solving = Solving(y=scalars_of(y), blocks=list(blocks))
+    conditions = reduced.conditions
+    roots = Roots(conditions.flags, conditions.values, given, left.resolver)
+    solving = Solving(roots, y=scalars_of(y), blocks=list(blocks))
     for k, component in enumerate(found.components):
         if k not in core and k not in late:
             _solve(component, found, solving, False, given)
@@ -195,7 +199,7 @@ def _solve(
     for symbol in torn.iterated:
         solving.y.append(symbol)
     for symbol, value in torn.explicit:
-        solving.known[symbol.element_hash()] = value
+        solving.known[symbol.element_hash()] = solving.roots.settle(value, solving.known)
     if torn.iterated:
         names = ", ".join(symbol.name() for symbol in torn.iterated[:4])
         more = len(torn.iterated) - 4
@@ -223,6 +227,9 @@ def _finish(
     chains, s = reduced.text.chains, reduced.symbols
 
     solution = Solution(chains, left.resolver, solving.known)
+    for key, value in left.resolver.known.items():
+        if solving.roots.may_switch(value):
+            left.resolver.known[key] = solving.roots.settle(solution.of(value), solving.known)
     rates, power = solution.of(core.rates), solution.of(reduced.power)
     y, early = column(solving.y), sum(b.residual.numel() for b in solving.blocks if not b.late)
     later = ca.vertcat(core.z, core.lam, y[early:])

@@ -27,8 +27,9 @@
 #define PATIENCE 2
 /* Part of an error from which on what is left of an older measure is measured again at once. */
 #define NOISY 0.01
-/* Rejections after which the sizes of states no longer shrink with the step, if the error has not
- * fallen by so much beside its bound: of what grows as a high power of time it never does. */
+/* Rejections after which the sizes of states and guards no longer shrink with the step, if the
+ * error has not fallen by so much beside its bound: of what grows as a high power of time it never
+ * does. */
 #define HOLD 6
 #define HARDLY 0.1
 /* Shrinking of steps after which rounding of a guard is asked for, though none was rejected, where
@@ -62,6 +63,7 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   a->longest = frot_longest_step(m, s, w, a->t, 0);
   a->h = fmin(s->h, a->longest);
   frot_see_anew(w);
+  memset(w->guards.shown, 0, sizeof(double) * (size_t)w->layout.ng);
   int known = s->has_slope, status = frot_start_slope(m, s, w, a->t);
   if (status == FROT_OK && !known && frot_note_still_at_start(m, s, w)) {
     frot_let_sleep(m, s, w);
@@ -221,7 +223,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
       ((a->ratio > 1 || unfound) && a->rejections % PATIENCE == 0))
     measure_noise(m, s, w, t + h);
   if (a->rejections % HOLD == 0) {
-    if (a->ratio > HARDLY * a->stubborn) frot_hold_worth(s, w);
+    if (a->ratio > HARDLY * a->stubborn) frot_hold_worth(s, w), frot_hold_guards(w);
     a->stubborn = isfinite(a->ratio) ? a->ratio : INFINITY;
   }
   frot_shorten(m, s, w, a);

@@ -89,6 +89,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       if (plain) rounding = noise, noise = 0; /* no inertia smooths it */
     } else {
       double largest = FROT_GUARD_LOOSEST * s->data[l->most_g + w->guards.list[j - n]];
+      largest = fmax(largest, w->guards.shown[j - n]);
       for (int k = 0; k <= DP_STAGES; k++) {
         double size = fabs(frot_stage(w, k)[j]);
         if (size > largest) largest = size;
@@ -128,4 +129,13 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
       !m->has_jacobian || frot_has_motion(m) || frot_implicit_begin(m, s, w, t) != FROT_OK;
   frot_raise_small(m, s, w, h, no_jacobian);
   return worst_error(m, s, w, h);
+}
+
+void frot_hold_guards(const frot_work *w) {
+  int first = w->awake.n;
+  for (int k = 0; k < w->guards.count; k++)
+    for (int i = 0; i <= DP_STAGES; i++) {
+      double size = fabs(frot_stage(w, i)[first + k]);
+      if (size < INFINITY) w->guards.shown[k] = fmax(w->guards.shown[k], size);
+    }
 }

@@ -14,8 +14,9 @@
 #include "stages.h"
 #include "tolerances.h"
 
-#define SAMPLES 8 /* places at which a guard that seems to dip may have risen again */
-#define IDLE 10   /* falls to no effect, one after the other, after which one is to be clear */
+#define SAMPLES 8  /* places at which a guard that seems to dip may have risen again */
+#define BETWEEN 32 /* the same, of one that its stages say has not fallen */
+#define IDLE 10    /* falls to no effect, one after the other, after which one is to be clear */
 /* Part of its largest size below which what was measured of a force is no longer of this one. */
 #define FADED 1e-2
 /* Part of the step in which a condition moves as its slope at the start says. */
@@ -113,6 +114,21 @@ int frot_meets_stages(const frot_state *s, const frot_work *w, double h) {
   return 1;
 }
 
+/* Whether a guard at zero at the start falls below it by its polynomial alone: no stage of the step
+ * lies below, and the polynomial is farther off them than it is below zero. What begins with a
+ * broken power of time is followed no better, however short the step. */
+static int falls_between_stages(const frot_state *s, const frot_work *w, int k, const double g[7]) {
+  double off = 0, below = 0;
+  if (s->implicit) return 0;
+  for (int i = 1; i <= DP_STAGES; i++) {
+    double value = frot_stage(w, i)[w->awake.n + k];
+    if (!(value >= 0)) return 0;
+    if (i < DP_STAGES) off = fmax(off, fabs(value - frot_bernstein(g, dp_c[i])));
+  }
+  for (int i = 1; i < BETWEEN; i++) below = fmax(below, -frot_bernstein(g, i / (double)BETWEEN));
+  return below <= off;
+}
+
 int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work *w, double t,
                        double h, double *theta) {
   int found = -1, conditions = frot_condition_guard(m);
@@ -136,6 +152,9 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
     /* next to a jam noise would hide any reversal, but what has no size yet may be all noise */
     if (s->data[w->layout.scale_g + j] > 0) floor = fmin(floor, FROT_DROWNED * size);
     double at = frot_first_fall(g, floor + 8 * DBL_EPSILON * fabs(t) * slope);
+    if (at < FROT_NO_ROOT && j >= conditions && fabs(first) <= FROT_CONDITION_ZERO * size &&
+        s->data[w->layout.fresh + j - conditions] == 0 && falls_between_stages(s, w, k, g))
+      continue;
     if (j >= conditions && fabs(first) <= FROT_ZERO * size &&
         lost_at_once(s, w, j - conditions, g, inside, at < FROT_NO_ROOT))
       at = 0;

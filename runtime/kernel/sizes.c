@@ -71,7 +71,9 @@ int frot_is_small(const frot_model *m, const frot_state *s, const frot_work *w, 
 }
 
 /* Tables of frot_raise_small: how long an error of each state lives, the most that its size may be
- * raised to (0: it is not small), and the state that has raised it. */
+ * raised to (0: it is not small), and the state that has raised it, UNRAISED, or UNDRIVEN of what
+ * no other moves. */
+enum { UNRAISED = -1, UNDRIVEN = -2 };
 typedef struct {
   double *lives, *most;
   int *by;
@@ -98,11 +100,12 @@ static void raise_by_jacobian(const frot_model *m, const frot_state *s, frot_wor
     r.lives[k] = (double)LASTING / LASTING_STEPS / h;
     r.most[k] =
         k < m->nq && frot_is_small(m, s, w, k) ? SMALL_PART * w->sizes.alike[m->q_alike[k]] : 0;
-    r.by[k] = -1;
+    r.by[k] = UNDRIVEN;
   }
   for (int e = 0; e < entries; e++) {
     int row = sparse ? p->entry_row[e] : e % n, column = sparse ? p->entry_column[e] : e / n;
     if (row == column) r.lives[row] = larger(r.lives[row], fabs(j.entries[e]));
+    if (row != column && j.entries[e] != 0) r.by[row] = UNRAISED;
   }
   for (int k = 0; k < n; k++) r.lives[k] = LASTING / r.lives[k];
   for (int sweep = 0; sweep < 2 * SWEEPS && raised; sweep++) {
@@ -113,6 +116,9 @@ static void raise_by_jacobian(const frot_model *m, const frot_state *s, frot_wor
       raised |= raise(w, &r, row, column, j.entries[e]);
     }
   }
+  /* what a root drives that is zero yet begins with no slope */
+  for (int k = 0; k < n; k++)
+    if (r.by[k] == UNDRIVEN && w->step.z0[k] == 0 && r.most[k] > 0) w->sizes.own[k] = r.most[k];
 }
 
 void frot_raise_small(const frot_model *m, const frot_state *s, frot_work *w, double h,

@@ -72,14 +72,35 @@ static void flip(const rest *r) {
     if (fired[j] != 0) d[j] = 1 - d[j];
 }
 
+/* Put at zero the states, of those that are no coordinates, that come to it within a few roundings
+ * of time: what empties together is empty together. */
+static void vanish(const rest *r) {
+  const double *slope = r->s->data + r->w->layout.slope;
+  for (int k = 0; k < r->m->nq; k++)
+    if (r->m->q_speed[k] < 0 && fabs(r->place[k]) <= NEAR * r->moved * fabs(slope[k]))
+      r->place[k] = 0;
+}
+
+/* Whether what fires is zero at the place, and stays so whichever side it is on. */
+static int stays_on_both(const rest *r) {
+  if (!stays(r)) return 0;
+  flip(r);
+  int both = stays(r);
+  flip(r);
+  return both;
+}
+
 int frot_stay(const frot_model *m, frot_state *s, frot_work *w, double t, double *x) {
   double moved = DBL_EPSILON * frot_size_of_time(t, s->h_max);
   rest r = {m, s, w, t, moved, w->step.z1};
-  memcpy(r.place, x, sizeof(double) * (size_t)w->layout.nx);
-  if (!go_to_zero(&r) || !stays(&r)) return 0;
-  flip(&r);
-  int both = stays(&r);
-  flip(&r);
-  if (both) memcpy(x, r.place, sizeof(double) * (size_t)(m->nq + m->nv));
-  return both;
+  size_t size = sizeof(double) * (size_t)w->layout.nx;
+  memcpy(r.place, x, size);
+  int found = go_to_zero(&r) && stays_on_both(&r);
+  if (!found) {
+    memcpy(r.place, x, size);
+    vanish(&r);
+    found = first_off_zero(&r, r.place) == -1 && stays_on_both(&r);
+  }
+  if (found) memcpy(x, r.place, sizeof(double) * (size_t)(m->nq + m->nv));
+  return found;
 }

@@ -268,7 +268,8 @@ static void bind_opening(const frot_model *m, const extent *e, frot_opening_work
 
 static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, arena *a) {
   frot_step_work *p = &w->step;
-  TAKE(w->guards.list, l->ng), TAKE(w->guards.size, l->ng), TAKE(w->guards.motion, m->n_groups);
+  TAKE(w->guards.list, l->ng), TAKE(w->guards.size, l->ng), TAKE(w->guards.shown, l->ng);
+  TAKE(w->guards.motion, m->n_groups);
   TAKE(w->guards.end_reaction, 2 * m->n_elements);
   TAKE(w->guards.end_friction, m->n_elements);
   TAKE(p->k, DP_ALL * l->nz), TAKE(p->first, l->nz), TAKE(p->doubt, l->nz),

@@ -190,12 +190,13 @@ typedef struct {
   int count;
 } frot_nearer_work;
 
-/* guards.h: those that can fall in the modes, the sizes of their terms, of all that moves each
- * group; pins' reactions (2 n_elements), friction (n_elements) and the kinetic energy at the end of
- * a step (ends.h). */
+/* guards.h: those that can fall in the modes, the sizes of their terms, what a step that failed
+ * again and again showed them to be (error.h), the size of all that moves each group; pins'
+ * reactions (2 n_elements), friction (n_elements) and the kinetic energy at the end of a step
+ * (ends.h). */
 typedef struct {
   int *list, count;
-  double *size, *motion, *end_reaction, *end_friction, end_kinetic;
+  double *size, *shown, *motion, *end_reaction, *end_friction, end_kinetic;
 } frot_guard_work;
 
 /* stages.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones at the
