@@ -18,6 +18,7 @@ from frot.compiler.equations.chains import Resolver, replace_known
 from frot.compiler.equations.given import Given
 from frot.compiler.lowering.symbols import column
 from frot.dsl.data.classes import dataclass
+from numpy.typing import NDArray
 
 FEW, MANY = (k * float(np.finfo(float).eps) for k in (4, 16))
 POINTS = 64  # random places at which a root of a negative operand must act on nothing
@@ -119,7 +120,7 @@ class Roots:
             if x in self.given:
                 at[k] = self.given.numbers([x])[0]
         ones = np.ones((len(roots), POINTS))
-        holds = np.ones((len(own), POINTS))
+        holds: NDArray[np.floating] = np.ones((len(own), POINTS))
         for _ in range(SETTLING):
             holds = 1.0 * (np.array(look(at, ones, holds)[1]) > 0)
         operand, _, value = (np.array(x) for x in look(at, ones, holds))

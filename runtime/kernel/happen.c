@@ -198,6 +198,15 @@ static int act_in_order(const instant *in, int first, int *fires, double *q, dou
   return FROT_OK;
 }
 
+/* Note the conditions of the `when`s that have moved the states. */
+static void note_near(const instant *in) {
+  double *near = in->s->data + in->l.near;
+  for (int i = 0; i < in->m->n_whens; i++) {
+    int j = in->m->when_condition[i];
+    if (in->w->events.firing[i] != 0 && j < in->m->n_located) near[j] = 1;
+  }
+}
+
 /* Apply what the `when`s of a round do; *changed: whether anything was to be done. */
 static int update(const instant *in, int first, int *changed) {
   const frot_model *m = in->m;
@@ -219,6 +228,7 @@ static int update(const instant *in, int first, int *changed) {
   int moved = memcmp(in->q, q, sizeof(double) * (size_t)m->nq) != 0 ||
               memcmp(in->v, v, sizeof(double) * (size_t)m->nv) != 0;
   s->jumped |= moved;
+  if (moved) note_near(in);
   memcpy(in->q, q, sizeof(double) * (size_t)m->nq);
   memcpy(in->v, v, sizeof(double) * (size_t)m->nv);
   memcpy(held, w->events.held, held_size);
@@ -229,11 +239,24 @@ static int update(const instant *in, int first, int *changed) {
   return moved ? release_contacts(in) : FROT_OK;
 }
 
+/* Whether a `when` fires that has moved the states before, and whose condition has since then not
+ * been clear of zero: its next events are nothing but rounding. */
+static int comes_unseen(const instant *in) {
+  const double *near = in->s->data + in->l.near;
+  for (int i = 0; i < in->m->n_whens; i++) {
+    int j = in->m->when_condition[i];
+    if (in->w->events.firing[i] != 0 && j < in->m->n_located && near[j] != 0) return 1;
+  }
+  return 0;
+}
+
 /* Whether the text's events crowd before a limit (a ball that bounces): rounding would hide the
  * last of them, and what follows would be wrong. */
-static int crowds(frot_state *s, double t) {
-  double gap = t - s->text_event;
+static int crowds(const instant *in) {
+  frot_state *s = in->s;
+  double t = in->t, gap = t - s->text_event;
   if (!(gap > 0)) return 0;
+  if (comes_unseen(in)) return 1;
   double ratio = s->text_gap > 0 ? gap / s->text_gap : 1;
   int same = fabs(ratio - s->text_ratio) <= FROT_ONE_RATIO * ratio;
   if (!(ratio < 1) || (s->shrinking > 1 && !same)) s->shrinking = 0;
@@ -254,7 +277,7 @@ static int fire_whens(const instant *in, int first, int *happened) {
     int changed = 0, begins = first && round == 0, fires = some_fire(in, begins);
     if (!fires && m->n_held == 0) break;
     if (round == CROWD) return frot_fail(s, FROT_CHATTER, in->t, -1, first_cause(in), -1, round);
-    if (round == 0 && fires && crowds(s, in->t))
+    if (round == 0 && fires && crowds(in))
       return frot_fail(s, FROT_CHATTER, in->t, -1, first_cause(in), -1, FROT_EVER_SOONER);
     int status = FROT_OK;
     if (round == 0) status = frot_energies(m, s, in->w, in->t, in->q, in->v, d, before);

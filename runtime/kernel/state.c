@@ -55,6 +55,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.sign = at, at += m->n_groups;
   l.asked = at, at += m->n_outcomes;
   l.fresh = at, at += m->n_conditions;
+  l.near = at, at += m->n_located;
   l.modes = at, at += m->n_contacts + m->n_elements;
   l.d = at, at += l.nd;
   l.frozen = at, at += m->nv;

@@ -33,7 +33,7 @@ typedef struct {
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, experiment, nominal, unilateral, carried, x, y, slope, scale_x,
       scale_g, most_g, worth, noise, along, friction, reach, asleep, fired, several, due, left,
-      vanished, spare, sign, posture, asked, fresh, modes, d, frozen, segment, size;
+      vanished, spare, sign, posture, asked, fresh, near, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {

@@ -37,6 +37,8 @@
 /* Part of the step by which its end may be found after where it was looked for: further on, other
  * guards may have fallen before. */
 #define STRAY 0.01
+/* How much farther from zero than events are located a condition has left it. */
+#define CLEAR 4
 /* Time beyond which events no longer crowd, in longest steps. */
 #define CROWDED 1e-9
 
@@ -73,6 +75,18 @@ static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_a
     a->guard = frot_falling_guard(m, s, w, a->t, a->h, &a->theta);
   }
   return FROT_OK;
+}
+
+/* What a `when` waits for is no longer near where it was when it fired: happen.c. */
+static void leave_near(const frot_model *m, frot_state *s, const frot_work *w) {
+  double *near = s->data + w->layout.near;
+  for (int k = 0; k < w->guards.count; k++) {
+    int j = w->guards.list[k] - frot_condition_guard(m);
+    if (j < 0 || near[j] == 0) continue;
+    double clear = CLEAR * FROT_GUARD_FLOOR * s->data[w->layout.scale_g + w->guards.list[k]];
+    for (int i = 1; i <= DP_STAGES && near[j] != 0; i++)
+      if (frot_stage(w, i)[w->awake.n + k] > clear) near[j] = 0;
+  }
 }
 
 /* Rounding that was measured is measured anew before long. */
@@ -133,6 +147,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   frot_note_sizes(m, s, w, w->step.z1, frot_stage(w, DP_STAGES) + w->awake.n);
   frot_note_worth(s, w, w->step.z1);
+  leave_near(m, s, w);
   if (guard >= 0) s->last_ratio = 0;
   if (guard >= 0) frot_fire_guards(m, s, w, guard, a->t, a->h);
   if (a->to_due) frot_fire_due(m, s);
