@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from frot.compiler.equations.balance import report_unbalanced
-from frot.compiler.equations.index import find_unbalanced
+from frot.compiler.equations.index import find_unbalanced, report_unbalanced
 from frot.compiler.equations.origins import Origin, Unknown
 from frot.compiler.lowering.walk import subexpressions
 from frot.compiler.mechanics.mechanism import Mechanism

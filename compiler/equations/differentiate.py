@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import casadi as ca
-from frot.compiler.equations.balance import report_unbalanced
 from frot.compiler.equations.chains import Chains
 from frot.compiler.equations.eliminate import Residuals
-from frot.compiler.equations.index import Index, find_unbalanced, reduce_index
+from frot.compiler.equations.index import Index, find_unbalanced, reduce_index, report_unbalanced
 from frot.compiler.equations.order import Component, find_components
 from frot.compiler.equations.origins import Origin, Unknown
 from frot.compiler.equations.slopes import symbols_inside
