@@ -14,7 +14,7 @@ import casadi as ca
 from frot.compiler.equations.chains import Chains, Resolver
 from frot.compiler.equations.given import Given
 from frot.compiler.equations.origins import Origin
-from frot.compiler.equations.table import PARAMETER, Table
+from frot.compiler.equations.table import PARAMETER, UNIT, Table
 from frot.compiler.lowering.symbols import column
 from frot.dsl.data.classes import dataclass
 
@@ -143,6 +143,9 @@ def _candidate(
     row = table.rows[number]
     if chains.items[chain].fixed or row.orders[chain] > 0:
         return None
+    variable = chains.items[chain].variable
+    if variable is not None and variable.type.base != "real" and kind != UNIT:
+        return None  # `b = not b` is 2*b = 1, which no condition or whole number solves
     terms, others = len(row.orders) - 1, len(table.equations[chain]) - 1
     if terms > 1 and others > 1 and terms * others > MOST_FILL:
         return None

@@ -11,42 +11,55 @@ from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.expressions import Lowering
 from frot.dsl import Log
 from frot.dsl.checked import Equation, IfEquations
+from frot.dsl.data.classes import replace
+from frot.dsl.expressions.expression import is_whole
 
 
 def gather(equations: Sequence[Equation | IfEquations], lowering: Lowering, log: Log) -> Residuals:
     """One residual for every scalar equation."""
     found = Residuals([], [])
     for equation in equations:
-        for value, origin in _residuals(equation, lowering, log):
-            found.values.append(value)
+        for left, right, origin in _sides(equation, lowering, log):
+            found.values.append(left - right)
             found.origins.append(origin)
     return found
 
 
-def _residuals(
+def _sides(
     equation: Equation | IfEquations, lowering: Lowering, log: Log
-) -> list[tuple[ca.SX, Origin]]:
+) -> list[tuple[ca.SX, ca.SX, Origin]]:
+    """Left and right of each scalar equation."""
     if isinstance(equation, IfEquations):
         return _branches(equation, lowering, log)
     lowering.owner = equation.owner
-    difference = lowering.lower(equation.left) - lowering.lower(equation.right)
+    left, right = lowering.lower(equation.left), lowering.lower(equation.right)
     text = equation.connection or " ".join(equation.span.text.split()).rstrip("; ")
-    origin = Origin(equation.span, text, equation.owner, equation.drives)
-    return [(value, origin) for value in scalars(difference)]
+    discrete = all(x.type.base != "real" or is_whole(x) for x in (equation.left, equation.right))
+    origin = Origin(equation.span, text, equation.owner, equation.drives, discrete)
+    return [(a, b, origin) for a, b in zip(scalars(left), scalars(right), strict=True)]
 
 
-def _branches(equations: IfEquations, lowering: Lowering, log: Log) -> list[tuple[ca.SX, Origin]]:
+def _branches(
+    equations: IfEquations, lowering: Lowering, log: Log
+) -> list[tuple[ca.SX, ca.SX, Origin]]:
+    """What stands on the left of every branch stays there: its factor does not switch."""
     conditions: list[ca.SX | None] = []
-    columns: list[list[tuple[ca.SX, Origin]]] = []
+    columns: list[list[tuple[ca.SX, ca.SX, Origin]]] = []
     for condition, inner in equations.branches:
         lowering.owner = equations.owner
         conditions.append(None if condition is None else lowering.lower(condition))
-        columns.append([pair for e in inner for pair in _residuals(e, lowering, log)])
+        columns.append([sides for e in inner for sides in _sides(e, lowering, log)])
     found = columns[-1]
     for holds, column in reversed(list(zip(conditions, columns, strict=True))[:-1]):
         assert holds is not None
-        found = [
-            (ca.if_else(holds, value, other), origin)
-            for (value, origin), (other, _) in zip(column, found, strict=True)
-        ]
+        found = [_either(holds, yes, no) for yes, no in zip(column, found, strict=True)]
     return found
+
+
+def _either(
+    holds: ca.SX, yes: tuple[ca.SX, ca.SX, Origin], no: tuple[ca.SX, ca.SX, Origin]
+) -> tuple[ca.SX, ca.SX, Origin]:
+    origin = replace(yes[2], discrete=yes[2].discrete and no[2].discrete)
+    if ca.is_equal(yes[0], no[0]):
+        return yes[0], ca.if_else(holds, yes[1], no[1]), origin
+    return ca.if_else(holds, yes[0] - yes[1], no[0] - no[1]), ca.SX(0), origin

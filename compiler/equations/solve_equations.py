@@ -78,8 +78,14 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
     index = reduce_index(incidence, len(everything))
 
     def may_define(i: int, j: int, entries: Entries) -> bool:
-        """States only where the equation is differentiated as often; other unknowns if aliases."""
-        states = index.unknowns[j]
+        """States only where the equation is differentiated as often; other unknowns if aliases.
+
+        What is no real number follows from an equation between such values only.
+        """
+        states, variable = index.unknowns[j], chains.items[j].variable
+        real = variable is None or variable.type.base == "real"
+        if not real and not reduced.equations.origins[i].discrete:
+            return False
         alias = len(entries) <= 2 and not any(entries.values())
         return index.equations[count + i] == states and (states > 0 or alias)
 
@@ -137,7 +143,8 @@ def _are_equations(left: Eliminated, chains: Chains, log: Log) -> bool:
                 "E0610",
                 f"'{chain.name}' is neither set by a 'when' nor given by an equation of its own",
                 variable.span,
-                help=f"write '{chain.name} = ...' in the equations, or in a 'when'",
+                help=f"write '{chain.name} = ...' in the equations, or in a 'when', with nothing "
+                f"in it that follows from itself; what it was before is 'pre({chain.name})'",
             )
             good = False
     for value, origin in zip(left.residuals.values, left.residuals.origins, strict=True):

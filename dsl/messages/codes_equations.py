@@ -76,7 +76,8 @@ EQUATIONS: Mapping[str, Row] = {
     ),
     "E0610": (
         "condition without an equation of its own",
-        "A Boolean or whole number that no 'when' sets must follow from an equation 'name = ...'.",
+        "A Boolean or whole number that no 'when' sets must follow from an equation 'name = ...', "
+        "between values that are no real numbers, and not from itself.",
         "Write such an equation, or set it in a 'when'.",
         _equations("Boolean b;\nReal x;", "x = if b then 1 else 2;\nx = 1;"),
     ),

@@ -6,6 +6,7 @@
 #include "apart.h"
 #include "branch.h"
 #include "closest.h"
+#include "conditions.h"
 #include "core.h"
 #include "elsewhere.h"
 #include "guesses.h"
@@ -16,11 +17,20 @@
 #include "terms.h"
 #include "tolerances.h"
 
-#define ROUNDS 10 /* of conditions that depend on values that depend on conditions */
+/* Conditions that depend on values that depend on conditions: rounds in which all are set, beyond
+ * those that their chain can be long, and for each of these those in which the first that is wrong
+ * is changed alone (conditions.c); rounds that may have no solution. */
+#define ROUNDS 10
+#define ONE_BY_ONE 20
 
-static void set_conditions(const frot_model *m, const frot_work *w, double *d) {
-  for (int j = 0; j < m->n_conditions; j++)
-    d[j] = m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;
+/* Set the conditions as their values say, or `alone` the first of those that are not. */
+static void set_conditions(const frot_model *m, const frot_work *w, double *d, int alone) {
+  for (int j = 0; j < m->n_conditions; j++) {
+    int now = m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;
+    int changes = now != (d[j] != 0);
+    d[j] = now;
+    if (changes && alone) return;
+  }
 }
 
 /* v and y <- where the search for speeds and for the unknowns of the blocks begins at the places as
@@ -280,14 +290,14 @@ static int solve_speeds(frot_opening *p, frot_contact_mode *modes) {
   return status;
 }
 
-static void look_at_conditions(const frot_opening *p) {
+static void look_at_conditions(const frot_opening *p, int alone) {
   frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
-  set_conditions(p->m, p->w, p->s->data + frot_layout_of(p->m).d);
+  set_conditions(p->m, p->w, p->s->data + frot_layout_of(p->m).d, alone);
 }
 
 /* All values from the guesses, or from those found before, with the conditions as they are; then
  * sets these. */
-static int solve_once(frot_opening *p, int stay) {
+static int solve_once(frot_opening *p, int stay, int alone) {
   const frot_model *m = p->m;
   frot_state *s = p->s;
   frot_work *w = p->w;
@@ -304,7 +314,7 @@ static int solve_once(frot_opening *p, int stay) {
   if (!stay) guess(p);
   int status = solve_positions(p, side, stay);
   if (status != FROT_OK) return status;
-  set_conditions(m, w, d);
+  if (!alone) set_conditions(m, w, d, 0);
   for (int i = 0; i < nc; i++) {
     const frot_contact *contact = &m->contacts[i];
     if (!frot_has_normal(contact)) continue;
@@ -315,7 +325,7 @@ static int solve_once(frot_opening *p, int stay) {
   }
   status = solve_speeds(p, modes);
   if (status != FROT_OK) return status;
-  set_conditions(m, w, d);
+  set_conditions(m, w, d, alone);
   return FROT_OK;
 }
 
@@ -330,6 +340,20 @@ static int only_ends(const frot_model *m, const frot_work *w, const double *d, i
   return 1;
 }
 
+/* The first condition that is not what it was, -1 where there is none. */
+static int first_changed(const frot_opening *p) {
+  for (int j = 0; j < p->m->n_conditions; j++)
+    if (p->d[j] != p->w->events.before[j]) return j;
+  return -1;
+}
+
+/* Whether conditions with which all has been found agree with what follows from them; sets them as
+ * it says. */
+static int agree(const frot_opening *p, int alone) {
+  look_at_conditions(p, alone);
+  return first_changed(p) < 0 || only_ends(p->m, p->w, p->d, 1);
+}
+
 int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v) {
   frot_layout l = frot_layout_of(m);
@@ -338,20 +362,27 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
   size_t size = sizeof(double) * (size_t)m->n_conditions;
   frot_leave_parts(&p);
-  if (m->n_conditions > 0) guess(&p), look_at_conditions(&p);
-  int failed = FROT_OK;
-  frot_fault told = s->fault;
-  for (int round = 0, stay = 0; round < ROUNDS; round++) {
+  if (m->n_conditions > 0) guess(&p), look_at_conditions(&p, 0);
+  int together = m->n_conditions + ROUNDS, most = together + ONE_BY_ONE * together;
+  int changed = -1, other = -1, failures = 0;
+  for (int round = 0, stay = 0; round < most; round++) {
+    int alone = round >= together;
     memcpy(w->events.before, p.d, size);
-    int status = solve_once(&p, stay);
-    /* what has no solution under these conditions may have one under those found there */
-    if (status != FROT_OK) failed = status, told = s->fault, look_at_conditions(&p);
-    if (memcmp(w->events.before, p.d, size) == 0) return status;
+    int status = solve_once(&p, stay, alone);
+    if (status != FROT_OK) {
+      /* what has no solution under these conditions may have one under those found there */
+      frot_fault told = s->fault;
+      look_at_conditions(&p, alone);
+      s->fault = told;
+      if (++failures == ROUNDS) return status;
+    }
+    int last = first_changed(&p);
+    if (last < 0 && (status != FROT_OK || agree(&p, alone))) return status;
+    if (last < 0) last = first_changed(&p);
+    if (last != changed) other = changed, changed = last;
     stay = status == FROT_OK && only_ends(m, w, p.d, 0);
     if (stay && only_ends(m, w, p.d, 1)) return status;
     frot_clear_opening(&p);
   }
-  if (failed == FROT_OK) return frot_fail(s, FROT_CHATTER, t, -1, -1, -1, ROUNDS);
-  s->fault = told, s->phase = FROT_FAULTED;
-  return failed;
+  return frot_fail(s, FROT_CHATTER, t, -1, changed, other, FROT_NO_TRUTH);
 }

@@ -242,12 +242,14 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
       frot_wake_state(m, s, w);
       if (s->second >= 0)
         status = frot_fail(s, FROT_IMPACT, *g.t1, s->second, 0, -1, 0);
-      else if (++s->crowded > CROWD && s->statistics.events == s->told)
+      else if (++s->crowded > CROWD && s->statistics.events == s->told &&
+               condition_at_fault(m, s) < 0)
         status = frot_fail_step(m, s, w, FROT_DIVERGE, *g.t1, 0); /* the same modes again */
       else if (s->crowded > CROWD && s->fleeting >= 0) /* none holds longer than the instant */
         status = frot_fail(s, FROT_IMPASSE, *g.t1, s->fleeting, -1, -1, s->crowded);
       else if (s->crowded > CROWD)
-        status = frot_fail(s, FROT_CHATTER, *g.t1, -1, condition_at_fault(m, s), -1, s->crowded);
+        status = frot_fail(s, FROT_CHATTER, *g.t1, -1, condition_at_fault(m, s), -1,
+                           s->statistics.events == s->told ? FROT_NO_TRUTH : s->crowded);
       else
         s->idle++, status = happen_at_end(m, s, w, recorder);
       if (s->statistics.events != events) s->idle = 0;
