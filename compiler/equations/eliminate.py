@@ -11,10 +11,11 @@ from collections import defaultdict
 from collections.abc import Callable, Mapping
 
 import casadi as ca
+import numpy as np
 from frot.compiler.equations.chains import Chains, Resolver
 from frot.compiler.equations.given import Given
 from frot.compiler.equations.origins import Origin
-from frot.compiler.equations.table import PARAMETER, UNIT, Table
+from frot.compiler.equations.table import PARAMETER, UNIT, Row, Table
 from frot.compiler.lowering.symbols import column
 from frot.dsl.data.classes import dataclass
 
@@ -22,6 +23,8 @@ Entries = Mapping[int, int]
 
 # Equations that a removal may lengthen: (terms less one) x (other equations) of the unknown.
 MOST_FILL = 12
+# A sum of factors that is that part of the largest is what rounding leaves of zero.
+CANCELS = 8 * float(np.finfo(float).eps)
 
 
 @dataclass(slots=True, eq=False)
@@ -98,7 +101,12 @@ def eliminate(
         if touched:
             values = column(table.rows[i].value for i in touched)
             replaced = ca.vertsplit(_replace(values, removed, definitions, chains))
-            table.put(dict(zip(touched, replaced, strict=True)))
+            by = dict(zip(removed, rows, strict=True))
+            left = [
+                _without(_cancelled(table.rows[i], by), value, chains)
+                for i, value in zip(touched, replaced, strict=True)
+            ]
+            table.put(dict(zip(touched, left, strict=True)))
     numbers = sorted(table.rows)
     return Eliminated(
         Residuals([table.rows[i].value for i in numbers], [residuals.origins[i] for i in numbers]),
@@ -175,6 +183,47 @@ def _replace(value: ca.SX, removed: list[int], definitions: ca.SX, chains: Chain
     if not symbols:
         return value
     return ca.substitute(value, column(symbols), column(replacements))
+
+
+def _cancelled(row: Row, by: Mapping[int, Row]) -> list[int]:
+    """The unknowns that go out of an equation, but for rounding, with those that `by` defines.
+
+    What is left of 0.3 - 3*0.1 is no factor to solve for.
+    """
+    sums: dict[int, list[float]] = defaultdict(list)
+    unsure: set[int] = set()
+    for chain, other in by.items():
+        if chain not in row.orders:
+            continue
+        weight, own = _constant(row, chain), _constant(other, chain)
+        for j in other.orders:
+            factor = _constant(other, j)
+            if weight is None or own is None or factor is None:
+                unsure.add(j)
+            else:
+                sums[j].append(-weight / own * factor)
+    gone: list[int] = []
+    for j, terms in sums.items():
+        before = _constant(row, j) if j in row.orders else 0.0
+        if j in by or j in unsure or before is None:
+            continue
+        terms.append(before)
+        if abs(sum(terms)) <= CANCELS * max(map(abs, terms)):
+            gone.append(j)
+    return gone
+
+
+def _constant(row: Row, chain: int) -> float | None:
+    """The factor of an unknown in an equation, if that is a number."""
+    factor = row.factors.get(chain)
+    return float(factor.value) if factor is not None and factor.value.is_constant() else None
+
+
+def _without(gone: list[int], value: ca.SX, chains: Chains) -> ca.SX:
+    if not gone:
+        return value
+    symbols = column(chains.symbol(j, 0) for j in gone)
+    return ca.substitute(value, symbols, ca.SX.zeros(len(gone)))
 
 
 def _resolver(rounds: list[tuple[list[int], ca.SX]], chains: Chains) -> Resolver:

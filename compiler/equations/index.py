@@ -176,8 +176,8 @@ def report_unbalanced(
             help="let such a force act through a state, or give the body another mass",
         )
         return
-    if found.unknowns:
-        names = [unknowns[j].name for j in found.unknowns]
+    names = [unknowns[j].name for j in found.unknowns]
+    if found.unknowns and not found.equations:
         spans = {unknowns[j].span: unknowns[j].name for j in found.unknowns}
         first, *others = [(s, n) for s, n in spans.items() if s is not None]
         one = len(names) == 1
@@ -205,6 +205,7 @@ def report_unbalanced(
             ),
             places[0],
             labels=tuple(Label(s, "one of them") for s in places[1:MOST_NAMED]),
+            notes=(f"nothing is left to determine {_listed(names)}",) if names else (),
             help="leave one out, or declare what it should determine as a variable",
         )
 

@@ -56,6 +56,7 @@ class Solving:
     y: list[ca.SX] = field(default_factory=list)
     blocks: list[Block] = field(default_factory=list)
     pivots: list[Pivot] = field(default_factory=list)
+    divisors: list[Pivot] = field(default_factory=list)
 
 
 def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
@@ -197,11 +198,13 @@ def _solve(
     residual = [found.values[i] for i in component.equations]
     if component.needs:
         residual = [replace_known(value, solving.known) for value in residual]
+    origins = [found.origins[i] for i in component.equations]
     torn = tear(residual, unknowns, given)
     for factor, unknown, number in torn.divisors:
-        if not factor.is_constant() and all(x in given for x in ca.symvar(factor)):
-            origin = found.origins[component.equations[number]]
-            solving.pivots.append(Pivot(factor, unknown.name(), origin))
+        if not factor.is_constant():
+            pivot = Pivot(factor, unknown.name(), origins[number])
+            fixed = all(x in given for x in ca.symvar(factor))
+            (solving.pivots if fixed else solving.divisors).append(pivot)
     first = len(solving.y)
     for symbol in torn.iterated:
         solving.y.append(symbol)
@@ -210,7 +213,6 @@ def _solve(
     if torn.iterated:
         names = ", ".join(symbol.name() for symbol in torn.iterated[:4])
         more = len(torn.iterated) - 4
-        origin = found.origins[component.equations[0]]
         solving.blocks.append(
             Block(
                 column(without_what_cancels(value) for value in torn.residual),
@@ -218,7 +220,7 @@ def _solve(
                 torn.linear,
                 late,
                 names + (f" and {more} more" if more > 0 else ""),
-                origin.span,
+                origins[0].span,
             )
         )
 
@@ -273,6 +275,7 @@ def _finish(
         blocks=tuple(solving.blocks),
         invariants=Invariants(invariants, tuple(found.invariant_origins)),
         pivots=(*left.pivots, *solving.pivots, *core.pivots),
+        divisors=tuple(solving.divisors),
         solution=solution,
         tree=_renumbered(reduced.tree, s.v.numel(), core.v.numel(), solution),
     )

@@ -65,7 +65,11 @@ def tear_linear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> T
         return Torn(tuple(explicit), divisors, tuple(kept), tuple(left), True)
     z, whole = column(kept), column(left)
     constant = ca.substitute(whole, z, ca.SX.zeros(z.shape))
-    solved = -ca.solve(ca.jacobian(whole, z), constant) if kept else z
+    matrix = ca.jacobian(whole, z)
+    solved = -ca.solve(matrix, constant) if kept else z
+    if kept:
+        last = next(i for i in range(len(residual)) if i not in taken)
+        divisors = (*divisors, (ca.det(matrix), kept[0], last))
     values = {x.element_hash(): solved[k] for k, x in enumerate(kept)}
     return Torn(
         (

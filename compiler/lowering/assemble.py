@@ -56,6 +56,7 @@ def _plain(reduced: Reduced) -> Assembled:
         blocks=blocks,
         invariants=Invariants(nothing, ()),
         pivots=(),
+        divisors=(),
         solution=Solution(reduced.text.chains, Resolver(), {}),
         tree=reduced.tree,
     )

@@ -97,6 +97,7 @@ class Assembled:
     blocks: tuple[Block, ...]
     invariants: Invariants
     pivots: tuple[Pivot, ...]
+    divisors: tuple[Pivot, ...]
     solution: Solution
     tree: Tree
 

@@ -1,8 +1,9 @@
-"""Equations of the text that may give no finite number, and where each does so by itself.
+"""What of the text may give no finite number, and where each equation or condition does by itself.
 
 The residual of an equation is evaluated with the values of its variables, where those that have no
 finite value, since another equation gives none, are replaced by one: so the first of the equations
-whose residual is not finite then is the one that fails.
+whose residual is not finite then is the one that fails. So it is with what a condition compares,
+and with what an equation was divided by when it was solved.
 """
 
 from __future__ import annotations
@@ -26,15 +27,28 @@ _LARGEST = 1e300
 
 
 def watch_numbers(system: Assembled) -> tuple[ca.SX, list[Origin]]:
-    """The residuals to look at when a number is missed, and the equations they belong to."""
-    equations = system.reduced.equations
-    risky = _risky(equations.values)
-    values = column(equations.values[k] for k in risky)
+    """The values to look at when a number is missed, and what they belong to."""
+    equations, conditions = system.reduced.equations, system.reduced.conditions
+    written = [
+        (value, Origin(span, text, ""))
+        for value, span, text in zip(
+            conditions.values, conditions.spans, conditions.texts, strict=True
+        )
+        if span is not None
+    ]
+    divided = [(1 / x.value, x.origin) for x in system.divisors]
+    everything = [
+        *zip(equations.values, equations.origins, strict=True),
+        *written,
+        *divided,
+    ]
+    risky = _risky([value for value, _ in everything])
+    values = column(everything[k][0] for k in risky)
     inside = column(ca.symvar(values))
     known = system.resolve(system.reduced.variables.settled(inside))
     guarded = ca.if_else(ca.fabs(known) < _LARGEST, known, 1)
     watched = ca.substitute(values, inside, guarded) if inside.numel() else values
-    return watched, [equations.origins[k] for k in risky]
+    return watched, [everything[k][1] for k in risky]
 
 
 def _risky(values: Sequence[ca.SX]) -> list[int]:

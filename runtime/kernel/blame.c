@@ -121,7 +121,7 @@ int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status,
   int apart = -1;
   if (status == FROT_DIVERGE) apart = frot_taken_apart(m, s, w, t, w->step.z1, w->step.z1 + m->nq);
   if (apart >= 0) return frot_fail(s, status, t, apart, 0, -1, h);
-  if (status == FROT_DIVERGE && w->step.worst >= 0) {
+  if (status == FROT_DIVERGE && w->step.worst >= 0 && w->step.worst < m->nq + m->nv) {
     int own = w->step.worst < m->nq && m->q_speed[w->step.worst] < 0;
     if (own) blamed = -1;
     if (own || blamed < 0) state = w->step.worst;

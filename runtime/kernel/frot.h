@@ -63,6 +63,9 @@ enum frot_why {
 };
 
 /* Modes of the relative motion a law of friction bounds. */
+/* A state has grown beyond what can be followed: the item of a fault FROT_DIVERGE. */
+#define FROT_GROWS 2
+
 enum frot_friction { FROT_NONE = 0, FROT_STICK = 1, FROT_SLIP_FORWARD = 2, FROT_SLIP_BACKWARD = 3 };
 
 /* Values of a liaison's variable `mode` (FMU integers). */
@@ -90,7 +93,8 @@ typedef struct {
    * statement or condition: -1 where none; of FROT_INITIAL without statement -2 for speeds; of
    * FROT_POSTURE the item is 0 where the speeds at the start say no way, or several, which differ
    * in the speed `other`; of
-   * FROT_DIVERGE the item is 0 where time takes the contact apart, of FROT_IMPACT where the figures
+   * FROT_DIVERGE the item is 0 where time takes the contact apart, FROT_GROWS where the state
+   * `other` is beyond bounds, of FROT_IMPACT where the figures
    * of a closed contact meet at a second place */
   int contact, item, other;
   double t, value;

@@ -20,6 +20,7 @@
 #include "step.h"
 #include "stiffness.h"
 #include "supports.h"
+#include "tolerances.h"
 #include "tape.h"
 
 /* Events at one instant after which the modes will not settle. */
@@ -50,7 +51,8 @@ int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, dou
                : rule == FROT_NOT_ZERO      ? x != 0
                : rule == FROT_NOT_ABOVE_MAX ? x <= checks[i - 1]
                                             : x >= checks[i - 1];
-    if (!good || !isfinite(x)) return frot_fail(s, FROT_CHECK, s->t, -1, i, -1, x);
+    if (!good || !(fabs(x) <= FROT_LARGEST_GIVEN))
+      return frot_fail(s, FROT_CHECK, s->t, -1, i, -1, x);
   }
   if (experiment) memcpy(experiment, s->data + l.experiment, 4 * sizeof(double));
   return FROT_OK;

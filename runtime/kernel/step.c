@@ -111,13 +111,21 @@ static void show(const frot_model *m, frot_state *s, frot_work *w, const frot_at
   if (!a->dense && *g.t1 > w->step.looked) frot_look_inside(m, s, w, &g);
 }
 
+/* The state that has grown so far that its squares are no numbers, -1 if none has. */
+static int grown(const frot_model *m, const double *x) {
+  for (int i = 0; i < m->nq + m->nv; i++)
+    if (fabs(x[i]) > FROT_LARGEST) return i;
+  return -1;
+}
+
 /* The step that was kept ends at x: put that onto the relations; the slope there serves the next
  * step if nothing moved. */
 static int land(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a, double end,
                 double *x) {
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
-  int moved = 0, lost = frot_lost_row(m, s, w, a->t, a->h);
+  int moved = 0, lost = frot_lost_row(m, s, w, a->t, a->h), large = grown(m, x);
+  if (large >= 0) return frot_fail(s, FROT_DIVERGE, end, -1, FROT_GROWS, large, x[large]);
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   int status = s->weak && w->step.near[DP_STAGES]
                    ? FROT_OK

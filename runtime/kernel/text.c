@@ -1,10 +1,12 @@
 /* Faults and events in words. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "conditions.h"
 #include "state.h"
 #include "supports.h"
+#include "tolerances.h"
 
 static const char *mode_name(int mode) {
   return mode == FROT_MODE_OPEN ? "open" : mode == FROT_MODE_STICK ? "stick" : "slip";
@@ -196,15 +198,17 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       return;
     case FROT_CHECK: {
       const frot_check *check = &m->checks[f->item];
-      const char *rule = check->rule == FROT_POSITIVE       ? "it must be positive"
-                         : check->rule == FROT_NOT_NEGATIVE ? "it must not be negative"
-                         : check->rule == FROT_NOT_ZERO
-                             ? "it must not be zero, for an equation is divided by it"
-                         : check->rule == FROT_NOT_BELOW_PREVIOUS
-                             ? "it must not be below the coefficient of motion"
-                         : check->rule == FROT_NOT_BELOW_MIN ? "it must not be below that"
-                         : check->rule == FROT_NOT_ABOVE_MAX ? "it must not be above that"
-                                                             : "it must be a finite number";
+      const char *rule =
+          !isfinite(f->value)                   ? "it must be a finite number"
+          : fabs(f->value) > FROT_LARGEST_GIVEN ? "that is more than can be computed with"
+          : check->rule == FROT_POSITIVE        ? "it must be positive"
+          : check->rule == FROT_NOT_NEGATIVE    ? "it must not be negative"
+          : check->rule == FROT_NOT_ZERO ? "it must not be zero, for an equation is divided by it"
+          : check->rule == FROT_NOT_BELOW_PREVIOUS
+              ? "it must not be below the coefficient of motion"
+          : check->rule == FROT_NOT_BELOW_MIN ? "it must not be below that"
+          : check->rule == FROT_NOT_ABOVE_MAX ? "it must not be above that"
+                                              : "it must be a finite number";
       snprintf(text, size, "the %s is %.15g: %s", check->subject, f->value, rule);
       return;
     }
@@ -301,6 +305,13 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
     case FROT_DIVERGE:
       if (f->item == 1) {
         reach_text(m, f, text, size);
+        return;
+      }
+      if (f->item == FROT_GROWS) {
+        snprintf(text, size,
+                 "'%s' grows without limit: it is %.3g at t = %.17g, and farther it cannot be "
+                 "followed",
+                 m->states[f->other].name, f->value, f->t);
         return;
       }
       if (f->item >= 0) {

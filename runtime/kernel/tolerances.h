@@ -109,6 +109,10 @@ static inline double frot_size_of_time(double t, double h_max) {
  * which digits are lost by underflow. */
 #define FROT_LEAST_PIVOT 1e-9
 #define FROT_LEAST_TERM 1e-280
+/* A state beyond which squares of rates and of sizes come near the end of numbers. */
+#define FROT_LARGEST 1e100
+/* The same of what a text or its user gives: products of three moments of inertia are asked too. */
+#define FROT_LARGEST_GIVEN 1e150
 /* Part of the longest column's length below which the columns left of a matrix are rounding. */
 #define FROT_RANK 1e-11
 /* What friction weighs against normal reactions where reactions are not unique. */

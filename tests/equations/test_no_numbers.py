@@ -31,3 +31,18 @@ def test_forces_that_take_the_inertia_away_are_told() -> None:
         " force f: on(b, value = (b.acceleration.x*(1 kg) + 1 N, 0 N));\nend M;\n"
     )
     assert text.count("error[") == 1 and "take its inertia away" in text
+
+
+def test_numbers_that_are_too_large_to_compute_with_are_refused() -> None:
+    model = frot.compile("""
+planar model M
+  parameter Real mu = 0.1;
+  body b: particle(mass = 2 kg);
+  liaison f: contact_ponctuel(b, ground.line) with coulomb(mu);
+initial
+  b.velocity.x = 1 m/s;
+end M;
+""")
+    with pytest.raises(frot.FrotError, match=r"E0401.*mu.*more than can be computed with"):
+        model.simulate(parameters={"mu": 1e300})
+    assert model.simulate(parameters={"mu": 1e100})["b.velocity.x"][-1] == 0

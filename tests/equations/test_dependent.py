@@ -1,0 +1,83 @@
+"""Equations that depend on each other, and what is divided by zero, are told with their places."""
+
+import pytest
+
+import frot
+
+UNDETERMINED = [
+    ("Real x; Real y;", "x + y = 1; 2*x + 2*y = 2;", "`2*x + 2*y = 2` follows"),
+    ("Real x; Real y;", "x + y = 1; 2*x + 2*y = 3;", "`2*x + 2*y = 3` contradicts"),
+    ("Real x; Real y;", "x + 3*y = 1; 0.1*x + 0.3*y = 1;", "`0.1*x + 0.3*y = 1` contradicts"),
+    (
+        "Real x; Real y; Real z;",
+        "x + 3*y + z = time/(1 s); 0.1*x + 0.3*y - z = 2; 1.1*x + 3.3*y = 2;",
+        "`0.1*x + 0.3*y - z = 2` determines nothing",
+    ),
+    (
+        "Real x; Real y; Real z;",
+        "x + y + z = 1; x - y + 2*z = 2; 2*x + 3*z = 3*time/(1 s);",
+        "determines nothing",
+    ),
+]
+
+
+@pytest.mark.parametrize(("declared", "equations", "told"), UNDETERMINED)
+def test_equations_that_leave_unknowns_open_are_told(
+    declared: str, equations: str, told: str
+) -> None:
+    with pytest.raises(frot.FrotError, match="E0604") as error:
+        frot.compile(f"model M\n  {declared}\nequation\n  {equations}\nend M;\n").simulate()
+    assert told in str(error.value)
+    assert str(error.value).count("E06") == 1
+
+
+def test_hard_equations_that_do_not_depend_on_each_other_are_solved() -> None:
+    result = frot.compile("""
+model M
+  Real x; Real y; Real z;
+equation
+  x + y = 2;
+  x + 1.000001*y = 2.000001;
+  z*1e12 + x*1e12 = 3e12;
+end M;
+""").simulate()
+    assert result["x"][-1] == pytest.approx(1, abs=1e-9)
+    assert result["z"][-1] == pytest.approx(2, abs=1e-9)
+
+
+WITHOUT_VALUE = [
+    ("Real x(start = 0);", "x*der(x) = 1 1/s;", "`x*der(x) = 1 1/s`", 0),
+    ("Real x; Real y;", "x + y = 3; x*(1 + 4*time/(1 s)) + 2*y = 2;", "`x*(1 + 4*time", 0.25),
+    (
+        "parameter Real k = -1; Real n(start = 0);",
+        "when sqrt(k*time/(1 s)) > 0.1 then n = 1; end when;",
+        "`sqrt(k*time/(1 s)) > 0.1`",
+        0,
+    ),
+]
+
+
+@pytest.mark.parametrize(("declared", "equations", "named", "instant"), WITHOUT_VALUE)
+def test_what_gives_no_number_is_named(
+    declared: str, equations: str, named: str, instant: float
+) -> None:
+    with pytest.raises(frot.FrotError, match="E0904") as told:
+        frot.compile(f"model M\n  {declared}\nequation\n  {equations}\nend M;\n").simulate()
+    assert named in str(told.value)
+    at = str(told.value).split("at t = ")[1].split(":")[0]
+    assert float(at) == pytest.approx(instant, abs=1e-9)
+
+
+def test_what_grows_without_limit_is_named_where_numbers_end() -> None:
+    model = frot.compile("""
+model M
+  Real x(start = 1);
+equation
+  der(x) = 1000*x*1 1/s;
+  experiment(stop = 10 s);
+end M;
+""")
+    with pytest.raises(frot.FrotError, match=r"E0901.*'x' grows without limit") as told:
+        model.simulate()
+    at = float(str(told.value).split("at t = ")[1].split(",")[0])
+    assert 0.2302 < at < 0.25  # x passes 1e100 at 0.23026 s
