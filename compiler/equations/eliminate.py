@@ -15,7 +15,7 @@ import numpy as np
 from frot.compiler.equations.chains import Chains, Resolver
 from frot.compiler.equations.given import Given
 from frot.compiler.equations.origins import Origin
-from frot.compiler.equations.table import PARAMETER, UNIT, Row, Table
+from frot.compiler.equations.table import PARAMETER, UNIT, Factor, Row, Table
 from frot.compiler.lowering.symbols import column
 from frot.dsl.data.classes import dataclass
 
@@ -23,6 +23,8 @@ Entries = Mapping[int, int]
 
 # Equations that a removal may lengthen: (terms less one) x (other equations) of the unknown.
 MOST_FILL = 12
+# A factor that is solved for, in the largest of its unknown: dividing by less costs digits.
+LEAST = 0.01
 # A sum of factors that is that part of the largest is what rounding leaves of zero.
 CANCELS = 8 * float(np.finfo(float).eps)
 
@@ -126,7 +128,7 @@ def _choose(
         for number, row in table.rows.items()
         for chain, factor in row.factors.items()
         if may_define(number, chain, row.orders)
-        and (c := _candidate(number, chain, factor.kind, table, chains))
+        and (c := _candidate(number, chain, factor, table, chains))
     ]
     if any(c.rank[0] == 0 for c in candidates):
         candidates = [c for c in candidates if c.rank[0] == 0]
@@ -146,9 +148,9 @@ def _choose(
 
 
 def _candidate(
-    number: int, chain: int, kind: int, table: Table, chains: Chains
+    number: int, chain: int, factor: Factor, table: Table, chains: Chains
 ) -> _Candidate | None:
-    row = table.rows[number]
+    row, kind = table.rows[number], factor.kind
     if chains.items[chain].fixed or row.orders[chain] > 0:
         return None
     variable = chains.items[chain].variable
@@ -159,6 +161,8 @@ def _candidate(
         return None
     differentiated = table.is_differentiated(chain)
     if differentiated and row.unrated:
+        return None
+    if not differentiated and kind != UNIT and factor.size < LEAST * table.largest(chain):
         return None
     return _Candidate((int(differentiated), kind, terms * others), number, chain)
 

@@ -19,11 +19,13 @@ UNIT, CONSTANT, PARAMETER, UNUSABLE = range(4)
 class Factor:
     """What an equation that is linear in an unknown has before it; its kind is the first that fits.
 
-    UNIT: 1 or -1, CONSTANT, PARAMETER: of parameters alone; not zero at their defaults.
+    UNIT: 1 or -1, CONSTANT, PARAMETER: of parameters alone; not zero at their defaults, at which
+    `size` is its size.
     """
 
     value: ca.SX
     kind: int
+    size: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,6 +54,11 @@ class Table:
     def is_differentiated(self, chain: int) -> bool:
         """Whether a derivative of the chain stands in any equation."""
         return bool(self._differentiated[chain])
+
+    def largest(self, chain: int) -> float:
+        """The size of the largest factor of the chain in any equation."""
+        found = (self.rows[i].factors.get(chain) for i in self.equations[chain])
+        return max((factor.size for factor in found if factor is not None), default=0.0)
 
     def remove(self, number: int) -> Row:
         """Take an equation out."""
@@ -82,9 +89,10 @@ class Table:
         direct = [(s, at[0]) for s, at in zip(symbols, places, strict=True) if at and not at[1]]
         rows, columns, found = slopes(values, [s for s, _ in direct])
         factors: list[dict[int, Factor]] = [{} for _ in values]
-        for row, at, value, kind in zip(rows, columns, found, self._kinds(found), strict=True):
+        kinds, sizes = self._kinds(found)
+        for row, at, value, kind, size in zip(rows, columns, found, kinds, sizes, strict=True):
             if kind != UNUSABLE:
-                factors[row][direct[at][1]] = Factor(value, kind)
+                factors[row][direct[at][1]] = Factor(value, kind, size)
         made = []
         for value, own, factor in zip(values, inside, factors, strict=True):
             orders: dict[int, int] = {}
@@ -93,14 +101,15 @@ class Table:
             made.append(Row(value, orders, factor, not unrated.isdisjoint(own)))
         return made
 
-    def _kinds(self, factors: list[ca.SX]) -> list[int]:
-        kinds = [UNUSABLE] * len(factors)
+    def _kinds(self, factors: list[ca.SX]) -> tuple[list[int], list[float]]:
+        kinds, sizes = [UNUSABLE] * len(factors), [0.0] * len(factors)
         fixed = self._given.fixed(column(factors))
         for k, value in zip(fixed, self._given.numbers([factors[k] for k in fixed]), strict=True):
             if value == 0 or value != value or abs(value) == float("inf"):
                 continue
+            sizes[k] = abs(value)
             if factors[k].is_constant():
                 kinds[k] = UNIT if abs(value) == 1 else CONSTANT
             else:
                 kinds[k] = PARAMETER
-        return kinds
+        return kinds, sizes

@@ -81,3 +81,21 @@ end M;
         model.simulate()
     at = float(str(told.value).split("at t = ")[1].split(",")[0])
     assert 0.2302 < at < 0.25  # x passes 1e100 at 0.23026 s
+
+
+def test_small_factors_are_not_divided_by() -> None:
+    """Exact values by fractions; solved for x4, the fourth equation would leave nine digits."""
+    result = frot.compile("""
+model M
+  parameter Real k = 3;
+  Real x[5];
+equation
+  -x[1] + x[2] + 0.7*x[4] - x[5] = 2;
+  0.1*x[2] = 4;
+  -x[2] + x[3] + k*x[4] = 0;
+  0.1*x[2] + k*x[3] + x[4] + 1e-6*x[5] = 1;
+  1e-6*x[1] + 1e-6*x[2] + 0.7*x[3] + 0.3*x[5] = 1;
+end M;
+""").simulate()
+    exact = [31.137723246231246, 40.0, -6.125006609291861, 15.375002203097287, 17.624778295936856]
+    assert [result[f"x[{i}]"][0] for i in range(1, 6)] == pytest.approx(exact, rel=1e-13)
