@@ -71,7 +71,8 @@ def _dependences(
             continue
         inside = {i: w for i, w in zip(rows, weights, strict=True) if abs(w) > NEGLIGIBLE}
         lowest = min(index.equations[i] for i in inside)
-        place = next(i for i in inside if index.equations[i] == lowest)
+        least = [i for i in inside if index.equations[i] == lowest]
+        place = max(least, key=lambda i: abs(inside[i]))
         terms: list[tuple[ca.SX, float]] = []
         for i, weight in inside.items():
             if index.equations[i] > lowest and chains.without_rate(values[i]):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 import casadi as ca
-from frot.compiler.equations.eliminate import Pivot
+from frot.compiler.equations.eliminate import CANCELS, Pivot
 from frot.compiler.lowering.walk import as_number, is_fixed
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.dsl import Log, default_values, evaluate
@@ -56,13 +56,21 @@ def parameter_checks(
             NOT_ZERO,
             f"factor of '{p.unknown}' in `{p.origin.text}`"
             + (f" of {p.origin.owner}" if p.origin.owner else ""),
-            p.value,
+            _but_for_rounding(p.value),
             p.origin.span,
         )
         for p in pivots
         if first[p.value.element_hash()] is p
     )
     return (*_checks(mechanism, parameters), *divisors)
+
+
+def _but_for_rounding(value: ca.SX) -> ca.SX:
+    """The value; zero where it is what rounding leaves of a sum."""
+    if not (value.is_op(ca.OP_ADD) or value.is_op(ca.OP_SUB)):
+        return value
+    size = ca.fabs(value.dep(0)) + ca.fabs(value.dep(1))
+    return ca.if_else(ca.fabs(value) > CANCELS * size, value, 0)
 
 
 def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[Check]:

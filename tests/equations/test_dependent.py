@@ -18,6 +18,11 @@ UNDETERMINED = [
         "x + y + z = 1; x - y + 2*z = 2; 2*x + 3*z = 3*time/(1 s);",
         "determines nothing",
     ),
+    (
+        "Real x; Real y; Real z;",
+        "-x + 0.1*y + 0.1*z = 0; 0.3*x - y + z = 0; 0.299999*x - 0.9999999*y + 1.0000001*z = 0;",
+        "determines nothing",
+    ),
 ]
 
 
@@ -99,3 +104,22 @@ end M;
 """).simulate()
     exact = [31.137723246231246, 40.0, -6.125006609291861, 15.375002203097287, 17.624778295936856]
     assert [result[f"x[{i}]"][0] for i in range(1, 6)] == pytest.approx(exact, rel=1e-13)
+
+
+def test_a_parameter_that_makes_equations_depend_on_each_other_is_refused() -> None:
+    """The third equation is three times the first and the second: but for rounding, at k = 3."""
+    model = frot.compile("""
+model M
+  parameter Real k = 3;
+  Real x; Real y; Real z;
+equation
+  1e-6*x + y + z = 0.5;
+  k*y + 0.7*z = 0;
+  3e-6*x + 6*y + 3.7*z = 0.5;
+end M;
+""")
+    with pytest.raises(frot.FrotError, match=r"E0401.*must not be zero"):
+        model.simulate()
+    result = model.simulate(parameters={"k": 2})
+    assert result["y"][0] == pytest.approx(-1, rel=1e-9)
+    assert result["z"][0] == pytest.approx(2 / 0.7, rel=1e-9)
