@@ -169,9 +169,10 @@ int frot_name_vanished_there(const frot_model *m, frot_state *s, frot_work *w, i
   frot_fault fault = s->fault;
   s->fault = frot_no_fault(t), s->fault.status = status;
   int found = frot_name_vanished(m, s, w, status, w->step.z1);
-  if (found == FROT_NAN && phase != FROT_FAULTED) frot_fail_evaluation(m, s, w, found, t);
+  int named = found == FROT_NAN || found == FROT_ALGEBRAIC;
+  if (named && phase != FROT_FAULTED) frot_fail_evaluation(m, s, w, found, t);
   s->phase = phase;
   /* where the run itself has failed, that is what is told */
-  if (found != FROT_VANISHED && (found != FROT_NAN || phase == FROT_FAULTED)) s->fault = fault;
+  if (found != FROT_VANISHED && (!named || phase == FROT_FAULTED)) s->fault = fault;
   return found;
 }

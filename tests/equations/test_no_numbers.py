@@ -46,3 +46,16 @@ end M;
     with pytest.raises(frot.FrotError, match=r"E0401.*mu.*more than can be computed with"):
         model.simulate(parameters={"mu": 1e300})
     assert model.simulate(parameters={"mu": 1e100})["b.velocity.x"][-1] == 0
+
+
+def test_equations_that_have_no_solution_where_a_value_is_asked_for_are_named() -> None:
+    """x^3 has no slope at zero, which the run steps over; the value there is asked for."""
+    model = frot.compile("""
+model M
+  Real x(start = 1);
+equation
+  x^3 = 0.5 - time/(1 s);
+end M;
+""")
+    with pytest.raises(frot.FrotError, match=r"E0907.*the equations for x.*at t = 0\.5"):
+        model.simulate(interval=0.25)
