@@ -15,6 +15,7 @@ from frot.dsl.checked import (
     Call,
     Element,
     Expression,
+    If,
     Liaison,
     Literal,
     Parameter,
@@ -172,6 +173,10 @@ def refuse_values(mechanism: Mechanism, log: Log) -> None:
         before = x
 
 
+# Vertices up to which sides are looked at in pairs.
+MOST_VERTICES = 24
+# Part of the products of lengths within which a vertex is on a side or beyond its end.
+_ON_SIDE = 1e-9
 # Part of the cube of the moments' sum that rounding may take from a product that is zero: a plate.
 _FLAT = 1e-12
 _TRIANGLE = "masses give no moment of inertia that is larger than the two others together"
@@ -273,12 +278,49 @@ def _arguments(
     rules = {"positive": POSITIVE, "nonnegative": NOT_NEGATIVE}
     for kind in kinds:
         value = values.get(kind.name)
-        if value is None or isinstance(value, (Place, Liaison)) or kind.sign not in rules:
+        if value is None or isinstance(value, (Place, Liaison)):
+            continue
+        if kind.kind == "vertices" and is_fixed(value) and value.type.shape[0] <= MOST_VERTICES:
+            yield _outline(owner, value)
+        if kind.sign not in rules:
             continue
         if kind.kind == "inertia" and value.type.shape:
             yield from _moments(owner, value)
         elif is_fixed(value):
             yield Check(rules[kind.sign], f"{kind.name} of {owner}", value, value.span)
+
+
+def _outline(owner: str, vertices: Expression) -> Check:
+    """No two sides cross: of the ends of one, or of the other, both are on one side of it."""
+    count, span = vertices.type.shape[0], vertices.span
+    item = vertices.type.item
+    row = Type(item.base, item.dimension, (2,))
+
+    def of(op: str, a: Expression, b: Expression) -> Expression:
+        return Binary(op, a, b, REAL, span)
+
+    def at(i: int, k: int) -> Expression:
+        return Element(Element(vertices, i % count, row, span), k, item, span)
+
+    def turn(i: int, j: int) -> Expression:
+        """On which side of side i vertex j is."""
+        first = of("*", of("-", at(i + 1, 0), at(i, 0)), of("-", at(j, 1), at(i, 1)))
+        second = of("*", of("-", at(i + 1, 1), at(i, 1)), of("-", at(j, 0), at(i, 0)))
+        sizes = of("+", *(Call("abs", (x,), REAL, span) for x in (first, second)))
+        whole = of("-", first, second)
+        least = of("*", Literal(_ON_SIDE, REAL, span), sizes)
+        beside = of(">", Call("abs", (whole,), REAL, span), least)
+        return If(beside, Call("sign", (whole,), REAL, span), nothing, REAL, span)
+
+    nothing = Literal(0.0, REAL, span)
+    apart: Expression = nothing
+    for i in range(count):
+        for j in range(i + 2, count - (i == 0)):
+            own = of("*", turn(i, j), turn(i, j + 1))
+            other = of("*", turn(j, i), turn(j, i + 1))
+            apart = Call("min", (apart, Call("max", (own, other), REAL, span)), REAL, span)
+    subject = f"order of the vertices of {owner}, which is -1 where sides cross,"
+    return Check(NOT_NEGATIVE, subject, apart, span)
 
 
 def _moments(owner: str, inertia: Expression) -> Iterator[Check]:
