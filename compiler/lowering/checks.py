@@ -174,7 +174,7 @@ def refuse_values(mechanism: Mechanism, log: Log) -> None:
 
 
 # Vertices up to which sides are looked at in pairs.
-MOST_VERTICES = 24
+MOST_VERTICES = 8
 # Part of the products of lengths within which a vertex is on a side or beyond its end.
 _ON_SIDE = 1e-9
 # Part of the cube of the moments' sum that rounding may take from a product that is zero: a plate.

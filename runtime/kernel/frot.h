@@ -62,10 +62,10 @@ enum frot_why {
   FROT_BREAKS = 6   /* a relation of the text would not hold any more */
 };
 
-/* Modes of the relative motion a law of friction bounds. */
 /* A state has grown beyond what can be followed: the item of a fault FROT_DIVERGE. */
 #define FROT_GROWS 2
 
+/* Modes of the relative motion a law of friction bounds. */
 enum frot_friction { FROT_NONE = 0, FROT_STICK = 1, FROT_SLIP_FORWARD = 2, FROT_SLIP_BACKWARD = 3 };
 
 /* Values of a liaison's variable `mode` (FMU integers). */
