@@ -119,7 +119,11 @@ _ROWS = (
     ),
     Shape(
         "polygon",
-        (_MASS, Argument("vertices", LENGTH, "vertices", doc="corners in order; no sides cross (looked at up to 8 corners)"), _INERTIA),
+        (
+            _MASS,
+            Argument("vertices", LENGTH, "vertices", doc="corners in order, no sides cross"),
+            _INERTIA,
+        ),
         freedoms_space=6,
         space=False,
         geometry={"corners": "points", "sides": "curves"},
