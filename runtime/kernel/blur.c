@@ -122,6 +122,20 @@ static int slips(const frot_model *m, const frot_state *s, const frot_work *w,
   return 0;
 }
 
+/* The speed, in the metric of the mass, that is rest beside errors: where one that drowns it moves
+ * the group's places in a longest step by no more than FROT_TOUCH of what they are. */
+static double slowest(const frot_model *m, const frot_state *s, frot_work *w,
+                      const frot_group *g) {
+  double *place = w->core.load_size;
+  for (int k = 0; k < g->n_speeds; k++) {
+    int speed = g->unknowns[k], at = m->speed_coordinate[speed];
+    double own = at >= 0 ? fabs(w->step.z1[at]) : 0;
+    place[k] = m->speed_turns[speed] ? fmax(own, 1) : own;
+  }
+  into_metric(w, g, place, w->core.rest);
+  return FROT_TOUCH / (FROT_DROWNED * s->h_max) * sqrt(frot_dot(w->core.rest, w->core.rest, g->n_speeds));
+}
+
 double frot_part_of_motion(const frot_model *m, const frot_state *s, frot_work *w, double h) {
   double most = 0;
   for (int i = 0; i < w->awake.now->n_groups; i++) {
@@ -129,7 +143,7 @@ double frot_part_of_motion(const frot_model *m, const frot_state *s, frot_work *
     if (g->general || !slips(m, s, w, g)) continue;
     const double *force = w->core.force + g->vector;
     double motion = sqrt(frot_square_of(w, g, w->step.z1 + m->nq)) +
-                    h * sqrt(frot_dot(force, force, g->n_speeds));
+                    h * sqrt(frot_dot(force, force, g->n_speeds)) + slowest(m, s, w, g);
     if (motion > 0) most = fmax(most, sqrt(frot_square_of(w, g, w->step.beyond)) / motion);
   }
   return most;

@@ -15,7 +15,8 @@ void frot_excuse_noise(const frot_model *m, frot_state *s, frot_work *w, double 
 /* The errors beyond their bounds of the explicit step h that ran, over what moves in a group and
  * what its loads bring in the step, both in the metric of its mass: of the group where that is
  * most, among those in which friction follows reactions. What is small beside others counts as
- * little as it does in them. */
+ * little as it does in them; what would move the places by rounding alone for the longest step, as
+ * where a mechanism stands in its dead centre, is rest and no motion. */
 double frot_part_of_motion(const frot_model *m, const frot_state *s, frot_work *w, double h);
 
 #endif

@@ -130,6 +130,10 @@ double frot_guard_noise(const frot_model *m, const frot_state *s, const frot_wor
   const double *noise = s->data + w->layout.noise;
   double own = noise[m->nq + m->nv + j];
   int e = frot_slip_of_guard(m, s, w, j), condition = j - frot_condition_guard(m);
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  /* a gap is made of lengths that are no coordinates too: those of the body beyond its G */
+  if (j < m->n_contacts && !modes[j].closed)
+    return fmax(own, FROT_ROUNDING * s->data[w->layout.reach + j]);
   /* how far a place is beyond an end is told in parts of the length between the ends */
   if (condition >= 0 && condition < m->n_conditions && m->conditions[condition].contact >= 0)
     return fmax(own, FROT_ROUNDING);
