@@ -124,8 +124,7 @@ static int slips(const frot_model *m, const frot_state *s, const frot_work *w,
 
 /* The speed, in the metric of the mass, that is rest beside errors: where one that drowns it moves
  * the group's places in a longest step by no more than FROT_TOUCH of what they are. */
-static double slowest(const frot_model *m, const frot_state *s, frot_work *w,
-                      const frot_group *g) {
+static double slowest(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g) {
   double *place = w->core.load_size;
   for (int k = 0; k < g->n_speeds; k++) {
     int speed = g->unknowns[k], at = m->speed_coordinate[speed];
@@ -133,7 +132,8 @@ static double slowest(const frot_model *m, const frot_state *s, frot_work *w,
     place[k] = m->speed_turns[speed] ? fmax(own, 1) : own;
   }
   into_metric(w, g, place, w->core.rest);
-  return FROT_TOUCH / (FROT_DROWNED * s->h_max) * sqrt(frot_dot(w->core.rest, w->core.rest, g->n_speeds));
+  return FROT_TOUCH / (FROT_DROWNED * s->h_max) *
+         sqrt(frot_dot(w->core.rest, w->core.rest, g->n_speeds));
 }
 
 double frot_part_of_motion(const frot_model *m, const frot_state *s, frot_work *w, double h) {
