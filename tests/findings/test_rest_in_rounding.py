@@ -15,9 +15,9 @@ TOLERANCES = [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13]
 
 
 @functools.cache
-def engine(shared: bool) -> frot.Model:
+def engine(one_pin: bool) -> frot.Model:
     """A crank with two rods whose ends slide on one dry line; on one pin, or on opposite ones."""
-    crank = "rod(mass = 0.6 kg, length = r)" if shared else "rod(mass = 0.6 kg, length = 2*r)"
+    crank = "rod(mass = 0.6 kg, length = r)" if one_pin else "rod(mass = 0.6 kg, length = 2*r)"
     return frot.compile(f"""
 planar model Engine
   parameter Length r = 80 mm;
@@ -32,9 +32,9 @@ planar model Engine
   body high: particle(mass = high_mass);
   body low: particle(mass = 0.9 kg);
   curve rail on ground: line(through = (0, 0) m, direction = (cos(along), sin(along)));
-  liaison O: rotoide(ground, crank.{"start" if shared else "G"});
+  liaison O: rotoide(ground, crank.{"start" if one_pin else "G"});
   liaison A: rotoide(crank.tip, up.start);
-  liaison D: rotoide(crank.{"tip" if shared else "start"}, down.start);
+  liaison D: rotoide(crank.{"tip" if one_pin else "start"}, down.start);
   liaison B: rotoide(up.tip, high);
   liaison E: rotoide(down.tip, low);
   liaison C: point_courbe(high, rail) with coulomb(mu);
@@ -56,14 +56,14 @@ def mechanical_energy(at: frot.Instant) -> float:
     )
 
 
-@pytest.mark.parametrize("shared", [True, False])
+@pytest.mark.parametrize("one_pin", [True, False])
 @pytest.mark.parametrize("start", [math.pi / 2, -math.pi / 2])
-def test_an_engine_stands_in_its_dead_centre(shared: bool, start: float) -> None:
+def test_an_engine_stands_in_its_dead_centre(one_pin: bool, start: float) -> None:
     """All loads vanish but for the rounding of pi/2: what moves is rounding, and grows from there
     as that of any pendulum that stands on its head. Energy is only lost."""
     for mu in (0.001, 0.4):
         for tolerance in TOLERANCES:
-            result = engine(shared).simulate(
+            result = engine(one_pin).simulate(
                 parameters={"start": start, "mu": mu}, tolerance=tolerance
             )
             assert result.time[-1] == 3
