@@ -242,8 +242,14 @@ def _grows_without_bound(judge: Judge, t: float) -> bool:
     times = [float(judge.result.time[0]), *(e.time for e in judge.result.events)]
     begin = max(at for at in times if at < t or at == times[0])
     row = judge.result.at(np.array([t - NEAR_POLE * (t - begin), t]))
-    liaisons = (*judge.scene.contacts, *judge.scene.pins)
-    told = [np.abs(row[f"{c.name}.normal_force"]) for c in liaisons]
+    names = [
+        f"{c.name}.{word}"
+        for c in (*judge.scene.contacts, *judge.scene.pins)
+        for word in ("normal_force", "force.x", "force.y")
+    ]
+    told = [np.abs(row[name]) for name in names if name in row]
+    if not told:
+        return False
     before, end = np.max(told, axis=0)
     return bool(end > HUGE * before > 0)
 

@@ -40,20 +40,33 @@ static int wrong_equation(const frot_model *m, frot_state *s, frot_work *w, cons
   return -1;
 }
 
-/* The contact of a coefficient that is no number, or of the largest reaction; -1 if none. */
+/* The group that kept the last step from being any longer: that without reactions, or of the state
+ * whose error was the largest; -1 where that is not known. */
+static int group_at_fault(const frot_model *m, const frot_work *w) {
+  int state = w->step.worst;
+  if (w->reactions.jammed >= 0) return w->reactions.jammed;
+  if (state < 0 || state >= m->nq + m->nv) return -1;
+  int speed = state < m->nq ? m->q_speed[state] : state - m->nq;
+  return speed < 0 ? -1 : m->speed_group[speed];
+}
+
+/* The contact of a coefficient that is no number, or of the largest reaction in the group at fault;
+ * -1 if none. */
 static int wrong_contact(const frot_model *m, const frot_work *w, int status) {
-  int blamed = -1;
+  int blamed = -1, group = status == FROT_NAN ? -1 : group_at_fault(m, w);
   double largest = 0;
   for (int e = 0; e < m->n_elements; e++) {
     const double *k = w->core.coefficient + 2 * e;
     const frot_element *element = &m->elements[e];
     int row = element->bounded_by[0] >= 0 ? element->bounded_by[0] : element->row;
     double size = fabs(w->core.lam[row]);
+    if (group >= 0 && m->contact_group[element->contact] != group) continue;
     int wrong = status == FROT_NAN ? isnan(k[0] + k[1]) : size > largest;
     if (wrong) largest = size, blamed = element->contact;
   }
   for (int i = 0; i < m->n_contacts && status != FROT_NAN; i++) {
     int row = m->contacts[i].row_n;
+    if (group >= 0 && m->contact_group[i] != group) continue;
     if (row >= 0 && fabs(w->core.lam[row]) > largest) largest = fabs(w->core.lam[row]), blamed = i;
   }
   return blamed;

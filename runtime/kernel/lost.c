@@ -42,6 +42,13 @@ static int is_turned(double gap, double left, double way, double most) {
   return left > 0 && gap > most * left * way;
 }
 
+/* The speed of a group in the step, in the metric of its mass: the larger of those at its ends, one
+ * of which may be rest. */
+static double fastest(const frot_model *m, const frot_work *w, const frot_group *g) {
+  return sqrt(
+      fmax(frot_square_of(w, g, w->step.z0 + m->nq), frot_square_of(w, g, w->step.z1 + m->nq)));
+}
+
 int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, double t,
                   double h) {
   for (int k = 0; k < w->awake.now->n_contacts && s->weak; k++) {
@@ -49,7 +56,7 @@ int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, 
     if (!frot_is_loop(m, s, w, i)) continue;
     int row = m->contacts[i].row_n;
     double at = (s->data[w->layout.posture + row] - t) / h;
-    double way = h * sqrt(frot_square_of(w, frot_group_of(m, row), w->step.z1 + m->nq));
+    double way = h * fastest(m, w, frot_group_of(m, row));
     double gap = FROT_ROUNDING * frot_gap_size(m, w, row, w->step.z1);
     const double *left = w->step.left + row;
     if (isnan(at)) continue;
