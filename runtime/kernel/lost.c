@@ -71,34 +71,35 @@ int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, 
   return -1;
 }
 
-/* Note the rows of loops that depend on others at the last evaluation, in `carried`, and what is
- * left of those that nearly do. Returns whether there are any. */
-static int note_weak(const frot_model *m, const frot_state *s, frot_work *w,
-                     unsigned char *carried) {
-  int any = 0;
-  double longest = 0;
-  for (int i = 0; i < m->n_contacts; i++)
-    if (frot_is_loop(m, s, w, i)) longest = fmax(longest, w->span.left[m->contacts[i].row_n]);
-  for (int i = 0; i < m->n_contacts; i++) {
-    if (!frot_is_loop(m, s, w, i)) continue;
-    int row = m->contacts[i].row_n;
-    double left = w->span.left[row];
-    carried[row] = w->reactions.carried[row];
-    w->step.left[row] = carried[row] || left < CLOSE * longest ? left : INFINITY;
-    any |= isfinite(w->step.left[row]);
+/* What those before it leave of each row of a loop at (t, z), 0 where it depends on them (then it
+ * is marked as `carried`), into `left` (n_rows; INFINITY of other rows): of the rows alone, for
+ * friction that follows their reactions may have no value next to a posture. Returns whether that
+ * was to be had. */
+static int measure_loops(const frot_model *m, frot_state *s, frot_work *w, double t,
+                         const double *z, double *left) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  for (int row = 0; row < m->n_rows; row++) left[row] = INFINITY, w->reactions.carried[row] = 0;
+  if (frot_dynamics(m, s, w, t, z, z + m->nq, s->data + w->layout.d, modes, FROT_INERTIA)) return 0;
+  for (int k = 0; k < m->n_groups; k++) {
+    const frot_group *g = &m->groups[k];
+    int n = 0;
+    for (int i = 0; i < g->n_contacts; i++)
+      if (frot_is_loop(m, s, w, g->contacts[i]))
+        w->relations.rows[n++] = m->contacts[g->contacts[i]].row_n;
+    frot_orthonormal_rows(m, w, g, n, n);
+    for (int i = 0; i < n; i++) {
+      int own = w->linear.pivot[i];
+      w->reactions.carried[w->relations.rows[i]] = own < 0;
+      left[w->relations.rows[i]] = own < 0 ? 0 : w->linear.matrix[n * i + own];
+    }
   }
-  return any;
+  return 1;
 }
 
-void frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
-                          unsigned char *lost) {
-  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-  double *z = w->step.z, *step = w->relations.step;
-  unsigned char *carried = w->span.spare;
-  int moved;
-  memset(lost, 0, (size_t)m->n_contacts);
-  if (!note_weak(m, s, w, carried)) return;
-  memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
+/* Move the places z (nq + nv) of all groups on by h, with their speeds and the last accelerations.
+ */
+static void move_on(const frot_model *m, frot_work *w, double h, double *z) {
+  double *step = w->relations.step;
   for (int k = 0; k < m->n_groups; k++) {
     const frot_group *g = &m->groups[k];
     for (int i = 0; i < g->n_speeds; i++) {
@@ -107,17 +108,29 @@ void frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, doub
     }
     frot_displace(m, g, z, step, 1);
   }
+}
+
+void frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
+                          unsigned char *lost) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  double *z = w->step.z, *left = w->step.left, *later = left + m->n_rows, longest = 0;
+  int moved;
+  memset(lost, 0, (size_t)m->n_contacts);
+  if (!frot_has_loops(m, s, w)) return;
+  memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
+  move_on(m, w, h, z);
+  if (!measure_loops(m, s, w, t, w->step.z0, left)) return;
+  for (int row = 0; row < m->n_rows; row++)
+    if (isfinite(left[row])) longest = fmax(longest, left[row]);
   if (frot_project(m, s, w, t + h, z, z + m->nq, s->data + w->layout.d, modes, NULL, &moved))
     return;
-  memset(w->reactions.carried, 0, (size_t)m->n_rows);
-  if (frot_slope(m, s, w, t + h, z, frot_stage(w, 1)) != FROT_OK) return;
+  if (!measure_loops(m, s, w, t + h, z, later)) return;
   for (int k = 0; k < m->n_groups; k++) {
     const frot_group *g = &m->groups[k];
     for (int j = 0, found = 0; j < g->n_contacts && !found; j++) {
       int i = g->contacts[j], row = m->contacts[i].row_n;
-      if (!frot_is_loop(m, s, w, i)) continue;
-      double now = w->reactions.carried[row] ? 0 : w->span.left[row];
-      found = carried[row] ? now > 0 : now > MORE * w->step.left[row];
+      if (!frot_is_loop(m, s, w, i) || !(left[row] < CLOSE * longest)) continue;
+      found = later[row] > MORE * left[row];
       lost[i] = (unsigned char)found;
     }
   }

@@ -119,6 +119,21 @@ def test_speeds_that_say_one_way_are_gone_along(stated: frot.Model) -> None:
     assert "no motion begins there with the speeds that are stated" in str(told.value)
 
 
+@pytest.mark.parametrize("dry", ["A", "D", "BD", "ABCD"])
+@pytest.mark.parametrize("speed", [0.0, 1.0])
+def test_what_friction_does_there_is_told(dry: str, speed: float) -> None:
+    """The reactions that friction follows have no limit next to the posture: no way is looked for,
+    at rest where friction does not hold, nor in motion, and the posture is named, not a jam."""
+    text = FLAT.replace("SPEED", "follower.angular_velocity = f;")
+    for pin in dry:
+        end = text.index(";", text.index(f"liaison {pin}:"))
+        text = text[:end] + " with coulomb(0.3, radius = 5 mm)" + text[end:]
+    model = frot.compile(text)
+    for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
+        with pytest.raises(frot.FrotError, match=r"E0910.* at the start, t = 0, relations"):
+            model.simulate(tolerance=tolerance, parameters={"w": speed, "f": speed})
+
+
 def test_what_would_say_the_way_is_told() -> None:
     """The coupler would go on with the crank's rate less 1, or less 3."""
     model = frot.compile(FLAT.replace("SPEED", ""))
