@@ -17,8 +17,6 @@
 #define SAMPLES 8  /* places at which a guard that seems to dip may have risen again */
 #define BETWEEN 32 /* the same, of one that its stages say has not fallen */
 #define IDLE 10    /* falls to no effect, one after the other, after which one is to be clear */
-/* Part of its largest size below which what was measured of a force is no longer of this one. */
-#define FADED 1e-2
 /* Part of the step in which a condition moves as its slope at the start says. */
 #define AT_ONCE 1e-6
 /* What the polynomial of a guard, of degree six, dips at most below its values at the stages, in
@@ -71,15 +69,20 @@ static int is_reaction_or_slip(const frot_model *m, const frot_state *s, const f
   return j < m->n_contacts ? modes[j].closed : j < frot_condition_guard(m);
 }
 
+/* What of a guard of this size counts as zero: rounding, and what of it shows as noise. Next to a
+ * jam or to a posture that would hide all of it, but what has no size yet may be all noise. */
+static double floor_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int j,
+                             double h, double size) {
+  double floor = FROT_GUARD_FLOOR * size + FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
+  return s->data[w->layout.scale_g + j] > 0 ? fmin(floor, FROT_DROWNED * size) : floor;
+}
+
 double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int k,
                            double h, const double g[7]) {
   int j = w->guards.list[k];
-  double size = s->data[w->layout.scale_g + j], most = s->data[w->layout.most_g + j];
-  double inside = 0, floor = FROT_GUARD_FLOOR * size;
+  double size = s->data[w->layout.scale_g + j], inside = 0;
   for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
-  floor += FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
-  if (size > 0 && size < FADED * most) floor = fmin(floor, FROT_DROWNED * size);
-  double slack = fmax(FROT_LOCATED * inside, floor);
+  double slack = fmax(FROT_LOCATED * inside, floor_of_guard(m, s, w, j, h, size));
   if (!frot_guard_is_force(m, s, w, k) || !(fabs(g[0]) <= slack)) slack = 0;
   return s->idle > IDLE && is_reaction_or_slip(m, s, w, j) ? fmax(slack, 2 * FROT_LOCATED * size)
                                                            : slack;
@@ -148,9 +151,7 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
       g[i] = 0;
     double slack = frot_slack_of_guard(m, s, w, k, h, g);
     for (int i = 0; i < 7; i++) g[i] += slack;
-    double floor = FROT_GUARD_FLOOR * size + FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
-    /* next to a jam noise would hide any reversal, but what has no size yet may be all noise */
-    if (s->data[w->layout.scale_g + j] > 0) floor = fmin(floor, FROT_DROWNED * size);
+    double floor = floor_of_guard(m, s, w, j, h, size);
     double at = frot_first_fall(g, floor + 8 * DBL_EPSILON * fabs(t) * slope);
     if (at < FROT_NO_ROOT && j >= conditions && fabs(first) <= FROT_CONDITION_ZERO * size &&
         s->data[w->layout.fresh + j - conditions] == 0 && falls_between_stages(s, w, k, g))
