@@ -10,6 +10,7 @@
 
 #include "components.h"
 #include "core.h"
+#include "problem.h"
 #include "projection.h"
 #include "reactions.h"
 #include "search.h"
@@ -67,9 +68,21 @@ static int rests_at_bound(const frot_instant *in, const frot_group *g, int e) {
          (!g->general && frot_group_of(in->m, row) == g && in->w->span.kept[row]);
 }
 
+/* Note which rows that hold in `modes` the others hold, in w->reactions.carried. Returns whether
+ * they agree. */
+static int note_carried(const frot_instant *in, const frot_group *g,
+                        const frot_contact_mode *modes) {
+  frot_problem p = {in->m, in->w, g, modes, 0, 0, 0, 0, 0};
+  frot_list_unknowns(&p, in->resists);
+  in->w->span.rank = 0;
+  return p.unknowns == 0 || !frot_hold_rows(&p);
+}
+
 /* The modes of what holds for certain: by a reaction, in this posture and the next. What a contact
  * that carries nothing leaves to friction is not: it is closed all the same, and which of the two
- * depends on the other shows only where both may act. Returns FROT_OK, or what has no reactions. */
+ * depends on the other shows only where both may act: whether they have reactions by themselves,
+ * and with them what is at its bound, is not asked. Returns FROT_OK, or what has none in the trial.
+ */
 static int keep_certain(const frot_instant *in, const frot_group *g, frot_contact_mode *modes) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
@@ -83,7 +96,7 @@ static int keep_certain(const frot_instant *in, const frot_group *g, frot_contac
     frot_contact_mode *mode = modes + m->n_contacts + e;
     if (mode->friction != FROT_STICK || !rests_at_bound(in, g, e)) mode->friction = FROT_NONE;
   }
-  if (unloaded && frot_group_reactions(m, w, g, modes, in->resists)) status = FROT_DIVERGE;
+  if (unloaded && !note_carried(in, g, modes)) status = FROT_DIVERGE;
   for (int e = 0; e < m->n_elements; e++)
     if (modes[m->n_contacts + e].at_bound == 0 && w->reactions.carried[m->elements[e].row])
       modes[m->n_contacts + e].friction = FROT_NONE;

@@ -25,6 +25,7 @@
 #define APART 1e-4  /* what the others leave at least of the motion that each reaction makes */
 #define LEAST_PART 1e-6 /* of a step that is taken */
 #define SOFT 1e-14      /* part of its diagonal added to a singular system */
+#define LATER 1e-4      /* part of the load by which it has grown a little later */
 
 /* The rows that take part, w->relations.rows[0 .. n), with the bounds least and most of their
  * reactions. */
@@ -224,7 +225,28 @@ static void read_modes(const box *b, const int *chosen, int count, unsigned char
   }
 }
 
-void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int ends,
+int frot_loads_grow(const frot_instant *in, int contact) {
+  const frot_group *g = &in->m->groups[in->m->contact_group[contact]];
+  const double *growth = in->w->share.growth + g->vector;
+  return !g->general && frot_dot(growth, growth, g->n_speeds) > 0;
+}
+
+/* The load a little later, where all rests: what comes to zero at the instant has its sign then.
+ * Readings are left as they are. */
+static void let_grow(const box *b) {
+  frot_work *w = b->w;
+  const double *growth = w->share.growth + b->g->vector, *force = w->core.force + b->g->vector;
+  int ns = b->g->n_speeds;
+  double load = frot_dot(force, force, ns), by = frot_dot(growth, growth, ns);
+  double part = load > 0 ? LATER * sqrt(load / by) : 1;
+  for (int k = 0; k < b->n; k++) {
+    int r = w->relations.rows[k];
+    if (!frot_is_reading(b->m, r))
+      w->core.free[r] += part * frot_dot(frot_entries(b->m, w->core.half, r), growth, ns);
+  }
+}
+
+void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int ends, int later,
                       unsigned char *certain) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
@@ -236,9 +258,12 @@ void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int 
            ends,
            w->search.pivot_bound,
            w->search.pivot_bound + m->n_rows};
-  memset(w->search.pivot_bound, 0, sizeof(double) * 4 * (size_t)m->n_rows);
+  double *now = b.most + m->n_rows;
+  memset(w->search.pivot_bound, 0, sizeof(double) * 2 * (size_t)m->n_rows);
   memset(w->core.lam, 0, sizeof(double) * (size_t)m->n_rows);
+  memcpy(now, w->core.free, sizeof(double) * (size_t)m->n_rows);
   list_rows(&b, chosen, count);
+  if (later) let_grow(&b);
   for (int boxes = 0; boxes < BOXES; boxes++) {
     double change = follow(&b, chosen, count);
     if (boxes > 0 && change <= AGREE) break;
@@ -252,4 +277,5 @@ void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int 
     }
   }
   read_modes(&b, chosen, count, certain);
+  memcpy(w->core.free, now, sizeof(double) * (size_t)m->n_rows);
 }

@@ -248,11 +248,11 @@ static int search_near(const frot_instant *in, const int *chosen, int count, int
   unsigned char *certain = in->w->search.certain;
   frot_option lists[FROT_OPTIONS];
   double combinations = 1;
-  frot_guess_modes(in, chosen, count, ends, certain);
+  frot_guess_modes(in, chosen, count, ends, 0, certain);
   if (mend_guess(in, chosen, count, forced, lasting) && in->w->search.exact &&
       !(lasting && in->w->search.falls))
     return 1;
-  frot_guess_modes(in, chosen, count, ends, certain);
+  frot_guess_modes(in, chosen, count, ends, 0, certain);
   for (int c = 0; c < count; c++) {
     int options = frot_contact_options(in, chosen[c], forced, lists);
     if (left_here(in, chosen[c])) certain[chosen[c]] = 0;
@@ -264,8 +264,11 @@ static int search_near(const frot_instant *in, const int *chosen, int count, int
   }
   int motions = enumerate(in, chosen, count, forced, lasting, certain);
   if (motions > 0) return motions;
-  frot_guess_modes(in, chosen, count, ends, certain);
-  return mend_guess(in, chosen, count, forced, lasting);
+  for (int later = 0; later <= frot_loads_grow(in, chosen[0]); later++) {
+    frot_guess_modes(in, chosen, count, ends, later, certain);
+    if (mend_guess(in, chosen, count, forced, lasting)) return 1;
+  }
+  return 0;
 }
 
 static int search_all(const frot_instant *in, const int *chosen, int count, int forced, int lasting,

@@ -132,9 +132,11 @@ int frot_search_corners(const frot_instant *in, const int *chosen, int count, in
 
 /* A first guess of the modes of many contacts into w->search.trial, and into `certain` (n_contacts)
  * whether a contact's are beyond doubt (pivot.c). `ends`: a rest ends, so that what is just at its
- * bound is past it. */
-void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int ends,
+ * bound is past it. `later`: for the load a little later. */
+void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int ends, int later,
                       unsigned char *certain);
+/* Whether all rests in the group of a contact and its load grows. */
+int frot_loads_grow(const frot_instant *in, int contact);
 
 /* Change the modes of w->search.trial one by one, the worst first, until they are admissible;
  * `forced` as in frot_search. Returns whether they are (mend.c). */

@@ -143,21 +143,24 @@ static int add_columns(program *p) {
 }
 
 /* The load on the rows that hold, as they are to take it, into the last column; where the group
- * rests, a little later. Rows whose load is negative change sign. */
+ * rests, a little later, unless its growth moves all alike and leaves rounding in them. Rows whose
+ * load is negative change sign. */
 static void add_load(program *p) {
   const frot_instant *in = p->in;
   const frot_work *w = in->w;
   int ns = p->g->n_speeds, n = p->columns;
-  const double *growth = w->share.growth + p->g->vector;
+  const double *growth = w->share.growth + p->g->vector, *force = w->core.force + p->g->vector;
   double largest = 0, grows = 0;
+  double none = FROT_AGREES * sqrt(frot_dot(growth, growth, ns)) +
+                FROT_ROUNDING * sqrt(frot_dot(force, force, ns));
   for (int r = 0; r < p->held; r++) {
     const double *q = w->span.basis + ns * r;
-    double load = -frot_dot(q, w->core.force + p->g->vector, ns) - w->span.bias[r];
+    double load = -frot_dot(q, force, ns) - w->span.bias[r];
     largest = fmax(largest, fabs(load));
     grows = fmax(grows, fabs(frot_dot(q, growth, ns)));
     *entry(p, r, n) = load;
   }
-  double part = grows > 0 ? AHEAD * largest / grows : 0, unit = largest > 0 ? 1 / largest : 0;
+  double part = grows > none ? AHEAD * largest / grows : 0, unit = largest > 0 ? 1 / largest : 0;
   for (int r = 0; r < p->rows; r++) {
     const double *q = w->span.basis + ns * r;
     double load = r < p->held ? unit * (*entry(p, r, n) - part * frot_dot(q, growth, ns)) : 0;
