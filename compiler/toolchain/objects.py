@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import shutil
 import sys
@@ -27,8 +28,16 @@ def kept_objects(
 
     Headers are all `.h` files beside the sources and in the folders of `include`.
     """
-    key = _key(toolchain, sources, include, flags)
+    return _kept(_key(toolchain, sources, include, flags), toolchain, sources, include, flags)
 
+
+def _kept(
+    key: str,
+    toolchain: Toolchain,
+    sources: Sequence[Path],
+    include: Sequence[Path],
+    flags: Sequence[str],
+) -> Kept:
     def fill(folder: Path) -> None:
         compile_objects(toolchain, sources, include, folder, flags)
 
@@ -83,7 +92,15 @@ def kernel_sources(folder: Path) -> list[Path]:
 def kept_kernel(toolchain: Toolchain) -> Kept:
     """The folder of the kernel's objects: the same ones in every program and every FMU."""
     folder = kernel_folder()
-    return kept_objects(toolchain, kernel_sources(folder), [folder], KERNEL_FLAGS)
+    sources = kernel_sources(folder)
+    return _kept(_kernel_key(toolchain), toolchain, sources, [folder], KERNEL_FLAGS)
+
+
+@functools.cache
+def _kernel_key(toolchain: Toolchain) -> str:
+    """As for the key of a program, its sources are read once in a process."""
+    folder = kernel_folder()
+    return _key(toolchain, kernel_sources(folder), [folder], KERNEL_FLAGS)
 
 
 def compile_library(
