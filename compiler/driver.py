@@ -87,16 +87,17 @@ def lowered_of(
     if system is None:
         return None
     from frot.compiler.lowering.groups import make_groups
-    from frot.compiler.lowering.lower import lower
+    from frot.compiler.lowering.lower import begin, lower
 
+    beginning = begin(system, log)
     integrals: tuple[FirstIntegral, ...] = ()
-    if search:
+    if search and not log.failed:
         from frot.compiler.report.first_integrals import first_integrals_of
 
         tell("the first integrals")
-        integrals = first_integrals_of(system)
+        integrals = first_integrals_of(system, beginning)
     tell("the functions")
-    return lower(system, make_groups(system), log, integrals)
+    return lower(system, beginning, make_groups(system), log, integrals)
 
 
 def text_of(lowered: Lowered, key: str) -> str:
