@@ -217,16 +217,16 @@ def _functions(lowered: Lowered) -> tuple[str, dict[str, str]]:
     every = [*lowered.functions.items(), *shared_functions(lowered)]
     wide = [f for name, f in every if name == WIDE]
     plain = [f for name, f in every if name != WIDE]
-    text = split_functions(read_numbers(_write([*plain, *lowered.blocks]), lowered))
+    text = split_functions(read_numbers(write_c([*plain, *lowered.blocks]), lowered))
     names: dict[str, str] = {}
     if wide:
-        own = read_numbers(_write(wide), lowered)
+        own = read_numbers(write_c(wide), lowered)
         text, names = text + write_wide(own), wide_names(own)
     return (_QUICK + text) if len(text) > _LONG else text, names
 
 
-def _write(functions: Sequence[ca.Function]) -> str:
-    """CasADi's C of these."""
+def write_c(functions: Sequence[ca.Function]) -> str:
+    """CasADi's C of these, each a straight line where it can be one."""
     generator = ca.CodeGenerator("frot_functions.c", {"casadi_int": "long long int"})
     for function in functions:
         generator.add(function)
