@@ -124,7 +124,7 @@ def build(
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.chosen import MODEL_FLAGS
     from frot.compiler.toolchain.compilers import compile_objects, link_library
-    from frot.compiler.toolchain.objects import kept_kernel, kernel_folder
+    from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_objects
     from frot.compiler.toolchain.storing import store, write_manifest
 
     with without_collection():
@@ -140,7 +140,7 @@ def build(
         source = folder / MODEL_SOURCE
         source.write_text(text, encoding="utf-8")
         made = compile_objects(toolchain, [source], [kernel_folder()], folder, MODEL_FLAGS)
-        link_library(toolchain, [*made, *sorted(kernel.folder.glob("*.o"))], folder / LIBRARY)
+        link_library(toolchain, [*made, *kernel_objects(kernel)], folder / LIBRARY)
         made[0].unlink()
         write_manifest(describe(lowered, file, key, toolchain, folder), folder)
 
