@@ -8,6 +8,8 @@ goes CasADi's way. What comes out is the same expression.
 
 from __future__ import annotations
 
+from typing import Any
+
 import casadi as ca
 
 _OPERATORS = {"add": ca.OP_ADD, "sub": ca.OP_SUB, "mul": ca.OP_MUL, "truediv": ca.OP_DIV}
@@ -27,7 +29,7 @@ def take_operators() -> None:
 def _take(name: str, code: int) -> None:
     binary, other = ca.SX.binary, getattr(ca.SX, f"__{name}__")
 
-    def operator(a: ca.SX, b: object) -> ca.SX:
+    def operator(a: ca.SX, b: Any) -> ca.SX:
         return binary(code, a, b) if type(b) in _KNOWN else other(a, b)
 
     setattr(ca.SX, f"__{name}__", operator)
@@ -36,7 +38,7 @@ def _take(name: str, code: int) -> None:
 def _take_turned(name: str, code: int) -> None:
     binary, other = ca.SX.binary, getattr(ca.SX, f"__r{name}__")
 
-    def operator(b: ca.SX, a: object) -> ca.SX:
+    def operator(b: ca.SX, a: Any) -> ca.SX:
         return binary(code, a, b) if type(a) in _KNOWN else other(b, a)
 
     setattr(ca.SX, f"__r{name}__", operator)
