@@ -131,10 +131,11 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
   return worst_error(m, s, w, h);
 }
 
-void frot_hold_guards(const frot_work *w) {
+void frot_hold_guards(const frot_state *s, const frot_work *w) {
   int first = w->awake.n;
   for (int k = 0; k < w->guards.count; k++)
-    for (int i = 0; i <= DP_STAGES; i++) {
+    /* of an implicit step only the slopes at its ends are there */
+    for (int i = 0; i <= DP_STAGES; i += s->implicit ? DP_STAGES : 1) {
       double size = fabs(frot_stage(w, i)[first + k]);
       if (size < INFINITY) w->guards.shown[k] = fmax(w->guards.shown[k], size);
     }

@@ -224,11 +224,11 @@ static double missing(const frot_problem *p, const double *rest) {
  * where reactions come near zero their directions change so much in a whole step of Newton's that
  * it goes to and fro. Each half step holds the rows that both hold. Returns what is missed: nothing
  * where no less is and no unknown is another, but for rounding of them all, in which a reaction is
- * lost that vanishes with others. */
+ * lost that vanishes with others. With an infinite *least there is none before. */
 static double damp(const frot_problem *p, double *before, double *least, double *rest,
                    double missed) {
   double *x = p->w->reactions.solution, now = missing(p, rest), change = 0, size = 0;
-  for (int c = 0; c < p->unknowns; c++)
+  for (int c = 0; c < p->unknowns && *least < INFINITY; c++)
     change = fmax(change, fabs(x[c] - before[c])), size = fmax(size, fabs(x[c]));
   if (now >= *least && change <= PIN_ROUNDING * size) return 0;
   for (int k = 0; k < HALVES && now > *least; k++) {
