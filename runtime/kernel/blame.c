@@ -19,7 +19,7 @@ static int wrong_load(const frot_model *m, frot_state *s, frot_work *w, const do
                       const double *v) {
   double *sizes = w->step.z, *loads = w->call.values;
   if (m->n_loads == 0) return -1;
-  frot_inputs(m, s, w, &w->core.t, q, v, s->data + w->layout.d);
+  frot_inputs(s, w, &w->core.t, q, v, s->data + w->layout.d);
   w->call.res[0] = sizes, w->call.res[1] = loads;
   frot_call(w, &m->sizes);
   for (int i = 0; i < m->n_loads; i++)
@@ -32,7 +32,7 @@ static int wrong_load(const frot_model *m, frot_state *s, frot_work *w, const do
 static int wrong_equation(const frot_model *m, frot_state *s, frot_work *w, const double *q,
                           const double *v, const double *d) {
   if (m->n_watched == 0 || !q) return -1;
-  frot_inputs(m, s, w, &w->core.t, q, v, d);
+  frot_inputs(s, w, &w->core.t, q, v, d);
   w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
   w->call.res[0] = w->call.values;
   frot_call(w, &m->watched);
@@ -147,7 +147,7 @@ static int lost_at(const frot_model *m, frot_state *s, frot_work *w, double t, c
   double *distance = w->call.values, *where = distance + m->n_vanishing, least = VANISHED;
   int lost = -1;
   if (!frot_all_finite(z, m->nq + m->nv) || !frot_all_finite(w->blocks.y, m->ny)) return -1;
-  frot_inputs(m, s, w, &t, z, z + m->nq, s->data + w->layout.d);
+  frot_inputs(s, w, &t, z, z + m->nq, s->data + w->layout.d);
   w->call.res[0] = distance, w->call.res[1] = where;
   frot_call(w, &m->vanishing);
   for (int i = 0; i < m->n_vanishing; i++) {

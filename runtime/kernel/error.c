@@ -91,8 +91,8 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       double largest = FROT_GUARD_LOOSEST * s->data[l->most_g + w->guards.list[j - n]];
       largest = fmax(largest, w->guards.shown[j - n]);
       for (int k = 0; k <= DP_STAGES; k++) {
-        double size = fabs(frot_stage(w, k)[j]);
-        if (size > largest) largest = size;
+        double value = fabs(frot_stage(w, k)[j]);
+        if (value > largest) largest = value;
       }
       bound = guard_tolerance * h * largest;
       double measured = frot_guard_noise(m, s, w, w->guards.list[j - n], h);

@@ -37,7 +37,7 @@ static void set_conditions(const frot_model *m, const frot_work *w, double *d, i
  * they are. */
 static void begin_values(const frot_opening *p, double *v, double *y) {
   frot_work *w = p->w;
-  frot_inputs(p->m, p->s, w, &p->t, p->q, p->v, p->d);
+  frot_inputs(p->s, w, &p->t, p->q, p->v, p->d);
   w->call.res[0] = v, w->call.res[1] = y;
   frot_call(w, &p->m->beginning);
 }

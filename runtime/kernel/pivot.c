@@ -236,7 +236,7 @@ void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int 
            ends,
            w->search.pivot_bound,
            w->search.pivot_bound + m->n_rows};
-  memset(w->search.pivot_bound, 0, sizeof(double) * 4 * (size_t)m->n_rows);
+  memset(w->search.pivot_bound, 0, sizeof(double) * 2 * (size_t)m->n_rows);
   memset(w->core.lam, 0, sizeof(double) * (size_t)m->n_rows);
   list_rows(&b, chosen, count);
   for (int boxes = 0; boxes < BOXES; boxes++) {

@@ -24,8 +24,10 @@
 #define EAGER 8   /* passes of Newton's method before it is damped */
 #define HALVES 20 /* of one of its steps */
 
-double frot_bounding(const frot_model *m, const frot_work *w, int element,
-                     const frot_contact_mode *modes) {
+/* Size of the reaction that bounds an element, by w->core.lam; 1 where a value bounds it. With the
+ * sign of the mode: negative where a normal reaction has the wrong one. */
+static double bounding(const frot_model *m, const frot_work *w, int element,
+                       const frot_contact_mode *modes) {
   const frot_element *e = &m->elements[element];
   if (e->bound == FROT_BY_VALUE) return 1;
   if (e->bound == FROT_BY_PIN)
@@ -35,7 +37,7 @@ double frot_bounding(const frot_model *m, const frot_work *w, int element,
 
 double frot_bound_of_rest(const frot_model *m, const frot_work *w, int element,
                           const frot_contact_mode *modes) {
-  return w->core.coefficient[2 * element + 1] * frot_bounding(m, w, element, modes);
+  return w->core.coefficient[2 * element + 1] * bounding(m, w, element, modes);
 }
 
 double frot_acceleration(const frot_model *m, const frot_work *w, int row, double *size) {

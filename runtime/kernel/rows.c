@@ -10,7 +10,7 @@
 void frot_size_drives(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                       const double *v, const double *d) {
   if (!m->drives.call) return;
-  frot_inputs(m, s, w, &t, q, v, d);
+  frot_inputs(s, w, &t, q, v, d);
   w->call.res[0] = w->core.bias_size;
   frot_call(w, &m->drives);
 }
