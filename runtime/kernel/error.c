@@ -55,7 +55,7 @@ static void size_own_states(const frot_model *m, const frot_state *s, frot_work 
  * of lengths. */
 static double dropped(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
   int e = frot_slip_of_guard(m, s, w, j);
-  return e < 0 ? 0 : frot_dropped_rate(m, s, e, w->step.z1 + m->nq);
+  return e < 0 ? 0 : frot_dropped_rate(m, s, w, e, w->step.z1 + m->nq);
 }
 
 /* The worst estimate of the local error over its bound, and in w->step.worst the value it is of. */
