@@ -27,18 +27,22 @@ ECHELON = 1e-6  # below it an item of a vector of length one is no pivot
 POINTS = 3  # random places at which a dependence must be the same
 
 
-def combine(system: Residuals, newton: int, chains: Chains, left: Sequence[int]) -> Residuals:
+def combine(
+    system: Residuals, newton: int, chains: Chains, left: Sequence[int], flags: Sequence[ca.SX]
+) -> Residuals:
     """The system, the first `newton` equations as they are, without hidden dependences.
 
-    `left` are the chains that are its unknowns.
+    `left` are the chains that are its unknowns, `flags` its conditions: of two diodes back to back
+    what depends on what where both conduct says nothing, for they never do.
     """
     values = list(system.values)
+    switches = {x.element_hash() for x in flags}
     for _ in values:
         incidence = find_incidence(values, chains, left)
         if find_unbalanced([tuple(row) for row in incidence], len(left)) is not None:
             break
         index = reduce_index(incidence, len(left))
-        found = next(_dependences(values, incidence, index, newton, chains, left), None)
+        found = next(_dependences(values, incidence, index, newton, chains, left, switches), None)
         if found is None:
             break
         place, value = found
@@ -53,6 +57,7 @@ def _dependences(
     newton: int,
     chains: Chains,
     left: Sequence[int],
+    switches: set[int],
 ) -> Iterator[tuple[int, ca.SX]]:
     """Equations to replace, each with what takes its place."""
     uses = [
@@ -66,7 +71,7 @@ def _dependences(
         rows = component.equations
         if len(rows) < 2 or min(rows) < newton:
             continue
-        weights = _weights(values, component.unknowns, rows, index, chains, left)
+        weights = _weights(values, component.unknowns, rows, index, chains, left, switches)
         if weights is None:
             continue
         inside = {i: w for i, w in zip(rows, weights, strict=True) if abs(w) > NEGLIGIBLE}
@@ -82,7 +87,7 @@ def _dependences(
                 term = chains.rate(term)
             terms.append((term, weight / inside[place]))
         else:
-            yield place, _without_nothing(collect(terms), chains)
+            yield place, _without_nothing(collect(terms), chains, switches)
 
 
 def _weights(
@@ -92,10 +97,12 @@ def _weights(
     index: Index,
     chains: Chains,
     left: Sequence[int],
+    switches: set[int],
 ) -> np.ndarray | None:
     """What the equations must be multiplied with to lose their highest derivatives; None: cannot.
 
-    They must be the same whatever the values of variables and parameters.
+    They must be the same whatever the values of variables and parameters, and whichever conditions
+    hold.
     """
     own = [values[i] for i in rows]
     inside = [s for s in symbols_inside(own)[0] if s.element_hash() in chains.place]
@@ -110,7 +117,7 @@ def _weights(
             entries.append(item)
     found: list[np.ndarray] = []
     where = tuple(np.array(places, dtype=int).reshape(-1, 2).T)
-    for numbers in _at_random(column(entries)):
+    for numbers in _at_random(column(entries), switches):
         matrix = np.zeros((len(rows), len(unknowns)))
         matrix[where] = numbers.ravel()
         if np.isfinite(matrix).all() and _has_inverse(matrix):
@@ -162,21 +169,27 @@ def _sparsest(basis: np.ndarray) -> np.ndarray:
     return np.asarray(space[-1])
 
 
-def _at_random(values: ca.SX) -> Iterator[np.ndarray]:
+def _at_random(values: ca.SX, switches: set[int]) -> Iterator[np.ndarray]:
+    """The values at random places; of the conditions none holds, then all do, then some."""
     symbols = ca.symvar(values)
     function = ca.Function("entries", symbols, [values])
     random = np.random.default_rng(1)
-    for _ in range(POINTS):
-        points = [ca.DM(x) for x in random.uniform(0.5, 2, len(symbols))]
-        yield function.call(points)[0].full()
+    for k in range(POINTS):
+        points = random.uniform(0.5, 2, len(symbols))
+        holds = random.integers(0, 2, len(symbols)) if k > 1 else np.full(len(symbols), k)
+        at = [
+            ca.DM(float(flag) if s.element_hash() in switches else x)
+            for s, x, flag in zip(symbols, points, holds, strict=True)
+        ]
+        yield function.call(at)[0].full()
 
 
-def _without_nothing(value: ca.SX, chains: Chains) -> ca.SX:
+def _without_nothing(value: ca.SX, chains: Chains, switches: set[int]) -> ca.SX:
     """The value without the unknowns on which it depends in writing only."""
     own = [s for s in ca.symvar(value) if s.element_hash() in chains.place]
     if not own:
         return value
-    slopes = np.vstack(list(_at_random(ca.jacobian(value, column(own)))))
+    slopes = np.vstack(list(_at_random(ca.jacobian(value, column(own)), switches)))
     idle = [s for s, size in zip(own, np.abs(slopes).max(axis=0), strict=True) if size < NEGLIGIBLE]
     if not idle:
         return value

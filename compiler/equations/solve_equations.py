@@ -99,7 +99,7 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
         [*own, *left.residuals.origins],
     )
     unknowns = [j for j in everything if j not in left.removed]
-    system = combine(system, count, chains, unknowns)
+    system = combine(system, count, chains, unknowns, reduced.conditions.flags)
     found = differentiate(system, count, chains, left.removed, log)
     if found is None:
         return None
