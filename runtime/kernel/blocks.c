@@ -177,6 +177,19 @@ static int is_nothing(const problem *p) {
   return 1;
 }
 
+/* Zero for what is nothing, where that is the solution. */
+static void come_to_zero(const problem *p) {
+  frot_work *w = p->w;
+  int n = p->block->count;
+  double *from = w->blocks.step + n;
+  const double *start = w->blocks.step + 2 * n;
+  memcpy(from, p->y, sizeof(double) * (size_t)n);
+  for (int i = 0; i < n; i++)
+    if (fabs(p->y[i]) <= n * FROT_ROUNDING * fabs(start[i])) p->y[i] = 0;
+  if (evaluate(p) || worst(w->blocks.r, w->blocks.size, n) > FROT_ROUNDING)
+    memcpy(p->y, from, sizeof(double) * (size_t)n);
+}
+
 /* Newton's method from the values p->y. */
 static int search(const problem *p) {
   frot_work *w = p->w;
@@ -185,7 +198,8 @@ static int search(const problem *p) {
   double part = 1;
   for (int pass = 0; pass < PASSES; pass++) {
     double off = worst(w->blocks.r, w->blocks.size, n);
-    if (off <= FROT_ROUNDING || (pass > 0 && part == 1 && is_nothing(p))) return FROT_OK;
+    if (off <= FROT_ROUNDING) return FROT_OK;
+    if (pass > 0 && part == 1 && is_nothing(p)) return come_to_zero(p), FROT_OK;
     int singular = newton_step(p);
     double longest = p->along ? fmin(1, 4 * part) : 1;
     part = p->along && singular ? 0 : line_search(p, off, longest, singular);
