@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import casadi as ca
+from frot.compiler.equations.numbers_in_sums import size_of_numbers
 from frot.compiler.equations.origins import Origin
 from frot.compiler.lowering.assembled import Assembled, Block
 from frot.compiler.lowering.checks import Check, parameter_checks
@@ -336,6 +337,7 @@ def _block(name: str, block: Block, system: Assembled) -> ca.Function:
     size = block.size
     if size is None:
         size = ca.fabs(slope) @ ca.fabs(own) + ca.fabs(block.residual)
+        size += size_of_numbers(block.residual, own)
     arguments = state_arguments(system)
     if block.late:
         arguments += [system.z, system.lam]

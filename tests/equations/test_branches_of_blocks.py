@@ -151,3 +151,22 @@ end M;
         run = model.simulate(tolerance=tolerance)
         for t in (0.3, 0.8, 0.99):
             assert run.at(t)["a"] == pytest.approx(1.5 + 0.5 * (1 - t) ** 2, rel=10 * tolerance)
+
+
+def test_a_diode_conducts_from_where_it_carries_nothing() -> None:
+    """exp(v/V) - 1 leaves at v = 0 the rounding of 1. The value by SciPy's Radau, in v as state."""
+    model = frot.compile("""
+model M
+  Real v(start = 0.1), i, u;
+initial
+  u = 0;
+equation
+  i = 1e-12*(exp(v/0.025) - 1);
+  5*sin(10*time/(1 s)) - v - u = 100*i;
+  1e-3*der(u)*(1 s) = i - u/1000;
+  experiment(stop = 1 s);
+end M;
+""")
+    for tolerance in (1e-3, 1e-6, 1e-9):
+        run = model.simulate(tolerance=tolerance)
+        assert run["u"][-1] == pytest.approx(2.86565441888, rel=max(3 * tolerance, 1e-9))
