@@ -106,9 +106,11 @@ static frot_callable scratch_of_all(const frot_model *m) {
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
   for (int i = 0; i < count + 2 * m->n_blocks; i++) {
-    const frot_block *block = &m->blocks[i < count ? 0 : (i - count) / 2];
-    const frot_callable *of_block = (i - count) % 2 ? &block->switching : &block->residual;
-    const frot_callable *call = i < count ? calls[i] : of_block;
+    const frot_callable *call = i < count ? calls[i] : NULL;
+    if (i >= count) {
+      const frot_block *block = &m->blocks[(i - count) / 2];
+      call = (i - count) % 2 ? &block->switching : &block->residual;
+    }
     most.n_arg = larger(most.n_arg, call->n_arg), most.n_res = larger(most.n_res, call->n_res);
     most.n_iw = larger(most.n_iw, call->n_iw), most.n_w = larger(most.n_w, call->n_w);
   }
