@@ -87,8 +87,7 @@ def sum_loads(
                     along = ca.jacobian(action.velocity, speeds).T
                 force += along @ action.force
                 size += ca.fabs(along) @ ca.fabs(action.force)
-            if result.potential is None:
-                power += ca.dot(action.velocity, action.force)
+        power += result.power
         sizes.append(sum((ca.sum1(ca.fabs(a.force)) for a in result.actions), ca.SX(0)))
         if result.potential is not None:
             potential += result.potential
