@@ -26,15 +26,17 @@ class Action:
 
     `velocity` is linear in the speeds and `force` times it is the power: that of the material point
     which is where the force acts, though the place may walk along the body as time goes. `walks`:
-    how fast the place leaves that point (3), without entries where time does not move it. `push`:
-    the same as it acts on one body, where it does. `along`: the slope of the velocity by the
-    speeds, where it is more than its factors are (a velocity that is linear with factors that hold
-    speeds).
+    how fast the place leaves that point (3), without entries where time does not move it. `place`:
+    where a force acts (3), for what rounding of places makes of its work; a couple has none.
+    `push`: the same as it acts on one body, where it does. `along`: the slope of the velocity by
+    the speeds, where it is more than its factors are (a velocity that is linear with factors that
+    hold speeds).
     """
 
     velocity: ca.SX
     force: ca.SX
     walks: ca.SX = field(default_factory=nowhere)
+    place: ca.SX = field(default_factory=nowhere)
     push: Push | None = None
     along: ca.SX | None = None
 
@@ -75,7 +77,7 @@ class _End:
     def under(self, force: ca.SX) -> Action:
         """A force that acts there."""
         push = None if self.body is None else Push(self.body, self.arm, force, nowhere())
-        return Action(self.material, force, self.walks, push)
+        return Action(self.material, force, self.walks, self.place, push)
 
 
 def load(
