@@ -92,7 +92,7 @@ def _blocks(lowered: Lowered) -> list[str]:
     return [
         record(
             *(callable_record(f), callable_record(g)),
-            *(b.first, b.residual.numel(), int(b.linear), int(b.late)),
+            *(b.first, b.residual.numel(), int(b.linear), int(b.late), int(b.followed)),
             *_at(b.name, b.span),
         )
         for b, f, g in zip(lowered.system.blocks, lowered.blocks, lowered.switching, strict=True)

@@ -307,6 +307,7 @@ static int solve_nonlinear(const problem *p) {
   size_t bytes = sizeof(double) * (size_t)n;
   double *start = w->blocks.step + 2 * n, *kept = start + n;
   memcpy(start, p->y, bytes);
+  if (p->block->followed) return search(p);
   for (int k = 0; k < 4; k++) {
     problem own = *p;
     own.along = k < 2, own.switching = k % 2;

@@ -345,7 +345,7 @@ def source(m: Small) -> str:
         ("int", "q_alike"): list(range(m.nq)),
         ("frot_block", "blocks"): [
             f"{{{_call(made[f'block_{i}'])}, {{0}}, {b.first}, {b.count}, {int(b.linear)}, "
-            f'{int(b.late)}, "{b.name}", "small:{i + 1}:1"}}'
+            f'{int(b.late)}, 0, "{b.name}", "small:{i + 1}:1"}}'
             for i, b in enumerate(m.blocks)
         ],
         ("int", "when_condition"): [c for c, _ in m.whens],
