@@ -87,17 +87,16 @@ def lowered_of(
     if system is None:
         return None
     from frot.compiler.lowering.groups import make_groups
-    from frot.compiler.lowering.lower import begin, lower
+    from frot.compiler.lowering.lower import lower
 
-    beginning = begin(system, log)
     integrals: tuple[FirstIntegral, ...] = ()
-    if search and not log.failed:
+    if search:
         from frot.compiler.report.first_integrals import first_integrals_of
 
         tell("the first integrals")
-        integrals = first_integrals_of(system, beginning)
+        integrals = first_integrals_of(system)
     tell("the functions")
-    return lower(system, beginning, make_groups(system), log, integrals)
+    return lower(system, make_groups(system), log, integrals)
 
 
 def text_of(lowered: Lowered, key: str) -> str:
@@ -124,7 +123,7 @@ def build(
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.chosen import MODEL_FLAGS
     from frot.compiler.toolchain.compilers import compile_objects, link_library
-    from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_objects
+    from frot.compiler.toolchain.objects import kept_kernel, kernel_folder
     from frot.compiler.toolchain.storing import store, write_manifest
 
     with without_collection():
@@ -140,7 +139,7 @@ def build(
         source = folder / MODEL_SOURCE
         source.write_text(text, encoding="utf-8")
         made = compile_objects(toolchain, [source], [kernel_folder()], folder, MODEL_FLAGS)
-        link_library(toolchain, [*made, *kernel_objects(kernel)], folder / LIBRARY)
+        link_library(toolchain, [*made, *sorted(kernel.folder.glob("*.o"))], folder / LIBRARY)
         made[0].unlink()
         write_manifest(describe(lowered, file, key, toolchain, folder), folder)
 

@@ -20,7 +20,6 @@ class Block:
     """Equations 0 = `residual` that determine y[first .. first + count) together.
 
     `size` is that of their terms and `start` where the search begins, None where nobody knows.
-    `followed`: they say where figures touch, and which of several places counts is decided there.
     """
 
     residual: ca.SX
@@ -31,7 +30,6 @@ class Block:
     span: Span
     size: ca.SX | None = None
     start: ca.SX | None = None
-    followed: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -131,6 +129,6 @@ def followed_blocks(reduced: Reduced) -> tuple[ca.SX, tuple[Block, ...]]:
         first, span = sum(int(x.numel()) for x in y), liaison.span
         y.append(track.unknowns)
         blocks.append(
-            Block(track.residual, first, False, False, name, span, track.size, track.start, True)
+            Block(track.residual, first, False, False, name, span, track.size, track.start)
         )
     return column(y), tuple(blocks)

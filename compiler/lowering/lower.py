@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import casadi as ca
-from frot.compiler.equations.numbers_in_sums import size_of_numbers
 from frot.compiler.equations.origins import Origin
 from frot.compiler.lowering.assembled import Assembled, Block
 from frot.compiler.lowering.checks import Check, parameter_checks
@@ -13,9 +12,8 @@ from frot.compiler.lowering.equals import Kind, Member, share_functions
 from frot.compiler.lowering.explicit import make_explicit
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.finite import watch_numbers
-from frot.compiler.lowering.first_conditions import first_conditions
 from frot.compiler.lowering.groups import Grouping
-from frot.compiler.lowering.initial_values import Initial, Statement, lower_initial
+from frot.compiler.lowering.initial_values import Statement, lower_initial
 from frot.compiler.lowering.islands import Island, divide
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, too_full, why_explicit
 from frot.compiler.lowering.listing import Listed, list_variables
@@ -23,15 +21,14 @@ from frot.compiler.lowering.lower_events import Ranks, lower_update, rank_whens
 from frot.compiler.lowering.lower_parameters import lower_parameters, parameters_needed
 from frot.compiler.lowering.pace import make_pace
 from frot.compiler.lowering.parts import Part, Scene
-from frot.compiler.lowering.switching import straighten, switching_residual
-from frot.compiler.lowering.symbols import column, dense
+from frot.compiler.lowering.symbols import column
 from frot.compiler.lowering.timing import sort_conditions
 from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.mechanics.supports import Carried, carried_bodies
 from frot.dsl import Log
-from frot.dsl.data.classes import dataclass, replace
+from frot.dsl.data.classes import dataclass
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -47,8 +44,7 @@ class Lowered:
     whose places are guessed. `direct`: scalar equations on positions that hold where the search
     begins. `parts` and `speed_parts`: what of places and of speeds is put together alone.
     `n_followed`: unknowns of places that are followed, if one may be of an open contact.
-    `blocks` are the functions of the blocks of `system`, `switching` those with the conditions on
-    their own unknowns as they are, if there are any.
+    `blocks` are the functions of the blocks of `system`.
     Islands and parts are each of one of the `kinds`. `conditions`: the values of all; `ranks`: the
     order of the `when`s.
     """
@@ -63,7 +59,6 @@ class Lowered:
     speed_parts: tuple[tuple[Part, Member], ...]
     conditions: ca.SX
     blocks: tuple[ca.Function, ...]
-    switching: tuple[ca.Function | None, ...]
     carried: tuple[Carried, ...]
     vanishing: tuple[Vanishing, ...]
     checks: tuple[Check, ...]
@@ -82,20 +77,8 @@ class Lowered:
     integrals: tuple[FirstIntegral, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Beginning:
-    """The statements of `initial`, and what lowered them.
-
-    `looking` lowers what is only looked at, `explicit` writes out the formulas of unknowns.
-    """
-
-    looking: Lowering
-    explicit: Callable[[ca.SX], ca.SX]
-    initial: Initial
-
-
-def begin(system: Assembled, log: Log) -> Beginning:
-    """Lower the statements; those that cannot hold are reported."""
+def looking_at(system: Assembled, log: Log) -> tuple[Lowering, Callable[[ca.SX], ca.SX]]:
+    """Lowers what is only looked at; with it, what writes out the formulas of unknowns."""
     reduced, explicit = system.reduced, make_explicit(system)
     chains, settled = reduced.text.chains, reduced.variables.settled
 
@@ -110,25 +93,20 @@ def begin(system: Assembled, log: Log) -> Beginning:
         variable=reduced.text.values.__getitem__,
         without_rate=lambda value: chains.without_rate(formula(value)),
     )
-    return Beginning(looking, explicit, lower_initial(system, looking, explicit, log))
+    return looking, explicit
 
 
 def lower(
-    system: Assembled,
-    beginning: Beginning,
-    grouping: Grouping,
-    log: Log,
-    integrals: tuple[FirstIntegral, ...] = (),
+    system: Assembled, grouping: Grouping, log: Log, integrals: tuple[FirstIntegral, ...] = ()
 ) -> Lowered | None:
     """Build every function; what cannot be built is reported. `integrals` are listed too."""
     reduced = system.reduced
     s, resolve, settled = reduced.symbols, system.resolve, reduced.variables.settled
-    looking, explicit, initial = beginning.looking, beginning.explicit, beginning.initial
+    looking, explicit = looking_at(system, log)
+    initial = lower_initial(system, looking, explicit, log)
     variables = list_variables(system, looking, integrals)
     located = explicit(system.resolve(column(reduced.conditions.values)))
     conditions, timers = sort_conditions(system, located)
-    switching = tuple(_switching(k, b, system, conditions) for k, b in enumerate(system.blocks))
-    conditions = straighten(system, conditions)
     watched, watched_origins = watch_numbers(system)
     checks = parameter_checks(reduced.mechanism, s.parameters, system.pivots)
     update = lower_update(system, log)
@@ -147,23 +125,13 @@ def lower(
             lower_parameters(looking, checks, system, grouping, given, is_set),
         ),
         "start": ([s.t, s.u, s.p], initial.start),
-        "beginning": (
-            state,
-            [*initial.beginning, unsolved(first_conditions(system, looking, conditions), system)],
-        ),
+        "beginning": (state, initial.beginning),
         "sizes": (
             state,
             [system.force_size, _without_reactions(resolve(reduced.load_sizes), system)],
         ),
         "variables": ([*solution, s.energy], [values]),
-        "energy": (
-            state,
-            [
-                resolve(reduced.kinetic),
-                resolve(reduced.potential),
-                _without_reactions(resolve(reduced.energy_terms), system),
-            ],
-        ),
+        "energy": (state, [resolve(reduced.kinetic), resolve(reduced.potential)]),
     }
     if not islands:
         outputs |= _whole(system, grouping, unsolved(conditions, system), state)
@@ -231,8 +199,7 @@ def lower(
         parts=tuple((x, next(own)) for x in places),
         speed_parts=tuple((x, next(own)) for x in speeds),
         conditions=conditions,
-        blocks=tuple(_block(f"block_{k}", b, system) for k, b in enumerate(system.blocks)),
-        switching=switching,
+        blocks=tuple(_block(k, b, system) for k, b in enumerate(system.blocks)),
         carried=carried,
         vanishing=lost,
         checks=checks,
@@ -316,7 +283,7 @@ def state_arguments(system: Assembled) -> list[ca.SX]:
 
 def _clean(outputs: list[ca.SX]) -> list[ca.SX]:
     """Dense outputs with common subexpressions shared."""
-    return [dense(x) for x in ca.cse([x if type(x) is ca.SX else ca.SX(x) for x in outputs])]
+    return [ca.densify(x) for x in ca.cse([ca.SX(x) for x in outputs])]
 
 
 def unsolved(conditions: ca.SX, system: Assembled) -> ca.SX:
@@ -352,28 +319,17 @@ def _is_known(values: ca.SX, system: Assembled, variables: tuple[Listed, ...], l
     return False
 
 
-def _block(name: str, block: Block, system: Assembled) -> ca.Function:
+def _block(index: int, block: Block, system: Assembled) -> ca.Function:
     """Residual, its Jacobian in the block's own unknowns, the size of its terms."""
     own = system.y[block.first : block.first + block.residual.numel()]
     slope = ca.jacobian(block.residual, own)
     size = block.size
     if size is None:
         size = ca.fabs(slope) @ ca.fabs(own) + ca.fabs(block.residual)
-        size += size_of_numbers(block.residual, own)
     arguments = state_arguments(system)
     if block.late:
         arguments += [system.z, system.lam]
-    return ca.Function(f"frot_{name}", arguments, _clean([block.residual, slope, size]))
-
-
-def _switching(
-    index: int, block: Block, system: Assembled, conditions: ca.SX
-) -> ca.Function | None:
-    """The same where the conditions on the block's own unknowns are as they are."""
-    residual = switching_residual(block, system, conditions)
-    if residual is None:
-        return None
-    return _block(f"switching_{index}", replace(block, residual=residual), system)
+    return ca.Function(f"frot_block_{index}", arguments, _clean([block.residual, slope, size]))
 
 
 def _beginnings_of_open(system: Assembled) -> list[ca.SX]:

@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 import casadi as ca
-from frot.compiler.direct import take_operators
 from frot.compiler.lowering.flatten import T, by_input, tunable
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.link import Link
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.dsl.checked import Input, Liaison, Parameter
 from frot.dsl.data.classes import dataclass, field
-
-take_operators()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,11 +86,6 @@ def column(values: Iterable[ca.SX]) -> ca.SX:
     if len(items) == 1:  # most columns of equations
         return items[0]
     return ca.vertcat(*items) if items else ca.SX.zeros(0)
-
-
-def dense(value: ca.SX) -> ca.SX:
-    """The value with an entry everywhere: itself where it has that."""
-    return value if value.is_dense() else ca.densify(value)
 
 
 def scalars_of(symbols: ca.SX) -> list[ca.SX]:

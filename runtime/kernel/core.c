@@ -21,8 +21,9 @@
 #include "tolerances.h"
 #include "wide.h"
 
-void frot_inputs(frot_state *s, frot_work *w, const double *t, const double *q, const double *v,
-                 const double *d) {
+void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
+                 const double *v, const double *d) {
+  (void)m;
   w->call.arg[0] = t, w->call.arg[1] = q, w->call.arg[2] = v;
   w->call.arg[3] = s->data + w->layout.u, w->call.arg[4] = s->data + w->layout.p;
   w->call.arg[5] = d, w->call.arg[6] = w->blocks.y;
@@ -356,13 +357,13 @@ double frot_kinetic(const frot_model *m, const frot_work *w, const double *v) {
 }
 
 int frot_energies(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                  const double *v, const double *d, double energy[3]) {
-  energy[0] = energy[1] = energy[2] = 0;
+                  const double *v, const double *d, double energy[2]) {
+  energy[0] = energy[1] = 0;
   if (!m->energy.call) return FROT_OK;
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
-  frot_inputs(s, w, &t, q, v, d);
-  w->call.res[0] = energy, w->call.res[1] = energy + 1, w->call.res[2] = energy + 2;
+  frot_inputs(m, s, w, &t, q, v, d);
+  w->call.res[0] = energy, w->call.res[1] = energy + 1;
   frot_call(w, &m->energy);
   return FROT_OK;
 }

@@ -33,17 +33,14 @@ static double size_at_start(const frot_model *m, const frot_state *s, const frot
   return size > 0 ? size : fabs(w->step.z1[j] - w->step.z0[j]);
 }
 
-/* What the step brings the states that are no coordinates, by their slopes at its start, and what
- * it leaves them: what they are and move by at its end. Where that makes a size of zero, by the
- * first slope that is not: of what begins with the step nothing else is known, and later ones may
- * be wild where the step is far too long. */
+/* What the step brings the states that are no coordinates, by their slopes at its start. Where that
+ * leaves a size of zero, by the first slope that is not: of what begins with the step nothing else
+ * is known, and later ones may be wild where the step is far too long. */
 static void size_own_states(const frot_model *m, const frot_state *s, frot_work *w, double h) {
   const frot_size_work *own = &w->sizes;
-  const double *end = frot_stage(w, DP_STAGES);
   for (int i = 0; i < own->count; i++) {
     int j = own->states[i], at = w->awake.now->place[j];
     own->change[j] = at < 0 ? 0 : h * fabs(w->step.k[at]);
-    own->left[j] = at < 0 ? INFINITY : fmax(fabs(w->step.z1[j]), h * fabs(end[at]));
   }
   if (!frot_state_sizes(m, s, w)) return;
   for (int i = 0; i < own->count; i++) {
@@ -58,7 +55,7 @@ static void size_own_states(const frot_model *m, const frot_state *s, frot_work 
  * of lengths. */
 static double dropped(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
   int e = frot_slip_of_guard(m, s, w, j);
-  return e < 0 ? 0 : frot_dropped_rate(m, s, w, e, w->step.z1 + m->nq);
+  return e < 0 ? 0 : frot_dropped_rate(m, s, e, w->step.z1 + m->nq);
 }
 
 /* The worst estimate of the local error over its bound, and in w->step.worst the value it is of. */
@@ -94,8 +91,8 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       double largest = FROT_GUARD_LOOSEST * s->data[l->most_g + w->guards.list[j - n]];
       largest = fmax(largest, w->guards.shown[j - n]);
       for (int k = 0; k <= DP_STAGES; k++) {
-        double value = fabs(frot_stage(w, k)[j]);
-        if (value > largest) largest = value;
+        double size = fabs(frot_stage(w, k)[j]);
+        if (size > largest) largest = size;
       }
       bound = guard_tolerance * h * largest;
       double measured = frot_guard_noise(m, s, w, w->guards.list[j - n], h);
@@ -134,11 +131,10 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
   return worst_error(m, s, w, h);
 }
 
-void frot_hold_guards(const frot_state *s, const frot_work *w) {
+void frot_hold_guards(const frot_work *w) {
   int first = w->awake.n;
   for (int k = 0; k < w->guards.count; k++)
-    /* of an implicit step only the slopes at its ends are there */
-    for (int i = 0; i <= DP_STAGES; i += s->implicit ? DP_STAGES : 1) {
+    for (int i = 0; i <= DP_STAGES; i++) {
       double size = fabs(frot_stage(w, i)[first + k]);
       if (size < INFINITY) w->guards.shown[k] = fmax(w->guards.shown[k], size);
     }

@@ -10,7 +10,6 @@
 #include "error.h"
 #include "groups.h"
 #include "guards.h"
-#include "mechanics.h"
 #include "roots.h"
 #include "stages.h"
 #include "tolerances.h"
@@ -18,6 +17,8 @@
 #define SAMPLES 8  /* places at which a guard that seems to dip may have risen again */
 #define BETWEEN 32 /* the same, of one that its stages say has not fallen */
 #define IDLE 10    /* falls to no effect, one after the other, after which one is to be clear */
+/* Part of its largest size below which what was measured of a force is no longer of this one. */
+#define FADED 1e-2
 /* Part of the step in which a condition moves as its slope at the start says. */
 #define AT_ONCE 1e-6
 /* What the polynomial of a guard, of degree six, dips at most below its values at the stages, in
@@ -70,20 +71,15 @@ static int is_reaction_or_slip(const frot_model *m, const frot_state *s, const f
   return j < m->n_contacts ? modes[j].closed : j < frot_condition_guard(m);
 }
 
-/* What of a guard of this size counts as zero: rounding, and what of it shows as noise. Next to a
- * jam or to a posture that would hide all of it, but what has no size yet may be all noise. */
-static double floor_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int j,
-                             double h, double size) {
-  double floor = FROT_GUARD_FLOOR * size + FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
-  return s->data[w->layout.scale_g + j] > 0 ? fmin(floor, FROT_DROWNED * size) : floor;
-}
-
 double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int k,
                            double h, const double g[7]) {
   int j = w->guards.list[k];
-  double size = s->data[w->layout.scale_g + j], inside = 0;
+  double size = s->data[w->layout.scale_g + j], most = s->data[w->layout.most_g + j];
+  double inside = 0, floor = FROT_GUARD_FLOOR * size;
   for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
-  double slack = fmax(FROT_LOCATED * inside, floor_of_guard(m, s, w, j, h, size));
+  floor += FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
+  if (size > 0 && size < FADED * most) floor = fmin(floor, FROT_DROWNED * size);
+  double slack = fmax(FROT_LOCATED * inside, floor);
   if (!frot_guard_is_force(m, s, w, k) || !(fabs(g[0]) <= slack)) slack = 0;
   return s->idle > IDLE && is_reaction_or_slip(m, s, w, j) ? fmax(slack, 2 * FROT_LOCATED * size)
                                                            : slack;
@@ -152,7 +148,9 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
       g[i] = 0;
     double slack = frot_slack_of_guard(m, s, w, k, h, g);
     for (int i = 0; i < 7; i++) g[i] += slack;
-    double floor = floor_of_guard(m, s, w, j, h, size);
+    double floor = FROT_GUARD_FLOOR * size + FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
+    /* next to a jam noise would hide any reversal, but what has no size yet may be all noise */
+    if (s->data[w->layout.scale_g + j] > 0) floor = fmin(floor, FROT_DROWNED * size);
     double at = frot_first_fall(g, floor + 8 * DBL_EPSILON * fabs(t) * slope);
     if (at < FROT_NO_ROOT && j >= conditions && fabs(first) <= FROT_CONDITION_ZERO * size &&
         s->data[w->layout.fresh + j - conditions] == 0 && falls_between_stages(s, w, k, g))
@@ -237,37 +235,20 @@ int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, doub
   return passed;
 }
 
-/* The guards after h, as the slopes at the start lead, in stage 1. Returns whether they have values
- * there. What the last evaluation has told of its failure stays. */
-static int look_later(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
-  const double *slope = frot_stage(w, 0);
-  double *z = w->step.z;
-  int failed = w->blocks.failed, singular = w->blocks.singular, jammed = w->reactions.jammed;
-  memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
-  for (int i = 0; i < w->awake.n; i++) z[w->awake.now->states[i]] += h * slope[i];
-  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
-  int seen = frot_slope(m, s, w, t + h, z, frot_stage(w, 1)) == FROT_OK;
-  w->blocks.failed = failed, w->blocks.singular = singular, w->reactions.jammed = jammed;
-  return seen;
-}
-
-int frot_condition_at_zero(const frot_model *m, frot_state *s, frot_work *w, int passed, double t,
-                           double h) {
+int frot_condition_at_zero(const frot_model *m, const frot_state *s, const frot_work *w,
+                           int passed) {
   int first = first_condition(w);
-  const double *guard = frot_stage(w, 0) + w->awake.n + first;
-  const double *later = frot_stage(w, 1) + w->awake.n + first;
+  const double *guard = w->step.k + w->awake.n + first, *later = guard + w->layout.nz;
   const double *sizes = s->data + w->layout.scale_g + frot_condition_guard(m);
-  int found = -1, looked = 0, seen = 0;
+  int found = -1;
   double most = -1;
   for (int k = 0; k < w->awake.now->n_located; k++) {
     int j = w->awake.now->located[k];
     double size = sizes[j];
     if (!(fabs(guard[k]) <= FROT_GUARD_FLOOR * size)) continue;
     if (j == passed) return first + k;
-    if (!looked) seen = look_later(m, s, w, t, h), looked = 1;
-    /* where nothing has a value later, any of them may be why */
-    double moved = seen ? fabs(later[k] - guard[k]) / size : 0;
-    if (seen && moved == 0) continue;
+    double moved = fabs(later[k] - guard[k]) / size;
+    if (moved == 0) continue;
     if (moved > most || found < 0) found = first + k, most = moved > most ? moved : most;
   }
   return found;

@@ -157,7 +157,7 @@ static int find_values(const instant *in, int rank, double *q, double *v) {
     int status = frot_solution(m, s, w, in->t, in->q, in->v, d, modes_of(in),
                                s->data + in->l.frozen, s->data + in->l.along, 1);
     if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, in->t);
-    frot_inputs(s, w, &in->t, in->q, in->v, d);
+    frot_inputs(m, s, w, &in->t, in->q, in->v, d);
     w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam, w->call.arg[9] = w->events.firing,
     w->call.arg[10] = w->events.discrete_before;
     w->call.res[0] = q, w->call.res[1] = v, w->call.res[2] = w->events.discrete,
@@ -270,7 +270,7 @@ static int fire_whens(const instant *in, int first, int *happened) {
   const frot_model *m = in->m;
   frot_state *s = in->s;
   const double *d = s->data + in->l.d;
-  double before[3], after[3];
+  double before[2], after[2];
   *happened = 0;
   memcpy(in->w->events.was, in->w->events.before, sizeof(double) * (size_t)m->n_conditions);
   for (int round = 0;; round++) {

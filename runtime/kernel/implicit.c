@@ -156,7 +156,6 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
   for (int k = 0; k < m->nq; k++) {
     double pointed = h * fabs(slope[k]), gone = fabs(w->step.z1[k] - w->step.z0[k]);
     w->sizes.change[k] = pointed < gone ? pointed : gone;
-    w->sizes.left[k] = INFINITY;
   }
   if (frot_state_sizes(m, s, w)) {
     for (int k = 0; k < m->nq; k++)
@@ -171,7 +170,7 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
   return worst_error(m, s, w, &l, h);
 }
 
-/* State inside the step by the vectors w->step.f. */
+/* State inside the step by the vectors w->f. */
 static void inside(const frot_model *m, const frot_layout *l, const frot_work *w, double theta,
                    double *z) {
   const double *f = w->step.f;

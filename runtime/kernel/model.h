@@ -63,8 +63,7 @@ typedef struct {
   frot_callable parameters;
   /* start(t, u, p) -> q where the search begins, whatever is guessed, discrete variables there */
   frot_callable start;
-  /* beginning(t, q, v, u, p, d, y) -> v and y where the search for them begins, at these places;
-   * the conditions (n_conditions) where it does, d and y being those there */
+  /* beginning(t, q, v, u, p, d, y) -> v and y where the search for them begins, at these places */
   frot_callable beginning;
   /* The functions of the state take (t, q, v, u, p, d, y). */
 
@@ -134,7 +133,7 @@ typedef struct {
    *   not finite where that equation by itself gives none (n_watched). Called after a failure,
    * where n_watched > 0. */
   frot_callable watched;
-  /* energy -> kinetic, potential, sizes of the forces times those of the places they act at */
+  /* energy -> kinetic, potential */
   frot_callable energy;
 
   const double *p_default; /* np */

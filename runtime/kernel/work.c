@@ -105,12 +105,8 @@ static frot_callable scratch_of_all(const frot_model *m) {
       &m->sensed,     &m->watched,  &m->vanishing};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
-  for (int i = 0; i < count + 2 * m->n_blocks; i++) {
-    const frot_callable *call = i < count ? calls[i] : NULL;
-    if (i >= count) {
-      const frot_block *block = &m->blocks[(i - count) / 2];
-      call = (i - count) % 2 ? &block->switching : &block->residual;
-    }
+  for (int i = 0; i < count + m->n_blocks; i++) {
+    const frot_callable *call = i < count ? calls[i] : &m->blocks[i - count].residual;
     most.n_arg = larger(most.n_arg, call->n_arg), most.n_res = larger(most.n_res, call->n_res);
     most.n_iw = larger(most.n_iw, call->n_iw), most.n_w = larger(most.n_w, call->n_w);
   }
@@ -160,8 +156,8 @@ static void bind_call(const frot_model *m, const frot_layout *l, frot_call_work 
 
 static void bind_blocks(const frot_model *m, const extent *e, frot_block_work *w, arena *a) {
   int n = e->block;
-  TAKE(w->y, m->ny), TAKE(w->r, 2 * n), TAKE(w->j, n * n), TAKE(w->lu, n * n), TAKE(w->size, 2 * n);
-  TAKE(w->step, 4 * n), TAKE(w->scale, n * n + 5 * n), TAKE(w->pivot, n);
+  TAKE(w->y, m->ny), TAKE(w->r, n), TAKE(w->j, n * n), TAKE(w->lu, n * n), TAKE(w->size, 2 * n);
+  TAKE(w->step, 2 * n), TAKE(w->scale, n * n + 5 * n), TAKE(w->pivot, n);
 }
 
 static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work *w, arena *a) {
@@ -280,8 +276,7 @@ static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, a
       TAKE(p->excused, 2 * m->nv), TAKE(p->beyond, m->nv), TAKE(p->z0, l->nz), TAKE(p->z1, l->nz),
       TAKE(p->z, l->nz);
   TAKE(p->y_end, m->ny), TAKE(p->f, DP_DENSE * l->nz), TAKE(p->parameters, m->np);
-  TAKE(w->sizes.change, m->nq), TAKE(w->sizes.left, m->nq), TAKE(w->sizes.own, m->nq + m->nv),
-      TAKE(w->sizes.alike, m->nq);
+  TAKE(w->sizes.change, m->nq), TAKE(w->sizes.own, m->nq + m->nv), TAKE(w->sizes.alike, m->nq);
   TAKE(w->sizes.states, m->nq);
   w->sizes.count = 0;
   for (int j = 0; a->base && j < m->nq; j++)
@@ -305,7 +300,7 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
   TAKE(w->guess, nc + ne), TAKE(w->guess_ahead, nc + ne), TAKE(w->certain, nc);
   TAKE(w->corner, nc + ne), TAKE(w->found, nc + ne), TAKE(w->slack, nc + ne);
   TAKE(w->zero, ne), TAKE(w->at_rest, ne), TAKE(w->departs, ne), TAKE(w->ahead, ne);
-  TAKE(w->motions, FROT_MOTIONS * nr), TAKE(w->pivot_bound, 3 * nr);
+  TAKE(w->motions, FROT_MOTIONS * nr), TAKE(w->pivot_bound, 4 * nr);
   TAKE(w->choice, 4 * nc + 4 * ne), TAKE(w->component, nc), TAKE(w->chosen, nc);
   TAKE(w->nothing_frozen, m->nv), TAKE(w->margin, nc + ne);
   TAKE(w->rates, m->nq), TAKE(w->along, 2 * m->n_elements), TAKE(w->set_out, m->nv);
