@@ -19,12 +19,12 @@ from frot.compiler.equations.index import Index, find_unbalanced, reduce_index
 from frot.compiler.equations.order import find_components
 from frot.compiler.equations.slopes import collect, slopes, symbols_inside
 from frot.compiler.equations.sparse import pivots
+from frot.compiler.lowering.drawn import at_random
 from frot.compiler.lowering.symbols import column
 
 NEGLIGIBLE = 1e-10  # of numbers of order one that should be nothing but rounding
 PLAIN = 1e-6  # pivots above it, in the largest, tell a matrix that has an inverse
 ECHELON = 1e-6  # below it an item of a vector of length one is no pivot
-POINTS = 3  # random places at which a dependence must be the same
 
 
 def combine(system: Residuals, newton: int, chains: Chains, left: Sequence[int]) -> Residuals:
@@ -110,7 +110,7 @@ def _weights(
             entries.append(item)
     found: list[np.ndarray] = []
     where = tuple(np.array(places, dtype=int).reshape(-1, 2).T)
-    for numbers in _at_random(column(entries)):
+    for numbers in at_random(column(entries)):
         matrix = np.zeros((len(rows), len(unknowns)))
         matrix[where] = numbers.ravel()
         if np.isfinite(matrix).all() and _has_inverse(matrix):
@@ -123,7 +123,7 @@ def _weights(
             return None
         null = _sparsest(u[:, s <= NEGLIGIBLE * s[0]])
         found.append(null)
-    if any(np.abs(one - found[0]).max() > NEGLIGIBLE for one in found):
+    if not found or any(np.abs(one - found[0]).max() > NEGLIGIBLE for one in found):
         return None
     near = np.round(found[0])
     return near if np.abs(near - found[0]).max() < NEGLIGIBLE else found[0]
@@ -162,22 +162,19 @@ def _sparsest(basis: np.ndarray) -> np.ndarray:
     return np.asarray(space[-1])
 
 
-def _at_random(values: ca.SX) -> Iterator[np.ndarray]:
-    symbols = ca.symvar(values)
-    function = ca.Function("entries", symbols, [values])
-    random = np.random.default_rng(1)
-    for _ in range(POINTS):
-        points = [ca.DM(x) for x in random.uniform(0.5, 2, len(symbols))]
-        yield function.call(points)[0].full()
-
-
 def _without_nothing(value: ca.SX, chains: Chains) -> ca.SX:
     """The value without the unknowns on which it depends in writing only."""
     own = [s for s in ca.symvar(value) if s.element_hash() in chains.place]
     if not own:
         return value
-    slopes = np.vstack(list(_at_random(ca.jacobian(value, column(own)))))
-    idle = [s for s, size in zip(own, np.abs(slopes).max(axis=0), strict=True) if size < NEGLIGIBLE]
+    slopes = at_random(ca.jacobian(value, column(own)))
+    if not slopes:
+        return value
+    idle = [
+        s
+        for s, size in zip(own, np.abs(np.vstack(slopes)).max(axis=0), strict=True)
+        if size < NEGLIGIBLE
+    ]
     if not idle:
         return value
     return ca.substitute(value, column(idle), ca.SX.zeros(len(idle)))

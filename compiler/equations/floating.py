@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 import casadi as ca
 import numpy as np
 from frot.compiler.equations.chains import Chains
+from frot.compiler.lowering.drawn import at_random
 from frot.compiler.lowering.symbols import column
 from frot.dsl import Label, Log
 from frot.dsl.checked import Element, Equation, Expression, Model, Reference, Variable
@@ -77,16 +78,10 @@ def _variable(node: Expression) -> Variable | None:
 def _shifted_together(values: Sequence[ca.SX], unknowns: Sequence[ca.SX]) -> list[list[int]]:
     """Groups of unknowns whose common change leaves all values as they are, at random places."""
     slope = ca.jacobian(column(values), column(unknowns))
-    symbols = ca.symvar(slope)
-    function = ca.Function("slope", symbols, [slope])
-    random = np.random.default_rng(1)
-    parts = [
-        function(*random.uniform(0.1, 2, len(symbols))).full() if symbols else ca.DM(slope).full()
-        for _ in range(3 if symbols else 1)
-    ]
-    whole = np.vstack(parts)
-    if not np.all(np.isfinite(whole)):
+    parts = at_random(slope)
+    if not parts:
         return []
+    whole = np.vstack(parts)
     size = np.linalg.norm(whole, axis=1)
     whole = whole[size > 0] / size[size > 0, None]
     _, singular, directions = np.linalg.svd(whole, full_matrices=True)

@@ -6,6 +6,9 @@ rounding, of which a root makes a flow a hundred million times as large, that no
 below FEW roundings of its terms the root is zero, and from there to MANY it rises in proportion,
 that a flow which something else keeps up has a level of its own. Beyond zero, where a stage of a
 step may lie before the event is located, it is odd: it drives back what it has drawn to zero.
+
+That a condition switches a root is found by numbers. Where parameters decide it, it is known for
+those of the signs of the defaults alone: for others the root is what the text says.
 """
 
 from __future__ import annotations
@@ -33,8 +36,17 @@ class Root:
     size: ca.SX
     exponent: float
 
-    def settled(self) -> ca.SX:
-        """The root as it is next to zero; no branch has a slope without a number."""
+    def settled(self, where: ca.SX) -> ca.SX:
+        """The root as it is next to zero where that holds, else as it is written.
+
+        No branch has a slope without a number.
+        """
+        near_zero = self._near_zero()
+        if where.is_one():
+            return near_zero
+        return ca.if_else(where, near_zero, self._of(ca.if_else(where, 1, self.operand)))
+
+    def _near_zero(self) -> ca.SX:
         x = ca.fabs(self.operand)
         above = x > MANY * self.size
         rises = (x > FEW * self.size) * (1 - above)
@@ -86,7 +98,24 @@ class Roots:
         if not roots:
             return value
         switched = iter(self._are_switched(roots, marks, marked, own))
-        return self._with_roots(value, lambda root, it: root.settled() if next(switched) else it)
+        where = self._as_signed(self._deciding(roots, own))
+        return self._with_roots(
+            value, lambda root, it: root.settled(where) if next(switched) else it
+        )
+
+    def _deciding(self, roots: Sequence[Root], own: Mapping[int, ca.SX]) -> list[ca.SX]:
+        """The parameters that roots and the conditions that switch them read."""
+        read = ca.symvar(column([*(root.operand for root in roots), *own.values()]))
+        return [x for x in read if x in self.given]
+
+    def _as_signed(self, parameters: Sequence[ca.SX]) -> ca.SX:
+        """Whether these have the signs of their defaults: 1 where there are none."""
+        whole = ca.SX(1)
+        for x in parameters:
+            sign = np.sign(self.given.numbers([x])[0])
+            same = ca.eq(x, 0) if sign == 0 else sign * x > 0
+            whole = same if whole.is_one() else ca.logic_and(whole, same)
+        return whole
 
     def _read_by(self, values: list[ca.SX], known: Mapping[int, ca.SX]) -> dict[int, ca.SX]:
         """The conditions that these values read, and those that they read: place and value."""
@@ -116,9 +145,10 @@ class Roots:
         look = ca.Function("look", [column(free), places, flags], [operands, tests, marked])
         random = np.random.default_rng(1)
         at = random.normal(size=(len(free), POINTS))
+        deciding = {x.element_hash() for x in self._deciding(roots, own)}
         for k, x in enumerate(free):
-            if x in self.given:
-                at[k] = self.given.numbers([x])[0]
+            if x.element_hash() in deciding:
+                at[k] = np.abs(at[k]) * np.sign(self.given.numbers([x])[0])
         ones = np.ones((len(roots), POINTS))
         holds: NDArray[np.floating] = np.ones((len(own), POINTS))
         for _ in range(SETTLING):

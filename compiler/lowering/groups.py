@@ -12,10 +12,12 @@ from collections.abc import Iterable, Sequence
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.lowering.drawn import at_positive, at_random
 from frot.compiler.lowering.trees import TreeTable, make_tree
 from frot.compiler.mechanics.dynamics import speeds_by_tree
 from frot.compiler.mechanics.elements import Element, link_elements, text_element
 from frot.dsl.data.classes import dataclass
+from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -234,6 +236,8 @@ def _readings(system: Assembled, groups: Sequence[Group]) -> tuple[int, ...]:
 def _is_general(system: Assembled, unknowns: tuple[int, ...], rows: tuple[int, ...]) -> bool:
     """Whether this is no mass matrix with reactions along the rows: at a few random places.
 
+    It is to be symmetric, whatever parameters and conditions are, and positive at positive ones.
+
     Auxiliary speeds are never solved for: that of the spin of a slender rod moves no mass.
     """
     places, own = list(unknowns), list(rows)
@@ -241,19 +245,22 @@ def _is_general(system: Assembled, unknowns: tuple[int, ...], rows: tuple[int, .
         return True
     matrix, effect = system.matrix[places, places], system.spread[places, own]
     moved = system.rows[own, places].T
-    symbols = ca.symvar(ca.veccat(matrix, effect, moved))
-    both = ca.Function("core", symbols, [matrix, effect, moved])
-    random = np.random.default_rng(1)
-    for _ in range(3):
-        values = [ca.DM(x) for x in random.uniform(0.1, 2, len(symbols))]
-        a, e, j = (x.full() for x in both.call(values))
-        if not a.size:
-            return False
-        scale = np.abs(a).max()
-        symmetric = np.all(np.abs(a - a.T) <= 1e-12 * scale) and np.allclose(e, j, 1e-12, 0)
-        own_speeds = [i for i, k in enumerate(places) if k < system.nv]
-        inertia = a[np.ix_(own_speeds, own_speeds)]
-        least = np.linalg.eigvalsh((inertia + inertia.T) / 2)[0] if own_speeds else 1
-        if not symmetric or least <= 0:
-            return True
-    return False
+    if not places:
+        return False
+    own_speeds = [i for i, k in enumerate(places) if k < system.nv]
+    drawn = at_random(ca.veccat(matrix, effect, moved))
+    inertias = at_positive(matrix[own_speeds, own_speeds]) if own_speeds else []
+    if not drawn or (own_speeds and not inertias):
+        return True
+    return not (
+        all(_is_symmetric(numbers.ravel(), len(places), len(own)) for numbers in drawn)
+        and all(np.linalg.eigvalsh((a + a.T) / 2)[0] > 0 for a in inertias)
+    )
+
+
+def _is_symmetric(numbers: NDArray[np.floating], n: int, rows: int) -> bool:
+    """Whether A (n x n) is, and E (n x rows) what moves the rows, one after the other."""
+    a, e, j = np.split(numbers, [n * n, n * (n + rows)])
+    a = a.reshape(n, n)
+    small = 1e-12 * np.abs(a).max()
+    return bool(np.all(np.abs(a - a.T) <= small) and np.allclose(e, j, 1e-12, 0))

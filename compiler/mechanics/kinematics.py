@@ -285,10 +285,6 @@ class Kinematics:
             track=self.track_of(joint),
         )
 
-    def velocity_at(self, body: Body, place: ca.SX) -> ca.SX:
-        """Velocity (3) of the material point of a body that is at `place`."""
-        return self.bodies[body].velocity_of(place)
-
     def angular_velocity(self, owner: Body | Frame | BodyPoint) -> ca.SX:
         """Angular velocity (3) of the axes."""
         return self.moving(owner).angular

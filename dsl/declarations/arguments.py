@@ -56,7 +56,7 @@ def bind(
             told = f"write '{what}(...) {item.value.span.text}'"
             scope.log.report("E0204", "'driven' stands behind the bracket", item.span, help=told)
             return Arguments({}, False)
-        argument = _which(item, position, usable, by_name, what, bool(written), scope)
+        argument = _which(item, position, usable, by_name, what, scope)
         if item.name is None:
             position += 1
         if argument is None:
@@ -102,7 +102,6 @@ def _which(
     usable: Sequence[Argument],
     by_name: dict[str, Argument],
     what: str,
-    after: bool,
     scope: Scope,
 ) -> Argument | None:
     if item.name is None:

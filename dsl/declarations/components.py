@@ -124,7 +124,7 @@ def _attribute(
             scope.log.report("E0204", f"{what} in brackets", given.span, help=help_text)
         return None, "", False
     _spread(given, kind)
-    value, node = given_value(given, kind, scope)
+    value, node = given_value(given, kind)
     if value is None:
         return None, "", False
     moving = constant(value)

@@ -27,7 +27,7 @@ class Declared:
 
 
 def given_value(
-    modifier: Modifier | None, kind: Kind, scope: Scope
+    modifier: Modifier | None, kind: Kind
 ) -> tuple[checked.Expression | None, tree.Expression | None]:
     """The value a modifier gives, for this item of an array, and its text; None after a message."""
     if modifier is None:
@@ -89,7 +89,7 @@ def bound_value(
     """The value of a declaration, the unit it is written in, and whether there is one at all."""
     modifier = what.modifier
     if modifier is not None and modifier.has_value:
-        value, node = given_value(modifier, kind, scope)
+        value, node = given_value(modifier, kind)
         return value, author_unit(node, value), True
     if what.item.value is None:
         return None, "", False

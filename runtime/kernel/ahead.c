@@ -97,9 +97,11 @@ static int keep_certain(const frot_instant *in, const frot_group *g, frot_contac
     if (mode->friction != FROT_STICK || !rests_at_bound(in, g, e)) mode->friction = FROT_NONE;
   }
   if (unloaded && !note_carried(in, g, modes)) status = FROT_DIVERGE;
-  for (int e = 0; e < m->n_elements; e++)
+  for (int i = 0; i < g->n_elements; i++) { /* of other groups nothing is known */
+    int e = g->elements[i];
     if (modes[m->n_contacts + e].at_bound == 0 && w->reactions.carried[m->elements[e].row])
       modes[m->n_contacts + e].friction = FROT_NONE;
+  }
   if (unloaded && frot_group_reactions(m, w, g, w->search.trial, in->resists))
     status = FROT_DIVERGE;
   return status;

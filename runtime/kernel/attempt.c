@@ -74,6 +74,7 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
     a->h = m->time_dependent ? fmin(s->h, a->longest) : a->longest;
   }
   memcpy(w->step.first, frot_stage(w, 0), sizeof(double) * (size_t)frot_width(w));
+  memcpy(w->step.z1, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
   if (status == FROT_OK && s->implicit) status = frot_implicit_begin(m, s, w, a->t);
   a->want = a->h, a->most = a->longest;
   if (s->weak) a->h = frot_lay_step(m, s, w, a->t, a->h, a->most);
@@ -223,7 +224,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
       ((a->ratio > 1 || unfound) && a->rejections % PATIENCE == 0))
     measure_noise(m, s, w, t + h);
   if (a->rejections % HOLD == 0) {
-    if (a->ratio > HARDLY * a->stubborn) frot_hold_worth(s, w), frot_hold_guards(w);
+    if (a->ratio > HARDLY * a->stubborn) frot_hold_worth(s, w), frot_hold_guards(s, w);
     a->stubborn = isfinite(a->ratio) ? a->ratio : INFINITY;
   }
   frot_shorten(m, s, w, a);
@@ -247,7 +248,7 @@ static int ends_modes(const frot_model *m, frot_state *s, const frot_work *w,
 /* The step has become too short. FROT_OK where it can go on with the other method, or an event is
  * at its start (s->pending), else the status of the fault. */
 static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a, int status) {
-  int ends = frot_condition_at_zero(m, s, w, a->passed);
+  int ends = frot_condition_at_zero(m, s, w, a->passed, a->t, frot_least_step(s, a));
   int over = a->passed >= 0 && ends >= 0; /* no method has a value beyond it */
   if (ends < 0 && ends_modes(m, s, w, a)) return FROT_OK;
   if (!over && !a->changed && frot_change_method(m, s)) {
@@ -260,7 +261,8 @@ static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attemp
   double tried = s->statistics.steps > 0; /* else the run begins there: text.c */
   if (ends < 0 && weak >= 0) return frot_fail(s, FROT_POSTURE, a->t, weak, -1, -1, tried);
   if (ends < 0)
-    return frot_fail_step(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, a->t, a->h);
+    return frot_fail_step(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, a->t, a->h,
+                          w->step.z1, w->step.z1 + m->nq);
   frot_fire_at_start(s, w, ends);
   return FROT_OK;
 }

@@ -14,11 +14,12 @@
 /* Part of the time by which it is looked beyond the instant at which the step goes to zero. */
 #define BEYOND 1e-12
 
-/* The applied force that is no number at the last evaluation (values w->step.z1), or -1. */
-static int wrong_load(const frot_model *m, frot_state *s, frot_work *w) {
+/* The applied force that is no number at (q, v) and the time of the last evaluation, or -1. */
+static int wrong_load(const frot_model *m, frot_state *s, frot_work *w, const double *q,
+                      const double *v) {
   double *sizes = w->step.z, *loads = w->call.values;
   if (m->n_loads == 0) return -1;
-  frot_inputs(m, s, w, &w->core.t, w->step.z1, w->step.z1 + m->nq, s->data + w->layout.d);
+  frot_inputs(s, w, &w->core.t, q, v, s->data + w->layout.d);
   w->call.res[0] = sizes, w->call.res[1] = loads;
   frot_call(w, &m->sizes);
   for (int i = 0; i < m->n_loads; i++)
@@ -31,7 +32,7 @@ static int wrong_load(const frot_model *m, frot_state *s, frot_work *w) {
 static int wrong_equation(const frot_model *m, frot_state *s, frot_work *w, const double *q,
                           const double *v, const double *d) {
   if (m->n_watched == 0 || !q) return -1;
-  frot_inputs(m, s, w, &w->core.t, q, v, d);
+  frot_inputs(s, w, &w->core.t, q, v, d);
   w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
   w->call.res[0] = w->call.values;
   frot_call(w, &m->watched);
@@ -115,24 +116,23 @@ int frot_fail_evaluation(const frot_model *m, frot_state *s, frot_work *w, int s
   return frot_fail(s, status, t, contact, item, other, w->blocks.singular);
 }
 
-int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t,
-                   double h) {
-  const double *z = w->step.z1;
+int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t, double h,
+                   const double *q, const double *v) {
   int equation = -1;
-  if (status == FROT_NAN) equation = wrong_equation(m, s, w, z, z + m->nq, s->data + w->layout.d);
+  if (status == FROT_NAN) equation = wrong_equation(m, s, w, q, v, s->data + w->layout.d);
   if (equation >= 0) return frot_fail(s, FROT_NAN, t, -1, m->n_loads + equation, -1, h);
   if (status == FROT_ALGEBRAIC || (status == FROT_NAN && w->blocks.failed >= 0))
     return frot_fail_evaluation(m, s, w, status, t);
   int blamed = wrong_contact(m, w, status), state = -1;
-  int load = status == FROT_NAN && blamed < 0 ? wrong_load(m, s, w) : -1;
+  int load = status == FROT_NAN && blamed < 0 ? wrong_load(m, s, w, q, v) : -1;
   if (status ==
       FROT_DIVERGE) { /* a force may come to where it has no value with a slope without end */
     w->core.t = t + BEYOND * fmax(fabs(t), s->h_max);
-    load = wrong_load(m, s, w);
+    load = wrong_load(m, s, w, q, v);
     if (load >= 0) return frot_fail(s, FROT_NAN, t, -1, load, -1, h);
   }
   int apart = -1;
-  if (status == FROT_DIVERGE) apart = frot_taken_apart(m, s, w, t, w->step.z1, w->step.z1 + m->nq);
+  if (status == FROT_DIVERGE) apart = frot_taken_apart(m, s, w, t, q, v);
   if (apart >= 0) return frot_fail(s, status, t, apart, 0, -1, h);
   if (status == FROT_DIVERGE && w->step.worst >= 0 && w->step.worst < m->nq + m->nv) {
     int own = w->step.worst < m->nq && m->q_speed[w->step.worst] < 0;
@@ -147,7 +147,7 @@ static int lost_at(const frot_model *m, frot_state *s, frot_work *w, double t, c
   double *distance = w->call.values, *where = distance + m->n_vanishing, least = VANISHED;
   int lost = -1;
   if (!frot_all_finite(z, m->nq + m->nv) || !frot_all_finite(w->blocks.y, m->ny)) return -1;
-  frot_inputs(m, s, w, &t, z, z + m->nq, s->data + w->layout.d);
+  frot_inputs(s, w, &t, z, z + m->nq, s->data + w->layout.d);
   w->call.res[0] = distance, w->call.res[1] = where;
   frot_call(w, &m->vanishing);
   for (int i = 0; i < m->n_vanishing; i++) {

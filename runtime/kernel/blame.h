@@ -5,12 +5,12 @@
 #include "work.h"
 
 /* Record the fault `status` of a step h at t, with what is to blame: a block of equations, the
- * contact of a coefficient or the force that is no number (by the values w->step.z1 of the last
- * evaluation) or, when the step goes to zero, the state whose error forced it, or the contact that
+ * contact of a coefficient or the force that is no number (at q, v, those of the last evaluation)
+ * or, when the step goes to zero, the state whose error forced it, or the contact that
  * time takes apart, or that with the largest reaction where that is a coordinate or a speed.
  * Returns the status. */
-int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t,
-                   double h);
+int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t, double h,
+                   const double *q, const double *v);
 
 /* Record the fault `status` of an evaluation at t with the block to blame, if one is. */
 int frot_fail_evaluation(const frot_model *m, frot_state *s, frot_work *w, int status, double t);

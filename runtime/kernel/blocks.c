@@ -164,7 +164,7 @@ static int solve(const frot_model *m, frot_state *s, frot_work *w, double t, con
     const frot_block *block = &m->blocks[i];
     if (block->late != late) continue;
     problem p = {w, block, w->blocks.y + block->first};
-    frot_inputs(m, s, w, &t, q, v, d);
+    frot_inputs(s, w, &t, q, v, d);
     w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
     w->blocks.singular = 0;
     int status = block->linear ? solve_linear(&p) : solve_nonlinear(&p);

@@ -12,7 +12,7 @@
 int frot_solve_blocks(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                       const double *v, const double *d);
 
-/* The same for the late blocks, which read w->core.a and w->lam. */
+/* The same for the late blocks, which read w->core.a and w->core.lam. */
 int frot_solve_late(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d);
 

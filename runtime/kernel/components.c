@@ -70,11 +70,23 @@ void frot_note_others(const frot_instant *in, const int *chosen, int count) {
   }
 }
 
+/* The speeds of other groups with rows, whose modes are not all found yet, go on as until now. */
+static void keep_motion(const frot_instant *in, const frot_group *own) {
+  const frot_model *m = in->m;
+  const double *slope = in->s->data + in->l.slope + m->nq;
+  for (int k = 0; k < m->n_groups && in->s->statistics.steps > 0; k++) {
+    const frot_group *g = &m->groups[k];
+    for (int i = 0; i < g->n_speeds && g->n_rows > 0 && g != own; i++)
+      in->w->core.a[g->unknowns[i]] = slope[g->unknowns[i]];
+  }
+}
+
 void frot_move_beside_others(const frot_instant *in, const frot_group *g) {
   frot_work *w = in->w;
   for (int i = 0; i < g->n_rows; i++)
     if (w->search.others[g->rows[i]] != 0) w->core.lam[g->rows[i]] = w->search.others[g->rows[i]];
   frot_accelerations(in->m, w, w->search.nothing_frozen);
+  keep_motion(in, g);
   for (int i = 0; i < g->n_rows; i++)
     if (w->search.others[g->rows[i]] != 0) w->core.lam[g->rows[i]] = 0;
 }

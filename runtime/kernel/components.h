@@ -14,7 +14,8 @@ void frot_find_components(const frot_instant *in);
 void frot_note_others(const frot_instant *in, const int *chosen, int count);
 
 /* The accelerations w->core.a of w->core.lam of the component in the group, and of what acts beside
- * it: other contacts do nothing to its rows, but what drives these moves by them. */
+ * it: other contacts do nothing to its rows, but what drives these moves by them. Other groups
+ * with rows move as they did until now. */
 void frot_move_beside_others(const frot_instant *in, const frot_group *g);
 
 #endif

@@ -21,9 +21,8 @@
 #include "tolerances.h"
 #include "wide.h"
 
-void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
-                 const double *v, const double *d) {
-  (void)m;
+void frot_inputs(frot_state *s, frot_work *w, const double *t, const double *q, const double *v,
+                 const double *d) {
   w->call.arg[0] = t, w->call.arg[1] = q, w->call.arg[2] = v;
   w->call.arg[3] = s->data + w->layout.u, w->call.arg[4] = s->data + w->layout.p;
   w->call.arg[5] = d, w->call.arg[6] = w->blocks.y;
@@ -362,7 +361,7 @@ int frot_energies(const frot_model *m, frot_state *s, frot_work *w, double t, co
   if (!m->energy.call) return FROT_OK;
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
-  frot_inputs(m, s, w, &t, q, v, d);
+  frot_inputs(s, w, &t, q, v, d);
   w->call.res[0] = energy, w->call.res[1] = energy + 1;
   frot_call(w, &m->energy);
   return FROT_OK;

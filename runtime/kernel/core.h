@@ -11,8 +11,8 @@ int frot_energies(const frot_model *m, frot_state *s, frot_work *w, double t, co
                   const double *v, const double *d, double energy[2]);
 
 /* Point w->call.arg at the arguments that all functions of the state begin with. */
-void frot_inputs(const frot_model *m, frot_state *s, frot_work *w, const double *t, const double *q,
-                 const double *v, const double *d);
+void frot_inputs(frot_state *s, frot_work *w, const double *t, const double *q, const double *v,
+                 const double *d);
 
 /* Which rows frot_dynamics looks at. */
 enum frot_wanted {

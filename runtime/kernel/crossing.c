@@ -156,7 +156,7 @@ void frot_note_rows(const frot_model *m, const frot_state *s, frot_work *w, int 
       memset(first, 0, sizeof(double) * (size_t)ns); /* of what is left to others there is none */
       if (left > 0) memcpy(first, direction, sizeof(double) * (size_t)ns);
       memcpy(motion, first, sizeof(double) * (size_t)ns);
-      if (s->weak) frot_outwards(w, frot_group_of(m, row), motion);
+      frot_outwards(w, frot_group_of(m, row), motion);
     }
     if (left > 0) along = frot_dot(first, direction, ns);
     w->step.left[m->n_rows * stage + row] = along < 0 ? -left : left;

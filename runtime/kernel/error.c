@@ -55,7 +55,7 @@ static void size_own_states(const frot_model *m, const frot_state *s, frot_work 
  * of lengths. */
 static double dropped(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
   int e = frot_slip_of_guard(m, s, w, j);
-  return e < 0 ? 0 : frot_dropped_rate(m, s, e, w->step.z1 + m->nq);
+  return e < 0 ? 0 : frot_dropped_rate(m, s, w, e, w->step.z1 + m->nq);
 }
 
 /* The worst estimate of the local error over its bound, and in w->step.worst the value it is of. */
@@ -91,8 +91,8 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
       double largest = FROT_GUARD_LOOSEST * s->data[l->most_g + w->guards.list[j - n]];
       largest = fmax(largest, w->guards.shown[j - n]);
       for (int k = 0; k <= DP_STAGES; k++) {
-        double size = fabs(frot_stage(w, k)[j]);
-        if (size > largest) largest = size;
+        double value = fabs(frot_stage(w, k)[j]);
+        if (value > largest) largest = value;
       }
       bound = guard_tolerance * h * largest;
       double measured = frot_guard_noise(m, s, w, w->guards.list[j - n], h);
@@ -131,10 +131,11 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
   return worst_error(m, s, w, h);
 }
 
-void frot_hold_guards(const frot_work *w) {
+void frot_hold_guards(const frot_state *s, const frot_work *w) {
   int first = w->awake.n;
   for (int k = 0; k < w->guards.count; k++)
-    for (int i = 0; i <= DP_STAGES; i++) {
+    /* of an implicit step only the slopes at its ends are there */
+    for (int i = 0; i <= DP_STAGES; i += s->implicit ? DP_STAGES : 1) {
       double size = fabs(frot_stage(w, i)[first + k]);
       if (size < INFINITY) w->guards.shown[k] = fmax(w->guards.shown[k], size);
     }

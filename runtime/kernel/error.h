@@ -11,7 +11,7 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
 
 /* A step that failed again and again shows by its stages what its guards will soon be: they are
  * followed to that, however much shorter it becomes. */
-void frot_hold_guards(const frot_work *w);
+void frot_hold_guards(const frot_state *s, const frot_work *w);
 
 /* What rounding does to the derivatives at time t, into the state: that of the values and of the
  * time, by their influence, and that of the evaluation, by what a second difference leaves where

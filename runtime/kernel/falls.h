@@ -53,9 +53,9 @@ int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, doub
 
 /* Where no step is possible: the listed guard of a condition that is zero there, so that the branch
  * may end before it, as that of a tank that runs empty: the one `passed`, else the one that moves
- * most beside its size. -1 if there is none. */
-int frot_condition_at_zero(const frot_model *m, const frot_state *s, const frot_work *w,
-                           int passed);
+ * most beside its size in h, the shortest step. -1 if there is none. */
+int frot_condition_at_zero(const frot_model *m, frot_state *s, frot_work *w, int passed, double t,
+                           double h);
 
 /* Whether the listed guard k, zero at the start t of the step, seems to fall there at theta, and to
  * rise again or, of a condition, to rise by the slope at the start. What departs with no

@@ -8,13 +8,13 @@
  * sign; of each element two, what it can resist less what it does, both ways, at rest, and its
  * motion while it slips, with the reaction of its pin along the reference direction; then the
  * conditions. Those that can fall in `modes` are listed in w->guards.list, their number in
- * w->n_guards.
+ * w->guards.count.
  */
 void frot_list_guards(const frot_model *m, const frot_state *s, frot_work *w,
                       const frot_contact_mode *modes);
 
 /* Values of the listed guards after frot_reactions. `scale` (may be NULL): the sizes of their
- * terms; those of reactions are by w->row_load. */
+ * terms; those of reactions are by w->core.row_load. */
 void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, const double *q,
                  const double *v, const double *d, const frot_contact_mode *modes, double *guard,
                  double *scale);
@@ -23,17 +23,18 @@ void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, c
  * mode they are something else, in other units. */
 void frot_forget_guards(const frot_model *m, frot_state *s, int first, int count);
 
-/* Whether a listed guard is a reaction, so that `scale` needs w->row_load. */
+/* Whether a listed guard is a reaction, so that `scale` needs w->core.row_load. */
 int frot_guards_read_loads(const frot_model *m, const frot_work *w, const frot_contact_mode *modes);
 
-/* Size of the terms of a row's reaction by all loads, from w->row_load. */
+/* Size of the terms of a row's reaction by all loads, from w->core.row_load. */
 double frot_reaction_size(const frot_model *m, const frot_work *w, int row);
 
-/* Whether the reaction of the pin of element e in w->lam is more than zero in the terms it had. */
+/* Whether the reaction of the pin of element e in w->core.lam is more than zero in the terms it
+ * had. */
 int frot_has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e);
 
-/* Turn the reference directions of the pins' reactions to what they are in w->lam. The size of a
- * reaction has a corner where it passes through zero: while a pin slips, its second guard is its
+/* Turn the reference directions of the pins' reactions to what they are in w->core.lam. The size of
+ * a reaction has a corner where it passes through zero: while a pin slips, its second guard is its
  * reaction along the reference, so that no step goes over the corner. */
 void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w);
 /* Turn those round that have fired and whose reaction passes through zero in `modes`, after

@@ -170,7 +170,7 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
   return worst_error(m, s, w, &l, h);
 }
 
-/* State inside the step by the vectors w->f. */
+/* State inside the step by the vectors w->step.f. */
 static void inside(const frot_model *m, const frot_layout *l, const frot_work *w, double theta,
                    double *z) {
   const double *f = w->step.f;

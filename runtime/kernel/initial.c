@@ -37,7 +37,7 @@ static void set_conditions(const frot_model *m, const frot_work *w, double *d, i
  * they are. */
 static void begin_values(const frot_opening *p, double *v, double *y) {
   frot_work *w = p->w;
-  frot_inputs(p->m, p->s, w, &p->t, p->q, p->v, p->d);
+  frot_inputs(p->s, w, &p->t, p->q, p->v, p->d);
   w->call.res[0] = v, w->call.res[1] = y;
   frot_call(w, &p->m->beginning);
 }
@@ -290,8 +290,9 @@ static int solve_speeds(frot_opening *p, frot_contact_mode *modes) {
   return status;
 }
 
+/* Set the conditions by the values found, if they have values there. */
 static void look_at_conditions(const frot_opening *p, int alone) {
-  frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d);
+  if (frot_kinematics(p->m, p->s, p->w, p->t, p->q, p->v, p->d) != FROT_OK) return;
   set_conditions(p->m, p->w, p->s->data + frot_layout_of(p->m).d, alone);
 }
 

@@ -64,7 +64,7 @@ static int list_equations(const frot_model *m, frot_state *s, frot_work *w, doub
   int nx = m->nq + m->nv, off = 0;
   double *g = w->linear.right, *size = w->relations.size;
   *n = 0;
-  frot_inputs(m, s, w, &t, q, v, d);
+  frot_inputs(s, w, &t, q, v, d);
   w->call.res[0] = g, w->call.res[1] = w->relations.jacobian, w->call.res[2] = size;
   frot_call(w, &m->invariants);
   for (int i = 0; i < m->n_invariants; i++) {

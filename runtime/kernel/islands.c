@@ -121,7 +121,7 @@ static int loads_finite(const frot_model *m, const frot_work *w) {
 
 static int call_whole(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                       const double *v, const double *d, int wanted) {
-  frot_inputs(m, s, w, &t, q, v, d);
+  frot_inputs(s, w, &t, q, v, d);
   double *res[] = {w->core.qd,          w->core.mass, w->core.h,   w->core.given,
                    w->core.c,           w->core.rate, w->core.gap, w->core.condition,
                    w->core.coefficient, w->core.power};
@@ -192,7 +192,7 @@ int frot_call_dynamics(const frot_model *m, frot_state *s, frot_work *w, double 
 void frot_call_kinematics(const frot_model *m, frot_state *s, frot_work *w, double t,
                           const double *q, const double *v, const double *d) {
   if (m->n_islands == 0) {
-    frot_inputs(m, s, w, &t, q, v, d);
+    frot_inputs(s, w, &t, q, v, d);
     w->call.res[0] = w->core.gap, w->call.res[1] = w->core.given;
     w->call.res[2] = w->core.rate, w->call.res[3] = w->core.condition;
     frot_call(w, &m->kinematics);
@@ -221,7 +221,7 @@ void frot_call_kinematics(const frot_model *m, frot_state *s, frot_work *w, doub
 void frot_call_sizes(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                      const double *v, const double *d) {
   if (m->n_islands == 0) {
-    frot_inputs(m, s, w, &t, q, v, d);
+    frot_inputs(s, w, &t, q, v, d);
     w->call.res[0] = w->core.load, w->call.res[1] = w->call.values;
     frot_call(w, &m->sizes);
     return;

@@ -92,7 +92,7 @@ int frot_jacobian_at(const frot_model *m, frot_state *s, frot_work *w, double t,
     return frot_all_finite(j.entries, is_sparse(m) ? m->pattern.entries : n * n) ? FROT_OK
                                                                                  : FROT_NAN;
   }
-  frot_inputs(m, s, w, &t, z, z + n, d);
+  frot_inputs(s, w, &t, z, z + n, d);
   double *res[] = {j.entries, j.rate, j.slope_y, j.block_q, j.block_t, j.block_y};
   memcpy(w->call.res, res, sizeof res);
   frot_call(w, &m->jacobian);

@@ -6,7 +6,7 @@
 #include "linearize.h"
 #include "work.h"
 
-/* Scratch of the implicit step, in w->implicit.items and w->implicit_pivot. */
+/* Scratch of the implicit step, in w->implicit.items and w->implicit.pivot. */
 typedef struct {
   double *entries; /* of J: those of the pattern, or n x n */
   double *rate;    /* n: rates of the rates by time; of a motion nobody asks */

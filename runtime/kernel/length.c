@@ -49,7 +49,8 @@
 
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   int status = frot_start_slope(m, s, w, s->t);
-  if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0);
+  if (status != FROT_OK)
+    return frot_fail_step(m, s, w, status, s->t, 0, w->step.z0, w->step.z0 + m->nq);
   s->statistics.free = frot_free_speeds(m, s, w);
   for (int i = 0; i < w->awake.now->n_groups; i++) {
     const frot_group *g = &m->groups[w->awake.now->groups[i]];
@@ -79,8 +80,12 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   return FROT_OK;
 }
 
+double frot_least_step(const frot_state *s, const frot_attempt *a) {
+  return FROT_LEAST_STEP * fmax(fabs(a->t), LEAST_TIME * s->h_max);
+}
+
 int frot_is_too_short(const frot_state *s, const frot_attempt *a) {
-  return !(a->h > FROT_LEAST_STEP * fmax(fabs(a->t), LEAST_TIME * s->h_max));
+  return !(a->h > frot_least_step(s, a));
 }
 
 /* Whether a motion limits an explicit step. What other states are measured against changes with

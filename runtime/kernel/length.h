@@ -17,6 +17,9 @@
 /* A first step size from the sizes of the values and their derivatives. */
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w);
 
+/* The shortest step whose end can be told from its start. */
+double frot_least_step(const frot_state *s, const frot_attempt *a);
+
 /* Whether the step is so short that its end cannot be told from its start. */
 int frot_is_too_short(const frot_state *s, const frot_attempt *a);
 

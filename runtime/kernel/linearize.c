@@ -317,7 +317,7 @@ int frot_linearize(const frot_model *m, frot_state *s, frot_work *w, double t, c
   problem p = {.m = m, .w = w, .scratch = scratch, .rows = x.equations};
   int order = m->nq + m->nv, early = w->layout.early, sparse = m->pattern.n > 0, first = m->nq;
   p.modes = (const void *)(s->data + w->layout.modes);
-  frot_inputs(m, s, w, &t, z, z + m->nq, d);
+  frot_inputs(s, w, &t, z, z + m->nq, d);
   w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
   if (!find_partials(m, w, scratch, &x)) return FROT_NAN;
   int count = sparse ? m->pattern.entries : order * x.columns;

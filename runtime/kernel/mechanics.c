@@ -22,7 +22,7 @@ static int groups_finite(const frot_model *m, const frot_work *w) {
 /* Values of the conditions that follow from the solution; whether all are numbers. */
 static int sense(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                  const double *v, const double *d) {
-  frot_inputs(m, s, w, &t, q, v, d);
+  frot_inputs(s, w, &t, q, v, d);
   w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
   double *values = w->core.condition + m->n_located - m->n_sensed;
   w->call.res[0] = values;
@@ -33,7 +33,7 @@ static int sense(const frot_model *m, frot_state *s, frot_work *w, double t, con
 int frot_late_rates(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d) {
   if (!m->late_rates) return FROT_OK;
-  frot_inputs(m, s, w, &t, q, v, d);
+  frot_inputs(s, w, &t, q, v, d);
   w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
   w->call.res[0] = w->core.qd, w->call.res[1] = w->core.power;
   frot_call(w, &m->rates);

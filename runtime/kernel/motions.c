@@ -92,8 +92,9 @@ static int hold_exactly(const frot_instant *in, const int *chosen, int count, in
   return motions;
 }
 
-/* Motions of a component, the one preferred into w->best. What departs has the friction of motion
- * at once, and what the others do follows from that: looked for again until nothing more departs.
+/* Motions of a component, the one preferred into w->search.best. What departs has the friction of
+ * motion at once, and what the others do follows from that: looked for again until nothing more
+ * departs.
  */
 static int look_from_here(const frot_instant *in, const int *chosen, int count, int *unsearched) {
   in->w->search.lasts = 1;

@@ -29,20 +29,21 @@ static void set_place(const frot_model *m, const double *place, int contact, dou
 }
 
 /* The gap of a contact at the values x, with the places found from those in w->blocks.y: `anew`
- * from between the ends of its figures, and beyond these where that is found to lie, into
- * w->nearer.flags. NaN where there is none. */
+ * from between the ends of its figures, and beyond these where that is found to lie, into `flags`
+ * (may be NULL). NaN where there is none. */
 static double gap_at(const frot_model *m, frot_state *s, frot_work *w, int contact, double t,
-                     const double *x, int anew) {
-  double *d = s->data + w->layout.d, *kept = w->nearer.kept, *flags = w->nearer.flags;
+                     const double *x, int anew, double *flags) {
+  double *d = s->data + w->layout.d, *kept = w->nearer.kept;
   memcpy(kept, d, sizeof(double) * (size_t)m->n_conditions);
   for (int j = 0; j < m->n_conditions && anew; j++)
     if (m->conditions[j].contact == contact) d[j] = 0;
   int changes = 0, status = frot_kinematics(m, s, w, t, x, x + m->nq, d);
   for (int j = 0; j < m->n_conditions && status == FROT_OK; j++) {
     if (m->conditions[j].contact != contact) continue;
-    flags[j] = w->core.condition[j] > 0;
-    changes |= flags[j] != d[j];
-    d[j] = flags[j];
+    int beyond = w->core.condition[j] > 0;
+    if (flags) flags[j] = beyond;
+    changes |= beyond != d[j];
+    d[j] = beyond;
   }
   if (changes) status = frot_kinematics(m, s, w, t, x, x + m->nq, d);
   memcpy(d, kept, sizeof(double) * (size_t)m->n_conditions);
@@ -81,10 +82,10 @@ static int is_nearer(const frot_model *m, frot_state *s, frot_work *w, int conta
   double *x = w->step.z, *y = w->blocks.y;
   values_inside(w, theta, x);
   for (int k = 0; k < m->ny; k++) y[k] = y0[k] + theta * (w->step.y_end[k] - y0[k]);
-  double own = gap_at(m, s, w, contact, t + theta * h, x, 0);
+  double own = gap_at(m, s, w, contact, t + theta * h, x, 0, NULL);
   memcpy(y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   set_place(m, w->nearer.y, contact, y);
-  double other = gap_at(m, s, w, contact, t + theta * h, x, 1);
+  double other = gap_at(m, s, w, contact, t + theta * h, x, 1, NULL);
   return counts(m, s, w, contact, other, own, times);
 }
 
@@ -95,7 +96,7 @@ static int look(const frot_model *m, frot_state *s, frot_work *w, int contact, d
   double *y = w->blocks.y;
   memcpy(y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   set_place(m, w->nearer.begin, contact, y);
-  double other = gap_at(m, s, w, contact, end, w->step.z1, 1);
+  double other = gap_at(m, s, w, contact, end, w->step.z1, 1, w->nearer.flags);
   if (!counts(m, s, w, contact, other, far, 1)) return 0;
   set_place(m, y, contact, w->nearer.y);
   w->nearer.changed[contact] = other < 0 ? -1 : 1;
@@ -103,15 +104,16 @@ static int look(const frot_model *m, frot_state *s, frot_work *w, int contact, d
 }
 
 /* Kinematics of the end, and where searches begin there. */
-static void look_at_end(const frot_model *m, frot_state *s, frot_work *w, double end) {
+static int look_at_end(const frot_model *m, frot_state *s, frot_work *w, double end) {
   const double *x = w->step.z1, *d = s->data + w->layout.d;
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-  frot_kinematics(m, s, w, end, x, x + m->nq, d);
+  int status = frot_kinematics(m, s, w, end, x, x + m->nq, d);
   memcpy(w->nearer.far, w->core.gap, sizeof(double) * (size_t)m->n_contacts);
   memcpy(w->nearer.flags, d, sizeof(double) * (size_t)m->n_conditions);
-  frot_inputs(m, s, w, &end, x, x + m->nq, d);
+  frot_inputs(s, w, &end, x, x + m->nq, d);
   w->call.res[0] = w->nearer.begin;
   frot_call(w, &m->beginnings);
+  return status;
 }
 
 /* Of the places found for closed contacts those are none at which the figures are in each other at
@@ -152,15 +154,17 @@ int frot_look_nearer(const frot_model *m, frot_state *s, frot_work *w, double t,
   for (int k = 0; k < now->n_contacts; k++) {
     int i = now->contacts[k];
     if (m->contacts[i].followed < 0 || unilateral[i] == 0) continue;
-    if (!listed) look_at_end(m, s, w, end), listed = 1;
+    if (!listed) status = look_at_end(m, s, w, end), listed = 1;
+    if (status != FROT_OK) return status;
     w->nearer.count += look(m, s, w, i, end, w->nearer.far[i]);
   }
   if (w->nearer.count) status = frot_make_dense(m, s, w, t, h);
   if (w->nearer.count && status == FROT_OK) keep_met(m, s, w, t, h);
   if (w->nearer.count && status == FROT_OK) *part = first_nearer(m, s, w, t, h);
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-  if (listed) frot_kinematics(m, s, w, end, w->step.z1, w->step.z1 + m->nq, s->data + w->layout.d);
-  return status;
+  const double *x = w->step.z1;
+  int back = listed ? frot_kinematics(m, s, w, end, x, x + m->nq, s->data + w->layout.d) : FROT_OK;
+  return status == FROT_OK ? back : status;
 }
 
 void frot_take_nearer(const frot_model *m, frot_state *s, frot_work *w) {

@@ -54,7 +54,7 @@ double frot_finest_step(const frot_model *m, const frot_state *s, const frot_wor
 /* Sizes into w->pace and rates behind them. */
 static double *rates_at(const frot_model *m, frot_state *s, frot_work *w, double t) {
   const double *d = s->data + w->layout.d;
-  frot_inputs(m, s, w, &t, w->step.z0, w->step.z0 + m->nq, d);
+  frot_inputs(s, w, &t, w->step.z0, w->step.z0 + m->nq, d);
   w->call.res[0] = w->pace, w->call.res[1] = w->pace + m->n_paced;
   frot_call(w, &m->pace);
   return w->pace + m->n_paced;

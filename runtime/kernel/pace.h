@@ -19,7 +19,7 @@ double frot_longest_step(const frot_model *m, const frot_state *s, const frot_wo
 double frot_finest_step(const frot_model *m, const frot_state *s, const frot_work *w, double h);
 
 /* h, or the length of the step that ends before the rates grow beyond what its stages will see.
- * The states are in w->z0. */
+ * The states are in w->step.z0. */
 double frot_pace_step(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 
 #endif

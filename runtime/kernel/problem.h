@@ -32,8 +32,8 @@ double frot_known_part(const frot_problem *p, int row);
 void frot_unknown_column(const frot_problem *p, int c, double *x);
 
 /* The conditions that hold the held rows into the first lines of w->linear.matrix and
- * w->linear.right, the columns in units w->unit_of (held.c). The leading dimension is the number of
- * unknowns. Returns 1 when they contradict each other. */
+ * w->linear.right, the columns in units w->reactions.unit_of (held.c). The leading dimension is the
+ * number of unknowns. Returns 1 when they contradict each other. */
 int frot_hold_rows(frot_problem *p);
 
 /* Friction that follows readings (follow.c). What is known of the readings that bound it, and what

@@ -24,8 +24,10 @@
 #define EAGER 8   /* passes of Newton's method before it is damped */
 #define HALVES 20 /* of one of its steps */
 
-double frot_bounding(const frot_model *m, const frot_work *w, int element,
-                     const frot_contact_mode *modes) {
+/* Size of the reaction that bounds an element, by w->core.lam; 1 where a value bounds it. With the
+ * sign of the mode: negative where a normal reaction has the wrong one. */
+static double bounding(const frot_model *m, const frot_work *w, int element,
+                       const frot_contact_mode *modes) {
   const frot_element *e = &m->elements[element];
   if (e->bound == FROT_BY_VALUE) return 1;
   if (e->bound == FROT_BY_PIN)
@@ -35,7 +37,7 @@ double frot_bounding(const frot_model *m, const frot_work *w, int element,
 
 double frot_bound_of_rest(const frot_model *m, const frot_work *w, int element,
                           const frot_contact_mode *modes) {
-  return w->core.coefficient[2 * element + 1] * frot_bounding(m, w, element, modes);
+  return w->core.coefficient[2 * element + 1] * bounding(m, w, element, modes);
 }
 
 double frot_acceleration(const frot_model *m, const frot_work *w, int row, double *size) {
@@ -224,11 +226,11 @@ static double missing(const frot_problem *p, const double *rest) {
  * where reactions come near zero their directions change so much in a whole step of Newton's that
  * it goes to and fro. Each half step holds the rows that both hold. Returns what is missed: nothing
  * where no less is and no unknown is another, but for rounding of them all, in which a reaction is
- * lost that vanishes with others. */
+ * lost that vanishes with others. With an infinite *least there is none before. */
 static double damp(const frot_problem *p, double *before, double *least, double *rest,
                    double missed) {
   double *x = p->w->reactions.solution, now = missing(p, rest), change = 0, size = 0;
-  for (int c = 0; c < p->unknowns; c++)
+  for (int c = 0; c < p->unknowns && *least < INFINITY; c++)
     change = fmax(change, fabs(x[c] - before[c])), size = fmax(size, fabs(x[c]));
   if (now >= *least && change <= PIN_ROUNDING * size) return 0;
   for (int k = 0; k < HALVES && now > *least; k++) {

@@ -16,11 +16,7 @@ int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                    const unsigned char *at_rest);
 
-/* Size of the reaction that bounds an element, by w->core.lam; 1 where a value bounds it. With the
- * sign of the mode: negative where a normal reaction has the wrong one. */
-double frot_bounding(const frot_model *m, const frot_work *w, int element,
-                     const frot_contact_mode *modes);
-/* What an element can resist at rest, from the coefficients w->core.coefficient and w->lam. */
+/* What an element can resist at rest, from the coefficients w->core.coefficient and w->core.lam. */
 double frot_bound_of_rest(const frot_model *m, const frot_work *w, int element,
                           const frot_contact_mode *modes);
 

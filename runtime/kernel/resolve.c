@@ -105,13 +105,16 @@ static int has_jammed(const frot_instant *in, int contact) {
 }
 
 /* The modes into w->search.best, component after component; each that has several motions is told.
- */
+ * FROT_DIVERGE that is no fault yet where they have jammed: what is to blame is looked for
+ * elsewhere, which a search that may go on does not outlast. */
 static int choose_modes(const frot_instant *in, double t, int first, frot_recorder *recorder) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
   int several = 0, several_at = -1;
   if (first) memset(in->s->data + in->l.several, 0, sizeof(double) * (size_t)m->n_contacts);
   in->s->fleeting = -1;
+  /* of what is looked at later no reactions are known */
+  memset(w->core.lam, 0, sizeof(double) * (size_t)m->n_rows);
   frot_find_components(in);
   for (int root = 0; root < m->n_contacts; root++) {
     int *chosen = w->search.chosen, count = 0, unsearched = 0;
@@ -122,8 +125,7 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
     int motions = frot_look_for_motions(in, chosen, count, &unsearched);
     in->s->statistics.unsearched += unsearched;
     if (!w->search.lasts) in->s->fleeting = chosen[0];
-    if (motions > 0 && has_jammed(in, chosen[0]))
-      return frot_fail_step(m, in->s, w, FROT_DIVERGE, t, 0);
+    if (motions > 0 && has_jammed(in, chosen[0])) return FROT_DIVERGE;
     if (motions == 0) {
       int fault = unsearched                  ? FROT_TOO_LARGE
                   : only_loops(in, chosen[0]) ? FROT_POSTURE
@@ -147,22 +149,6 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
   return FROT_OK;
 }
 
-/* The modes of an instant into w->search.best, with what holds put where it holds. */
-static int find_modes(frot_instant *in, double *q, double *v, int first, frot_recorder *recorder) {
-  const frot_model *m = in->m;
-  frot_state *s = in->s;
-  frot_work *w = in->w;
-  const double *d = s->data + in->l.d, t = in->t;
-  int status = settle_speeds(in, t, q, v);
-  if (status == FROT_OK) status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
-  if (status == FROT_OK && frot_find_growth(in, d))
-    status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
-  if (status == FROT_OK) status = frot_metric(m, w);
-  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
-  frot_row_loads(m, s, w, t, q, v, d);
-  return choose_modes(in, t, first, recorder);
-}
-
 /* Whether a slip that is one is no more than a part of what it usually is. */
 static int any_slight(const frot_instant *in, double part) {
   const frot_model *m = in->m;
@@ -176,6 +162,25 @@ static int any_slight(const frot_instant *in, double part) {
   return 0;
 }
 
+/* The modes of an instant into w->search.best, with what holds put where it holds; *slight says
+ * whether a slip is no more than `part` of what it usually is. */
+static int find_modes(frot_instant *in, double *q, double *v, int first, double part, int *slight,
+                      frot_recorder *recorder) {
+  const frot_model *m = in->m;
+  frot_state *s = in->s;
+  frot_work *w = in->w;
+  const double *d = s->data + in->l.d, t = in->t;
+  int status = settle_speeds(in, t, q, v);
+  if (status == FROT_OK) status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
+  if (status == FROT_OK && frot_find_growth(in, d))
+    status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
+  if (status == FROT_OK) status = frot_metric(m, w);
+  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
+  frot_row_loads(m, s, w, t, q, v, d);
+  *slight = any_slight(in, part);
+  return choose_modes(in, t, first, recorder);
+}
+
 /* Whether a slip ends at an instant crowded with events: the next one may bring it back. */
 static int ends_in_turn(const frot_instant *in) {
   int ends = 0;
@@ -184,6 +189,14 @@ static int ends_in_turn(const frot_instant *in) {
     ends |= slips && in->fired[frot_element_guard(in->m, e)] != 0;
   }
   return ends && in->s->crowded > IN_TURN;
+}
+
+/* The status of a search, with what is to blame where it has jammed. */
+static int blame(const frot_instant *in, int status) {
+  frot_work *w = in->w;
+  if (status != FROT_DIVERGE || in->s->phase == FROT_FAULTED) return status;
+  w->step.worst = -1, w->reactions.jammed = in->s->jammed;
+  return frot_fail_step(in->m, in->s, w, status, in->t, 0, in->q, in->v);
 }
 
 /* The same where a slip runs into an impasse, which would stop it at once (L. Lecornu's tangential
@@ -205,10 +218,10 @@ static int find_lasting_modes(frot_instant *in, double *q, double *v, int first,
   int in_turn = ends_in_turn(in);
   in->slight = in_turn ? part : 0;
   for (int pass = in_turn;; pass++) {
-    int status = find_modes(in, q, v, first, recorder);
+    int slight = 0, status = find_modes(in, q, v, first, part, &slight, recorder);
     int told = status == FROT_OK || status == FROT_DIVERGE;
     int ended = status == FROT_IMPASSE || (told && s->fleeting >= 0);
-    if (!ended || pass == 2 || (pass == 0 && !any_slight(in, part))) return status;
+    if (!ended || pass == 2 || (pass == 0 && !slight)) return blame(in, status);
     in->slight = pass == 0 ? part : 0; /* else as they were */
     s->phase = phase, s->fault = frot_no_fault(in->t);
     s->statistics.events = events, s->statistics.unsearched = unsearched;

@@ -10,7 +10,7 @@
 void frot_size_drives(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                       const double *v, const double *d) {
   if (!m->drives.call) return;
-  frot_inputs(m, s, w, &t, q, v, d);
+  frot_inputs(s, w, &t, q, v, d);
   w->call.res[0] = w->core.bias_size;
   frot_call(w, &m->drives);
 }
@@ -79,10 +79,11 @@ void frot_clean_rows(const frot_model *m, const frot_state *s, frot_work *w, con
   }
 }
 
-double frot_dropped_rate(const frot_model *m, const frot_state *s, int element, const double *v) {
+double frot_dropped_rate(const frot_model *m, const frot_state *s, const frot_work *w, int element,
+                         const double *v) {
   int i = m->elements[element].contact, row = m->elements[element].row;
   const frot_group *g = frot_group_of(m, row);
-  double reach = s->data[frot_layout_of(m).reach + i], speed = 0;
+  double reach = s->data[w->layout.reach + i], speed = 0;
   if (m->contacts[i].sliding != element || !(reach > 0)) return 0;
   for (int k = 0; k < g->n_speeds; k++) {
     double length = m->speed_turns[g->unknowns[k]] ? reach : 1;

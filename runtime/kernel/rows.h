@@ -16,6 +16,7 @@ void frot_clean_rows(const frot_model *m, const frot_state *s, frot_work *w, con
                      const double *v);
 
 /* The slip of an element at the speeds v below which it may be dropped with its row. */
-double frot_dropped_rate(const frot_model *m, const frot_state *s, int element, const double *v);
+double frot_dropped_rate(const frot_model *m, const frot_state *s, const frot_work *w, int element,
+                         const double *v);
 
 #endif

@@ -16,6 +16,7 @@
 #include "record.h"
 #include "work.h"
 #include "segment.h"
+#include "stages.h"
 #include "stay.h"
 #include "step.h"
 #include "stiffness.h"
@@ -183,6 +184,15 @@ static int condition_at_fault(const frot_model *m, const frot_state *s) {
   return -1;
 }
 
+/* What no modes last after: the contact that carries most there is told, whatever led to it. */
+static int fail_at_event(const frot_model *m, frot_state *s, frot_work *w, double t) {
+  const double *x = s->data + w->layout.x;
+  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  frot_slope(m, s, w, t, x, frot_stage(w, 0));
+  w->step.worst = w->reactions.jammed = -1;
+  return frot_fail_step(m, s, w, FROT_DIVERGE, t, 0, x, x + m->nq);
+}
+
 /* What the guards fired at the end of the segment bring about. */
 static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
                          frot_recorder *recorder) {
@@ -225,7 +235,6 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
   }
   if (s->phase != FROT_RUNNING || !(t >= s->t)) return FROT_MISUSE;
   frot_bind_work(m, w);
-  w->step.looked = t;
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   if (s->changed) {
@@ -233,6 +242,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
     if (status == FROT_TERMINATED) return end_of_run(m, s, w, recorder);
     if (status != FROT_OK) return status;
   }
+  w->step.looked = t; /* settling binds the scratch memory again */
   while (*g.t1 <= t + FROT_SAME_INSTANT(t)) {
     if (recorder && (recorder->event_count + frot_events_at_once(m) > recorder->event_capacity ||
                      !frot_has_room(m, recorder)))
@@ -246,7 +256,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
         status = frot_fail(s, FROT_IMPACT, *g.t1, s->second, 0, -1, 0);
       else if (++s->crowded > CROWD && s->statistics.events == s->told &&
                condition_at_fault(m, s) < 0)
-        status = frot_fail_step(m, s, w, FROT_DIVERGE, *g.t1, 0); /* the same modes again */
+        status = fail_at_event(m, s, w, *g.t1);        /* the same modes again */
       else if (s->crowded > CROWD && s->fleeting >= 0) /* none holds longer than the instant */
         status = frot_fail(s, FROT_IMPASSE, *g.t1, s->fleeting, -1, -1, s->crowded);
       else if (s->crowded > CROWD)
@@ -259,10 +269,11 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
       if (status == FROT_TERMINATED) return end_of_run(m, s, w, recorder);
     }
     long long steps = s->statistics.steps;
+    const double *place = status == FROT_OK ? w->step.z1 : s->data + l.x;
     if (status == FROT_OK) status = frot_step(m, s, w, recorder);
     if (status != FROT_OK) {
       s->t = *g.t1;
-      status = frot_name_vanished(m, s, w, status, w->step.z1);
+      status = frot_name_vanished(m, s, w, status, place);
       return frot_name_reach(m, s, w, status);
     }
     if (s->statistics.steps == steps) continue;

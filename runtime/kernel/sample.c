@@ -59,7 +59,7 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   frot_see_anew(w);
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
   if (status != FROT_OK) return status;
-  frot_inputs(m, s, w, &t, q, v, g->d);
+  frot_inputs(s, w, &t, q, v, g->d);
   w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam, w->call.arg[9] = x + m->nq + m->nv;
   w->call.res[0] = values;
   frot_call(w, &m->variables);

@@ -195,6 +195,7 @@ static int can_rest(const frot_instant *in, const int *chosen, int count) {
     }
   }
   w->search.corners = FROT_ENOUGH;
+  frot_begin_directions(in);
   if (frot_share_load(in, chosen, count) != FROT_SHARED) return 0;
   if (!frot_is_admissible(in, chosen, count) || !frot_lasts(in, chosen, count)) return 0;
   remember(in, chosen, count);

@@ -119,7 +119,7 @@ int frot_look_ahead(const frot_instant *in, const frot_group *g);
 double frot_time_of_way(const frot_instant *in, const frot_group *g, double part);
 
 /* Looks for the modes of the contacts `chosen`, which act on each other only and are closed in
- * w->search.best; leaves those preferred in w->best. Every combination is examined where there are
+ * w->search.best; leaves those preferred there. Every combination is examined where there are
  * few; else one motion is found by pivoting and only what stays ambiguous is examined, and
  * *unsearched is set. `forced`: what fired must change; `lasting`: what does not last is left out.
  * Returns the number of motions. */

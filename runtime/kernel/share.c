@@ -134,10 +134,10 @@ static int add_columns(program *p) {
       add_free(p, m->contacts[contact].row_n);
   }
   for (int i = 0; i < p->g->n_elements; i++) {
-    int e = p->g->elements[i];
-    const frot_element *element = &m->elements[e];
+    int own = p->g->elements[i];
+    const frot_element *element = &m->elements[own];
     int edge = element->bound == FROT_BY_NORMAL && has_cone(in, element->contact);
-    if (!edge && (frot_is_held(m, trial, e) || in->w->reactions.ratio[e] != 0)) return 0;
+    if (!edge && (frot_is_held(m, trial, own) || in->w->reactions.ratio[own] != 0)) return 0;
   }
   return 1;
 }

@@ -19,6 +19,7 @@
 #include "nearer.h"
 #include "passage.h"
 #include "projection.h"
+#include "roots.h"
 #include "segment.h"
 #include "sizes.h"
 #include "spare.h"
@@ -77,15 +78,21 @@ static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_a
   return FROT_OK;
 }
 
-/* What a `when` waits for is no longer near where it was when it fired: happen.c. */
-static void leave_near(const frot_model *m, frot_state *s, const frot_work *w) {
+/* What a `when` waits for is no longer near where it was when it fired: happen.c. Implicit steps
+ * evaluate no guard at their stages, so that its polynomial is read. */
+static void leave_near(const frot_model *m, frot_state *s, const frot_work *w, double h) {
   double *near = s->data + w->layout.near;
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k] - frot_condition_guard(m);
     if (j < 0 || near[j] == 0) continue;
     double clear = CLEAR * FROT_GUARD_FLOOR * s->data[w->layout.scale_g + w->guards.list[k]];
-    for (int i = 1; i <= DP_STAGES && near[j] != 0; i++)
-      if (frot_stage(w, i)[w->awake.n + k] > clear) near[j] = 0;
+    double g[7];
+    if (s->implicit) frot_guard_polynomial(s, w, k, h, g);
+    for (int i = 1; i <= DP_STAGES && near[j] != 0; i++) {
+      double value =
+          s->implicit ? frot_bernstein(g, i / (double)DP_STAGES) : frot_stage(w, i)[w->awake.n + k];
+      if (value > clear) near[j] = 0;
+    }
   }
 }
 
@@ -130,7 +137,7 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   int status = s->weak && w->step.near[DP_STAGES]
                    ? FROT_OK
                    : frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL, &moved);
-  if (status != FROT_OK) return frot_fail_step(m, s, w, status, end, a->h);
+  if (status != FROT_OK) return frot_fail_step(m, s, w, status, end, a->h, x, x + m->nq);
   lost = moved ? frot_speed_lost(m, s, w, end, a->h) : -1;
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
@@ -155,7 +162,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   frot_note_sizes(m, s, w, w->step.z1, frot_stage(w, DP_STAGES) + w->awake.n);
   frot_note_worth(s, w, w->step.z1);
-  leave_near(m, s, w);
+  leave_near(m, s, w, a->h);
   if (guard >= 0) s->last_ratio = 0;
   if (guard >= 0) frot_fire_guards(m, s, w, guard, a->t, a->h);
   if (a->to_due) frot_fire_due(m, s);
@@ -218,7 +225,8 @@ static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
     status = cut_at_event(m, s, w, a, &guard);
   }
   if (status == FROT_OK) status = cut_where_nearer(m, s, w, a, &guard);
-  if (status != FROT_OK) return frot_fail_step(m, s, w, status, a->t, a->h);
+  if (status != FROT_OK)
+    return frot_fail_step(m, s, w, status, a->t, a->h, w->step.z1, w->step.z1 + m->nq);
   return s->pending ? FROT_OK : keep(m, s, w, a, guard, recorder);
 }
 
@@ -240,7 +248,8 @@ static int step(const frot_model *m, frot_state *s, frot_work *w, frot_recorder 
   int status = frot_begin_step(m, s, w, &a);
   if (status == FROT_NAN && go_explicitly(m, s))
     status = frot_begin_step(m, s, w, &a); /* no Jacobian */
-  if (status != FROT_OK) return frot_fail_step(m, s, w, status, a.t, 0);
+  if (status != FROT_OK)
+    return frot_fail_step(m, s, w, status, a.t, 0, w->step.z1, w->step.z1 + m->nq);
   status = take(m, s, w, &a, recorder);
   if (status == FROT_OK && !s->pending) look_at_noise(m, s, w, &a);
   frot_see_anew(w);

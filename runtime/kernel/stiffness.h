@@ -20,7 +20,7 @@ void frot_choose_first(const frot_model *m, frot_state *s);
 void frot_see_other_system(frot_state *s);
 
 /* Whether the step h just accepted speaks for the implicit method. The explicit method's last
- * argument before the end is still in w->ztry. 0 where the text gives the method. */
+ * argument before the end is still in w->step.z. 0 where the text gives the method. */
 int frot_is_stiff(const frot_model *m, frot_state *s, frot_work *w, double h);
 
 /* The longest step that should be tried after the one just accepted, of length h: of the explicit

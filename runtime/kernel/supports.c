@@ -51,7 +51,7 @@ static int look(const frot_model *m, frot_state *s, frot_work *w, double t, cons
   const double *d = s->data + frot_layout_of(m).d;
   int status = frot_kinematics(m, s, w, t, q, v, d);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
-  frot_inputs(m, s, w, &t, q, v, d);
+  frot_inputs(s, w, &t, q, v, d);
   if (m->n_carried > 0) {
     w->call.res[0] = place;
     frot_call(w, &m->places);

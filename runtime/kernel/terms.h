@@ -27,7 +27,8 @@ double frot_least_length(const frot_model *m, frot_work *w, int row, double own)
 void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, const double *d);
 
-/* Sizes of the terms of each acceleration (nv): |A^-1| of all loads, and of all reactions w->lam.
+/* Sizes of the terms of each acceleration (nv): |A^-1| of all loads, and of all reactions
+ * w->core.lam.
  * After frot_solution at the same place. */
 void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
                              const double *q, const double *v, const double *d, double *size);

@@ -161,7 +161,6 @@ static int turning(const frot_model *m, frot_state *s, frot_work *w, const frot_
                    const double *q, const double *v, const double *d, int *n) {
   *n = list_rows(m, s, w, g);
   if (*n == 0) return 0;
-  frot_note_reaches(m, s, w, t, q, v, d);
   frot_orthonormal_rows(m, w, g, *n, *n);
   int dependent = 0;
   for (int i = 0; i < *n; i++) dependent += w->linear.pivot[i] < 0;
@@ -178,6 +177,7 @@ int frot_has_loops_alone(const frot_model *m, const frot_state *s, const frot_wo
 
 int frot_find_ways(const frot_model *m, frot_state *s, frot_work *w, const frot_group *g, double t,
                    const double *q, const double *v, const double *d) {
+  if (list_rows(m, s, w, g) > 0) frot_note_reaches(m, s, w, t, q, v, d);
   int n, count = turning(m, s, w, g, t, q, v, d, &n);
   if (count == 0) return 0;
   /* the slope of k'c by the speeds is twice what turns k'J */

@@ -56,7 +56,7 @@ static void evaluate(const frot_model *m, frot_state *s, frot_work *w, int islan
     first = m->islands[island].first_group, count = m->islands[island].n_groups;
     frot_take_inputs(s, w, &m->islands[island], &t, q, v, d);
   } else {
-    frot_inputs(m, s, w, &t, q, v, d);
+    frot_inputs(s, w, &t, q, v, d);
   }
   frot_wide *res[] = {own->mass + matrix, island < 0 ? own->h : own->loads, own->given};
   function->call(w->call.arg, res, w->call.iw, own->w, 0);

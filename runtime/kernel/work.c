@@ -300,7 +300,7 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
   TAKE(w->guess, nc + ne), TAKE(w->guess_ahead, nc + ne), TAKE(w->certain, nc);
   TAKE(w->corner, nc + ne), TAKE(w->found, nc + ne), TAKE(w->slack, nc + ne);
   TAKE(w->zero, ne), TAKE(w->at_rest, ne), TAKE(w->departs, ne), TAKE(w->ahead, ne);
-  TAKE(w->motions, FROT_MOTIONS * nr), TAKE(w->pivot_bound, 4 * nr);
+  TAKE(w->motions, FROT_MOTIONS * nr), TAKE(w->pivot_bound, 3 * nr);
   TAKE(w->choice, 4 * nc + 4 * ne), TAKE(w->component, nc), TAKE(w->chosen, nc);
   TAKE(w->nothing_frozen, m->nv), TAKE(w->margin, nc + ne);
   TAKE(w->rates, m->nq), TAKE(w->along, 2 * m->n_elements), TAKE(w->set_out, m->nv);

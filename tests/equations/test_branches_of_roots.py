@@ -86,3 +86,28 @@ end Tanks;
     assert run.at(9.0)["h[2]"] == pytest.approx(0, abs=1e-27)
     ratio = run.at(3.34)["h[2]"] / run.at(3.34)["h[1]"]  # h = (a, b) (T - t)^2
     assert (1 + ratio) * (1 - ratio) ** 0.5 == pytest.approx(ratio**0.5, rel=0.02)
+
+
+SWITCHED = """
+model Switched
+  parameter Real o = {o};
+  Real a(start = 1), b(start = 0);
+equation
+  der(a) = (if a - b > o then -sqrt(a - b) - 0.1 else 0)/(1 s);
+  der(b) = 0/(1 s);
+  experiment(stop = 6 s);
+end Switched;
+"""
+
+
+@pytest.mark.parametrize("default", [0.0, -1.0, 1.0])
+def test_what_switches_a_root_is_judged_at_the_parameters_of_the_run(default: float) -> None:
+    """Of a root that no condition ends at zero the text has no value beyond, whatever the default.
+
+    With o = 0 it comes to rest at zero, with o = 0.25 there.
+    """
+    model = frot.compile(SWITCHED.format(o=default))
+    for o in (0, 0.25):
+        assert model.simulate(parameters={"o": o})["a"][-1] == pytest.approx(o, abs=1e-7)
+    with pytest.raises(frot.FrotError, match="E0904"):
+        model.simulate(parameters={"o": -1})
