@@ -88,7 +88,10 @@ def _operations(function: ca.Function) -> list[int]:
 
 
 def _open(values: ca.SX) -> tuple[ca.SX, list[ca.SX]]:
-    """The values with every comparison left open, and the symbols, 1 or -1, that decide them."""
+    """The values with every comparison left open, and the symbols, 1 or -1, that decide them.
+
+    What is compared with infinity is not open.
+    """
     inputs = ca.symvar(values)
     if not inputs:
         return values, []
@@ -104,6 +107,9 @@ def _open(values: ca.SX) -> tuple[ca.SX, list[ca.SX]]:
     symbols: dict[object, ca.SX] = {}
     turns: list[ca.SX] = []
     for k, (x, equal) in enumerate(zip(number, kinds, strict=True)):
+        if np.isinf(x):  # the other side is nowhere
+            turns.append(ca.SX(-1 if equal else np.sign(x)))
+            continue
         key = (equal, f"{abs(x):.{DIGITS}g}") if np.isfinite(x) else k
         turn = symbols.setdefault(key, ca.SX.sym("turn"))
         turns.append(-turn if x < 0 and not equal else turn)

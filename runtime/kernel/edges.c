@@ -76,7 +76,7 @@ static int may_pass(const frot_model *m, const frot_state *s, const frot_work *w
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
   int i = m->conditions[j].contact;
-  return i >= 0 && !modes[i].closed && s->data[l->fired + i] != 0 && s->data[l->d + j] == 0;
+  return i >= 0 && !modes[i].closed && s->data[l->fired + i] != 0;
 }
 
 int frot_fire_ends(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q,
@@ -95,9 +95,10 @@ int frot_fire_ends(const frot_model *m, frot_state *s, frot_work *w, double *t, 
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, *t);
   double later = 0;
   for (int j = 0; j < m->n_located; j++) {
-    double rate = (value[j] - now[j]) / far;
-    if (!may_pass(m, s, w, j) || !(rate > 0) || !(-now[j] <= FROT_LOCATED * size * rate)) continue;
-    fired[j] = 1, later = fmax(later, -now[j] / rate);
+    double way = s->data[w->layout.d + j] == 0 ? 1 : -1; /* beyond the end, or back from there */
+    double rate = way * (value[j] - now[j]) / far, left = -way * now[j];
+    if (!may_pass(m, s, w, j) || !(rate > 0) || !(left <= FROT_LOCATED * size * rate)) continue;
+    fired[j] = 1, later = fmax(later, left / rate);
   }
   *t += later;
   for (int k = 0; k < m->nq; k++) q[k] += later * slope[k];

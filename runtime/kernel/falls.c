@@ -236,36 +236,39 @@ int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, doub
   return passed;
 }
 
-/* The guards after h, as the slopes at the start lead, in stage 1; as they are there, where nothing
- * has a value later. What the last evaluation has told of its failure stays. */
-static void look_later(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+/* The values of conditions after h, as the slopes at the start lead, in w->core.condition. Returns
+ * whether the motion has a slope there, without which nothing is told by those that read
+ * accelerations. What the last evaluation has told of its failure stays. */
+static int look_later(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   const double *slope = frot_stage(w, 0);
   double *z = w->step.z;
   int failed = w->blocks.failed, singular = w->blocks.singular, jammed = w->reactions.jammed;
   memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
   for (int i = 0; i < w->awake.n; i++) z[w->awake.now->states[i]] += h * slope[i];
   memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
-  if (frot_slope(m, s, w, t + h, z, frot_stage(w, 1)) != FROT_OK)
-    memcpy(frot_stage(w, 1), slope, sizeof(double) * (size_t)frot_width(w));
+  int seen = frot_slope(m, s, w, t + h, z, frot_stage(w, 1)) == FROT_OK;
+  if (!seen) frot_kinematics(m, s, w, t + h, z, z + m->nq, s->data + w->layout.d);
   w->blocks.failed = failed, w->blocks.singular = singular, w->reactions.jammed = jammed;
+  return seen;
 }
 
 int frot_condition_at_zero(const frot_model *m, frot_state *s, frot_work *w, int passed, double t,
                            double h) {
   int first = first_condition(w);
   const double *guard = frot_stage(w, 0) + w->awake.n + first;
-  const double *later = frot_stage(w, 1) + w->awake.n + first;
   const double *sizes = s->data + w->layout.scale_g + frot_condition_guard(m);
-  int found = -1, looked = 0;
+  int found = -1, looked = 0, seen = 0;
   double most = -1;
   for (int k = 0; k < w->awake.now->n_located; k++) {
     int j = w->awake.now->located[k];
     double size = sizes[j];
     if (!(fabs(guard[k]) <= FROT_GUARD_FLOOR * size)) continue;
     if (j == passed) return first + k;
-    if (!looked) look_later(m, s, w, t, h), looked = 1;
-    double moved = fabs(later[k] - guard[k]) / size;
-    if (moved == 0) continue;
+    if (!looked) seen = look_later(m, s, w, t, h), looked = 1;
+    double there = s->data[w->layout.d + j] != 0 ? w->core.condition[j] : -w->core.condition[j];
+    int known = isfinite(there) && (seen || j < m->n_located - m->n_sensed);
+    double moved = known ? fabs(there - guard[k]) / size : 0;
+    if (seen && moved == 0) continue; /* where nothing has a slope later any of them may be why */
     if (moved > most || found < 0) found = first + k, most = moved > most ? moved : most;
   }
   return found;
