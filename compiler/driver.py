@@ -87,16 +87,17 @@ def lowered_of(
     if system is None:
         return None
     from frot.compiler.lowering.groups import make_groups
-    from frot.compiler.lowering.lower import lower
+    from frot.compiler.lowering.lower import begin, lower
 
+    beginning = begin(system, log)
     integrals: tuple[FirstIntegral, ...] = ()
-    if search:
+    if search and not log.failed:
         from frot.compiler.report.first_integrals import first_integrals_of
 
         tell("the first integrals")
-        integrals = first_integrals_of(system)
+        integrals = first_integrals_of(system, beginning)
     tell("the functions")
-    return lower(system, make_groups(system), log, integrals)
+    return lower(system, beginning, make_groups(system), log, integrals)
 
 
 def text_of(lowered: Lowered, key: str) -> str:
@@ -123,7 +124,7 @@ def build(
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.chosen import MODEL_FLAGS
     from frot.compiler.toolchain.compilers import compile_objects, link_library
-    from frot.compiler.toolchain.objects import kept_kernel, kernel_folder
+    from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_objects
     from frot.compiler.toolchain.storing import store, write_manifest
 
     with without_collection():
@@ -139,7 +140,7 @@ def build(
         source = folder / MODEL_SOURCE
         source.write_text(text, encoding="utf-8")
         made = compile_objects(toolchain, [source], [kernel_folder()], folder, MODEL_FLAGS)
-        link_library(toolchain, [*made, *sorted(kernel.folder.glob("*.o"))], folder / LIBRARY)
+        link_library(toolchain, [*made, *kernel_objects(kernel)], folder / LIBRARY)
         made[0].unlink()
         write_manifest(describe(lowered, file, key, toolchain, folder), folder)
 

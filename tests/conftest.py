@@ -20,6 +20,8 @@ def pytest_configure(config: pytest.Config) -> None:
 
     `FROT_CACHE` is kept where it is set. A test that looks at the cache sets another.
     """
+    # Each of the processes that tests start would compile the modules anew.
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     if FOLDER not in os.environ:
         folder = tempfile.mkdtemp(prefix="frot-tests-")
         os.environ[FOLDER] = folder

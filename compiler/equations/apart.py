@@ -16,7 +16,8 @@ from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.index import find_unbalanced, reduce_index
 from frot.compiler.equations.order import closure
 from frot.compiler.equations.text_symbols import TextSymbols
-from frot.compiler.lowering.symbols import Symbols, column
+from frot.compiler.lowering.symbols import Symbols
+from frot.compiler.symbolic.columns import column
 
 
 def moved_by_forces(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 import casadi as ca
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 from frot.dsl.checked import Variable
 from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span

@@ -19,8 +19,8 @@ from frot.compiler.equations.index import Index, find_unbalanced, reduce_index
 from frot.compiler.equations.order import find_components
 from frot.compiler.equations.slopes import collect, slopes, symbols_inside
 from frot.compiler.equations.sparse import pivots
-from frot.compiler.lowering.drawn import at_random
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
+from frot.compiler.symbolic.drawn import at_random
 
 NEGLIGIBLE = 1e-10  # of numbers of order one that should be nothing but rounding
 PLAIN = 1e-6  # pivots above it, in the largest, tell a matrix that has an inverse

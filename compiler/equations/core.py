@@ -7,8 +7,8 @@ from frot.compiler.equations.chains import Chains, replace_known
 from frot.compiler.equations.differentiate import Differentiated
 from frot.compiler.equations.eliminate import Eliminated, Pivot, Residuals, eliminate, resolve_all
 from frot.compiler.equations.given import Given
-from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.symbolic.columns import column, scalars_of
 from frot.dsl import Log
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span

@@ -16,7 +16,7 @@ from frot.compiler.equations.chains import Chains, Resolver
 from frot.compiler.equations.given import Given
 from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.table import PARAMETER, UNIT, Factor, Row, Table
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 from frot.dsl.data.classes import dataclass
 
 Entries = Mapping[int, int]

@@ -13,8 +13,8 @@ from collections.abc import Iterator, Sequence
 import casadi as ca
 import numpy as np
 from frot.compiler.equations.chains import Chains
-from frot.compiler.lowering.drawn import at_random
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
+from frot.compiler.symbolic.drawn import at_random
 from frot.dsl import Label, Log
 from frot.dsl.checked import Element, Equation, Expression, Model, Reference, Variable
 from frot.dsl.messages.source import Span

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import casadi as ca
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 
 
 class Given:

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 import casadi as ca
 from frot.compiler.equations.chains import replace_known
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.symbols import column, scalars_of
+from frot.compiler.symbolic.columns import column, scalars_of
 
 
 def finds_places(value: ca.SX, places: Sequence[ca.SX], system: Assembled) -> bool:

@@ -19,7 +19,7 @@ import casadi as ca
 import numpy as np
 from frot.compiler.equations.chains import Resolver, replace_known
 from frot.compiler.equations.given import Given
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import cast
 
 import casadi as ca
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 
 # Entries of a row that is taken together with others.
 _SHORT = 24

@@ -40,9 +40,9 @@ from frot.compiler.lowering.assembled import (
     Solution,
     followed_blocks,
 )
-from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.reduce import Reduced, Tree
+from frot.compiler.symbolic.columns import column, scalars_of
 from frot.dsl import Log, default_values, evaluate
 from frot.dsl.data.classes import dataclass, field, replace
 

@@ -12,7 +12,7 @@ import casadi as ca
 from frot.compiler.equations.chains import replace_known
 from frot.compiler.equations.given import Given
 from frot.compiler.equations.tear_linear import Torn, tear_linear
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 
 
 def tear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> Torn:

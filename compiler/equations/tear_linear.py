@@ -14,7 +14,7 @@ import casadi as ca
 from frot.compiler.equations.chains import replace_known
 from frot.compiler.equations.given import Given
 from frot.compiler.equations.slopes import slopes, without_what_cancels
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 from frot.dsl.data.classes import dataclass
 
 # A pivot's size at least, in that of the largest factor of its unknown, at the defaults.

@@ -11,8 +11,8 @@ from frot.compiler.lowering.assembled import (
     Solution,
     followed_blocks,
 )
-from frot.compiler.lowering.symbols import scalars_of
 from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl import Log
 
 

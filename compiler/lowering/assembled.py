@@ -9,8 +9,8 @@ from frot.compiler.equations.chains import Chains, Resolver, replace_known
 from frot.compiler.equations.eliminate import Pivot, resolve_all
 from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.text_symbols import FrictionElement
-from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.reduce import Reduced, Tree
+from frot.compiler.symbolic.columns import column
 from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import casadi as ca
 from frot.compiler.equations.origins import Origin
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 
 _RISKY = {
     getattr(ca, f"OP_{name}")

@@ -12,10 +12,11 @@ from collections.abc import Iterable, Sequence
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.drawn import at_positive, at_random
 from frot.compiler.lowering.trees import TreeTable, make_tree
 from frot.compiler.mechanics.dynamics import speeds_by_tree
 from frot.compiler.mechanics.elements import Element, link_elements, text_element
+from frot.compiler.symbolic.columns import dense
+from frot.compiler.symbolic.drawn import at_positive, at_random
 from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
 
@@ -216,7 +217,7 @@ def _entries(matrix: ca.SX) -> Iterable[tuple[int, int]]:
 
 def _pack(parts: Iterable[ca.SX]) -> ca.SX:
     """The parts by columns below one another, dense."""
-    items = [ca.vec(ca.densify(part)) for part in parts if part.numel()]
+    items = [ca.vec(dense(part)) for part in parts if part.numel()]
     return ca.vertcat(*items) if items else ca.SX.zeros(0)
 
 

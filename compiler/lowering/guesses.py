@@ -9,8 +9,8 @@ from frot.compiler.equations.chains import replace_known
 from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
-from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.symbolic.columns import column, scalars_of
 from frot.dsl.checked import Element
 from frot.dsl.data.classes import dataclass
 from frot.dsl.quantities.dimensions import Dimension

@@ -19,9 +19,9 @@ from frot.compiler.lowering.guesses import (
     move_by,
     values_of,
 )
-from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.link import Link
+from frot.compiler.symbolic.columns import column, scalars_of
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation
 from frot.dsl.data.classes import dataclass, replace

@@ -20,7 +20,7 @@ from frot.compiler.lowering.groups import (
     pack_spread,
     reorder_groups,
 )
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 from frot.dsl.data.classes import dataclass, replace
 
 

@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.groups import Group, Grouping
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 from frot.dsl.data.classes import dataclass
 
 # What knows sparse matrices loads SciPy: only where there is one.

@@ -9,8 +9,8 @@ import casadi as ca
 from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
-from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.symbolic.columns import column
 from frot.dsl.catalogue import coordinates_of
 from frot.dsl.checked import (
     Body,

@@ -8,12 +8,11 @@ import casadi as ca
 from frot.compiler.equations.origins import Origin
 from frot.compiler.lowering.assembled import Assembled, Block
 from frot.compiler.lowering.checks import Check, parameter_checks
-from frot.compiler.lowering.equals import Kind, Member, share_functions
 from frot.compiler.lowering.explicit import make_explicit
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.finite import watch_numbers
 from frot.compiler.lowering.groups import Grouping
-from frot.compiler.lowering.initial_values import Statement, lower_initial
+from frot.compiler.lowering.initial_values import Initial, Statement, lower_initial
 from frot.compiler.lowering.islands import Island, divide
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, too_full, why_explicit
 from frot.compiler.lowering.listing import Listed, list_variables
@@ -21,12 +20,13 @@ from frot.compiler.lowering.lower_events import Ranks, lower_update, rank_whens
 from frot.compiler.lowering.lower_parameters import lower_parameters, parameters_needed
 from frot.compiler.lowering.pace import make_pace
 from frot.compiler.lowering.parts import Part, Scene
-from frot.compiler.lowering.symbols import column
 from frot.compiler.lowering.timing import sort_conditions
 from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.mechanics.supports import Carried, carried_bodies
+from frot.compiler.symbolic.columns import column, dense
+from frot.compiler.symbolic.equals import Kind, Member, share_functions
 from frot.dsl import Log
 from frot.dsl.data.classes import dataclass
 
@@ -77,8 +77,20 @@ class Lowered:
     integrals: tuple[FirstIntegral, ...]
 
 
-def looking_at(system: Assembled, log: Log) -> tuple[Lowering, Callable[[ca.SX], ca.SX]]:
-    """Lowers what is only looked at; with it, what writes out the formulas of unknowns."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Beginning:
+    """The statements of `initial`, and what lowered them.
+
+    `looking` lowers what is only looked at, `explicit` writes out the formulas of unknowns.
+    """
+
+    looking: Lowering
+    explicit: Callable[[ca.SX], ca.SX]
+    initial: Initial
+
+
+def begin(system: Assembled, log: Log) -> Beginning:
+    """Lower the statements; those that cannot hold are reported."""
     reduced, explicit = system.reduced, make_explicit(system)
     chains, settled = reduced.text.chains, reduced.variables.settled
 
@@ -93,17 +105,20 @@ def looking_at(system: Assembled, log: Log) -> tuple[Lowering, Callable[[ca.SX],
         variable=reduced.text.values.__getitem__,
         without_rate=lambda value: chains.without_rate(formula(value)),
     )
-    return looking, explicit
+    return Beginning(looking, explicit, lower_initial(system, looking, explicit, log))
 
 
 def lower(
-    system: Assembled, grouping: Grouping, log: Log, integrals: tuple[FirstIntegral, ...] = ()
+    system: Assembled,
+    beginning: Beginning,
+    grouping: Grouping,
+    log: Log,
+    integrals: tuple[FirstIntegral, ...] = (),
 ) -> Lowered | None:
     """Build every function; what cannot be built is reported. `integrals` are listed too."""
     reduced = system.reduced
     s, resolve, settled = reduced.symbols, system.resolve, reduced.variables.settled
-    looking, explicit = looking_at(system, log)
-    initial = lower_initial(system, looking, explicit, log)
+    looking, explicit, initial = beginning.looking, beginning.explicit, beginning.initial
     variables = list_variables(system, looking, integrals)
     located = explicit(system.resolve(column(reduced.conditions.values)))
     conditions, timers = sort_conditions(system, located)
@@ -283,7 +298,7 @@ def state_arguments(system: Assembled) -> list[ca.SX]:
 
 def _clean(outputs: list[ca.SX]) -> list[ca.SX]:
     """Dense outputs with common subexpressions shared."""
-    return [ca.densify(x) for x in ca.cse([ca.SX(x) for x in outputs])]
+    return [dense(x) for x in ca.cse([x if type(x) is ca.SX else ca.SX(x) for x in outputs])]
 
 
 def unsolved(conditions: ca.SX, system: Assembled) -> ca.SX:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import casadi as ca
 from frot.compiler.equations.events import FAULT, Outcome
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 from frot.dsl import Log
 from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span

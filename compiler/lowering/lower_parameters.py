@@ -11,9 +11,10 @@ from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.checks import Check
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.groups import Group, Grouping
-from frot.compiler.lowering.symbols import Symbols, column
+from frot.compiler.lowering.symbols import Symbols
 from frot.compiler.lowering.walk import subexpressions
 from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.symbolic.columns import column
 from frot.dsl.checked import Parameter, Reference, Variable
 from frot.dsl.checked.order import in_order
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column, dense
 
 
 def make_pace(system: Assembled, conditions: ca.SX) -> tuple[ca.SX, ca.SX] | None:
@@ -28,7 +28,7 @@ def make_pace(system: Assembled, conditions: ca.SX) -> tuple[ca.SX, ca.SX] | Non
         *(b.residual for b in system.blocks if not b.late),
     ]
     known = ca.vertcat(system.z, system.lam, system.y[system.early :, :])
-    values = column(ca.vec(ca.densify(part)) for part in parts)
+    values = column(ca.vec(dense(part)) for part in parts)
     found = sorted(_rows_with(values, t) - _rows_with(values, known))
     if not found:
         return None

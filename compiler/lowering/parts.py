@@ -14,7 +14,7 @@ from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.groups import Grouping, Sets, pack_matrix, pack_rows, pack_spread
 from frot.compiler.lowering.initial_values import Initial
 from frot.compiler.lowering.islands import Island
-from frot.compiler.lowering.symbols import scalars_of
+from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl.data.classes import dataclass
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 import casadi as ca
 from frot.compiler.lowering.flatten import T, by_input, tunable
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.link import Link
 from frot.compiler.mechanics.mechanism import Mechanism
+from frot.compiler.symbolic.columns import column
 from frot.dsl.checked import Input, Liaison, Parameter
 from frot.dsl.data.classes import dataclass, field
 
@@ -78,19 +79,6 @@ class Rows:
     def all(self) -> tuple[int, ...]:
         """Every row."""
         return (*self.reaction, *(r for r in (self.tangent, self.rolling) if r >= 0))
-
-
-def column(values: Iterable[ca.SX]) -> ca.SX:
-    """The values below one another; an empty column for none."""
-    items = list(values)
-    if len(items) == 1:  # most columns of equations
-        return items[0]
-    return ca.vertcat(*items) if items else ca.SX.zeros(0)
-
-
-def scalars_of(symbols: ca.SX) -> list[ca.SX]:
-    """The items of a column; none of an empty one."""
-    return list(ca.vertsplit(symbols)) if symbols.numel() else []
 
 
 def reading_places(mechanism: Mechanism) -> tuple[dict[Liaison, int], int]:

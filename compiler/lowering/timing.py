@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 
 MOVED, SENSED, TIMED, AT_EVENTS = range(4)
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import casadi as ca
-from frot.compiler.lowering.symbols import column, link_rows
+from frot.compiler.lowering.symbols import link_rows
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.link import Geometry, Link
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.values import pace_of
+from frot.compiler.symbolic.columns import column
 from frot.dsl.checked import CurvePlace, Liaison, SurfacePlace
 
 # Of the size of its terms, what sums of products along a chain leave where they cancel out.

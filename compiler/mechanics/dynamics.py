@@ -15,10 +15,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 import casadi as ca
-from frot.compiler.lowering.symbols import column as stacked
 from frot.compiler.mechanics.hang import Node
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.spatial import cross, nowhere, size_of_cross
+from frot.compiler.symbolic.columns import column as stacked
 from frot.dsl.checked import Body
 from frot.dsl.data.classes import dataclass, field
 

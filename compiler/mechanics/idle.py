@@ -10,12 +10,13 @@ import math
 from collections.abc import Iterator
 
 import casadi as ca
-from frot.compiler.lowering.symbols import Symbols, scalars_of
+from frot.compiler.lowering.symbols import Symbols
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.link import point_body
 from frot.compiler.mechanics.mechanism import Mechanism, spins_in_vain
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.variables import Variables
+from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl import Log, default_values, evaluate
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Model
 

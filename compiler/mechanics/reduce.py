@@ -21,7 +21,7 @@ from frot.compiler.equations.text_symbols import (
     scalars,
 )
 from frot.compiler.lowering.expressions import Conditions, Lowering
-from frot.compiler.lowering.symbols import Rows, Symbols, column, link_rows, make_symbols
+from frot.compiler.lowering.symbols import Rows, Symbols, link_rows, make_symbols
 from frot.compiler.lowering.walk import compared_quantities, quantities_in, read_quantities
 from frot.compiler.mechanics.cancelling import (
     biases_without_rounding,
@@ -51,6 +51,7 @@ from frot.compiler.mechanics.text_of_motion import (
     give_rates_of_tracks,
 )
 from frot.compiler.mechanics.variables import Variables, may_be_held
+from frot.compiler.symbolic.columns import column
 from frot.dsl import Log
 from frot.dsl.checked import Liaison, Quantity
 from frot.dsl.data.classes import dataclass, replace

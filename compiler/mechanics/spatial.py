@@ -35,7 +35,7 @@ def about_z(value: ca.SX) -> ca.SX:
 
 def cross(a: ca.SX, b: ca.SX) -> ca.SX:
     """Vector product without the entries that are zero by structure."""
-    return ca.sparsify(ca.cross(a, b))
+    return ca.sparsify(ca.cross(a, b)) if a.nnz() and b.nnz() else nowhere()
 
 
 def size_of_cross(a: ca.SX, b: ca.SX) -> ca.SX:

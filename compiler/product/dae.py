@@ -8,7 +8,6 @@ import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.product.dae_switching import (
     GUARDS,
@@ -19,6 +18,7 @@ from frot.compiler.product.dae_switching import (
     reset_of,
     switches_of,
 )
+from frot.compiler.symbolic.columns import column, scalars_of
 from frot.dsl import default_values, evaluate
 from frot.dsl.data.classes import dataclass
 

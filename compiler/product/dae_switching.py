@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.symbols import Rows, scalars_of
+from frot.compiler.lowering.symbols import Rows
+from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl.data.classes import dataclass
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import casadi as ca
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.lowering.symbols import column
 from frot.compiler.product.c_arrays import tables_of
 from frot.compiler.product.c_mechanics import MECHANICAL_TABLES, mechanical_arrays, packed_sizes
 from frot.compiler.product.c_tables import array as _array
@@ -26,6 +25,7 @@ from frot.compiler.product.islands import (
 from frot.compiler.product.price import price_of_implicit
 from frot.compiler.product.split import split_functions
 from frot.compiler.product.wide import WIDE, wide_names, wide_record, write_wide
+from frot.compiler.symbolic.columns import column
 
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
 # The kernel gives every argument and takes every result: without the questions whether it does, a
@@ -34,8 +34,15 @@ _ABSENT = re.compile(r"(arg\[\d+\])\? (\1\[\d+\]) : 0")
 _UNASKED = re.compile(r"if \(res\[\d+\]!=0\) (?=res\[)")
 # What CasADi calls for a square is no function that others may ask for: it goes where it is called.
 _SMALL = re.compile(r"^(casadi_real casadi_\w+\(casadi_real )", re.MULTILINE)
+# What CasADi tells of each function to who loads it: the kernel's tables have it, nobody asks.
+_TOLD = re.compile(
+    r"^CASADI_SYMBOL_EXPORT [^\n]*_(?:checkout|release|incref|decref|n_in|n_out|default_in|name_in|"
+    r"name_out|sparsity_in|sparsity_out|work|work_bytes|casadi_version|casadi_int_size|"
+    r"casadi_real_size)\([^\n]*\{(?:[^\n]*\}|.*?^\})\n+",
+    re.MULTILINE | re.DOTALL,
+)
 # Characters of C beyond which GCC looks for no more than it finds in such time.
-_LONG = 100_000
+_LONG = 75_000
 _QUICK = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("O1")\n#endif\n'
 
 # The tables of frot_lines and of frot_pattern, in their order.
@@ -210,16 +217,16 @@ def _functions(lowered: Lowered) -> tuple[str, dict[str, str]]:
     every = [*lowered.functions.items(), *shared_functions(lowered)]
     wide = [f for name, f in every if name == WIDE]
     plain = [f for name, f in every if name != WIDE]
-    text = split_functions(read_numbers(_write([*plain, *lowered.blocks]), lowered))
+    text = split_functions(read_numbers(write_c([*plain, *lowered.blocks]), lowered))
     names: dict[str, str] = {}
     if wide:
-        own = read_numbers(_write(wide), lowered)
+        own = read_numbers(write_c(wide), lowered)
         text, names = text + write_wide(own), wide_names(own)
     return (_QUICK + text) if len(text) > _LONG else text, names
 
 
-def _write(functions: Sequence[ca.Function]) -> str:
-    """CasADi's C of these."""
+def write_c(functions: Sequence[ca.Function]) -> str:
+    """CasADi's C of these, each a straight line where it can be one."""
     generator = ca.CodeGenerator("frot_functions.c", {"casadi_int": "long long int"})
     for function in functions:
         generator.add(function)
@@ -228,4 +235,5 @@ def _write(functions: Sequence[ca.Function]) -> str:
         text = path.read_text(encoding="utf-8")
     if "#error" in text:
         raise RuntimeError("CasADi could not generate C for a function of the model")
+    text = _TOLD.sub("", text)
     return _SMALL.sub(r"static inline \1", _UNASKED.sub("", _ABSENT.sub(r"\2", text)))

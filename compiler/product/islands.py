@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 import casadi as ca
-from frot.compiler.lowering.equals import Kind
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.product.c_tables import array, callable_record, number, record
 from frot.compiler.product.wide import WIDE, wide_record
+from frot.compiler.symbolic.equals import Kind
 
 # The functions of an island in the order of frot_island.
 _FUNCTIONS = ("kinematics", "dynamics", "spread", "sizes")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.lowering.symbols import scalars_of
 from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.symbolic.columns import scalars_of
 
 
 def print_reduced(reduced: Reduced) -> str:

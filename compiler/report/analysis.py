@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.lowering.lower import begin
 from frot.compiler.mechanics.free import free
 from frot.compiler.mechanics.liaisons.stated import bodies_of
 from frot.compiler.mechanics.link import Link
@@ -22,7 +23,7 @@ from frot.compiler.report.paradox import find_paradoxes
 from frot.compiler.report.redundancy import Loop, find_loops, find_ranks
 from frot.compiler.report.relations import make_relations
 from frot.compiler.report.start import Start, find_start, may_part, posture_of
-from frot.dsl import default_values
+from frot.dsl import Log, default_values
 from frot.dsl.checked import Body, Liaison
 from frot.dsl.data.classes import dataclass, field
 
@@ -105,7 +106,9 @@ def analyse(system: Assembled) -> Analysis:
     reduced = system.reduced
     mechanism = reduced.mechanism
     whole = _count(mechanism)
-    start = find_start(system)
+    log = Log()
+    beginning = begin(system, log)
+    start = None if log.failed else find_start(system, beginning)
     if start is None or not start.found:
         return Analysis("the start was not found", whole, whole, 0, 0, (), ())
     found = _Found()

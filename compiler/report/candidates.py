@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator
 from itertools import pairwise
 
 import casadi as ca
-from frot.compiler.lowering.symbols import scalars_of
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.link import owner_body, point_body
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.mechanics.spatial import cross, nowhere, whole
+from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl.checked import Body, BodyGeometry, BodyPoint, CurvePlace, Frame, Place, SurfacePlace
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.quantities.dimensions import Dimension, dimension

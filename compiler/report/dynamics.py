@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.symbols import column, scalars_of
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.report.followed import Followed
 from frot.compiler.report.numbers import Floats, Numbers
+from frot.compiler.symbolic.columns import column, scalars_of
 from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.lowering.lower import Beginning
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.report.candidates import (
     ENERGY,
@@ -52,15 +53,14 @@ class FirstIntegral:
     always: bool
 
 
-def first_integrals_of(system: Assembled) -> tuple[FirstIntegral, ...]:
-    """Those of a system whose start is found; of more than `MOST_SPEEDS` the energy at most."""
+def first_integrals_of(system: Assembled, beginning: Beginning) -> tuple[FirstIntegral, ...]:
+    """Those about the start of a system; of more than `MOST_SPEEDS` the energy at most."""
     reduced = system.reduced
     if not reduced.mechanism.model.bodies:
         return ()
     if reduced.symbols.v.numel() > MOST_SPEEDS:
         return find_first_integrals(reduced, None)
-    start = find_start(system)
-    return () if start is None else find_first_integrals(system.reduced, start.posture)
+    return find_first_integrals(reduced, find_start(system, beginning).posture)
 
 
 def find_first_integrals(reduced: Reduced, start: Posture | None) -> tuple[FirstIntegral, ...]:

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable, Sequence
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.expressions import Conditions
-from frot.compiler.lowering.symbols import column
 from frot.compiler.mechanics.geometry.tracking import Track
 from frot.compiler.report.numbers import Floats, Numbers
+from frot.compiler.symbolic.columns import column
 from numpy.typing import ArrayLike
 
 # Newton steps to a place, and what is left of its equations beside their terms.

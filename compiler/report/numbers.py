@@ -11,6 +11,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
+from frot.compiler.symbolic.columns import dense
 from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[np.float64]
@@ -23,7 +24,7 @@ class Numbers:
 
     def __init__(self, name: str, symbols: Sequence[ca.SX], values: Sequence[ca.SX]) -> None:
         """`symbols` are the arguments in their order, `values` the results."""
-        self._function = ca.Function(name, list(symbols), [ca.densify(x) for x in values])
+        self._function = ca.Function(name, list(symbols), [dense(x) for x in values])
         # CasADi's types leave out that both take whatever has memory.
         buffer: Any
         buffer, self._run = self._function.buffer()

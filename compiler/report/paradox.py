@@ -13,11 +13,11 @@ from collections.abc import Iterator
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.symbols import scalars_of
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.report.dynamics import Dynamics, State, make_dynamics
 from frot.compiler.report.relations import Floats, Posture
+from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl.checked import Liaison
 from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray

@@ -6,13 +6,14 @@ from collections.abc import Mapping
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.symbols import Symbols, column, make_symbols
+from frot.compiler.lowering.symbols import Symbols, make_symbols
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.link import Link
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.report.followed import Followed
+from frot.compiler.symbolic.columns import column
 from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 

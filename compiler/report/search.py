@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.symbols import scalars_of
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.report.dynamics import Dynamics, State
 from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.report.relations import Posture, turning_speeds
+from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl import default_values, evaluate
 from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray

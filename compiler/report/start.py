@@ -7,15 +7,14 @@ from collections.abc import Iterable
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.initial_values import lower_initial
-from frot.compiler.lowering.lower import looking_at, state_arguments, unsolved
-from frot.compiler.lowering.symbols import column, scalars_of
+from frot.compiler.lowering.lower import Beginning, state_arguments, unsolved
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.link import Link
 from frot.compiler.report.followed import Followed
 from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.report.relations import Posture, Relations
-from frot.dsl import Log, default_values, evaluate
+from frot.compiler.symbolic.columns import column, scalars_of
+from frot.dsl import default_values, evaluate
 from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
 
@@ -47,18 +46,14 @@ def may_part(link: Link, values: object) -> bool:
     return as_number(evaluate(link.unilateral, values)) != 0  # type: ignore[arg-type]
 
 
-def find_start(system: Assembled) -> Start | None:
+def find_start(system: Assembled, beginning: Beginning) -> Start:
     """The posture that the statements of `initial` and the relations leave nearest to the guesses.
 
     As the kernel finds it (runtime/kernel/initial.c), with fewer ways out: where it is not found,
-    `found` is false. None where the statements or conditions of the text are at fault.
+    `found` is false.
     """
     reduced, symbols = system.reduced, system.reduced.symbols
-    log = Log()
-    looking, explicit = looking_at(system, log)
-    initial = lower_initial(system, looking, explicit, log)
-    if log.failed:
-        return None
+    explicit, initial = beginning.explicit, beginning.initial
     state = state_arguments(system)
     model = reduced.mechanism.model
     values = default_values(model, {})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import os
 import re
 import secrets
@@ -131,14 +132,22 @@ def _entry(path: Path) -> Entry | None:
     """None if it has gone meanwhile."""
     try:
         about = path.stat()
-        size = _bytes_in(path) if S_ISDIR(about.st_mode) else about.st_size
+        size = _bytes_once(path, about.st_ino) if S_ISDIR(about.st_mode) else about.st_size
     except OSError:
         return None
     return Entry(path, size, about.st_mtime)
 
 
+@functools.lru_cache(maxsize=100_000)
+def _bytes_once(folder: Path, _inode: int) -> int:
+    """What lies in an entry: nothing changes there once it is in place.
+
+    Asked of every entry whenever one is added, so that it must not take long.
+    """
+    return _bytes_in(folder)
+
+
 def _bytes_in(folder: str | os.PathLike[str]) -> int:
-    """Asked of every entry whenever one is added, so that it must not take long."""
     with os.scandir(folder) as found:
         return sum(
             _bytes_in(entry.path) if entry.is_dir(follow_symlinks=False) else entry.stat().st_size

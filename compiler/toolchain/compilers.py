@@ -119,6 +119,12 @@ def compile_objects(
     return objects
 
 
+def join_objects(toolchain: Toolchain, objects: Sequence[Path], target: Path) -> None:
+    """Join objects to one."""
+    with Keeper() as keeper:
+        run_compilers(toolchain, [(["-r", "-nostdlib", *objects], target)], keeper)
+
+
 def link_library(
     toolchain: Toolchain, objects: Sequence[Path], target: Path, words: Sequence[str] = ()
 ) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import shutil
 import sys
@@ -11,13 +12,16 @@ from pathlib import Path
 
 from frot.compiler.toolchain.cache import Kept, is_whole, seal, stored
 from frot.compiler.toolchain.chosen import KERNEL_FLAGS, MODEL_FLAGS, Toolchain, find_toolchain
-from frot.compiler.toolchain.compilers import compile_objects, link_library
+from frot.compiler.toolchain.compilers import compile_objects, join_objects, link_library
 from frot.compiler.toolchain.keeper import Keeper
 from frot.compiler.toolchain.storing import store
 from frot.dsl.files.folders import room
+from frot.dsl.messages.errors import FrotError
 from frot.runtime.program import MODEL_SOURCE
 
 KERNELS = "kernels"
+# The kernel's objects as one, which a linker takes in half of the time.
+_JOINED = "kernel.joined"
 
 
 def kept_objects(
@@ -55,8 +59,8 @@ def install_kernel(folder: Path, made: Sequence[Path], target: Path) -> None:
     where one has them; whatever else `target` holds goes. FrotError (E0801, E0802) if there is no
     compiler or it fails.
     """
-    toolchain, sources = find_toolchain(), kernel_sources(folder)
-    key = _key(toolchain, sources, [folder], KERNEL_FLAGS)
+    toolchain = find_toolchain()
+    key = _key_of_kernel(toolchain, folder)
     new, old = target / KERNELS / key, [root / KERNELS / key for root in made]
     if is_whole(new):
         return
@@ -64,7 +68,7 @@ def install_kernel(folder: Path, made: Sequence[Path], target: Path) -> None:
     new.mkdir(parents=True)
     whole = next((one for one in old if is_whole(one)), None)
     if whole is None:
-        compile_objects(toolchain, sources, [folder], new, KERNEL_FLAGS)
+        _compile_kernel(toolchain, folder, new)
         seal(new)
     else:
         shutil.copytree(whole, new, dirs_exist_ok=True)
@@ -82,8 +86,37 @@ def kernel_sources(folder: Path) -> list[Path]:
 
 def kept_kernel(toolchain: Toolchain) -> Kept:
     """The folder of the kernel's objects: the same ones in every program and every FMU."""
-    folder = kernel_folder()
-    return kept_objects(toolchain, kernel_sources(folder), [folder], KERNEL_FLAGS)
+    key = _own_key(toolchain)
+
+    def fill(folder: Path) -> None:
+        _compile_kernel(toolchain, kernel_folder(), folder)
+
+    return stored(KERNELS, key) or store(KERNELS, key, fill)
+
+
+def kernel_objects(kernel: Kept) -> list[Path]:
+    """What a linker takes of the kernel's folder."""
+    joined = kernel.folder / _JOINED
+    return [joined] if joined.is_file() else sorted(kernel.folder.glob("*.o"))
+
+
+def _compile_kernel(toolchain: Toolchain, folder: Path, made: Path) -> None:
+    """From its sources in `folder`; left in single objects by a compiler that cannot join them."""
+    objects = compile_objects(toolchain, kernel_sources(folder), [folder], made, KERNEL_FLAGS)
+    try:
+        join_objects(toolchain, objects, made / _JOINED)
+    except FrotError:
+        (made / _JOINED).unlink(missing_ok=True)
+
+
+def _key_of_kernel(toolchain: Toolchain, folder: Path) -> str:
+    return _key(toolchain, kernel_sources(folder), [folder], (*KERNEL_FLAGS, _JOINED))
+
+
+@functools.cache
+def _own_key(toolchain: Toolchain) -> str:
+    """As for the key of a program, the kernel's sources are read once in a process."""
+    return _key_of_kernel(toolchain, kernel_folder())
 
 
 def compile_library(
@@ -95,11 +128,12 @@ def compile_library(
     kernel = {source.name for source in kernel_sources(kernel_folder())}
     own = [source for source in sources if source.name in (MODEL_SOURCE, TABLE_SOURCE)]
     face = [source for source in sources if source not in own and source.name not in kernel]
-    kept = [kept_kernel(toolchain), kept_objects(toolchain, face, include, KERNEL_FLAGS)]
+    kernel_kept = kept_kernel(toolchain)
+    face_kept = kept_objects(toolchain, face, include, KERNEL_FLAGS)
     with tempfile.TemporaryDirectory(prefix="frot-") as name, Keeper(Path(name)):
         folder = Path(name)
         objects = compile_objects(toolchain, own, include, folder, MODEL_FLAGS)
-        objects += sorted(part for one in kept for part in one.folder.glob("*.o"))
+        objects += [*kernel_objects(kernel_kept), *sorted(face_kept.folder.glob("*.o"))]
         link_library(toolchain, objects, target, only_seen(folder))
 
 

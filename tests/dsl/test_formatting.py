@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from frot.dsl import CODES, Log, Source, dump, format_text, parse
 from frot.dsl.text.parsing import Lexeme
+from frot.dsl.text.tree import Tree
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -73,34 +74,31 @@ GAPS = [" ", "  ", "     ", "\t", "\n", "\r\n", "\r", "\n\n\n\n", "\u00a0", "\f"
 GAPS += [" /* c */ ", " /**/", "\n// d  \n", " // e\r\n", "\n/* f\n   g */\n", "\n  // h\n\n"]
 
 
-def tokens_of(text: str) -> list[Lexeme]:
+def read(text: str) -> tuple[Tree, list[Lexeme]]:
     log = Log()
     tokens: list[Lexeme] = []
-    parse(Source("<text>", text), log, tokens)
+    tree = parse(Source("<text>", text), log, tokens)
     assert not log.failed, [(d.message, d.span and d.span.place) for d in log]
-    return tokens
+    return tree, tokens
 
 
-def comments_of(text: str) -> list[str]:
+def comments_of(text: str, tokens: list[Lexeme]) -> list[str]:
     """The comments, blanks apart."""
     found = []
     offset = 0
-    for token in tokens_of(text):
+    for token in tokens:
         found += re.findall(r"//[^\n]*|/\*.*?\*/", text[offset : token.start], re.DOTALL)
         offset = token.end
     found += re.findall(r"//[^\n]*|/\*.*?\*/", text[offset:], re.DOTALL)
     return ["".join(comment.split()) for comment in found]
 
 
-def tree_of(text: str) -> str:
-    return dump(parse(Source("<text>", text), Log()))
-
-
 def check_form(text: str) -> str:
     """What holds for the form of every text without faults."""
     form = format_text(text)
-    assert tree_of(form) == tree_of(text)
-    assert comments_of(form) == comments_of(text)
+    (tree, tokens), (same, own) = read(text), read(form)
+    assert dump(same) == dump(tree)
+    assert comments_of(form, own) == comments_of(text, tokens)
     assert format_text(form) == form
     assert form.endswith("\n")
     assert not form.startswith("\n")
@@ -338,7 +336,7 @@ def disorder(text: str, chance: random.Random, much: float) -> str:
     """The text with other blanks and more comments between its tokens."""
     parts: list[str] = []
     offset = 0
-    for token in tokens_of(text):
+    for token in read(text)[1]:
         gap = text[offset : token.start]
         if chance.random() < much:
             gap += chance.choice(GAPS)

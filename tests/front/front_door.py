@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
+from made_once import made_once
 from patience import PATIENCE
 
 from frot.command_line import main
@@ -146,27 +147,29 @@ def script(path: Path, text: str) -> Path:
     return path
 
 
-def hasty_compiler(folder: Path) -> Path:
-    """A compiler that does not optimise, and compiles the same text with the same words once.
-
-    For tests that look at when compilers are called; the folder keeps what they made.
-    """
-    return script(
-        folder / "hasty-cc",
-        f"""
+_HASTY = """
 case " $* " in *" -c "*) ;; *) exec cc "$@" -O0 ;; esac
 rest= last=
 for word; do
   case "$last" in -c) source=$word ;; -o) target=$word ;; *) rest="$rest $word" ;; esac
   last=$word
 done
-key=$({{ echo "$rest"; cat "$source" "$(dirname "$source")"/*.h; }} 2>&1 | cksum | tr ' ' -)
-kept="{folder}/$key-$(basename "$source").o"
+key=$({ echo "$rest"; cat "$source" "$(dirname "$source")"/*.h; } 2>&1 | cksum | tr ' ' -)
+kept="$(dirname "$0")/$key-$(basename "$source").o"
 if [ ! -f "$kept" ]; then
   cc "$@" -O0 || exit
   cp "$target" "$kept.$$" && mv "$kept.$$" "$kept"
   exit
 fi
 exec cp "$kept" "$target"
-""",
-    )
+"""
+
+
+def hasty_compiler(folder: Path) -> Path:
+    """A compiler that does not optimise, and compiles the same text with the same words once.
+
+    For tests that look at when compilers are called. What it made is kept for the session; no other
+    folder's compiler is the same to Frot.
+    """
+    made = made_once("hasty compiler", lambda folder: script(folder / "hasty-cc", _HASTY))
+    return script(folder / "hasty-cc", f'exec "{made}/hasty-cc" "$@"')

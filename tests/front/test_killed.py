@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
-from front_door import HOOP, Shell, script
+from front_door import HOOP, Shell, hasty_compiler, script
 from frot.compiler.toolchain.chosen import Toolchain
 from frot.compiler.toolchain.compilers import compile_objects
 from frot.compiler.toolchain.keeper import Keeper
@@ -102,7 +102,7 @@ def test_the_compilers_of_an_fmu_end_too(
     shell("simulate", HOOP).succeeds()
     # A compiler that sleeps where the table of an FMU's variables is among its words.
     sleeps = f'*fmu_table.c*) echo $$ >> "{notes}"; sleep 600'
-    slow = f'case "$*" in {sleeps};; esac\nexec cc "$@" -O0'
+    slow = f'case "$*" in {sleeps};; esac\nexec "{hasty_compiler(folder)}" "$@"'
     changes = {"FROT_CC": script(folder / "slow-cc", slow), "TMPDIR": temporary}
     process = shell.start("fmu", HOOP, "-o", "hoop.fmu", changes=changes)
     assert wait_until(notes.exists)

@@ -8,7 +8,9 @@ from pathlib import Path
 
 import casadi as ca
 from c_objects import c_objects
-from frot.compiler.toolchain.chosen import KERNEL_FLAGS, find_toolchain
+from frot.compiler.product.generate import write_c
+from frot.compiler.product.split import split_functions
+from frot.compiler.toolchain.chosen import KERNEL_FLAGS, MODEL_FLAGS, find_toolchain
 from frot.compiler.toolchain.compilers import link_library
 from frot.compiler.toolchain.objects import kernel_folder, kernel_sources
 from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo
@@ -277,13 +279,10 @@ def _call(f: ca.Function) -> str:
     return f"{{{f.name()}, {f.sz_arg()}, {f.sz_res()}, {f.sz_iw()}, {f.sz_w()}}}"
 
 
-def source(m: Small, folder: Path) -> str:
+def source(m: Small) -> str:
     """The C file that defines `frot_the_model`."""
     made = functions(m, symbols(m))
-    generator = ca.CodeGenerator("small.c", {"casadi_int": "long long int"})
-    for f in made.values():
-        generator.add(f)
-    text = Path(generator.generate(f"{folder}/")).read_text()
+    text = split_functions(write_c(list(made.values())))
     bound = {"normal": "FROT_BY_NORMAL", "pin": "FROT_BY_PIN", "value": "FROT_BY_VALUE"}
     nw = m.nv + m.na + m.nc
     laws = {i: k for k, i in enumerate(i for i, e in enumerate(m.elements) if e.tangent >= 0)}
@@ -437,9 +436,9 @@ def build(m: Small, folder: Path) -> Program:
     """Compile the model together with the kernel."""
     folder.mkdir(parents=True, exist_ok=True)
     toolchain = find_toolchain()
-    (folder / "model.c").write_text(source(m, folder))
-    sources = [folder / "model.c", *kernel_sources(kernel_folder())]
-    objects = c_objects(sources, [kernel_folder()], KERNEL_FLAGS)
+    (folder / "model.c").write_text(source(m))
+    objects = c_objects([folder / "model.c"], [kernel_folder()], MODEL_FLAGS)
+    objects += c_objects(kernel_sources(kernel_folder()), [kernel_folder()], KERNEL_FLAGS)
     link_library(toolchain, objects, folder / "program.so")
     one = Unit("1")
     modes = [f"element {i + 1}" for i in range(len(m.elements))]
@@ -453,6 +452,6 @@ def build(m: Small, folder: Path) -> Program:
         ),
         contacts=tuple(modes),
         experiment=ExperimentInfo(0.0, m.stop, 1e-10, None, "rest"),
-        compiler=toolchain.command, flags=KERNEL_FLAGS, folder=folder,
+        compiler=toolchain.command, flags=MODEL_FLAGS, folder=folder,
         conditions=tuple(f"condition {k + 1}" for k in range(m.n_conditions)),
     )  # fmt: skip

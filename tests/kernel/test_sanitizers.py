@@ -56,5 +56,5 @@ def test_a_model_runs_clean_under_sanitizers(
 def test_a_small_model_runs_clean_under_sanitizers(
     model: Small, stop: float, tmp_path: Path
 ) -> None:
-    (tmp_path / "model.c").write_text(source(model, tmp_path))
+    (tmp_path / "model.c").write_text(source(model))
     drive(tmp_path / "model.c", stop, tmp_path)

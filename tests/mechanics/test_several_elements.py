@@ -114,11 +114,12 @@ class PiecewiseLinear:
         while True:
             a = self.system(signs)
             found, step = None, 2e-3
-            leap, d = expm(a * step), 0.0
+            nudge, leap, d = expm(a * 1e-9), expm(a * step), 0.0
             now = y
             while t + d < stop and found is None:
                 after = leap @ now
-                first = [self._zero(a, now, step, i, signs) for i in range(n)]
+                ends = (1e-9, nudge @ now), (step, after)
+                first = [self._zero(a, now, ends, i, signs) for i in range(n)]
                 if any(x is not None for x in first):
                     found = min((x, i) for i, x in enumerate(first) if x is not None)
                 else:
@@ -138,20 +139,23 @@ class PiecewiseLinear:
                 signs[i] = np.sign(pull[i]) if abs(pull[i]) > self.mu * press[i] else 0.0
             events.append((t, i))
 
-    def _zero(self, a, y, step, i, signs) -> float | None:
-        """Time inside the step at which particle i stops or lets go."""
+    def _zero(self, a, y, ends, i, signs) -> float | None:
+        """Time inside the step at which particle i stops or lets go.
+
+        `ends`: soon after the begin of the step and at its end, the time and the state.
+        """
         n = self.n
 
-        def value(d: float) -> float:
-            z = expm(a * d) @ y
+        def value(z: np.ndarray) -> float:
             if signs[i] != 0:
                 return signs[i] * z[n + i]
             pull, press = self.forces(z[:n])
             return self.mu * press[i] - abs(pull[i])
 
-        if value(step) >= 0 or value(1e-9) <= 0:
+        (soon, early), (end, late) = ends
+        if value(late) >= 0 or value(early) <= 0:
             return None
-        return brentq(value, 1e-9, step, xtol=1e-15, rtol=1e-15)
+        return brentq(lambda d: value(expm(a * d) @ y), soon, end, xtol=1e-15, rtol=1e-15)
 
 
 def test_five_blocks_on_five_slopes_stop_and_start_each_at_its_time(scenes: Scenes) -> None:

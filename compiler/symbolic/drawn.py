@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.symbols import column
+from frot.compiler.symbolic.columns import column
 from numpy.typing import NDArray
 
 PLACES = 4  # where nothing branches

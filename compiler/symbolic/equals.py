@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 import casadi as ca
+from frot.compiler.symbolic.columns import dense
 from frot.dsl.data.classes import dataclass
 
 
@@ -50,7 +51,7 @@ def share_functions(owners: Sequence[Owner]) -> tuple[tuple[Kind, ...], tuple[Me
     for k, owner in enumerate(owners):
         functions = {
             name: ca.Function(
-                f"frot_{name}_of_{k}", owner.arguments, [ca.densify(x) for x in ca.cse(results)]
+                f"frot_{name}_of_{k}", owner.arguments, [dense(x) for x in ca.cse(results)]
             )
             for name, results in owner.results.items()
         }

@@ -1,0 +1,1 @@
+"""What is told of CasADi expressions without knowing what they stand for."""
