@@ -146,7 +146,14 @@ def lower(
             [system.force_size, _without_reactions(resolve(reduced.load_sizes), system)],
         ),
         "variables": ([*solution, s.energy], [values]),
-        "energy": (state, [resolve(reduced.kinetic), resolve(reduced.potential)]),
+        "energy": (
+            state,
+            [
+                resolve(reduced.kinetic),
+                resolve(reduced.potential),
+                _without_reactions(resolve(reduced.energy_terms), system),
+            ],
+        ),
     }
     if not islands:
         outputs |= _whole(system, grouping, unsolved(conditions, system), state)

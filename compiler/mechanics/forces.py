@@ -12,24 +12,31 @@ from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.link import point_body
 from frot.compiler.mechanics.spatial import about_z, nowhere, whole
+from frot.compiler.mechanics.values import rate_by_time
 from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Liaison, Literal, Place
-from frot.dsl.data.classes import dataclass
+from frot.dsl.data.classes import dataclass, field
 
 Argument = Expression | Place | Liaison
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Action:
-    """A force (3) and the velocity of its point, or a couple and the angular velocity it drives.
+    """A force (3) and the velocity of what it acts on, or a couple and the angular velocity.
 
-    `velocity` is linear in the speeds and `force` times it is the power. `push`: the same as it
-    acts on one body, where it does. `along`: the slope of the velocity by the speeds, where it is
-    more than its factors are (a velocity that is linear with factors that hold speeds).
+    `velocity` is linear in the speeds and `force` times it is the power: that of the material point
+    which is where the force acts, though the place may walk along the body as time goes. `walks`:
+    how fast the place leaves that point (3), without entries where time does not move it. `place`:
+    where a force acts (3), for what rounding of places makes of its work; a couple has none.
+    `push`: the same as it acts on one body, where it does. `along`: the slope of the velocity by
+    the speeds, where it is more than its factors are (a velocity that is linear with factors that
+    hold speeds).
     """
 
     velocity: ca.SX
     force: ca.SX
+    walks: ca.SX = field(default_factory=nowhere)
+    place: ca.SX = field(default_factory=nowhere)
     push: Push | None = None
     along: ca.SX | None = None
 
@@ -41,20 +48,36 @@ class Load:
     actions: tuple[Action, ...]
     potential: ca.SX | None
 
+    @property
+    def power(self) -> ca.SX:
+        """What the energy of motion and the potential gain by it together.
+
+        A potential takes F . v from the motion and changes by -F . (v + w), where the places walk
+        with w along the bodies: what is left is the work of whatever moves them there.
+        """
+        if self.potential is None:
+            return sum((ca.dot(a.velocity, a.force) for a in self.actions), ca.SX(0))
+        return sum((-ca.dot(a.walks, a.force) for a in self.actions if a.walks.nnz()), ca.SX(0))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _End:
-    """Where a point is, its velocity, and its body with the way there from G (None: the ground)."""
+    """Where a point is, its velocity, and its body with the way there from G (None: the ground).
+
+    `material`: velocity of what is there of the body, from which the place `walks` away.
+    """
 
     place: ca.SX
     velocity: ca.SX
     body: Body | None
     arm: ca.SX
+    material: ca.SX
+    walks: ca.SX
 
     def under(self, force: ca.SX) -> Action:
         """A force that acts there."""
         push = None if self.body is None else Push(self.body, self.arm, force, nowhere())
-        return Action(self.velocity, force, push)
+        return Action(self.material, force, self.walks, self.place, push)
 
 
 def load(
@@ -84,11 +107,14 @@ class _Given:
         """A point of a body, or a place given by its coordinates."""
         argument = self.arguments[name]
         if not isinstance(argument, (BodyPoint, Frame)):
-            return _End(whole(self.value(name)), nowhere(), None, nowhere())
+            place, rest = whole(self.value(name)), nowhere()
+            return _End(place, rest, None, rest, rest, rest)
         moving, body = self.kinematics.moving(argument), point_body(argument)
-        local = self.kinematics.local_point(argument)
-        arm = self.kinematics.pose(body).direction(local)
-        return _End(moving.pose.origin, moving.linear, body, arm)
+        local, own = self.kinematics.local_point(argument), self.kinematics.bodies[body]
+        arm = own.pose.direction(local)
+        walks = own.pose.direction(rate_by_time(local, self.kinematics.fixed.lower))
+        material = own.shifted(arm).linear
+        return _End(moving.pose.origin, moving.linear, body, arm, material, walks)
 
     @property
     def is_constant(self) -> bool:
@@ -144,7 +170,7 @@ def _couple(given: _Given) -> Load:
     whole_couple = about_z(value) if kinematics.planar else ca.sparsify(value)
     push = Push(holder.body, nowhere(), nowhere(), whole_couple)
     turning = turning[2] if kinematics.planar else turning
-    return Load((Action(turning, value, push),), None)
+    return Load((Action(turning, value, push=push),), None)
 
 
 def _drag(given: _Given) -> Load:

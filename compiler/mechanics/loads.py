@@ -17,6 +17,8 @@ from frot.dsl.data.classes import dataclass
 class Loads:
     """Generalized applied forces, the sizes of their terms and of each, potential and power.
 
+    `terms`: the sizes of the forces times those of the places they act at.
+
     `pushes` act on bodies of large trees, and are in none of the first two.
     """
 
@@ -26,6 +28,7 @@ class Loads:
     sizes: list[ca.SX]
     potential: ca.SX
     power: ca.SX
+    terms: ca.SX
 
 
 def applied_loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> list[Load]:
@@ -72,7 +75,7 @@ def sum_loads(
     kinematics, symbols = variables.kinematics, variables.symbols
     speeds = ca.vertcat(symbols.v, symbols.sw)
     force, size = ca.SX.zeros(speeds.numel()), ca.SX.zeros(speeds.numel())
-    potential, power = ca.SX(0), ca.SX(0)
+    potential, power, terms = ca.SX(0), ca.SX(0), ca.SX(0)
     sizes: list[ca.SX] = []
     pushes: list[Push] = []
     inside = in_trees(kinematics.nodes, large)
@@ -87,9 +90,11 @@ def sum_loads(
                     along = ca.jacobian(action.velocity, speeds).T
                 force += along @ action.force
                 size += ca.fabs(along) @ ca.fabs(action.force)
-            if result.potential is None:
-                power += ca.dot(action.velocity, action.force)
+            if action.place.nnz():
+                terms += ca.dot(ca.fabs(action.force), ca.fabs(action.place))
+        power += result.power
         sizes.append(sum((ca.sum1(ca.fabs(a.force)) for a in result.actions), ca.SX(0)))
         if result.potential is not None:
             potential += result.potential
-    return Loads(force, size, tuple(pushes), sizes[: len(mechanism.forces)], potential, power)
+    own = sizes[: len(mechanism.forces)]
+    return Loads(force, size, tuple(pushes), own, potential, power, terms)

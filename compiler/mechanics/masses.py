@@ -18,8 +18,8 @@ HEAVY = 1e5
 
 def make_masses(
     mechanism: Mechanism, variables: Variables, pushes: Iterable[Push]
-) -> tuple[tuple[Step, ...], ca.SX]:
-    """The tree's masses with what pushes its bodies, and the potential energy of the weights."""
+) -> tuple[tuple[Step, ...], ca.SX, ca.SX]:
+    """The tree's masses with what pushes its bodies; the weights' energy, and its terms' size."""
     kinematics, own = variables.kinematics, mechanism.model.bodies
     fall = gravity(mechanism.model.world, kinematics)
     bodies = (*own, *mechanism.halves)
@@ -31,10 +31,10 @@ def make_masses(
     inertias = {
         body: unfolded(body, share[body] * variables.inertia_in_ground(body)) for body in bodies
     }
-    potential = -sum(
-        (variables.mass(b) * ca.dot(fall, kinematics.position(b)) for b in own), ca.SX(0)
-    )
-    return make_steps(kinematics, bodies, masses, inertias, fall, pushes), potential
+    weights = [(variables.mass(b) * fall, kinematics.position(b)) for b in own]
+    potential = -sum((ca.dot(weight, place) for weight, place in weights), ca.SX(0))
+    terms = sum((ca.dot(ca.fabs(w), ca.fabs(place)) for w, place in weights), ca.SX(0))
+    return make_steps(kinematics, bodies, masses, inertias, fall, pushes), potential, terms
 
 
 def _unfolded(variables: Variables, bodies: Sequence[Body]) -> Callable[[Body, ca.SX], ca.SX]:

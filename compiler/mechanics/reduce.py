@@ -91,7 +91,8 @@ class Reduced:
     `carried`: of each speed the most that a step of its tree carries, over its own mass;
     `plain`: the text adds nothing to the equations of motion, `coefficients` (of motion and of
     rest, of each element),
-    `power` of the loads without potential, `kinetic`, `potential`.
+    `power` of the loads without potential, `kinetic`, `potential`; `energy_terms`: sizes of the
+    forces times those of the places they act at, whose rounding no energy can be told from.
     """
 
     mechanism: Mechanism
@@ -120,6 +121,7 @@ class Reduced:
     power: ca.SX
     kinetic: ca.SX
     potential: ca.SX
+    energy_terms: ca.SX
 
 
 def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
@@ -181,7 +183,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
         trees = speeds_by_tree(kinematics.nodes)
         large = moved_by_forces(trees, large, forces, equations, text, symbols)
     loads = sum_loads(mechanism, variables, applied, large)
-    steps, potential = make_masses(mechanism, variables, loads.pushes)
+    steps, potential, terms = make_masses(mechanism, variables, loads.pushes)
     motion = write_out(steps, symbols.v.numel(), speeds.numel(), large)
     if not large:
         refuse_idle_spins(mechanism, variables, motion.mass, log)
@@ -221,6 +223,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
             sum((variables.of_body(b, "kinetic_energy") for b in mechanism.model.bodies), ca.SX(0))
         ),
         potential=settled(potential + loads.potential),
+        energy_terms=settled(terms + loads.terms),
     )
 
 

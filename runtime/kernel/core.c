@@ -356,13 +356,13 @@ double frot_kinetic(const frot_model *m, const frot_work *w, const double *v) {
 }
 
 int frot_energies(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                  const double *v, const double *d, double energy[2]) {
-  energy[0] = energy[1] = 0;
+                  const double *v, const double *d, double energy[3]) {
+  energy[0] = energy[1] = energy[2] = 0;
   if (!m->energy.call) return FROT_OK;
   int status = frot_solve_blocks(m, s, w, t, q, v, d);
   if (status != FROT_OK) return status;
   frot_inputs(s, w, &t, q, v, d);
-  w->call.res[0] = energy, w->call.res[1] = energy + 1;
+  w->call.res[0] = energy, w->call.res[1] = energy + 1, w->call.res[2] = energy + 2;
   frot_call(w, &m->energy);
   return FROT_OK;
 }

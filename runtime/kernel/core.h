@@ -6,9 +6,10 @@
 #include "inertia.h"
 #include "work.h"
 
-/* Kinetic and potential energy at (t, q, v, d); zero where the model has none. */
+/* Kinetic and potential energy at (t, q, v, d), and the size of the terms that they are made of;
+ * zero where the model has none. */
 int frot_energies(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                  const double *v, const double *d, double energy[2]);
+                  const double *v, const double *d, double energy[3]);
 
 /* Point w->call.arg at the arguments that all functions of the state begin with. */
 void frot_inputs(frot_state *s, frot_work *w, const double *t, const double *q, const double *v,

@@ -33,14 +33,17 @@ static double size_at_start(const frot_model *m, const frot_state *s, const frot
   return size > 0 ? size : fabs(w->step.z1[j] - w->step.z0[j]);
 }
 
-/* What the step brings the states that are no coordinates, by their slopes at its start. Where that
- * leaves a size of zero, by the first slope that is not: of what begins with the step nothing else
- * is known, and later ones may be wild where the step is far too long. */
+/* What the step brings the states that are no coordinates, by their slopes at its start, and what
+ * it leaves them: what they are and move by at its end. Where that makes a size of zero, by the
+ * first slope that is not: of what begins with the step nothing else is known, and later ones may
+ * be wild where the step is far too long. */
 static void size_own_states(const frot_model *m, const frot_state *s, frot_work *w, double h) {
   const frot_size_work *own = &w->sizes;
+  const double *end = frot_stage(w, DP_STAGES);
   for (int i = 0; i < own->count; i++) {
     int j = own->states[i], at = w->awake.now->place[j];
     own->change[j] = at < 0 ? 0 : h * fabs(w->step.k[at]);
+    own->left[j] = at < 0 ? INFINITY : fmax(fabs(w->step.z1[j]), h * fabs(end[at]));
   }
   if (!frot_state_sizes(m, s, w)) return;
   for (int i = 0; i < own->count; i++) {

@@ -198,7 +198,8 @@ int frot_segment_values(const frot_model *model, frot_state *state, frot_work *w
 int frot_sample(const frot_model *model, frot_state *state, frot_work *work, const double *segments,
                 long long size, const double *times, long long count, double *values);
 
-/* Residual kinetic + potential + dissipated - work in since the start, and the energy scale:
+/* Residual kinetic + potential + dissipated - work in since the start, and the energy scale: the
+ * largest of these that took part, and no less than can be told from what they are made of.
  * balance[0..4] = residual, scale, kinetic + potential, dissipated, work. */
 int frot_energy(const frot_model *model, frot_state *state, frot_work *work, double balance[5]);
 

@@ -270,7 +270,7 @@ static int fire_whens(const instant *in, int first, int *happened) {
   const frot_model *m = in->m;
   frot_state *s = in->s;
   const double *d = s->data + in->l.d;
-  double before[2], after[2];
+  double before[3], after[3];
   *happened = 0;
   memcpy(in->w->events.was, in->w->events.before, sizeof(double) * (size_t)m->n_conditions);
   for (int round = 0;; round++) {

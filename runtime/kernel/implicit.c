@@ -156,6 +156,7 @@ double frot_implicit_error(const frot_model *m, frot_state *s, frot_work *w, dou
   for (int k = 0; k < m->nq; k++) {
     double pointed = h * fabs(slope[k]), gone = fabs(w->step.z1[k] - w->step.z0[k]);
     w->sizes.change[k] = pointed < gone ? pointed : gone;
+    w->sizes.left[k] = INFINITY;
   }
   if (frot_state_sizes(m, s, w)) {
     for (int k = 0; k < m->nq; k++)

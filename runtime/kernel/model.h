@@ -133,7 +133,7 @@ typedef struct {
    *   not finite where that equation by itself gives none (n_watched). Called after a failure,
    * where n_watched > 0. */
   frot_callable watched;
-  /* energy -> kinetic, potential */
+  /* energy -> kinetic, potential, sizes of the forces times those of the places they act at */
   frot_callable energy;
 
   const double *p_default; /* np */

@@ -59,12 +59,14 @@ int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, dou
   return FROT_OK;
 }
 
-/* Kinetic and potential energy together; NaN where the blocks have no solution. */
+/* Kinetic and potential energy together; NaN where the blocks have no solution. Notes the size of
+ * the terms. */
 static double energy_at(const frot_model *m, frot_state *s, frot_work *w, const double *x,
                         double *kinetic) {
-  double energy[2];
+  double energy[3];
   int status = frot_energies(m, s, w, s->t, x, x + m->nq, s->data + frot_layout_of(m).d, energy);
   *kinetic = status == FROT_OK ? fabs(energy[0]) : 0;
+  if (status == FROT_OK) s->energy_terms = fmax(s->energy_terms, energy[2]);
   return status == FROT_OK ? energy[0] + energy[1] : NAN;
 }
 
@@ -298,6 +300,7 @@ int frot_energy(const frot_model *m, frot_state *s, frot_work *w, double balance
   balance[0] = mechanical - s->energy + dissipated - work;
   balance[1] = fmax(fmax(s->energy_scale, fmax(kinetic, fabs(mechanical - s->energy))),
                     fmax(fabs(dissipated), fabs(work)));
+  balance[1] = fmax(balance[1], FROT_LEAST_ENERGY * s->energy_terms);
   balance[2] = mechanical;
   balance[3] = dissipated;
   balance[4] = work;

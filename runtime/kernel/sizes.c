@@ -23,9 +23,18 @@
  * out by more than that only where its error is felt. */
 #define LEFT 0.3
 #define LEFT_STIFF 0.1
+/* What an explicit step that is stable may leave of a state that dies out, about exp(-7). What has
+ * gone by more only passes zero at its end. */
+#define DIES 1e-3
 
 /* fmax is a call, for what it does with NaN. */
 static double larger(double a, double b) { return a > b ? a : b; }
+
+/* What a state counts as that was worth so much, and of which an explicit step leaves `left`. */
+static double faded(double worth, double left) {
+  double most = larger(left / LEFT, DIES * worth);
+  return worth < most ? worth : most;
+}
 
 static int is_own(const frot_model *m, int j) { return m->q_speed[j] < 0; }
 
@@ -40,7 +49,7 @@ int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w) {
   for (int i = 0; i < w->sizes.count; i++) {
     int j = w->sizes.states[i];
     double size = larger(larger(worth[j], fabs(w->step.z0[j])), w->sizes.change[j]);
-    size = larger(size, late * fabs(rate[j]));
+    size = larger(faded(size, w->sizes.left[j]), late * fabs(rate[j]));
     w->sizes.own[j] = larger(larger(size, nominal[j]), LEAST_WORTH * most[j]);
     double *alike = &largest[m->q_alike[j]];
     *alike = larger(*alike, w->sizes.own[j]);
@@ -133,10 +142,12 @@ void frot_raise_small(const frot_model *m, const frot_state *s, frot_work *w, do
 }
 
 void frot_note_worth(frot_state *s, const frot_work *w, const double *z) {
-  double *worth = s->data + w->layout.worth, left = s->implicit ? LEFT_STIFF : LEFT;
+  double *worth = s->data + w->layout.worth;
   for (int i = 0; i < w->sizes.count; i++) {
     int j = w->sizes.states[i];
-    worth[j] = larger(left * worth[j], fabs(z[j]));
+    double size = fabs(z[j]);
+    double was = s->implicit ? LEFT_STIFF * worth[j] : faded(LEFT * worth[j], size);
+    worth[j] = larger(was, size);
   }
 }
 

@@ -3,8 +3,10 @@
  *
  * A state is worth what it is now, or was a moment ago: the memory fades with the steps, which are
  * as long as the motion allows, so that a state that swings through zero keeps its size and one
- * that had a spike loses it. What it had at most counts by thirty decades less, and `nominal` by
- * what its author says.
+ * that had a spike loses it. What dies out fades faster than any memory of so much a step: it is
+ * worth little more than what a step leaves of it, else steps at the limit of their stability would
+ * seem good beside what has gone. What it had at most counts by thirty decades less, and `nominal`
+ * by what its author says.
  *
  * A state that is small beside others of its dimension can be known no better than what the others
  * make of it: an error of state i, in units of its size, moves state j by |J_ji| min(tau_i, tau_j)
@@ -15,8 +17,9 @@
 
 #include "work.h"
 
-/* Sizes into w->sizes.own (nq) from what a step brings the states, w->sizes.change (nq), and what
- * they are worth. Returns 1 when a size is zero. */
+/* Sizes into w->sizes.own (nq) from what a step brings the states, w->sizes.change (nq), what it
+ * leaves them, w->sizes.left (nq, INFINITY of an implicit step: what is stiff dies out in it by
+ * any part, and its error with it), and what they are worth. Returns 1 when a size is zero. */
 int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w);
 
 /* Sizes of the coordinates and speeds into w->sizes.own (nq + nv) for a step h to w->step.z1: the

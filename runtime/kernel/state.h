@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 24
+#define FROT_LAYOUT_VERSION 25
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -95,6 +95,7 @@ struct frot_state {
   double tolerance;
   double energy; /* kinetic + potential at the start, corrected for changes from outside */
   double energy_scale;
+  double energy_terms; /* the largest that what the energies are made of has been seen to be */
   frot_options options;
   frot_fault fault;
   frot_statistics statistics;

@@ -26,6 +26,9 @@
 #define FROT_HEAVY 1e5
 /* Part of the lengths a row is made of below which it is what rounding leaves of them. */
 #define FROT_CANCELS 1e-12
+/* Part of the terms of energies, forces times the places where they act, below which no energy is
+ * told from rounding: a ten thousandth of it is some dozens of the last places of these. */
+#define FROT_LEAST_ENERGY 1e-10
 /* Part by which a gap or a statement may change with the unknowns and still be constant. */
 #define FROT_CONSTANT 1e-12
 /* Part of the lengths a gap is made of, and of 1 in SI, for those that time prescribes are not

@@ -276,7 +276,8 @@ static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, a
       TAKE(p->excused, 2 * m->nv), TAKE(p->beyond, m->nv), TAKE(p->z0, l->nz), TAKE(p->z1, l->nz),
       TAKE(p->z, l->nz);
   TAKE(p->y_end, m->ny), TAKE(p->f, DP_DENSE * l->nz), TAKE(p->parameters, m->np);
-  TAKE(w->sizes.change, m->nq), TAKE(w->sizes.own, m->nq + m->nv), TAKE(w->sizes.alike, m->nq);
+  TAKE(w->sizes.change, m->nq), TAKE(w->sizes.left, m->nq), TAKE(w->sizes.own, m->nq + m->nv),
+      TAKE(w->sizes.alike, m->nq);
   TAKE(w->sizes.states, m->nq);
   w->sizes.count = 0;
   for (int j = 0; a->base && j < m->nq; j++)

@@ -221,7 +221,7 @@ typedef struct {
 
 /* sizes.h (nq each, own nq + nv); the states that are no coordinates, `count` of them. */
 typedef struct {
-  double *change, *own, *alike;
+  double *change, *left, *own, *alike;
   int *states, count;
 } frot_size_work;
 

@@ -128,6 +128,27 @@ end Decay;
 
 
 @pytest.mark.parametrize("method", ["auto", "explicit", "implicit"])
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-6])
+def test_what_dies_out_is_followed_by_what_it_is_worth(tolerance: float, method: str) -> None:
+    """x = y = exp(-t): where nothing but their decay limits the steps they lose no sign."""
+    text = f"""model Tail
+  Real x, y(nominal = 1e-12);
+initial
+  x = 1; y = 1;
+equation
+  der(x) = -x*1 1/s;
+  der(y) = -y*1 1/s;
+  experiment(stop = 60 s, method = {method});
+end Tail;
+"""
+    result = solved(text, tolerance, interval=0.25)
+    exact = np.exp(-result.time)
+    assert np.abs(result["x"] / exact - 1).max() <= 10 * tolerance
+    assert np.all(np.abs(result["y"] - exact) <= 10 * tolerance * np.maximum(exact, 1e-12))
+    assert result.figures.steps < 100 or method == "implicit"
+
+
+@pytest.mark.parametrize("method", ["auto", "explicit", "implicit"])
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-11])
 def test_a_state_that_is_zero_with_a_rate_that_is_rounding(tolerance: float, method: str) -> None:
     text = f"""model Noise

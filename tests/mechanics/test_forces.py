@@ -77,6 +77,83 @@ def test_drag_on_a_point_of_a_body_brakes_its_rotation(scenes: Scenes) -> None:
     assert result.balance.relative < 1e-10
 
 
+WALKED = """
+planar model Walked "A rung walks along a rod that slides along itself, under one force"
+  world(gravity = 0 m/s^2);
+  body r: rod(mass = 2 kg, length = 4 m);
+  frame rung on r at (0.3 m/s*time, 0 m);
+  force f: {force};
+initial
+  r.position = (1, 0) m;
+  r.velocity = (1.5, 0) m/s;
+  experiment(stop = 2 s, tolerance = 1e-12);
+end Walked;
+"""
+WALK, MASS, STOP = 0.3, 2.0, 2.0
+
+
+def pulled() -> tuple[float, float]:
+    """m x'' = -0.7 N."""
+    return 1.5 - 0.7 / MASS * STOP, 0.0
+
+
+def braked() -> tuple[float, float]:
+    """The rung is at y = x + u t: m y'' = -c y'."""
+    return (1.5 + WALK) * math.exp(-0.8 / MASS * STOP) - WALK, 0.0
+
+
+def swung() -> tuple[float, float]:
+    """Stretched by s = x + u t - 0.5 m: m s'' = -k s, s = s0 cos wt + s'0/w sin wt."""
+    w, first, rate = math.sqrt(3 / MASS), 0.5, 1.5 + WALK
+    stretch = first * math.cos(w * STOP) + rate / w * math.sin(w * STOP)
+    return rate * math.cos(w * STOP) - first * w * math.sin(w * STOP) - WALK, stretch
+
+
+WALKS = {
+    "on(rung, value = (-0.7, 0) N)": pulled,
+    "drag(rung, c = 0.8 N.s/m)": braked,
+    "damper((-9, 0) m, rung, c = 0.8 N.s/m)": braked,
+    "attraction(rung, (0.5, 0) m, k = 3 N/m)": swung,
+    "spring((0, 0) m, rung, k = 3 N/m, length = 0.5 m)": swung,
+    "spring((0, 0) m, rung, k = 3 N/m + 0 N/m/s*time, length = 0.5 m)": swung,
+}
+
+
+@pytest.mark.parametrize("force", WALKS)
+def test_work_on_a_place_that_walks_is_done_on_the_point_it_is_at(
+    scenes: Scenes, force: str
+) -> None:
+    """What is potential is kept as such: what moves the end of a spring works against it."""
+    result = scenes.run(WALKED.format(force=force))
+    now = result.at(STOP)
+    speed, stretch = WALKS[force]()
+    assert near(now["r.velocity.x"], speed, rel=1e-11)
+    gained = MASS * (speed**2 - 1.5**2) / 2
+    if "time" not in force:
+        gained += 3 * (stretch**2 - 0.5**2) / 2 * (WALKS[force] is swung)
+    assert near(now["energy.work"], gained, rel=1e-10)
+    assert result.balance.relative < 1e-11
+
+
+def test_work_on_a_place_that_walks_along_a_body_that_turns(scenes: Scenes) -> None:
+    """Nothing else acts: the work is what the rod's energy of motion gets."""
+    across = WALKED.replace("(1.5, 0) m/s;", "(1, 2) m/s; r.angle = 0.5;")
+    result = scenes.run(across.format(force="on(rung, value = (0, -3) N)"))
+    kinetic = result["energy.kinetic"]
+    assert kinetic[-1] < 0.9 * kinetic[0]
+    assert np.allclose(result["energy.work"], kinetic - kinetic[0], atol=1e-11)
+
+
+def test_a_frame_of_the_ground_that_goes_does_no_work_on_the_ground(scenes: Scenes) -> None:
+    """A body on a damper whose other end goes with u: m v' = c (u - v), W = m (v^2 - v0^2)/2."""
+    going = WALKED.replace("on r at", "on ground at")
+    result = scenes.run(going.format(force="damper(rung, r, c = 0.8 N.s/m)"))
+    speed = WALK + (1.5 - WALK) * math.exp(-0.8 / MASS * STOP)
+    now = result.at(STOP)
+    assert near(now["r.velocity.x"], speed, rel=1e-11)
+    assert near(now["energy.work"], MASS * (speed**2 - 1.5**2) / 2, rel=1e-10)
+
+
 REFUSED = {
     "couple(p, value = 1 N.m)": ("E0205", "a couple on 'p', which does not turn"),
     "couple(ground, value = 1 N.m)": ("E0205", "a couple on 'ground', which does not turn"),
