@@ -14,8 +14,8 @@ from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.index import Index, find_unbalanced, reduce_index, report_unbalanced
 from frot.compiler.equations.order import Component, find_components
 from frot.compiler.equations.origins import Origin, Unknown
-from frot.compiler.equations.slopes import symbols_inside
 from frot.compiler.symbolic.columns import column
+from frot.compiler.symbolic.slopes import symbols_inside
 from frot.dsl import Log
 from frot.dsl.data.classes import dataclass
 

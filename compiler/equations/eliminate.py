@@ -11,12 +11,12 @@ from collections import defaultdict
 from collections.abc import Callable, Mapping
 
 import casadi as ca
-import numpy as np
 from frot.compiler.equations.chains import Chains, Resolver
 from frot.compiler.equations.given import Given
 from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.table import PARAMETER, UNIT, Factor, Row, Table
 from frot.compiler.symbolic.columns import column
+from frot.compiler.symbolic.slopes import CANCELS
 from frot.dsl.data.classes import dataclass
 
 Entries = Mapping[int, int]
@@ -25,8 +25,6 @@ Entries = Mapping[int, int]
 MOST_FILL = 12
 # A factor that is solved for, in the largest of its unknown: dividing by less costs digits.
 LEAST = 0.01
-# A sum of factors that is that part of the largest is what rounding leaves of zero.
-CANCELS = 8 * float(np.finfo(float).eps)
 
 
 @dataclass(slots=True, eq=False)
@@ -162,9 +160,19 @@ def _candidate(
     differentiated = table.is_differentiated(chain)
     if differentiated and row.unrated:
         return None
-    if not differentiated and kind != UNIT and factor.size < LEAST * table.largest(chain):
+    small = not differentiated and factor.size < LEAST * table.largest(chain)
+    if small and (kind != UNIT or _is_difference(row, chains)):
         return None
     return _Candidate((int(differentiated), kind, terms * others), number, chain)
+
+
+def _is_difference(row: Row, chains: Chains) -> bool:
+    """Whether what the equation says of an unknown has several terms, which may cancel."""
+    if len(row.orders) != 2:
+        return len(row.orders) > 2
+    unknowns = [s for s in ca.symvar(row.value) if s.element_hash() in chains.place]
+    rest = ca.substitute(row.value, column(unknowns), ca.SX.zeros(len(unknowns)))
+    return not rest.is_zero()
 
 
 def _replace(value: ca.SX, removed: list[int], definitions: ca.SX, chains: Chains) -> ca.SX:

@@ -31,7 +31,6 @@ from frot.compiler.equations.index import reduce_index
 from frot.compiler.equations.order import Component, closure
 from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.roots import Roots
-from frot.compiler.equations.slopes import without_what_cancels
 from frot.compiler.equations.tear import tear
 from frot.compiler.lowering.assembled import (
     Assembled,
@@ -43,6 +42,7 @@ from frot.compiler.lowering.assembled import (
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.reduce import Reduced, Tree
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.symbolic.slopes import without_what_cancels
 from frot.dsl import Log, default_values, evaluate
 from frot.dsl.data.classes import dataclass, field, replace
 

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 import casadi as ca
 from frot.compiler.equations.chains import Chains
 from frot.compiler.equations.given import Given
-from frot.compiler.equations.slopes import slopes, symbols_inside
 from frot.compiler.symbolic.columns import column
+from frot.compiler.symbolic.slopes import slopes, symbols_inside
 from frot.dsl.data.classes import dataclass
 
 UNIT, CONSTANT, PARAMETER, UNUSABLE = range(4)

@@ -9,12 +9,18 @@ that another one gives, and what is left is solved with pivots chosen in the run
 from __future__ import annotations
 
 from collections import defaultdict
+from itertools import permutations
 
 import casadi as ca
 from frot.compiler.equations.chains import replace_known
 from frot.compiler.equations.given import Given
-from frot.compiler.equations.slopes import slopes, without_what_cancels
 from frot.compiler.symbolic.columns import column
+from frot.compiler.symbolic.slopes import (
+    CANCELS,
+    size_of_sum,
+    slopes,
+    without_what_cancels,
+)
 from frot.dsl.data.classes import dataclass
 
 # A pivot's size at least, in that of the largest factor of its unknown, at the defaults.
@@ -66,10 +72,12 @@ def tear_linear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> T
     z, whole = column(kept), column(left)
     constant = ca.substitute(whole, z, ca.SX.zeros(z.shape))
     matrix = ca.jacobian(whole, z)
-    solved = -ca.solve(matrix, constant) if kept else z
+    solved = z
     if kept:
         last = next(i for i in range(len(residual)) if i not in taken)
-        divisors = (*divisors, (ca.det(matrix), kept[0], last))
+        determinant = _determinant(matrix)
+        solved = ca.densify(-(ca.adj(matrix) @ constant) / determinant)
+        divisors = (*divisors, (determinant, kept[0], last))
     values = {x.element_hash(): solved[k] for k, x in enumerate(kept)}
     return Torn(
         (
@@ -81,6 +89,19 @@ def tear_linear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> T
         (),
         True,
     )
+
+
+def _determinant(matrix: ca.SX) -> ca.SX:
+    """The determinant; zero where its terms cancel but for rounding."""
+    places = range(matrix.size1())
+    size = ca.SX(0)
+    for order in permutations(places):
+        product = ca.SX(1)
+        for i in places:
+            product *= size_of_sum(matrix[i, order[i]])
+        size += product
+    value = ca.det(matrix)
+    return ca.densify(ca.if_else(ca.fabs(value) > CANCELS * size, value, 0))
 
 
 def _entries(

@@ -11,7 +11,7 @@ from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.text_symbols import FrictionElement
 from frot.compiler.mechanics.reduce import Reduced, Tree
 from frot.compiler.symbolic.columns import column
-from frot.dsl.data.classes import dataclass
+from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 
 
@@ -20,6 +20,7 @@ class Block:
     """Equations 0 = `residual` that determine y[first .. first + count) together.
 
     `size` is that of their terms and `start` where the search begins, None where nobody knows.
+    `followed`: they say where figures touch, and which of several places counts is decided there.
     """
 
     residual: ca.SX
@@ -30,6 +31,7 @@ class Block:
     span: Span
     size: ca.SX | None = None
     start: ca.SX | None = None
+    followed: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -128,7 +130,6 @@ def followed_blocks(reduced: Reduced) -> tuple[ca.SX, tuple[Block, ...]]:
         name = f"the place where '{liaison.name}' touches"
         first, span = sum(int(x.numel()) for x in y), liaison.span
         y.append(track.unknowns)
-        blocks.append(
-            Block(track.residual, first, False, False, name, span, track.size, track.start)
-        )
+        own = Block(track.residual, first, False, False, name, span, track.size, track.start)
+        blocks.append(replace(own, followed=True))
     return column(y), tuple(blocks)

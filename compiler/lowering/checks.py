@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 import casadi as ca
-from frot.compiler.equations.eliminate import CANCELS, Pivot
+from frot.compiler.equations.eliminate import Pivot
 from frot.compiler.lowering.walk import as_number, is_fixed
 from frot.compiler.mechanics.mechanism import Mechanism
+from frot.compiler.symbolic.slopes import CANCELS, size_of_sum
 from frot.dsl import Log, default_values, evaluate
 from frot.dsl.catalogue import Argument
 from frot.dsl.checked import (
@@ -70,8 +71,7 @@ def _but_for_rounding(value: ca.SX) -> ca.SX:
     """The value; zero where it is what rounding leaves of a sum."""
     if not (value.is_op(ca.OP_ADD) or value.is_op(ca.OP_SUB)):
         return value
-    size = ca.fabs(value.dep(0)) + ca.fabs(value.dep(1))
-    return ca.if_else(ca.fabs(value) > CANCELS * size, value, 0)
+    return ca.if_else(ca.fabs(value) > CANCELS * size_of_sum(value), value, 0)
 
 
 def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[Check]:

@@ -16,7 +16,7 @@ from frot.dsl.data.classes import dataclass
 # What knows sparse matrices loads SciPy: only where there is one.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from frot.compiler.lowering.sparsity import Factors
+    from frot.compiler.symbolic.sparsity import Factors
 
 # States up to which the matrix of equations alone is dense, and pivots are chosen by size.
 FEW_STATES = 12
@@ -86,7 +86,7 @@ def make_jacobian(system: Assembled, grouping: Grouping, state: list[ca.SX]) -> 
     rows, columns = (tuple(x) for x in slope.sparsity().get_triplet())
     if n <= FEW_STATES:
         return Jacobian(state, [slope, rate], (), (), None)
-    from frot.compiler.lowering.sparsity import factor_pattern
+    from frot.compiler.symbolic.sparsity import factor_pattern
 
     factors = factor_pattern(np.array(rows, dtype=np.intp), np.array(columns, dtype=np.intp), n)
     return Jacobian(state, [column(ca.vertsplit(slope.nz[:])), rate], rows, columns, factors)
@@ -193,7 +193,7 @@ def _sparse_factors(rows: Sequence[int], columns: Sequence[int], n: int) -> Fact
     """The pattern of the factors, or None where a full matrix is factored sooner."""
     if n <= FEW_STATES or len(rows) > SPARSE_ENTRIES * n * n:
         return None
-    from frot.compiler.lowering.sparsity import factor_pattern
+    from frot.compiler.symbolic.sparsity import factor_pattern
 
     factors = factor_pattern(np.array(rows, dtype=np.intp), np.array(columns, dtype=np.intp), n)
     return factors if factors.work <= SPARSE_WORK * n**3 / 3 else None

@@ -11,6 +11,7 @@ from frot.compiler.lowering.checks import Check, parameter_checks
 from frot.compiler.lowering.explicit import make_explicit
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.finite import watch_numbers
+from frot.compiler.lowering.first_conditions import first_conditions
 from frot.compiler.lowering.groups import Grouping
 from frot.compiler.lowering.initial_values import Initial, Statement, lower_initial
 from frot.compiler.lowering.islands import Island, divide
@@ -20,6 +21,7 @@ from frot.compiler.lowering.lower_events import Ranks, lower_update, rank_whens
 from frot.compiler.lowering.lower_parameters import lower_parameters, parameters_needed
 from frot.compiler.lowering.pace import make_pace
 from frot.compiler.lowering.parts import Part, Scene
+from frot.compiler.lowering.switching import straighten, switching_residual
 from frot.compiler.lowering.timing import sort_conditions
 from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
 from frot.compiler.mechanics.mechanism import is_unilateral
@@ -27,8 +29,9 @@ from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.mechanics.supports import Carried, carried_bodies
 from frot.compiler.symbolic.columns import column, dense
 from frot.compiler.symbolic.equals import Kind, Member, share_functions
+from frot.compiler.symbolic.numbers_in_sums import size_of_numbers
 from frot.dsl import Log
-from frot.dsl.data.classes import dataclass
+from frot.dsl.data.classes import dataclass, replace
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -44,7 +47,8 @@ class Lowered:
     whose places are guessed. `direct`: scalar equations on positions that hold where the search
     begins. `parts` and `speed_parts`: what of places and of speeds is put together alone.
     `n_followed`: unknowns of places that are followed, if one may be of an open contact.
-    `blocks` are the functions of the blocks of `system`.
+    `blocks` are the functions of the blocks of `system`, `switching` those with the conditions on
+    their own unknowns as they are, if there are any.
     Islands and parts are each of one of the `kinds`. `conditions`: the values of all; `ranks`: the
     order of the `when`s.
     """
@@ -59,6 +63,7 @@ class Lowered:
     speed_parts: tuple[tuple[Part, Member], ...]
     conditions: ca.SX
     blocks: tuple[ca.Function, ...]
+    switching: tuple[ca.Function | None, ...]
     carried: tuple[Carried, ...]
     vanishing: tuple[Vanishing, ...]
     checks: tuple[Check, ...]
@@ -122,6 +127,8 @@ def lower(
     variables = list_variables(system, looking, integrals)
     located = explicit(system.resolve(column(reduced.conditions.values)))
     conditions, timers = sort_conditions(system, located)
+    switching = tuple(_switching(k, b, system, conditions) for k, b in enumerate(system.blocks))
+    conditions = straighten(system, conditions)
     watched, watched_origins = watch_numbers(system)
     checks = parameter_checks(reduced.mechanism, s.parameters, system.pivots)
     update = lower_update(system, log)
@@ -140,7 +147,10 @@ def lower(
             lower_parameters(looking, checks, system, grouping, given, is_set),
         ),
         "start": ([s.t, s.u, s.p], initial.start),
-        "beginning": (state, initial.beginning),
+        "beginning": (
+            state,
+            [*initial.beginning, unsolved(first_conditions(system, looking, conditions), system)],
+        ),
         "sizes": (
             state,
             [system.force_size, _without_reactions(resolve(reduced.load_sizes), system)],
@@ -221,7 +231,8 @@ def lower(
         parts=tuple((x, next(own)) for x in places),
         speed_parts=tuple((x, next(own)) for x in speeds),
         conditions=conditions,
-        blocks=tuple(_block(k, b, system) for k, b in enumerate(system.blocks)),
+        blocks=tuple(_block(f"block_{k}", b, system) for k, b in enumerate(system.blocks)),
+        switching=switching,
         carried=carried,
         vanishing=lost,
         checks=checks,
@@ -341,17 +352,28 @@ def _is_known(values: ca.SX, system: Assembled, variables: tuple[Listed, ...], l
     return False
 
 
-def _block(index: int, block: Block, system: Assembled) -> ca.Function:
+def _block(name: str, block: Block, system: Assembled) -> ca.Function:
     """Residual, its Jacobian in the block's own unknowns, the size of its terms."""
     own = system.y[block.first : block.first + block.residual.numel()]
     slope = ca.jacobian(block.residual, own)
     size = block.size
     if size is None:
         size = ca.fabs(slope) @ ca.fabs(own) + ca.fabs(block.residual)
+        size += size_of_numbers(block.residual, own)
     arguments = state_arguments(system)
     if block.late:
         arguments += [system.z, system.lam]
-    return ca.Function(f"frot_block_{index}", arguments, _clean([block.residual, slope, size]))
+    return ca.Function(f"frot_{name}", arguments, _clean([block.residual, slope, size]))
+
+
+def _switching(
+    index: int, block: Block, system: Assembled, conditions: ca.SX
+) -> ca.Function | None:
+    """The same where the conditions on the block's own unknowns are as they are."""
+    residual = switching_residual(block, system, conditions)
+    if residual is None:
+        return None
+    return _block(f"switching_{index}", replace(block, residual=residual), system)
 
 
 def _beginnings_of_open(system: Assembled) -> list[ca.SX]:

@@ -91,11 +91,11 @@ def _whole(values: Iterable[int]) -> list[str]:
 def _blocks(lowered: Lowered) -> list[str]:
     return [
         record(
-            callable_record(f),
-            *(b.first, b.residual.numel(), int(b.linear), int(b.late)),
+            *(callable_record(f), callable_record(g)),
+            *(b.first, b.residual.numel(), int(b.linear), int(b.late), int(b.followed)),
             *_at(b.name, b.span),
         )
-        for b, f in zip(lowered.system.blocks, lowered.blocks, strict=True)
+        for b, f, g in zip(lowered.system.blocks, lowered.blocks, lowered.switching, strict=True)
     ]
 
 

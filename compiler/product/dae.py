@@ -108,7 +108,7 @@ def _start(lowered: Lowered, state: list[ca.SX]) -> tuple[ca.SX, ca.SX, ca.SX]:
     q, discrete = lowered.functions["start"].call([t, u, p])
     known = ca.vertcat(ca.SX.zeros(d.numel() - discrete.numel()), discrete)
     speeds = ca.SX.zeros(lowered.system.v.shape)
-    v, guess = lowered.functions["beginning"].call(
+    v, guess, _ = lowered.functions["beginning"].call(
         [t, q, speeds, u, p, known, ca.SX.zeros(y.shape)]
     )
     return q, v, guess

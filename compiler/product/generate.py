@@ -217,7 +217,8 @@ def _functions(lowered: Lowered) -> tuple[str, dict[str, str]]:
     every = [*lowered.functions.items(), *shared_functions(lowered)]
     wide = [f for name, f in every if name == WIDE]
     plain = [f for name, f in every if name != WIDE]
-    text = split_functions(read_numbers(write_c([*plain, *lowered.blocks]), lowered))
+    plain += [*lowered.blocks, *(f for f in lowered.switching if f is not None)]
+    text = split_functions(read_numbers(write_c(plain), lowered))
     names: dict[str, str] = {}
     if wide:
         own = read_numbers(write_c(wide), lowered)

@@ -1,1 +1,1 @@
-"""What is told of CasADi expressions without knowing what they stand for."""
+"""What is told of expressions and their patterns without knowing what these stand for."""

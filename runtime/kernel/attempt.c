@@ -267,7 +267,7 @@ static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attemp
   return FROT_OK;
 }
 
-int frot_find_length(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
+static int find_length(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   double planned = s->h;
   for (int status = FROT_OK;;) {
     double paced = frot_pace_step(m, s, w, a->t, a->h);
@@ -282,4 +282,11 @@ int frot_find_length(const frot_model *m, frot_state *s, frot_work *w, frot_atte
   }
   frot_plan_next(m, s, w, a, planned);
   return FROT_OK;
+}
+
+int frot_find_length(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
+  w->blocks.within = 1;
+  int status = find_length(m, s, w, a);
+  w->blocks.within = 0;
+  return status;
 }

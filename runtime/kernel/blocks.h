@@ -5,10 +5,12 @@
 #include "work.h"
 
 /* Solve the blocks that are not late for w->blocks.y at (t, q, v, d): linear ones by elimination,
- * the others by damped Newton from the values w->blocks.y has, rows scaled by the sizes of their
- * terms. FROT_OK, FROT_ALGEBRAIC or FROT_NAN, with w->blocks.failed and w->blocks.singular;
- * w->blocks.y is then of no use.
- */
+ * the others by Newton's method from the values w->blocks.y has, along its path as far as that
+ * leads, rows scaled by the sizes of their terms. Conditions are as d says; where there is no
+ * solution, those on a block's own unknowns as these say, so that what passes zero with a slope
+ * without end has values beyond. `within` a step what belongs to another branch is none. FROT_OK,
+ * FROT_ALGEBRAIC or FROT_NAN, with w->blocks.failed and w->blocks.singular; w->blocks.y is then of
+ * no use. */
 int frot_solve_blocks(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                       const double *v, const double *d);
 

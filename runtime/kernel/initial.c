@@ -34,11 +34,11 @@ static void set_conditions(const frot_model *m, const frot_work *w, double *d, i
 }
 
 /* v and y <- where the search for speeds and for the unknowns of the blocks begins at the places as
- * they are. */
+ * they are; w->core.condition <- the conditions there. */
 static void begin_values(const frot_opening *p, double *v, double *y) {
   frot_work *w = p->w;
   frot_inputs(p->s, w, &p->t, p->q, p->v, p->d);
-  w->call.res[0] = v, w->call.res[1] = y;
+  w->call.res[0] = v, w->call.res[1] = y, w->call.res[2] = w->core.condition;
   frot_call(w, &p->m->beginning);
 }
 
@@ -296,6 +296,12 @@ static void look_at_conditions(const frot_opening *p, int alone) {
   set_conditions(p->m, p->w, p->s->data + frot_layout_of(p->m).d, alone);
 }
 
+/* The conditions as they are where the search begins: which of several solutions is meant. */
+static void look_at_guesses(const frot_opening *p) {
+  begin_values(p, p->w->opening.scratch, p->w->opening.fresh);
+  set_conditions(p->m, p->w, p->s->data + frot_layout_of(p->m).d, 0);
+}
+
 /* All values from the guesses, or from those found before, with the conditions as they are; then
  * sets these. */
 static int solve_once(frot_opening *p, int stay, int alone) {
@@ -363,7 +369,7 @@ int frot_initial_values(const frot_model *m, frot_state *s, frot_work *w, double
   memset(s->data + l.d, 0, sizeof(double) * (size_t)l.nd);
   size_t size = sizeof(double) * (size_t)m->n_conditions;
   frot_leave_parts(&p);
-  if (m->n_conditions > 0) guess(&p), look_at_conditions(&p, 0);
+  if (m->n_conditions > 0) guess(&p), look_at_guesses(&p);
   int together = m->n_conditions + ROUNDS, most = together + ONE_BY_ONE * together;
   int changed = -1, other = -1, failures = 0;
   for (int round = 0, stay = 0; round < most; round++) {

@@ -63,7 +63,8 @@ typedef struct {
   frot_callable parameters;
   /* start(t, u, p) -> q where the search begins, whatever is guessed, discrete variables there */
   frot_callable start;
-  /* beginning(t, q, v, u, p, d, y) -> v and y where the search for them begins, at these places */
+  /* beginning(t, q, v, u, p, d, y) -> v and y where the search for them begins, at these places;
+   * the conditions (n_conditions) where it does, d and y being those there */
   frot_callable beginning;
   /* The functions of the state take (t, q, v, u, p, d, y). */
 

@@ -203,13 +203,15 @@ typedef struct {
 
 /* A strong component of the text's equations that no explicit formula solves. Its unknowns are
  * y[first .. first + count). residual(t, q, v, u, p, d, y [, z, lam]) -> r (count), dr/dy by
- * columns (count x count), size of the terms of r (count). `linear`: r is linear in its own
- * unknowns. `late`: it reads z, the accelerations, or the reactions, and is solved after them; it
- * then takes the two arguments more. Blocks are solved in order, the late ones last in the list;
- * their unknowns lie in y in the same order. */
+ * columns (count x count), size of the terms of r (count); `switching` the same where conditions on
+ * these unknowns are as they are and not as d says, none where there are none. `linear`: r is
+ * linear in its own unknowns. `late`: it reads z, the accelerations, or the reactions, and is
+ * solved after them; it then takes the two arguments more. `followed`: the unknowns say where
+ * figures touch; which of several places counts is decided by nearer.c. Blocks are solved in order,
+ * the late ones last in the list; their unknowns lie in y in the same order. */
 typedef struct {
-  frot_callable residual;
-  int first, count, linear, late;
+  frot_callable residual, switching;
+  int first, count, linear, late, followed;
   const char *name, *place; /* the unknowns, and the place of its first equation */
 } frot_block;
 

@@ -235,6 +235,7 @@ void frot_begin_blocks(const frot_opening *p) {
   frot_put(p);
   frot_inputs(p->s, w, &p->t, p->q, p->v, p->d);
   w->call.res[0] = w->opening.scratch, w->call.res[1] = w->opening.fresh;
+  w->call.res[2] = w->core.condition;
   frot_call(w, &p->m->beginning);
   for (int k = 0; k < part->ny; k++) w->blocks.y[part->y[k]] = w->opening.fresh[part->y[k]];
 }

@@ -105,8 +105,12 @@ static frot_callable scratch_of_all(const frot_model *m) {
       &m->sensed,     &m->watched,  &m->vanishing};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
-  for (int i = 0; i < count + m->n_blocks; i++) {
-    const frot_callable *call = i < count ? calls[i] : &m->blocks[i - count].residual;
+  for (int i = 0; i < count + 2 * m->n_blocks; i++) {
+    const frot_callable *call = i < count ? calls[i] : NULL;
+    if (i >= count) {
+      const frot_block *block = &m->blocks[(i - count) / 2];
+      call = (i - count) % 2 ? &block->switching : &block->residual;
+    }
     most.n_arg = larger(most.n_arg, call->n_arg), most.n_res = larger(most.n_res, call->n_res);
     most.n_iw = larger(most.n_iw, call->n_iw), most.n_w = larger(most.n_w, call->n_w);
   }
@@ -156,8 +160,8 @@ static void bind_call(const frot_model *m, const frot_layout *l, frot_call_work 
 
 static void bind_blocks(const frot_model *m, const extent *e, frot_block_work *w, arena *a) {
   int n = e->block;
-  TAKE(w->y, m->ny), TAKE(w->r, n), TAKE(w->j, n * n), TAKE(w->lu, n * n), TAKE(w->size, 2 * n);
-  TAKE(w->step, 2 * n), TAKE(w->scale, n * n + 5 * n), TAKE(w->pivot, n);
+  TAKE(w->y, m->ny), TAKE(w->r, 2 * n), TAKE(w->j, n * n), TAKE(w->lu, n * n), TAKE(w->size, 2 * n);
+  TAKE(w->step, 4 * n), TAKE(w->scale, n * n + 5 * n), TAKE(w->pivot, n);
 }
 
 static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work *w, arena *a) {

@@ -47,10 +47,10 @@ typedef struct {
 /* blocks.h: y is the guess before, the solution after; the block that failed last, or -1, and
  * whether it was singular. Solutions are `shaken` by that part of themselves, up or down by bit
  * `pattern` of their index: error.h. If `some` is not NULL, of those that are not late only these
- * are solved. The rest is the system of one block. */
+ * are solved; `within` a step. The rest is the system of one block. */
 typedef struct {
   double *y, shaken;
-  int failed, singular, pattern, unwanted, n_some;
+  int failed, singular, pattern, unwanted, within, n_some;
   const int *some;
   double *r, *j, *lu, *size, *step, *scale;
   int *pivot;

@@ -8,6 +8,7 @@ UNDETERMINED = [
     ("Real x; Real y;", "x + y = 1; 2*x + 2*y = 2;", "`2*x + 2*y = 2` follows"),
     ("Real x; Real y;", "x + y = 1; 2*x + 2*y = 3;", "`2*x + 2*y = 3` contradicts"),
     ("Real x; Real y;", "x + 3*y = 1; 0.1*x + 0.3*y = 1;", "`0.1*x + 0.3*y = 1` contradicts"),
+    ("Real x; Real y;", "x + y = 1; x + 1.00000000000001*y = 2;", "contradicts the others"),
     (
         "Real x; Real y; Real z;",
         "x + 3*y + z = time/(1 s); 0.1*x + 0.3*y - z = 2; 1.1*x + 3.3*y = 2;",
@@ -123,3 +124,72 @@ end M;
     result = model.simulate(parameters={"k": 2})
     assert result["y"][0] == pytest.approx(-1, rel=1e-9)
     assert result["z"][0] == pytest.approx(2 / 0.7, rel=1e-9)
+
+
+SHARES = [
+    ("Real x; Real y;", "x + y = 2; 1e6*x + y = 3;", {"x": 1 / 999999, "y": 1999997 / 999999}),
+    (
+        "parameter Real R = 1e6; Real x; Real y; Real z;",
+        "x + y + z = 2; R*x + y - z = 3; x - 2*y + z = 4;",
+        {"x": 19 / 3 / 1000001, "y": -2 / 3, "z": 2 + 2 / 3 - 19 / 3 / 1000001},
+    ),
+]
+
+
+@pytest.mark.parametrize(("declared", "equations", "exact"), SHARES)
+def test_no_unknown_is_the_small_difference_of_others(
+    declared: str, equations: str, exact: dict[str, float]
+) -> None:
+    """By the factor 1 in the first equation x would keep ten digits."""
+    model = frot.compile(f"model M\n  {declared}\nequation\n  {equations}\nend M;\n")
+    result = model.simulate()
+    assert {name: result[name][0] for name in exact} == pytest.approx(exact, rel=4e-15)
+
+
+def test_factors_whose_terms_cancel_are_told_in_the_run() -> None:
+    """Whatever time is, the second equation has one tenth of the factors of the first."""
+    model = frot.compile("""
+model M
+  Real x, y, k = 1 + time/(1 s);
+equation
+  k*x + 3*y = 1;
+  0.1*k*x + 0.3*y = 2;
+end M;
+""")
+    with pytest.raises(frot.FrotError, match="E0904") as told:
+        model.simulate()
+    assert "3*y = 1`" in str(told.value) or "0.3*y = 2`" in str(told.value)
+
+
+def test_parameters_for_which_three_equations_depend_on_each_other_are_told() -> None:
+    """1 2 3, 4 5 6, 7 8 k: the determinant is 27 - 3 k, of products up to 105."""
+    model = frot.compile("""
+model M
+  parameter Real k = 9.000000000000002;
+  Real x, y, z;
+equation
+  x + 2*y + 3*z = 1;
+  4*x + 5*y + 6*z = 2;
+  7*x + 8*y + k*z = 4;
+end M;
+""")
+    with pytest.raises(frot.FrotError, match=r"E0401.*must not be zero"):
+        model.simulate()
+    result = model.simulate(parameters={"k": 10})
+    assert result["z"][0] == pytest.approx(1, rel=1e-13)
+
+
+def test_unknowns_that_stand_together_wherever_they_stand_are_told() -> None:
+    """Of x and z only the sum is in the equations, whatever k is."""
+    model = frot.compile("""
+model M
+  parameter Real k = 2;
+  Real x, y, z;
+equation
+  x + y + z = 1;
+  x + k*y + z = 2;
+  x + z = 3*y;
+end M;
+""")
+    with pytest.raises(frot.FrotError, match=r"E0[49]0[14]"):
+        model.simulate()

@@ -195,7 +195,7 @@ def functions(m: Small, s: Symbols) -> dict[str, ca.Function]:
             [s.p, NONE, ca.DM(list(m.unilateral)), ca.DM([0.0, m.stop, 1e-10, float("nan")])],
         ),
         "start": ([s.t, s.u, s.p], [numbers[0], numbers[3]]),
-        "beginning": (s.state, numbers[1:3]),
+        "beginning": (s.state, [*numbers[1:3], conditions]),
         "place_stating": (
             s.state,
             [
@@ -344,8 +344,8 @@ def source(m: Small) -> str:
         ("int", "q_speed"): m.speeds,
         ("int", "q_alike"): list(range(m.nq)),
         ("frot_block", "blocks"): [
-            f"{{{_call(made[f'block_{i}'])}, {b.first}, {b.count}, {int(b.linear)}, "
-            f'{int(b.late)}, "{b.name}", "small:{i + 1}:1"}}'
+            f"{{{_call(made[f'block_{i}'])}, {{0}}, {b.first}, {b.count}, {int(b.linear)}, "
+            f'{int(b.late)}, 0, "{b.name}", "small:{i + 1}:1"}}'
             for i, b in enumerate(m.blocks)
         ],
         ("int", "when_condition"): [c for c, _ in m.whens],

@@ -6,7 +6,7 @@ import ctypes as ct
 
 import numpy as np
 import pytest
-from frot.compiler.lowering.sparsity import Factors, factor_pattern
+from frot.compiler.symbolic.sparsity import Factors, factor_pattern
 
 INTS, DOUBLES = ct.POINTER(ct.c_int), ct.POINTER(ct.c_double)
 

@@ -11,11 +11,15 @@ from collections.abc import Sequence
 from typing import cast
 
 import casadi as ca
+import numpy as np
 from frot.compiler.symbolic.columns import column
 
 # Entries of a row that is taken together with others.
 _SHORT = 24
 _NOTHING = 1e-10  # of weights of order one
+# A sum of factors that is that part of its terms is what rounding leaves of zero, or has no digit
+# that tells it from that.
+CANCELS = 64 * float(np.finfo(float).eps)
 
 
 def symbols_inside(values: Sequence[ca.SX]) -> tuple[list[ca.SX], list[list[int]]]:
@@ -100,6 +104,12 @@ def _weigh(terms: Sequence[tuple[ca.SX, float]]) -> list[tuple[ca.SX, float]]:
         return found
     rest = [(x, weight) for x, weight in found if not x.is_constant()]
     return [*rest, (ca.SX(sum(numbers)), 1.0 if sum(numbers) else 0.0)]
+
+
+def size_of_sum(x: ca.SX) -> ca.SX:
+    """The size of the terms of a scalar that is a sum, of anything else its own."""
+    parts = _summands(x)
+    return sum((ca.fabs(part) for part, _ in parts), ca.SX(0)) if parts else ca.fabs(x)
 
 
 def _summands(x: ca.SX) -> list[tuple[ca.SX, float]]:
