@@ -14,7 +14,17 @@ from frot.compiler.mechanics.link import point_body
 from frot.compiler.mechanics.spatial import about_z, nowhere, whole
 from frot.compiler.mechanics.values import rate_by_time
 from frot.dsl.catalogue import FUNCTIONS
-from frot.dsl.checked import Body, BodyPoint, Expression, Force, Frame, Liaison, Literal, Place
+from frot.dsl.checked import (
+    Body,
+    BodyPoint,
+    Derivative,
+    Expression,
+    Force,
+    Frame,
+    Liaison,
+    Literal,
+    Place,
+)
 from frot.dsl.data.classes import dataclass, field
 
 Argument = Expression | Place | Liaison
@@ -103,18 +113,25 @@ class _Given:
         """A number or a vector."""
         return self.lowering.lower(_value(self.arguments[name]))
 
-    def end(self, name: str) -> _End:
-        """A point of a body, or a place given by its coordinates."""
+    def end(self, name: str, rated: bool = False) -> _End:
+        """A point of a body, or a place given by its coordinates: `rated` with its velocity."""
         argument = self.arguments[name]
         if not isinstance(argument, (BodyPoint, Frame)):
             place, rest = whole(self.value(name)), nowhere()
-            return _End(place, rest, None, rest, rest, rest)
+            velocity = self.rate(argument) if rated else rest
+            return _End(place, velocity, None, rest, rest, rest)
         moving, body = self.kinematics.moving(argument), point_body(argument)
         local, own = self.kinematics.local_point(argument), self.kinematics.bodies[body]
         arm = own.pose.direction(local)
         walks = own.pose.direction(rate_by_time(local, self.kinematics.fixed.lower))
         material = own.shifted(arm).linear
         return _End(moving.pose.origin, moving.linear, body, arm, material, walks)
+
+    def rate(self, argument: Argument) -> ca.SX:
+        """The velocity (3) of a place given by its coordinates."""
+        if is_fixed(place := _value(argument)):
+            return nowhere()
+        return whole(self.lowering.lower(Derivative(place, place.type, place.span)))
 
     @property
     def is_constant(self) -> bool:
@@ -133,7 +150,7 @@ def _between(start: _End, end: _End, pull: ca.SX) -> tuple[Action, Action]:
 
 
 def _damper(given: _Given) -> Load:
-    start, end = given.end("a"), given.end("b")
+    start, end = given.end("a", rated=True), given.end("b", rated=True)
     damping = given.value("c")
     along = _unit(end.place - start.place)
     rate = ca.dot(end.velocity - start.velocity, along)

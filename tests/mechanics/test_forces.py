@@ -63,6 +63,21 @@ def test_a_damper_takes_from_both_ends_what_it_turns_into_heat(scenes: Scenes) -
     assert result.balance.relative < 1e-10
 
 
+def test_a_damper_feels_how_fast_a_place_that_is_given_goes(scenes: Scenes) -> None:
+    """v = u + (v0 - u) exp(-c t / m) to a place with speed u, however it is written."""
+    exact = 2 + (3 - 2) * math.exp(-1.5 / 2 * 2.0)
+    for place in ("(20 m + 2 m/s*time, 0 m)", "(20 m + 4 m/rad*r.angle, 0 m)"):
+        result = loaded(scenes, f"damper({place}, p, c = 1.5 N.s/m)")
+        assert near(result.at(2.0)["p.velocity.x"], exact)
+        assert result.balance.relative < 1e-10
+
+
+def test_a_damper_to_a_place_of_which_nobody_knows_how_fast_it_goes_is_refused() -> None:
+    text = LOADED.format(force="damper((u, 0 m), p, c = 1.5 N.s/m)")
+    with pytest.raises(frot.FrotError, match="the derivative of the input 'u' is not known here"):
+        frot.compile(text.replace("  body p", "  input Length u;\n  body p")).simulate()
+
+
 def test_drag_follows_the_power_of_the_speed_it_is_given(scenes: Scenes) -> None:
     linear = loaded(scenes, "drag(p, c = 0.8 N.s/m)").at(2.0)
     assert near(linear["p.velocity.x"], 3 * math.exp(-0.8 / 2 * 2.0))
