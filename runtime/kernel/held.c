@@ -9,6 +9,7 @@
 
 #include "core.h"
 #include "linear.h"
+#include "order.h"
 #include "orthogonal.h"
 #include "problem.h"
 #include "reactions.h"
@@ -67,49 +68,67 @@ static void add_kept_rows(frot_problem *p) {
   p->equations = w->span.rank;
 }
 
+enum { TAKEN, CONTRADICTS, WAITS };
+
+/* Make the held row k orthonormal to the w->span.rank before it, which it joins unless it depends
+ * on them; one of which these leave little WAITS where it `may`. */
+static int take_row(const frot_problem *p, int k, int may) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int ns = p->g->n_speeds, rank = w->span.rank, row = w->reactions.unknown[k];
+  w->span.along[k] = p->g->n_rows;
+  if (frot_is_spare(w, row)) {
+    w->reactions.dependent = w->reactions.carried[row] = 1;
+    w->span.left[row] = 0;
+    return TAKEN;
+  }
+  double *x = w->span.basis + ns * rank, *parts = w->span.parts;
+  memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
+  w->reactions.carried[row] = 0;
+  double length = sqrt(frot_dot(x, x, ns)), bias = w->core.c[row];
+  double size = w->core.bias_size[row];
+  double rest = frot_reject(x, w->span.basis, rank, ns, parts);
+  for (int i = 0; i < rank; i++) {
+    bias -= parts[i] * w->span.bias[i];
+    size += fabs(parts[i]) * w->span.bias_size[i];
+  }
+  double measure = frot_length_beside(m, w, row, length);
+  if (!(rest > FROT_DEPENDENT * measure)) {
+    w->reactions.dependent = w->reactions.carried[row] = 1;
+    w->span.left[row] = 0;
+    double agrees = FROT_AGREES * (size + frot_free_size(m, w, row));
+    if (w->reactions.follow) return TAKEN; /* inside a step rows are off by its error */
+    int agree = fabs(bias) <= agrees + frot_free_rounding(w, p->g, measure);
+    return agree ? TAKEN : CONTRADICTS;
+  }
+  if (may && frot_may_wait(w, row, rest, measure)) return WAITS;
+  w->span.left[row] = rest;
+  for (int i = 0; i < ns; i++) x[i] /= rest;
+  if (w->reactions.friction[k] == 0)
+    memcpy(frot_entries(m, w->span.direction, row), x, sizeof(double) * (size_t)ns);
+  w->span.bias_size[rank] = size / rest;
+  w->span.bias[rank++] = bias / rest;
+  w->span.along[k] = w->span.rank = rank;
+  return TAKEN;
+}
+
 /* The held rows of a mass matrix, orthonormal, into w->span.basis with their biases in
  * w->span.bias; p->equations is their number. Returns 1 when a row that depends on others
  * contradicts them. */
 static int orthonormalize(frot_problem *p) {
-  const frot_model *m = p->m;
   frot_work *w = p->w;
-  int ns = p->g->n_speeds, rank = 0;
-  for (int k = 0; k < p->held; k++) {
-    int row = w->reactions.unknown[k];
-    w->span.along[k] = p->g->n_rows;
-    if (frot_is_spare(w, row)) {
-      w->reactions.dependent = w->reactions.carried[row] = 1;
-      w->span.left[row] = 0;
-      continue;
-    }
-    double *x = w->span.basis + ns * rank, *parts = w->span.parts;
-    memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
-    w->reactions.carried[row] = 0;
-    double length = sqrt(frot_dot(x, x, ns)), bias = w->core.c[row];
-    double size = w->core.bias_size[row];
-    double rest = frot_reject(x, w->span.basis, rank, ns, parts);
-    for (int i = 0; i < rank; i++) {
-      bias -= parts[i] * w->span.bias[i];
-      size += fabs(parts[i]) * w->span.bias_size[i];
-    }
-    double measure = frot_length_beside(m, w, row, length);
-    if (!(rest > FROT_DEPENDENT * measure)) {
-      w->reactions.dependent = w->reactions.carried[row] = 1;
-      w->span.left[row] = 0;
-      double agrees = FROT_AGREES * (size + frot_free_size(m, w, row));
-      if (w->reactions.follow) continue; /* inside a step rows are off by its error */
-      if (!(fabs(bias) <= agrees + frot_free_rounding(w, p->g, measure))) return 1;
-      continue;
-    }
-    w->span.left[row] = rest;
-    for (int i = 0; i < ns; i++) x[i] /= rest;
-    if (w->reactions.friction[k] == 0)
-      memcpy(frot_entries(m, w->span.direction, row), x, sizeof(double) * (size_t)ns);
-    w->span.bias_size[rank] = size / rest;
-    w->span.bias[rank++] = bias / rest;
-    w->span.along[k] = rank;
+  int *order = w->span.order, normals = 0, last, i = 0;
+  for (int k = 0; k < p->held; k++) order[k] = k, normals += w->reactions.friction[k] == 0;
+  w->span.rank = 0;
+  for (last = normals; i < p->held;) {
+    int found = take_row(p, order[i], i < last - 1);
+    if (found == CONTRADICTS) return 1;
+    if (found == WAITS)
+      frot_let_wait(order, i, --last);
+    else
+      i++;
   }
-  w->span.rank = p->equations = rank;
+  p->equations = w->span.rank;
   add_kept_rows(p);
   return 0;
 }

@@ -7,6 +7,7 @@
 #include "core.h"
 #include "invariants.h"
 #include "linear.h"
+#include "order.h"
 #include "orthogonal.h"
 #include "spare.h"
 #include "terms.h"
@@ -82,9 +83,10 @@ typedef struct {
 
 void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *g, int n,
                            int kept) {
-  int ns = g->n_speeds, rank = 0;
-  for (int i = 0; i < n; i++) {
-    int row = w->relations.rows[i];
+  int ns = g->n_speeds, rank = 0, *order = w->span.order;
+  for (int i = 0; i < n; i++) order[i] = i;
+  for (int at = 0, last = kept; at < n; at++) {
+    int i = order[at], row = w->relations.rows[i];
     double *x = w->span.basis + ns * rank, *parts = w->linear.matrix + n * i;
     w->linear.pivot[i] = -1;
     if (frot_is_spare(w, row)) continue;
@@ -94,6 +96,10 @@ void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *
     double rest = frot_reject(x, w->span.basis, rank, ns, parts);
     double least = i < kept ? frot_least_length(m, w, row, length) : FREE * length;
     if (!(rest > least)) continue;
+    if (at < last - 1 && frot_may_wait(w, row, rest, length)) {
+      frot_let_wait(order, at--, --last);
+      continue;
+    }
     for (int k = 0; k < ns; k++) x[k] /= rest;
     parts[rank] = rest;
     w->linear.pivot[i] = rank++;
@@ -106,8 +112,8 @@ static void correction(frot_work *w, const frot_group *g, int n) {
   int ns = g->n_speeds;
   double *step = w->relations.step;
   memset(step, 0, sizeof(double) * (size_t)ns);
-  for (int i = 0; i < n; i++) {
-    int own = w->linear.pivot[i];
+  for (int at = 0; at < n; at++) {
+    int i = w->span.order[at], own = w->linear.pivot[i];
     if (own < 0) continue;
     const double *parts = w->linear.matrix + n * i, *x = w->span.basis + ns * own;
     double part = w->relations.residual[i];
@@ -205,6 +211,7 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   }
   if (m->n_rows == 0 || frot_holding_rows(m, w, modes, stuck, 0) == 0) return FROT_OK;
   frame f = {NULL, 0, 0, INFINITY};
+  frot_note_parting(m, s, w);
   int status = frot_metric(m, w);
   if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, &f, moved);
   if (status == FROT_OK) status = project_speeds(m, s, w, t, q, v, d, modes, stuck, &f, moved);

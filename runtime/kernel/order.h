@@ -1,0 +1,22 @@
+/* In which order rows are made orthonormal.
+ *
+ * Of two rows that nearly agree the difference says something of its own, but badly: what rounding
+ * leaves in them is divided by what one leaves of the other. Where there are more rows than can
+ * move, as where a box slides over the joint of two tables, others say the same well. So the row of
+ * which those before it leave little comes last. Those of loops keep their places: their lengths
+ * are followed (crossing.c), and the last one left is what vanishes in a posture. */
+#ifndef FROT_ORDER_H
+#define FROT_ORDER_H
+
+#include "work.h"
+
+/* Note which rows are normals of what may part: these may wait. */
+void frot_note_parting(const frot_model *m, const frot_state *s, const frot_work *w);
+
+/* Whether a row, of whose length those before it leave so much, waits for those that come. */
+int frot_may_wait(const frot_work *w, int row, double rest, double length);
+
+/* Let what stands in place i of an order come in place `last`, and those between one earlier. */
+void frot_let_wait(int *order, int i, int last);
+
+#endif
