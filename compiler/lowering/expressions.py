@@ -74,7 +74,7 @@ class Conditions:
         contact: int = -1,
     ) -> ca.SX:
         """A flag, 0 or 1, that follows the sign of `value` by located events."""
-        found = self.find(value, strict)
+        found = self.find(value, strict, contact)
         if found is not None:
             return found  # the same switch, written or read twice
         flag = ca.SX.sym(f"condition_{len(self.flags)}")
@@ -87,10 +87,11 @@ class Conditions:
         self.contacts.append(contact)
         return flag
 
-    def find(self, value: ca.SX, strict: bool) -> ca.SX | None:
-        """The flag of a condition."""
-        for flag, known, kind in zip(self.flags, self.values, self.strict, strict=True):
-            if kind == strict and ca.is_equal(known, value, 20):
+    def find(self, value: ca.SX, strict: bool, contact: int = -1) -> ca.SX | None:
+        """The flag of a condition: of two contacts that pass one end each has its own."""
+        own = zip(self.flags, self.values, self.strict, self.contacts, strict=True)
+        for flag, known, kind, of in own:
+            if kind == strict and of == contact and ca.is_equal(known, value, 20):
                 return flag
         return None
 

@@ -19,6 +19,8 @@
 
 /* Events at one instant after which slips may come to zero in turn, ever faster: to no end. */
 #define IN_TURN 50
+/* Part of the motion in its row that no projection leaves of the speed of a contact. */
+#define ELSEWHERE 1e-3
 
 /* A reaction that reached its upper bound (first guard) lets the body go backward. */
 static int left_by(const double *fired) { return fired[0] != 0 ? -1 : (fired[1] != 0 ? 1 : 0); }
@@ -34,15 +36,16 @@ static void list_closable(const frot_instant *in, int first) {
 }
 
 /* A gap that closes with speed is an impact, one that opens stays open. What the motion as a whole
- * leaves of a speed by rounding is none: what only rounding ever moved is no measure of it. */
+ * leaves of a speed by rounding is none: what only rounding ever moved is no measure of it. Of what
+ * was closed no speed is left, unless its place is another one now: that is never taken away. */
 static int refuse_impacts(const frot_instant *in, double t) {
   const frot_model *m = in->m;
   for (int i = 0; i < m->n_contacts; i++) {
-    if (in->w->search.before[i].closed || !in->w->search.best[i].closed) continue;
-    int row = m->contacts[i].row_n;
-    double rate = in->w->core.rate[row];
-    double none =
-        FROT_TOUCH * frot_typical_speed(in, row) + FROT_ZERO * frot_row_speed(m, in->w, row, in->v);
+    int row = m->contacts[i].row_n, closed = in->w->search.before[i].closed;
+    if (!in->w->search.best[i].closed || (closed && (in->unilateral[i] == 0 || row < 0))) continue;
+    double rate = in->w->core.rate[row], fastest = frot_row_speed(m, in->w, row, in->v);
+    double none = closed ? ELSEWHERE * fastest
+                         : FROT_TOUCH * frot_typical_speed(in, row) + FROT_ZERO * fastest;
     if (rate > none) in->w->search.best[i].closed = 0;
     if (rate < -none) return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
   }
