@@ -55,7 +55,7 @@ def straighten(system: Assembled, values: ca.SX) -> ca.SX:
     found = scalars_of(values)
     for block in system.blocks:
         own = _own(block, system)
-        if block.late or own.numel() != 1:
+        if block.late or block.followed or own.numel() != 1:
             continue
         mine = [k for k, value in enumerate(found) if ca.depends_on(value, own)]
         if not mine or switching_residual(block, system, values) is None:
