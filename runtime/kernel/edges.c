@@ -1,5 +1,6 @@
 #include "edges.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -12,6 +13,9 @@
 #include "record.h"
 #include "terms.h"
 #include "tolerances.h"
+
+/* Part of the lengths of a gap that is none. */
+#define FLUSH (64 * DBL_EPSILON)
 
 int frot_has_edges(const frot_model *m) {
   for (int j = 0; j < m->n_conditions; j++)
@@ -45,6 +49,13 @@ static int mark(const frot_model *m, const frot_state *s, frot_work *w) {
   return any;
 }
 
+/* Whether an open contact has come onto what it is flush with: no gap falls to zero any more. */
+static int is_flush(const frot_model *m, const frot_state *s, const frot_work *w, int i,
+                    const double *q) {
+  double size = frot_gap_size(m, w, m->contacts[i].row_n, q) + s->data[w->layout.reach + i];
+  return fabs(w->core.gap[i]) <= FLUSH * size;
+}
+
 int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                     const double *v, frot_recorder *recorder) {
   const frot_layout *l = &w->layout;
@@ -62,7 +73,9 @@ int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, 
   int status = changes ? frot_kinematics(m, s, w, t, q, v, s->data + l->d) : FROT_OK;
   for (int i = 0; i < m->n_contacts && status == FROT_OK; i++) {
     int row = m->contacts[i].row_n;
-    if (!w->nearer.changed[i] || !modes[i].closed || s->data[l->unilateral + i] == 0) continue;
+    if (!w->nearer.changed[i] || s->data[l->unilateral + i] == 0) continue;
+    if (!modes[i].closed && is_flush(m, s, w, i, q)) s->data[l->fired + i] = 1;
+    if (!modes[i].closed) continue;
     if (!(w->core.rate[row] > FROT_TOUCH * frot_row_speed(m, w, row, v))) continue;
     frot_note(recorder, s, t, FROT_EVENT_SEPARATION, i, frot_mode_value(m, modes, i),
               FROT_MODE_OPEN, 1);

@@ -89,7 +89,11 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   int status = frot_slope(m, s, w, t, w->step.z0, frot_stage(w, 0));
   if (status == FROT_OK) {
-    if (!s->from_posture) frot_note_spare(m, s, w);
+    if (!s->from_posture && frot_note_spare(m, s, w)) {
+      frot_follow_spare(m, w, s->data + l->spare);
+      status = frot_slope(m, s, w, t, w->step.z0, frot_stage(w, 0));
+      frot_see_anew(w);
+    }
     for (int i = 0; i < w->awake.now->n_groups; i++) {
       int k = w->awake.now->groups[i];
       s->data[l->sign + k] = w->reactions.sign[k];

@@ -44,8 +44,8 @@ static int refuse_impacts(const frot_instant *in, double t) {
     int row = m->contacts[i].row_n, closed = in->w->search.before[i].closed;
     if (!in->w->search.best[i].closed || (closed && (in->unilateral[i] == 0 || row < 0))) continue;
     double rate = in->w->core.rate[row], fastest = frot_row_speed(m, in->w, row, in->v);
-    double none = closed ? ELSEWHERE * fastest
-                         : FROT_TOUCH * frot_typical_speed(in, row) + FROT_ZERO * fastest;
+    double least = FROT_TOUCH * frot_typical_speed(in, row);
+    double none = closed ? fmax(ELSEWHERE * fastest, least) : least + FROT_ZERO * fastest;
     if (rate > none) in->w->search.best[i].closed = 0;
     if (rate < -none) return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
   }

@@ -15,32 +15,37 @@
 /* How much more must be left of a row that was left out for it to take the place of another. */
 #define STEADY 2.0
 
-/* The rows of loops of a group into `list`, what they do into w->span.basis; their number. */
-static int list_loop_rows(const frot_model *m, const frot_state *s, frot_work *w,
-                          const frot_group *g, int *list) {
-  int n = 0, ns = g->n_speeds;
+/* The normals of a group that hold, into `list` from place n on, what they do into w->span.basis:
+ * those of loops that are not `spare` (may be NULL), or those of what may part. The length of the
+ * list. */
+static int list_rows(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
+                     int loops, const double *spare, int *list, int n) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  int ns = g->n_speeds;
   for (int i = 0; i < g->n_contacts; i++) {
-    const frot_contact *contact = &m->contacts[g->contacts[i]];
-    if (contact->reduced || contact->row_n < 0 || !frot_is_loop(m, s, w, g->contacts[i])) continue;
-    const double *own = frot_entries(m, w->core.half, contact->row_n);
+    int c = g->contacts[i], row = m->contacts[c].row_n;
+    if (g->general || !frot_is_loaded(m, modes, c)) continue;
+    if (frot_is_loop(m, s, w, c) != loops || (spare && spare[row] != 0)) continue;
+    const double *own = frot_entries(m, w->core.half, row);
     memcpy(w->span.basis + ns * n, own, sizeof(double) * (size_t)ns);
-    list[n++] = contact->row_n;
+    list[n++] = row;
   }
   return n;
 }
 
-/* Of the rows of loops listed `count` say what the others do. Which are left out is free: those of
- * which the others leave least. Else a kept one may vanish beside one that is left out, as the rows
- * of a point that rolls in turn do where its path is curved. They come last in the list. Returns
+/* Of the rows listed, after the `first` that stay, `count` say what the others do. Which are left
+ * out is free: those of which the others leave least. Else a kept one may vanish beside one that is
+ * left out, as the rows of a point that rolls in turn do where its path is curved, or two kept ones
+ * become one inside the step, where a corner comes to an edge. They come last in the list. Returns
  * whether the others say it alone, without what rests. */
 static int sort_spare(const frot_model *m, const frot_state *s, const frot_work *w,
-                      const frot_group *g, int *list, int n, int count) {
+                      const frot_group *g, int *list, int first, int n, int count) {
   const double *spare = s->data + w->layout.spare;
   int ns = g->n_speeds;
   for (int kept = 0; kept < n - count; kept++) {
     int best = -1;
     double most = 0;
-    for (int i = kept; i < n; i++) {
+    for (int i = kept; i < (kept < first ? kept + 1 : n); i++) {
       const double *x = w->span.basis + ns * i;
       double left = sqrt(frot_dot(x, x, ns)) * (spare[list[i]] != 0 ? 1 : STEADY);
       if (left > most) most = left, best = i;
@@ -58,19 +63,75 @@ static int sort_spare(const frot_model *m, const frot_state *s, const frot_work 
   return 1;
 }
 
-void frot_note_spare(const frot_model *m, frot_state *s, frot_work *w) {
+/* Decide for the rows listed after the `first`, `count` of which are too many. Returns whether
+ * others may be left out than those that were. */
+static int decide(const frot_model *m, frot_state *s, const frot_work *w, const frot_group *g,
+                  int *list, int first, int n, int count) {
+  double *spare = s->data + w->layout.spare;
+  if (count == 0 || !sort_spare(m, s, w, g, list, first, n, count)) return 0;
+  for (int i = first; i < n; i++) spare[list[i]] = i >= n - count;
+  return 1;
+}
+
+/* The same after the evaluation that found so many of them to depend on others. */
+static int decide_anew(const frot_model *m, frot_state *s, const frot_work *w, const frot_group *g,
+                       int *list, int first, int n) {
+  double *spare = s->data + w->layout.spare;
+  int count = 0;
+  for (int i = first; i < n; i++) count += w->reactions.carried[list[i]];
+  int sorted = decide(m, s, w, g, list, first, n, count);
+  for (int i = first; i < n && !sorted; i++) spare[list[i]] = w->reactions.carried[list[i]];
+  return sorted;
+}
+
+/* Rows that are not listed depend on others as the evaluation found. */
+static void note_others(const frot_model *m, frot_state *s, const frot_work *w,
+                        const frot_group *g) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  double *spare = s->data + w->layout.spare;
+  for (int i = 0; i < g->n_contacts; i++) {
+    int c = g->contacts[i], row = m->contacts[c].row_n;
+    if (row >= 0 && (g->general || !frot_is_loaded(m, modes, c)))
+      spare[row] = w->reactions.carried[row];
+  }
+  for (int i = 0; i < g->n_elements; i++) {
+    int row = m->elements[g->elements[i]].row;
+    spare[row] = w->reactions.carried[row];
+  }
+}
+
+int frot_note_spare(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   double *spare = s->data + w->layout.spare;
+  int others = 0;
   s->spare_loops = 0;
   for (int k = 0; k < now->n_groups; k++) {
     const frot_group *g = &m->groups[now->groups[k]];
-    int *list = w->reactions.unknown, n = list_loop_rows(m, s, w, g, list), count = 0;
-    for (int i = 0; i < n; i++) count += w->reactions.carried[list[i]];
-    int sorted = count > 0 && sort_spare(m, s, w, g, list, n, count);
-    for (int i = 0; i < g->n_rows; i++) spare[g->rows[i]] = w->reactions.carried[g->rows[i]];
-    for (int i = 0; i < n && sorted; i++) spare[list[i]] = i >= n - count;
-    s->spare_loops |= sorted;
+    int *list = w->reactions.unknown, n = list_rows(m, s, w, g, 1, NULL, list, 0);
+    s->spare_loops |= decide_anew(m, s, w, g, list, 0, n);
+    int first = list_rows(m, s, w, g, 1, spare, list, 0);
+    decide_anew(m, s, w, g, list, first, list_rows(m, s, w, g, 0, NULL, list, first));
+    note_others(m, s, w, g);
+    for (int i = 0; i < g->n_rows && w->reactions.sign[now->groups[k]] != 0; i++)
+      others |= (spare[g->rows[i]] != 0) != w->reactions.carried[g->rows[i]];
   }
+  return others;
+}
+
+int frot_sort_spare(const frot_model *m, frot_state *s, frot_work *w) {
+  const frot_awake_lists *now = w->awake.now;
+  double *spare = s->data + w->layout.spare;
+  int changed = 0;
+  for (int k = 0; k < now->n_groups && w->span.follow; k++) {
+    const frot_group *g = &m->groups[now->groups[k]];
+    int *list = w->reactions.unknown, count = 0;
+    int first = list_rows(m, s, w, g, 1, spare, list, 0);
+    int n = list_rows(m, s, w, g, 0, NULL, list, first);
+    for (int i = first; i < n; i++) count += w->span.spare[list[i]];
+    decide(m, s, w, g, list, first, n, count);
+    for (int i = first; i < n; i++) changed |= (spare[list[i]] != 0) != w->span.spare[list[i]];
+  }
+  return changed;
 }
 
 void frot_follow_spare(const frot_model *m, frot_work *w, const double *spare) {

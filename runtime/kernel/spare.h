@@ -10,8 +10,13 @@
 #include "work.h"
 
 /* Decide: of the rows that the evaluation at the start of a step found to depend on each other
- * those that are best left out, as many as it found too many. */
-void frot_note_spare(const frot_model *m, frot_state *s, frot_work *w);
+ * those that are best left out, as many as it found too many. Returns whether the sign of a
+ * determinant is that of other rows. */
+int frot_note_spare(const frot_model *m, frot_state *s, frot_work *w);
+
+/* After a step that followed them: of the contacts those that are best left out now, as many.
+ * Returns whether these are others. */
+int frot_sort_spare(const frot_model *m, frot_state *s, frot_work *w);
 
 /* Follow what was decided, spare (n_rows), until frot_see_anew. */
 void frot_follow_spare(const frot_model *m, frot_work *w, const double *spare);

@@ -143,6 +143,7 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   frot_take_nearer(m, s, w);
   s->has_slope = !moved && !s->pending && !s->spare_loops && w->nearer.count == 0;
+  if (s->has_slope && frot_sort_spare(m, s, w)) s->has_slope = 0;
   if (s->has_slope) frot_turn_at_end(m, s, w, s->data + l->slope);
   if (!s->implicit) frot_keep_crossings(m, s, w, a->t, a->h);
   if (s->tied > 0) s->has_slope = 0; /* stages are put onto relations by the inertia at the start */

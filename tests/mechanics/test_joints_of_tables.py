@@ -1,0 +1,76 @@
+"""What slides over the joint of two tables that are flush: nothing meets, and nothing is lost."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+import frot
+
+G = 9.81
+TABLES = """planar model Joint
+  parameter Velocity v = 1 m/s;
+  parameter Real mu = 0;
+  parameter Length x = -0.5 m;
+  parameter Mass m = 2 kg;
+  body one: box(mass = 1 kg, size = (2, 0.5) m);
+  body two: box(mass = 1 kg, size = (2, 0.5) m);
+  body b: box(mass = m, size = (0.4, {high}) m);
+  frame there on ground at (2, 0) m;
+  liaison fix: encastrement(ground, one);
+  liaison fix2: encastrement(there, two);
+  liaison C: appui_faces({first}) with coulomb(mu);
+  liaison D: appui_faces({second}) with coulomb(mu);
+initial
+  b.position = (x, 0.25 m + {high} m/2);
+  b.velocity.x = v;
+  experiment(stop = 3 s, tolerance = 1e-8);
+end Joint;"""
+ORDERS = {
+    "body first": ("b.bottom, one.top", "b.bottom, two.top"),
+    "table first": ("one.top, b.bottom", "two.top, b.bottom"),
+    "mixed": ("one.top, b.bottom", "b.bottom, two.top"),
+}
+
+
+def slid(speed: float, mu: float, time: float) -> float:
+    """How far a block has slid by then, from a speed."""
+    time = min(time, abs(speed) / (mu * G)) if mu > 0 else time
+    return math.copysign(abs(speed) * time - mu * G * time**2 / 2, speed)
+
+
+@pytest.mark.parametrize("order", ORDERS)
+@pytest.mark.parametrize("high", [0.2, 0.05])
+def test_a_block_slides_over_the_joint_of_two_tables(order: str, high: float) -> None:
+    """To and fro, smooth and rough, light and heavy: on a straight way, with all its energy."""
+    first, second = ORDERS[order]
+    model = frot.compile(TABLES.format(high=high, first=first, second=second))
+    for speed, mu, mass in ((1.0, 0.0, 2.0), (4.0, 0.3, 2e-6), (-3.0, 0.2, 2e6), (-0.8, 0.0, 2.0)):
+        start = -0.5 if speed > 0 else 2.4
+        for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
+            result = model.simulate(
+                tolerance=tolerance, parameters={"v": speed, "mu": mu, "x": start, "m": mass}
+            )
+            for t in (0.4, 1.5, 3.0):
+                now = result.at(t)
+                assert now["b.position.x"] == pytest.approx(start + slid(speed, mu, t), abs=1e-11)
+                assert now["b.position.y"] == pytest.approx(0.25 + high / 2, abs=1e-12)
+                assert now["b.angle"] == pytest.approx(0, abs=1e-12)
+                assert now["C.normal_force"] + now["D.normal_force"] == pytest.approx(mass * G)
+            assert result.balance.relative < 1e-11
+
+
+def test_a_block_that_stops_over_the_joint_rests_there() -> None:
+    """Whatever of it stands on which: it comes to rest with its middle 1 cm beside the joint."""
+    model = frot.compile(
+        TABLES.format(high=0.2, first=ORDERS["mixed"][0], second=ORDERS["mixed"][1])
+    )
+    for stands in (0.99, 1.0, 1.01, 1.15, 1.25):
+        speed = math.sqrt(2 * 0.3 * G * (stands + 0.5))
+        for tolerance in (1e-4, 1e-8, 1e-12):
+            result = model.simulate(tolerance=tolerance, parameters={"v": speed, "mu": 0.3})
+            now = result.at(3.0)
+            assert now["b.position.x"] == pytest.approx(stands, abs=1e-11)
+            assert now["b.velocity.x"] == 0
+            assert now["C.normal_force"] + now["D.normal_force"] == pytest.approx(2 * G)
