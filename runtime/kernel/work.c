@@ -364,6 +364,7 @@ void frot_bind_work(const frot_model *model, frot_work *work) {
   frot_measure_islands(model, work);
   frot_measure_rows(model, work);
   frot_list_all(model, work);
+  work->reactions.jammed = work->step.worst = -1; /* no step has failed */
 }
 
 size_t frot_work_size(const frot_model *model) {
