@@ -259,6 +259,19 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count) {
   return lasts;
 }
 
+int frot_share_later(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
+  double *q = w->step.z, *v = q + m->nq;
+  if (frot_group_reactions(m, w, g, w->search.trial, in->resists) || !note_rates(in, g)) return 0;
+  double dt = later_by(in, LATER, frot_time_of_way(in, g, FROT_WAY));
+  int shared = move_on(in, g, dt, q, v) == FROT_OK && evaluate(in, in->t + dt, q, v) == FROT_OK &&
+               frot_share_load(in, chosen, count) == FROT_SHARED;
+  go_back(in, g, q, v);
+  return shared;
+}
+
 int frot_sets_out(const frot_instant *in, const frot_group *g) {
   const frot_model *m = in->m;
   frot_work *w = in->w;

@@ -171,6 +171,32 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
   }
 }
 
+/* Whether anything moves in the group of a contact. */
+static int moves(const frot_instant *in, int contact) {
+  const frot_group *g = &in->m->groups[in->m->contact_group[contact]];
+  for (int k = 0; k < g->n_speeds; k++)
+    if (in->v[g->unknowns[k]] != 0) return 1;
+  return 0;
+}
+
+/* Whether the load of w->search.trial is shared in a way that lasts, where something moves in one
+ * for a little later; then that is remembered. */
+static int share(const frot_instant *in, const int *chosen, int count) {
+  frot_contact_mode *trial = in->w->search.trial, *first = in->w->search.guess;
+  size_t modes = sizeof *trial * (size_t)(in->m->n_contacts + in->m->n_elements);
+  memcpy(first, trial, modes);
+  for (int later = moves(in, chosen[0]); later >= 0; later--) {
+    memcpy(trial, first, modes);
+    int shared = later ? frot_share_later(in, chosen, count)
+                       : frot_share_load(in, chosen, count) == FROT_SHARED;
+    if (!shared || !frot_is_admissible(in, chosen, count) || !frot_lasts(in, chosen, count))
+      continue;
+    remember(in, chosen, count);
+    return 1;
+  }
+  return 0;
+}
+
 /* Whether all that may stay at rest does, its load shared in some way, while what slips goes on:
  * then these modes are remembered. */
 static int can_rest(const frot_instant *in, const int *chosen, int count) {
@@ -196,10 +222,7 @@ static int can_rest(const frot_instant *in, const int *chosen, int count) {
   }
   w->search.corners = FROT_ENOUGH;
   frot_begin_directions(in);
-  if (frot_share_load(in, chosen, count) != FROT_SHARED) return 0;
-  if (!frot_is_admissible(in, chosen, count) || !frot_lasts(in, chosen, count)) return 0;
-  remember(in, chosen, count);
-  return 1;
+  return share(in, chosen, count);
 }
 
 int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count) {

@@ -100,6 +100,9 @@ int frot_sets_out(const frot_instant *in, const frot_group *g);
  * and where there is no share the modes stay (share.c). */
 enum frot_share { FROT_SHARE_UNKNOWN, FROT_NO_SHARE, FROT_SHARED };
 enum frot_share frot_share_load(const frot_instant *in, const int *chosen, int count);
+/* The same for the load and the place a little later, as the modes move on there: a share that
+ * holds now may have an edge that is zero and falls. Returns whether it is shared (lasting.c). */
+int frot_share_later(const frot_instant *in, const int *chosen, int count);
 /* Whether the contacts, all at rest before the instant, stay so with their load shared in another
  * way; then these modes are in w->search.best. */
 int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count);

@@ -74,3 +74,41 @@ def test_a_block_that_stops_over_the_joint_rests_there() -> None:
             assert now["b.position.x"] == pytest.approx(stands, abs=1e-11)
             assert now["b.velocity.x"] == 0
             assert now["C.normal_force"] + now["D.normal_force"] == pytest.approx(2 * G)
+
+
+BRICKS = """planar model Bricks
+  parameter Real mu = 0.4;
+  parameter Force F = 4 N;
+  body one: box(mass = 3 kg, size = (1, 0.3) m);
+  body two: box(mass = 3 kg, size = (1, 0.3) m);
+  body b: box(mass = 1 kg, size = (0.4, 0.2) m);
+  liaison A: appui_faces(one.bottom, ground.line) with coulomb(0.6);
+  liaison B: appui_faces(two.bottom, ground.line) with coulomb(0.6);
+  liaison N: {touch};
+  liaison C: appui_faces(b.bottom, one.top) with coulomb(mu);
+  liaison D: appui_faces(b.bottom, two.top) with coulomb(mu);
+  force pull: on(b, value = (F, 0 N));
+initial
+  one.position = (0, 0.15) m; two.position = (1, 0.15) m;
+  b.position = (-0.2, 0.4) m;
+  experiment(stop = 1.5 s, tolerance = 1e-8);
+end Bricks;"""
+
+
+@pytest.mark.parametrize(
+    "touch",
+    ["appui_faces(one.right, two.left) with coulomb(0.2)", "appui_faces(two.left, one.right)"],
+)
+def test_a_brick_is_pulled_from_one_brick_onto_the_next(touch: str) -> None:
+    """These stand on rough ground and touch: what they carry is shared in ever other ways."""
+    model = frot.compile(BRICKS.format(touch=touch))
+    for force, mu in ((6.0, 0.4), (4.5, 0.4), (3.0, 0.1)):
+        pull = force - mu * G
+        t = 0.9 * min(1.5, math.sqrt(2.4 / pull))
+        for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
+            result = model.simulate(tolerance=tolerance, parameters={"F": force, "mu": mu})
+            now = result.at(t)
+            assert now["b.position.x"] == pytest.approx(pull * t**2 / 2 - 0.2, abs=1e-12)
+            assert now["b.angle"] == pytest.approx(0, abs=1e-12)
+            assert now["one.velocity.x"] == now["two.velocity.x"] == 0
+            assert result.balance.relative < 1e-10
