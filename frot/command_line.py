@@ -1,348 +1,38 @@
-"""The command line: `frot check | simulate | fmu | fmt | explain | cache`."""
+"""The command `frot`, from its first instant to its last: Ctrl-C is told in one line."""
 
 from __future__ import annotations
 
-import argparse
 import sys
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
+from frot.interrupts import Interrupts
+
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from frot.dsl.messages.diagnostics import Diagnostic
-    from frot.model import Model
-    from frot.runtime.result import Result
+    from collections.abc import Sequence
 
-EXIT_ERROR, EXIT_INTERRUPTED = 1, 130
-STAGES = ("tree", "instance", "mechanism", "reduced", "equations", "cost", "c")
+EXIT_INTERRUPTED = 130
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; the exit status is 0, 1 after an error message, 2 after wrong usage."""
+    """Run one command; the exit status is 0, 1 after an error message, 2 after wrong usage.
+
+    130 after Ctrl-C. Without `arguments` it is what the process is for, and Ctrl-C does nothing
+    more once it is done.
+    """
+    import signal
+
+    interrupts = Interrupts()
     try:
-        parser = _parser()
-        options = parser.parse_args(arguments)
-        if options.command is None:
-            parser.print_help()
-            return 0
-        status = int(options.run(options))
-        sys.stdout.flush()
-        return status
+        interrupts.__enter__()
+        from frot.commands import run
+
+        return run(arguments)
     except KeyboardInterrupt as stop:
         print(str(stop) or "interrupted", file=sys.stderr)
         return EXIT_INTERRUPTED
-    except BrokenPipeError:
-        # The reader of our output has gone (`frot ... | head`): nobody is left to be told.
-        sys.stderr.close()
-        return 0
-    except OSError as error:
-        # Files tell their own faults: this is the standard output (a full disk behind it).
-        print(f"error[E0803]: the output cannot be written: {error.strerror}", file=sys.stderr)
-        print("  = help: free some space, or send the output elsewhere", file=sys.stderr)
-        _discard_output()
-        return EXIT_ERROR
-    except Exception as error:
-        from frot.dsl.messages.errors import FrotError
-
-        if not isinstance(error, FrotError):
-            raise
-        _complain(error)
-        return EXIT_ERROR
-
-
-def _discard_output() -> None:
-    """Keep the interpreter from writing what is left once more when it ends."""
-    import os
-
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="frot",
-        description="Models of rigid bodies with liaisons and dry friction: check them, run them "
-        "exactly, export them as FMUs.",
-        epilog="`frot COMMAND --help` tells more. Exit status: 0 done, 1 an error was reported, "
-        "2 wrong usage.",
-    )
-    parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
-    commands = parser.add_subparsers(dest="command", metavar="COMMAND")
-
-    check = _command(commands, "check", "check models; print their mobility and liaisons", _check)
-    _files(check)
-    _model(check)
-    instead = check.add_mutually_exclusive_group()
-    instead.add_argument(
-        "--json", action="store_true", help="print all messages and reports as one JSON document"
-    )
-    instead.add_argument(
-        "--emit",
-        choices=STAGES,
-        help="print what one stage of the compiler makes instead of the report",
-    )
-
-    simulate = _command(commands, "simulate", "run a model", _simulate)
-    _file(simulate)
-    _model(simulate)
-    _settings(simulate)
-    simulate.add_argument("--start", type=_time, metavar="T", help="start time in s")
-    simulate.add_argument("--stop", type=_time, metavar="T", help="stop time in s")
-    simulate.add_argument(
-        "--tolerance", type=_number, metavar="X", help="local error, from 1e-14 to 0.1"
-    )
-    simulate.add_argument(
-        "--interval", type=_time, metavar="T", help="distance of the output times in s"
-    )
-    simulate.add_argument(
-        "-o", "--output", metavar="FILE", help="write all variables to .csv, .json or .npz"
-    )
-    simulate.add_argument("--plot", metavar="FILE", help="draw the motion to .png, .svg or .pdf")
-    simulate.add_argument("--quiet", action="store_true", help="print no summary")
-
-    fmu = _command(commands, "fmu", "export a model as a co-simulation FMU", _fmu)
-    _file(fmu)
-    _model(fmu)
-    fmu.add_argument("-o", "--output", metavar="FILE", help="the .fmu (default: MODEL.fmu)")
-    fmu.add_argument("--fmi", choices=("2.0", "3.0"), default="2.0", help="version (default: 2.0)")
-
-    fmt = _command(commands, "fmt", "bring files into their usual form", _fmt)
-    _files(fmt, "a .frot file, or - for standard input to standard output")
-    fmt.add_argument(
-        "--check", action="store_true", help="write nothing; status 1 and the names of what changes"
-    )
-    fmt.add_argument("--diff", action="store_true", help="write nothing; print what would change")
-
-    explain = _command(commands, "explain", "tell what a message's code means", _explain)
-    explain.add_argument("code", metavar="CODE", nargs="?", help="as E0203; without: all codes")
-
-    cache = _command(commands, "cache", "where compiled models are kept, and how large", _cache)
-    cache.add_argument("--clear", action="store_true", help="remove all that is not in use")
-    cache.add_argument(
-        "--limit", metavar="SIZE", help="keep at most so much from now on, as 200MB or 1.5GB"
-    )
-    return parser
-
-
-def _command(
-    commands: argparse._SubParsersAction[argparse.ArgumentParser],
-    name: str,
-    summary: str,
-    run: object,
-) -> argparse.ArgumentParser:
-    parser = commands.add_parser(name, help=summary, description=f"frot {name}: {summary}.")
-    parser.set_defaults(run=run)
-    return parser
-
-
-def _file(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", metavar="FILE", help="a .frot file")
-
-
-def _files(parser: argparse.ArgumentParser, text: str = "a .frot file") -> None:
-    parser.add_argument("files", metavar="FILE", nargs="+", help=text)
-
-
-def _model(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--model", metavar="NAME", help="which model, if the file holds several")
-
-
-def _settings(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        type=_assignment,
-        metavar="NAME=VALUE",
-        help="set a parameter, in SI or with a unit: --set mu=0.2 --set 'r=120 mm' (repeatable)",
-    )
-    parser.add_argument(
-        "--input",
-        action="append",
-        default=[],
-        type=_assignment,
-        metavar="NAME=VALUE",
-        help="hold an input at a value (repeatable)",
-    )
-
-
-class _Version(argparse.Action):
-    """Prints the version, which is looked up only then."""
-
-    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        from importlib.metadata import version
-
-        print(f"frot {version('frot')}")
-        parser.exit()
-
-
-def _assignment(text: str) -> tuple[str, str]:
-    name, equals, value = text.partition("=")
-    if not equals or not name.strip() or not value.strip():
-        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=VALUE")
-    return name.strip(), value.strip()
-
-
-def _number(text: str) -> float:
-    import math
-
-    try:
-        value = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a number") from None
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a finite number")
-    return value
-
-
-def _time(text: str) -> float:
-    """A time in s, or with its unit: `2`, `2 min`."""
-    if not (text[:1].isdigit() and text[-1:].isalpha()):
-        return _number(text)
-    from frot.dsl import parse_value
-    from frot.dsl.catalogue import TYPES
-
-    try:
-        return float(parse_value(text, TYPES["Time"]))  # type: ignore[arg-type]
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-
-
-def _compiled(options: argparse.Namespace) -> Model:
-    """The model with its program, which is compiled if the cache has none."""
-    from frot.model import load
-    from frot.progress import Busy
-
-    model = load(options.file, options.model)
-    with Busy(f"compiling {model.name}") as busy:
-        try:
-            model.program(busy.tell)
-        except KeyboardInterrupt:
-            words = f"interrupted while compiling '{model.name}'; nothing half made is left"
-            raise KeyboardInterrupt(words) from None
-    if model.warnings:
-        _tell(model.warnings)
-    return model
-
-
-def _check(options: argparse.Namespace) -> int:
-    from frot.stages import check_data, emit_stage, report_file
-
-    if options.json:
-        import json
-
-        checked = [check_data(file, options.model) for file in options.files]
-        print(json.dumps({"files": checked}, indent=2))
-        return EXIT_ERROR if any(c["report"] is None for c in checked) else 0
-
-    def check(file: str) -> int:
-        if options.emit:
-            print(emit_stage(file, options.model, options.emit))
-        else:
-            print(report_file(file, options.model))
-        return 0
-
-    return _each(options.files, check)
-
-
-def _fmt(options: argparse.Namespace) -> int:
-    from frot.format_files import format_file
-
-    def form(file: str) -> int:
-        changes = format_file(file, options.check, options.diff)
-        return EXIT_ERROR if changes and options.check else 0
-
-    return _each(options.files, form)
-
-
-def _explain(options: argparse.Namespace) -> int:
-    from frot.dsl.messages.explaining import explain, list_codes
-
-    print(explain(options.code) if options.code else list_codes())
-    return 0
-
-
-def _cache(options: argparse.Namespace) -> int:
-    from frot.cache_room import tell_cache
-
-    print(tell_cache(options.limit, options.clear))
-    return 0
-
-
-def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
-    """Run a command on each file; the error of one does not keep it from the others."""
-    from frot.dsl.messages.errors import FrotError
-
-    status = 0
-    for file in files:
-        try:
-            status = max(status, run(file))
-        except FrotError as error:
-            _complain(error)
-            status = EXIT_ERROR
-    return status
-
-
-def _simulate(options: argparse.Namespace) -> int:
-    from frot.dsl.files.writing import DATA, PICTURES, check_target
-    from frot.progress import Progress
-    from frot.runtime import Interrupted, SimulationError
-
-    for target, formats in ((options.output, DATA), (options.plot, PICTURES)):
-        if target is not None:
-            check_target(target, formats)
-    model = _compiled(options)
-    program = model.program()
-    result: Result | None
-    failure: SimulationError | Interrupted | None = None
-    with Progress(f"simulating {program.name}") as progress:
-        try:
-            result = model.simulate(
-                stop=options.stop,
-                start=options.start,
-                tolerance=options.tolerance,
-                interval=options.interval,
-                parameters=dict(options.set),
-                inputs=dict(options.input),
-                watch=progress.watch(options.stop or program.experiment.stop),
-            )
-        except (SimulationError, Interrupted) as error:
-            result, failure = error.result, error
-    if result is not None:
-        if options.output is not None:
-            result.save(options.output)
-        if options.plot is not None:
-            from frot.runtime import plot
-
-            plot(result, options.plot)
-        if not options.quiet:
-            print(result.summary())
-            for target in filter(None, (options.output, options.plot)):
-                print(f"  written: {target}")
-    if failure is not None:
-        raise failure
-    return 0
-
-
-def _fmu(options: argparse.Namespace) -> int:
-    model = _compiled(options)
-    target = options.output or f"{model.program().name}.fmu"
-    model.export_fmu(target, options.fmi)
-    print(f"{target}: FMI {options.fmi} co-simulation, checked by FMPy")
-    return 0
-
-
-def _complain(error: Exception) -> None:
-    from frot.dsl.messages.errors import FrotError
-
-    assert isinstance(error, FrotError)
-    _tell(error.diagnostics)
-
-
-def _tell(diagnostics: Sequence[Diagnostic]) -> None:
-    from frot.dsl import render
-
-    colour = sys.stderr.isatty()
-    for diagnostic in diagnostics:
-        print(render(diagnostic, colour), file=sys.stderr)
+    finally:
+        last = signal.SIG_IGN if arguments is None else signal.default_int_handler
+        interrupts.leave(last)
 
 
 if __name__ == "__main__":

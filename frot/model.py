@@ -12,6 +12,7 @@ from frot.dsl.files.import_scan import imported_files
 from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostics import Diagnostic, Log
 from frot.dsl.messages.errors import FrotError, fail
+from frot.interrupts import Interrupts
 
 if TYPE_CHECKING:
     from frot.compiler.product.dae import Dae
@@ -49,7 +50,8 @@ class Model:
             from frot.dsl import compile_text
 
             log = Log()
-            checked_model = compile_text(self._text, log, name=self._file, model=self._chosen)
+            with Interrupts():
+                checked_model = compile_text(self._text, log, name=self._file, model=self._chosen)
             if checked_model is None or log.failed:
                 raise FrotError(log)
             self._checked = checked_model
@@ -66,7 +68,8 @@ class Model:
 
             log = Log()
             told = () if tell is None else (tell,)
-            built = build(self.checked(), self._file, self._key, self._toolchain, log, *told)
+            with Interrupts():
+                built = build(self.checked(), self._file, self._key, self._toolchain, log, *told)
             self._program = self._named(built)
             if self._program is None:
                 raise FrotError(log)
@@ -106,7 +109,8 @@ class Model:
         from frot.compiler import make_report
 
         log = Log()
-        report = make_report(self.checked(), log)
+        with Interrupts():
+            report = make_report(self.checked(), log)
         if report is None:
             raise FrotError(log)
         return report
@@ -116,7 +120,8 @@ class Model:
         from frot.compiler import make_dae
 
         log = Log()
-        dae = make_dae(self.checked(), log)
+        with Interrupts():
+            dae = make_dae(self.checked(), log)
         if dae is None:
             raise FrotError(log)
         return dae
@@ -150,7 +155,8 @@ class Model:
             raise fail("E0806", f"FMI version '{fmi}' is not known", help="choose 2.0 or 3.0")
         target = Path(path)
         try:
-            export(self.program(), target, fmi, partial(compile_library, self._toolchain))
+            with Interrupts():
+                export(self.program(), target, fmi, partial(compile_library, self._toolchain))
         except OSError as error:
             raise fail(
                 "E0803",

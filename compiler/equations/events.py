@@ -24,6 +24,7 @@ from frot.dsl.checked import (
     When,
 )
 from frot.dsl.checked.arrays import component_names
+from frot.dsl.checked.walk import conjuncts, is_instant
 from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 
@@ -99,6 +100,12 @@ class _Gatherer:
 
     def condition(self, expression: Expression) -> ca.SX:
         """What fires for one condition of a `when`."""
+        joined = conjuncts(expression)
+        if len(joined) > 1 and any(is_instant(c) for c in joined):
+            # the others need only hold at that instant
+            return _product(
+                [self.condition(c) if is_instant(c) else self.looking.lower(c) for c in joined]
+            )
         if isinstance(expression, Call) and expression.function == "edge":
             expression = expression.arguments[0]
         if isinstance(expression, Call) and expression.function == "sample":

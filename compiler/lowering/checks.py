@@ -25,6 +25,7 @@ from frot.dsl.checked import (
     Vector,
 )
 from frot.dsl.checked.arrays import component_names, scalars
+from frot.dsl.checked.walk import conjuncts
 from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import REAL, Type
@@ -82,7 +83,8 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
     for whole in model.parameters:
         yield from _bounds(whole)
     for when in model.whens:
-        for condition in (c for conditions, _ in when.branches for c in conditions):
+        written = (c for conditions, _ in when.branches for c in conditions)
+        for condition in (c for one in written for c in conjuncts(one)):
             if isinstance(condition, Call) and condition.function == "sample":
                 yield Check(
                     POSITIVE, "interval of 'sample'", condition.arguments[1], condition.span

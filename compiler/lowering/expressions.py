@@ -304,7 +304,10 @@ class Lowering(SharedWalk[ca.SX]):
             return self._of_jumps(node, arguments[0])
         if name == "friction" and self.friction is not None:
             return self.friction(node, arguments, self.owner)
-        where, remedy = "is the condition of a 'when'", "give a discrete variable its value there"
+        where = "is the condition of a 'when', joined to others by 'and' or in `(a, b)`"
+        remedy = "write `when sample(...) and c then`, and give a discrete variable its value there"
+        if name == "initial":
+            remedy = remedy.replace("sample(...)", "initial()")
         if name == "friction":
             where = "stands in an equation of the section `equation`"
             remedy = "declare `Force f;`, write `f = friction(...);` there, and read f here"

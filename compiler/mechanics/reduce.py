@@ -16,6 +16,7 @@ from frot.compiler.equations.before import Before
 from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.events import Events, gather_events
 from frot.compiler.equations.gather import gather
+from frot.compiler.equations.text_slips import give_slip_modes
 from frot.compiler.equations.text_symbols import (
     TextSymbols,
     scalars,
@@ -163,6 +164,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     equations = gather(mechanism.model.equations, moving, log)
     moving.friction = None
     add_slip_accelerations(equations, text)
+    give_slip_modes(mechanism.model, variables, text, len(mechanism.contacts))
     events = gather_events(
         mechanism.model,
         text,

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains
+from frot.compiler.equations.text_symbols import FrictionElement
 from frot.compiler.lowering.symbols import Rows, Symbols
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Effort
@@ -14,13 +15,14 @@ from frot.compiler.mechanics.liaisons.stated import Reader, unit_of
 from frot.compiler.mechanics.link import Geometry, Link, Reaction, point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere
+from frot.compiler.symbolic.columns import column
 from frot.dsl.catalogue import MODES
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity, Variable
 from frot.dsl.data.classes import dataclass, field
 
 # The motions that friction may hold, and the mode in which it does: the literals count from 1.
 HELD = ("slip", "speed")
-_STICK = MODES.index("stick") + 1
+STICK = MODES.index("stick") + 1
 # Operations within which two moments of inertia are seen to be the same expression.
 _DEEP = 8
 
@@ -34,6 +36,7 @@ class Variables:
     liaisons that one of faces stands for, `values` are those of the text, `frictions` is what
     laws of the user give on the body, `modes` those that are read: numbers of contacts, symbols;
     the first of them are `felt`, for something follows them, the others are only looked at.
+    `slips` are variables of the text that friction may hold, and what they are when it does.
     """
 
     symbols: Symbols
@@ -46,8 +49,9 @@ class Variables:
     corners: Mapping[Liaison, tuple[Liaison, ...]]
     values: Mapping[Variable, ca.SX]
     frictions: dict[Liaison, ca.SX] = field(default_factory=dict)
-    modes: dict[Liaison, tuple[int, ca.SX]] = field(default_factory=dict)
-    felt: list[Liaison] = field(default_factory=list)
+    modes: dict[Liaison | FrictionElement, tuple[int, ca.SX]] = field(default_factory=dict)
+    felt: list[Liaison | FrictionElement] = field(default_factory=list)
+    slips: list[tuple[ca.SX, ca.SX]] = field(default_factory=list)
     _inertias: dict[Body, ca.SX] = field(default_factory=dict, repr=False)
 
     def quantity(self, node: Quantity) -> ca.SX:
@@ -62,12 +66,19 @@ class Variables:
             return ca.SX(0)
         assert isinstance(node.owner, Liaison)
         owner = self.corners.get(node.owner, (node.owner,))[0]
-        return self.of_liaison(owner, "mode") == _STICK if owner in self.modes else ca.SX(0)
+        return self.of_liaison(owner, "mode") == STICK if owner in self.modes else ca.SX(0)
 
     def at_rest(self, node: Quantity) -> ca.SX:
         """As `quantity`, but a motion that friction holds is zero to the last bit."""
         held, value = self.holds(node), self.quantity(node)
         return value if held.is_zero() else ca.if_else(held, 0, value)
+
+    def slips_at_rest(self, value: ca.SX) -> ca.SX:
+        """The value with slips of the text that friction holds at zero, to the last bit."""
+        if not self.slips:
+            return value
+        moving, shown = map(column, zip(*self.slips, strict=True))
+        return ca.substitute(value, moving, shown)
 
     def rate(self, value: ca.SX) -> ca.SX:
         """d/dt of a function of time, coordinates, speeds and variables of the text."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 import casadi as ca
+from frot.compiler.equations.text_slips import slip_names
 from frot.compiler.lowering.groups import Group, Grouping
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.mechanics.elements import Bound, Element
+from frot.compiler.mechanics.elements import Bound
 from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import place as _place
 from frot.compiler.product.c_tables import record as _record
@@ -57,9 +58,9 @@ def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
     reduced = lowered.reduced
     sliding = {e.contact: k for k, e in enumerate(lowered.grouping.elements) if not e.rolling}
 
-    def one(name: str, span: Span | None, *fields: int) -> str:
+    def one(name: str, span: Span | None, power: int, *fields: int) -> str:
         row, kept, slides, mode, kinematic, *rest = fields
-        told = places.get(f"{name}.power", -1), places[f"{name}.mode"] if mode else -1
+        told = power, places[f"{name}.mode"] if mode else -1
         what = row, kept, slides, *told, kinematic, *rest
         return _record(_text(name), _text(_place(span)), *what)
 
@@ -72,21 +73,26 @@ def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
         follows = blocks.get(link.liaison, -1)
         modes = row, int(link.reduced), slides, int(link.first)
         told = *modes, int(link.kinematic), follows, int(link.turns)
-        yield one(link.liaison.name, link.liaison.span, *told)
+        power = places.get(f"{link.liaison.name}.power", -1)
+        yield one(link.liaison.name, link.liaison.span, power, *told)
     for k, element in enumerate(lowered.system.elements, len(links)):
         told = (-1, 1, sliding.get(k, -1), 1, 0, -1, 0)
-        yield one(element.name, element.span, *told)
+        yield one(element.name, element.span, -1, *told)
 
 
 def _elements(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
     links = lowered.reduced.mechanism.contacts
-    names = [*(x.liaison.name for x in links), *(x.name for x in lowered.system.elements)]
+    slips = slip_names(lowered.reduced.text)
+    motions = [
+        *((f"{x.liaison.name}.slip", f"{x.liaison.name}.speed") for x in links),
+        *((slips.get(x.name, ""), "") for x in lowered.system.elements),
+    ]
     for e in lowered.grouping.elements:
         yield _record(
             *(e.contact, e.bound.value, e.row),
             _record(*(*e.bounded_by, -1, -1)[:2]),
             *(int(e.rolling), int(e.fixed), int(e.row in lowered.grouping.prescribed)),
-            _record(*_shown(e, names[e.contact], places)),
+            _record(*(-1 if e.rolling else places.get(x, -1) for x in motions[e.contact])),
         )
 
 
@@ -150,13 +156,6 @@ def _whereabouts(lowered: Lowered) -> dict[str, Sequence[int]]:
 
 def _symbols(values: ca.SX) -> list[int]:
     return [x.element_hash() for x in ca.vertsplit(values)] if values.numel() else []
-
-
-def _shown(element: Element, name: str, places: Mapping[str, int]) -> tuple[int, int]:
-    """The variables that are the motion of an element of the liaison `name`."""
-    if element.rolling or element.bound is Bound.VALUE:
-        return -1, -1
-    return places.get(f"{name}.slip", -1), places.get(f"{name}.speed", -1)
 
 
 def _places(values: dict[int, int]) -> list[int]:

@@ -12,6 +12,7 @@ from frot.dsl.checked.evaluation import Value, evaluate
 from frot.dsl.checked.order import in_order
 from frot.dsl.checked.walk import nodes
 from frot.dsl.quantities.dimensions import Type
+from frot.dsl.quantities.spelling import corrected
 from frot.dsl.quantities.turns import factor_between, rate_of_kind, rate_of_unit
 from frot.dsl.quantities.units import Unit, UnknownUnit, parse_unit
 
@@ -89,7 +90,8 @@ def _unit(text: str, kind: Type) -> Unit:
     try:
         unit = parse_unit(text)
     except UnknownUnit as error:
-        near = f"; did you mean {error.near!r}?" if error.near else ""
+        meant = corrected(text) or error.near
+        near = f"; did you mean {meant!r}?" if meant else ""
         raise ValueError(f"{error}{near}") from None
     if unit.dimension != kind.dimension:
         found = describe(Type(dimension=unit.dimension))

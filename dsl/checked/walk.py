@@ -53,6 +53,18 @@ def nodes(
         pending.extend(reversed(inside(node)))
 
 
+def conjuncts(condition: checked.Expression) -> tuple[checked.Expression, ...]:
+    """The conditions that `and` joins, one where it joins none."""
+    if isinstance(condition, checked.Binary) and condition.op == "and":
+        return (*conjuncts(condition.left), *conjuncts(condition.right))
+    return (condition,)
+
+
+def is_instant(condition: checked.Expression) -> bool:
+    """Whether a condition holds at instants only: `sample(...)`, `initial()`."""
+    return isinstance(condition, checked.Call) and condition.function in ("sample", "initial")
+
+
 def height(root: checked.Expression, known: dict[int, tuple[checked.Expression, int]]) -> int:
     """The number of levels of an expression; `known` keeps those of what was met."""
     pending = [root]

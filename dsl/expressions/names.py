@@ -11,6 +11,7 @@ from frot.dsl.checked.arrays import element
 from frot.dsl.checked.describe import describe
 from frot.dsl.expressions.expression import value_of
 from frot.dsl.expressions.structure import span_of, whole_number
+from frot.dsl.messages.source import Span
 from frot.dsl.names.constants import constant_around
 from frot.dsl.names.entities import Array, Refused
 from frot.dsl.names.members import member
@@ -18,10 +19,13 @@ from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import Thing, as_thing, gathered, kind_of
 from frot.dsl.quantities.dimensions import REAL
+from frot.dsl.quantities.spelling import corrected
 from frot.dsl.quantities.units import is_unit
 from frot.dsl.text import tree
 
 _WORDS = ("true", "false", "pi", "time", "ground")
+_PARENTHESES = re.compile(r"([\d.]+[ \t]+)([\w.^%°-]+/\([\w./^%°-]+\))")
+_POWER = re.compile(r"\^-?\d+")
 _MODES = tuple(f"Mode.{name}" for name in MODES)
 
 
@@ -77,7 +81,7 @@ def _built_in(node: tree.Name, scope: Scope) -> Thing | None:
     constant = constant_around(node, scope)
     if constant is not None:
         return constant
-    if scope.knows(node.text):
+    if scope.knows(node.text) and not _unit_in_parentheses(node, scope):
         scope.log.report(
             "E0201",
             f"unknown name {node.text!r}",
@@ -88,15 +92,30 @@ def _built_in(node: tree.Name, scope: Scope) -> Thing | None:
     return None
 
 
+def _unit_in_parentheses(node: tree.Name, scope: Scope) -> bool:
+    """Whether a name is part of a unit with parentheses, `3 N.m/(rad/s)`; this is told once."""
+    text, start = node.span.source.text, node.span.start
+    for found in _PARENTHESES.finditer(text, max(start - 60, 0), start + 60):
+        meant = corrected(found[2])
+        if found.start(2) < start < found.end() and meant:
+            help_text = f"write '{found[1]}{meant}'"
+            span = Span(node.span.source, found.start(2), found.end())
+            scope.log.report("E0302", "a unit has no parentheses", span, help=help_text)
+            return True
+    return False
+
+
 def _unit_apart(node: tree.Name) -> str:
     """The remedy where a unit is written as a product or with blanks: `2 N*m`, `3 m / s`."""
     text, start = node.span.source.text, node.span.start
     before = re.search(r"([\d.]+)[ \t]+(\w+)([ \t]*[*/][ \t]*)$", text[max(start - 60, 0) : start])
     if before is None or not is_unit(before[2]) or not is_unit(node.text):
         return ""
+    power = _POWER.match(text, node.span.end)
+    last = node.text + (power[0] if power else "")
     if "/" in before[3]:
-        return f"a unit has no blanks: '{before[1]} {before[2]}/{node.text}'"
-    return f"in a unit a product is a point: '{before[1]} {before[2]}.{node.text}'"
+        return f"a unit has no blanks: '{before[1]} {before[2]}/{last}'"
+    return f"in a unit a product is a point: '{before[1]} {before[2]}.{last}'"
 
 
 def place(node: tree.Expression, scope: Scope) -> checked.Place | checked.SurfacePlace | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from fractions import Fraction
 
@@ -16,6 +17,7 @@ from frot.dsl.expressions.seconds import seconds_missing
 from frot.dsl.names.build import Rule
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
+from frot.dsl.quantities.spelling import corrected
 from frot.dsl.quantities.units import parse_unit
 from frot.dsl.text import tree
 
@@ -106,7 +108,7 @@ def _infix_type(
         word = {"+": "add", "-": "subtract"}.get(op, "compare")
         if a.dimension != b.dimension or a.shape != b.shape:
             units = written_unit(left), written_unit(right)
-            remedy = _unit_missing(node, a, b)
+            remedy = _power_meant(node) or _unit_missing(node, a, b)
             remedy = remedy or seconds_missing(a, right, left) or seconds_missing(b, left, right)
             return _refuse(node, f"cannot {word} these", a, b, scope, "E0301", units, remedy)
         if word == "compare":
@@ -171,6 +173,21 @@ def _refuse(
     operands = f"{left} {node.op} {right}"
     scope.log.report(code, f"{message}: {operands}", node.span, caret=operands, help=remedy)
     return None
+
+
+def _power_meant(node: tree.Infix) -> str:
+    """The remedy where a power of a unit is written without its sign: `3 m.s-1`."""
+    last = node.left
+    while isinstance(last, tree.Infix | tree.Prefix):
+        last = last.right if isinstance(last, tree.Infix) else last.operand
+    if not isinstance(last, tree.Number | tree.Tuple) or not last.unit or last.unit_span is None:
+        return ""
+    end = last.unit_span.end
+    power = re.compile(r"-\d+").match(node.span.source.text, end)
+    if power is None or node.op_span.start != end or not (meant := corrected(last.unit + power[0])):
+        return ""
+    value = node.span.source.text[last.span.start : last.unit_span.start]
+    return f"in a unit a power is written with '^': '{value}{meant}'"
 
 
 def _unit_missing(node: tree.Infix, a: Type, b: Type) -> str:

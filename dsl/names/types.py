@@ -12,6 +12,7 @@ from frot.dsl.names.modifiers import Modifier, merge, read_modifiers
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import Enumeration, Type
+from frot.dsl.quantities.spelling import corrected
 from frot.dsl.quantities.turns import factor_between, rate_of_kind, rate_of_unit
 from frot.dsl.quantities.units import Unit, UnknownUnit, parse_unit
 from frot.dsl.text import tree
@@ -236,7 +237,8 @@ def unit_of(text: str, span: Span, scope: Scope) -> Unit | None:
     try:
         return parse_unit(text)
     except UnknownUnit as error:
-        help_text = f"did you mean {error.near!r}?" if error.near else ""
+        near = corrected(text) or error.near
+        help_text = f"did you mean {near!r}?" if near else ""
         if "/" in text and not help_text and str(error).startswith("unknown"):
             help_text = "to divide by a variable leave spaces: 'a / b'"
         scope.log.report("E0302", str(error), span, help=help_text)

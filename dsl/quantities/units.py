@@ -138,6 +138,7 @@ _MISNAMED: Mapping[str, str] = {
     "degrees": "deg",
     "degré": "deg",
     "degrés": "deg",
+    "º": "°",
     "radian": "rad",
     "radians": "rad",
     "rads": "rad",

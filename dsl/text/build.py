@@ -9,7 +9,7 @@ from typing import Any
 from frot.dsl.messages.diagnostics import Label, Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text import tree
-from frot.dsl.text.build_expressions import Place, TooDeep, arguments, expression, string
+from frot.dsl.text.build_expressions import Dropped, Place, arguments, expression, string
 
 _KINDS = {"joint": "liaison", "loi": "law"}
 
@@ -27,7 +27,7 @@ def _elements(nodes: Iterable[Any], at: Place, dropped: set[str]) -> tuple[tree.
     for node in nodes:
         try:
             found.append(_ELEMENTS[node.data](node, at, dropped))
-        except TooDeep:
+        except Dropped:
             dropped.update(re.findall(r"[^\W\d]\w*", at.span(node).text))
     return tuple(found)
 

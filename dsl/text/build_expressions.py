@@ -12,6 +12,7 @@ from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text import tree
 from frot.dsl.text.syntax_messages import too_deep
+from frot.dsl.text.unit_messages import refuse_power
 from frot.dsl.text.walk import children
 
 # Parentheses, calls and `if`s in one another, which the passes follow by recursion, and levels of
@@ -40,8 +41,8 @@ _LITERAL = re.compile(r"(?P<number>[0-9.]+(?:[eE][+-]?[0-9]+)?)(?P<space>[ \t]*)
 _ESCAPES = {"n": "\n", "t": "\t"}
 
 
-class TooDeep(Exception):
-    """An expression nested too deeply; it was told, its statement is dropped."""
+class Dropped(Exception):
+    """An expression that cannot be; it was told, its statement is dropped."""
 
 
 @dataclass(slots=True)
@@ -62,18 +63,18 @@ class Place:
 
 
 def expression(node: Any, at: Place) -> tree.Expression:
-    """The expression of lark's node. Raises TooDeep after reporting it."""
+    """The expression of lark's node. Raises Dropped after reporting it."""
     result = _expression(node, at, 0)
     if height(result) > HIGHEST:
         too_deep(at.log, at.span(node), HIGHEST)
-        raise TooDeep
+        raise Dropped
     return result
 
 
 def _expression(node: Any, at: Place, depth: int) -> tree.Expression:
     if depth > NESTED:
         too_deep(at.log, at.span(node), NESTED)
-        raise TooDeep
+        raise Dropped
     if node.data == "flat":
         return _read_operators(node, at, depth)
     return _BUILDERS[node.data](node, at, depth + 1)
@@ -205,6 +206,8 @@ def _read_operators(node: Any, at: Place, depth: int) -> tree.Expression:
             op = str(child.children[0])
             binding = _BINDING[op]
             reduce_to(binding + 1 if op == "^" else binding)
+            if op == "^" and refuse_power(at.log, values[-1], at.span(child)):
+                raise Dropped
             pending.append((binding, op, at.span(child), True))
             after_operator = True
         else:

@@ -18,6 +18,7 @@ from frot.dsl.text import syntax_messages as messages
 from frot.dsl.text.build_expressions import NESTED
 from frot.dsl.text.lex import END, JUNK
 from frot.dsl.text.tree import Tree
+from frot.dsl.text.unit_messages import broken_unit
 
 if TYPE_CHECKING:
     from lark.parsers.lalr_parser_state import ParserState
@@ -262,9 +263,11 @@ class _Reader:
             for kind in self.states[self.state.state_stack[-1]]
             if kind.isupper() and self._fits(kind)
         }
-        messages.unexpected(
-            self.log, self.source, self.previous, token, expected, self.statement, bool(self.kept)
-        )
+        log, source, previous = self.log, self.source, self.previous
+        if not broken_unit(log, source, previous, token):
+            messages.unexpected(
+                log, source, previous, token, expected, self.statement, bool(self.kept)
+            )
         self.reported += 1
 
     def _in_header(self) -> bool:

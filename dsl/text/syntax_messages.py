@@ -85,7 +85,7 @@ _FOREIGN = {
     "\\": "a quotient is written 'a/b'",
     "@": "a product of matrices is written 'A*B'",
     "~": "a condition is negated by 'not'",
-    "°": "leave a space between a number and its unit: '20 °', or write '20 deg'",
+    **dict.fromkeys("°˚", "leave a space between a number and its unit: '20 °', or write '20 deg'"),
     "$": "names have letters, digits and '_'",
 }
 # Words of Modelica that have no place here, and how the same is said.

@@ -64,6 +64,46 @@ def test_a_slip_in_the_signs_is_told(slip: str, words: str, remedy: str) -> None
 
 
 @pytest.mark.parametrize(
+    ("slip", "words", "remedy"),
+    [
+        ("a = 3 m.s-1;", "cannot subtract", "a power is written with '^': '3 m.s^-1'"),
+        ("b = 2*3 rad.s-1;", "cannot subtract", "'3 rad.s^-1'"),
+        ("b = dot((3, 4) m.s-1, (1, 2));", "cannot subtract", "'(3, 4) m.s^-1'"),
+        ("a = 3 kg.m2;", "unknown unit 'm2'", "'kg.m^2'"),
+        ("a = 3 N.m/(rad/s);", "no parentheses", "write '3 N.m.s/rad'"),
+        ("a = 3 kg*m^2;", "unknown name 'm'", "'3 kg.m^2'"),
+        ("a = 3 kg m^2;", "no blanks", "write 'kg.m^2'"),
+        ("a = 3 m s-1;", "no blanks", "write 'm.s^-1'"),
+        ("a = 3 m/s⁻²;", "no raised signs", "write 'm/s^-2'"),
+        (
+            "a = 3 m.s^(-1);",
+            "without '+' or parentheses",
+            "'3 m.s^-1' for the unit, or '(3 m.s)^-1'",
+        ),
+        ("a = 3 m^+2;", "without '+' or parentheses", "'3 m^2' for the unit, or '(3 m)^2'"),
+        ("a = 3 m^(1/2);", "without '+' or parentheses", "write '(3 m)^...'"),
+        ("a = 3 [m/s];", "no brackets", "write 'm/s'"),
+        ("b = 3 º;", "unknown unit 'º'", "'°'"),
+        ("b = 3˚;", "'˚'", "'20 °'"),
+    ],
+)
+def test_a_unit_of_another_notation_is_told(slip: str, words: str, remedy: str) -> None:
+    _, message, help_text = only(MODEL.format(slip))
+    assert words in message
+    assert remedy in help_text
+
+
+@pytest.mark.parametrize("unit", ["m.s-1", "m·s⁻¹", "m*s^-1", "m.s^(-1)", "m/(s)"])
+def test_a_unit_of_a_declaration_is_told_whole(unit: str) -> None:
+    text = f'model M\n Real v(unit = "{unit}");\nequation\n v = 3;\nend M;\n'
+    assert only(text)[2] == f"did you mean {'m/s' if '/' in unit else 'm.s^-1'!r}?"
+
+
+def test_the_power_of_a_value_with_a_unit_stands_apart() -> None:
+    assert told(MODEL.format("b = (3 m)^2/(9 m^2) + (3 m ^ 2)/(9 m^2);")) == []
+
+
+@pytest.mark.parametrize(
     ("written", "word", "remedy"),
     [
         ("discrete Real k(start = 0);", "discrete", "between"),

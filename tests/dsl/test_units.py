@@ -2,11 +2,13 @@
 
 import contextlib
 import math
+import re
 
 import pytest
-from frot.dsl import parse_value
+from frot.dsl import Log, compile_text, format_text, parse_value
 from frot.dsl.catalogue import TYPES
 from frot.dsl.quantities.dimensions import ONE, Type, dimension
+from frot.dsl.quantities.spelling import corrected
 from frot.dsl.quantities.units import PLAIN, PREFIXED, PREFIXES, UnknownUnit, parse_unit
 from hypothesis import given
 from hypothesis import strategies as st
@@ -39,6 +41,64 @@ def test_known_units(text: str, factor: float, dim: object) -> None:
     unit = parse_unit(text)
     assert unit.factor == pytest.approx(factor, rel=1e-15)
     assert unit.dimension == dim
+
+
+MICRO = ("\u00b5", "\u03bc", "u")
+
+
+@pytest.mark.parametrize("micro", MICRO)
+def test_micro_has_two_characters(micro: str) -> None:
+    """The micro sign, which keyboards have, and the Greek letter, which NFKC makes of it."""
+    text = (
+        "model M\n"
+        f" parameter Length a = 3 {micro}m;\n"
+        f" parameter Real b[2] = (3 {micro}m, 4 {micro}s.m/s)/(1 m);\n"
+        f' Length c(unit = "{micro}m");\n Frequency f = 2 {micro}Hz;\n'
+        f"equation\n c = a + (b[1] + b[2])*(1 {micro}m);\nend M;\n"
+    )
+    log = Log()
+    model = compile_text(text, log)
+    assert model is not None and not log.failed, list(log)
+    assert parse_value(f"12 {micro}m", TYPES["Length"]) == pytest.approx(12e-6, rel=1e-15)
+    assert f"3 {micro}m" in str(format_text(text))
+
+
+@pytest.mark.parametrize("text", ["20 deg", "20 °"])
+def test_degrees(text: str) -> None:
+    assert parse_value(text, TYPES["Angle"]) == pytest.approx(math.pi / 9, rel=1e-15)
+
+
+@pytest.mark.parametrize("unit", ["m.s^-1", "m/s"])
+def test_negative_powers(unit: str) -> None:
+    assert parse_value(f"3 {unit}", TYPES["Velocity"]) == 3
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("m.s-1", "m.s^-1"),
+        ("m.s−1", "m.s^-1"),
+        ("m·s⁻¹", "m.s^-1"),
+        ("kg.m2", "kg.m^2"),
+        ("kg*m**2", "kg.m^2"),
+        ("N.m/(rad/s)", "N.m.s/rad"),
+        ("J/(kg.K)", "J/kg/K"),
+        ("W/(m^2.K)", "W/m^2/K"),
+        ("m/s", ""),
+        ("furlong-1", ""),
+        ("m/(s", ""),
+    ],
+)
+def test_units_of_other_notations(written: str, meant: str) -> None:
+    assert corrected(written) == meant
+    if meant:
+        with pytest.raises(ValueError, match=re.escape(f"did you mean {meant!r}?")):
+            parse_value(f"3 {written}", TYPES["Real"])
+
+
+@given(st.text(alphabet="msNkg./^()-2−·*³", max_size=10))
+def test_what_is_meant_is_a_unit(text: str) -> None:
+    assert corrected(text) == "" or parse_unit(corrected(text)).factor > 0
 
 
 @given(st.sampled_from(sorted(PREFIXES)), st.sampled_from(sorted(PREFIXED)))

@@ -61,6 +61,72 @@ def test_samples_come_at_their_instants() -> None:
             assert held == pytest.approx(expected, abs=1e-12)
 
 
+def counted(condition: str, before: str = "") -> frot.Model:
+    """A model that counts how often a condition comes to hold while x = t/(1 s)."""
+    return frot.compile(f"""
+model Counted
+  Real x; Boolean on(start = false);
+  Integer n(start = 0);
+initial
+  x = 0;
+equation
+  der(x) = 1/(1 s);
+  {before or "on = x > 0.9;"}
+  when {condition} then
+    n = pre(n) + 1;
+  end when;
+  experiment(stop = 3.1 s);
+end Counted;
+""")
+
+
+TOGGLED = "when sample(0 s, 1 s) then on = not pre(on); end when;"
+
+
+@pytest.mark.parametrize(
+    ("condition", "before", "count"),
+    [
+        ("sample(0.25 s, 0.5 s) and x > 1", "", 4),
+        ("x > 1 and sample(0.25 s, 0.5 s) and x < 2", "", 2),
+        ("sample(0.25 s, 0.5 s) and on", "", 4),
+        ("sample(0.25 s, 0.5 s) and not (x > 1)", "", 2),
+        ("sample(0.25 s, 0.5 s) and pre(n) < 3", "", 3),
+        ("(sample(0.25 s, 0.5 s) and x > 1, x > 0.1)", "", 5),
+        # Both clocks strike together at 0, 1.5 and 3 s.
+        ("sample(0 s, 0.5 s) and sample(0 s, 0.75 s)", "", 3),
+        # On in [0, 1) and [2, 3): what another `when` sets in the tick counts.
+        ("sample(0 s, 0.5 s) and on", TOGGLED, 4),
+        ("initial() and x < 1", "", 1),
+        ("initial() and x > 1", "", 0),
+    ],
+)
+def test_a_sample_counts_where_other_conditions_hold(
+    condition: str, before: str, count: int
+) -> None:
+    assert counted(condition, before).simulate()["n"][-1] == count
+
+
+@pytest.mark.parametrize("condition", ["sample(0 s, 1 s) or x > 1", "not sample(0 s, 1 s)"])
+def test_a_sample_that_is_not_joined_by_and_is_refused(condition: str) -> None:
+    with pytest.raises(
+        frot.FrotError, match=r"E0304.*'and'[^§]*`when sample\(\.\.\.\) and c then`"
+    ):
+        counted(condition).program()
+
+
+def test_a_condition_beside_a_sample_reads_what_was_before_by_name() -> None:
+    with pytest.raises(frot.FrotError, match=r"E0609[^§]*'pre\(\.\.\.\)'"):
+        counted("sample(0 s, 1 s) and n < 3").program()
+
+
+def test_the_interval_of_a_sample_beside_a_condition_is_checked() -> None:
+    text = "parameter Time h = 1 s;\n  Real x;"
+    model = frot.compile(SAMPLED.replace("Real x;", text).replace("0.5 s)", "h) and x > 1"))
+    assert model.simulate(parameters={"h": 0.5})["n"][-1] == 4
+    with pytest.raises(frot.FrotError, match="interval of 'sample'"):
+        model.simulate(parameters={"h": 0.0})
+
+
 def test_terminate_ends_a_run_well() -> None:
     text = """
 model Ends

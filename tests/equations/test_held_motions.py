@@ -75,3 +75,103 @@ def test_an_output_of_what_is_held_leaves_the_motion_alone(model: frot.Model) ->
     assert [e.time for e in bare.events] == [e.time for e in result.events]
     for name in ("d.position.x", "bar.angle", "c.slip"):
         assert (bare[name] == result[name]).all()
+
+
+SHAFTS = """
+model Shafts "Two shafts in a clutch, one of which hangs on a spring and a brake"
+  import Rotational.*;
+  model Motor "It rubs in itself; its power is told by somebody else"
+    RotationalFlange a;
+    AngularVelocity back "speed of the frame relative to the shaft";
+    Power power;
+  equation
+    back = -der(a.angle);
+    a.torque = friction(back, 3 N.m);
+    power = 7 W*(2 + sin(3*time/(1 s)));
+  end Motor;
+  Inertia first(J = 0.37 kg.m^2), middle(J = 0.11 kg.m^2), last(J = 0.7 kg.m^2);
+  Spring shaft(k = 100 N.m);
+  Clutch clutch(mu = 0.3, radius = 130 mm);
+  TorqueSource load;
+  Motor motor;
+  output AngularVelocity twice = 2*clutch.slip;
+  output Power lost = clutch.friction_torque*clutch.slip;
+  output Real sense = if clutch.slip > 0 rad/s then 1 elseif clutch.slip < 0 rad/s then -1 else 0;
+  output AngularVelocity turn = motor.back;
+initial
+  first.angle = 0 rad; first.speed = 10 rad/s;
+  middle.angle = 0 rad; middle.speed = 3 rad/s;
+  last.angle = 0 rad; last.speed = 7 rad/s;
+equation
+  clutch.force = 50 N;
+  load.torque = 0.1 N.m*sin(3*time/(1 s));
+  connect(first.b, shaft.a);
+  connect(shaft.b, middle.a);
+  connect(middle.b, clutch.a);
+  connect(clutch.b, last.a);
+  connect(last.b, load.a);
+  connect(first.a, motor.a);
+  experiment(stop = 4 s, interval = 1 ms);
+end Shafts;
+"""
+
+
+def spans(result: frot.Result, part: str) -> np.ndarray:
+    """Where friction holds in a part, from its events; an instant on either side is left out."""
+    held, begun = np.zeros(len(result.time), dtype=bool), None
+    for event in (e for e in result.events if e.liaison == part):
+        if event.kind == "stick":
+            begun = event.time
+        elif begun is not None:
+            held |= (result.time > begun) & (result.time < event.time)
+            begun = None
+    return held if begun is None else held | (result.time > begun)
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-8, 1e-12])
+def test_a_slip_of_the_text_that_is_held_is_zero_to_the_last_bit(tolerance: float) -> None:
+    result = frot.compile(SHAFTS).simulate(tolerance=tolerance)
+    for part, names in {
+        "clutch": ("clutch.slip", "twice", "lost", "sense"),
+        "motor": ("motor.back", "turn"),
+    }.items():
+        held = spans(result, part)
+        assert 100 < held.sum() < len(held) - 100, part
+        for name in names:
+            assert not result[name][held].any(), name
+            assert result[name][~held].any(), name
+    # What turns goes on turning, and a power that is not that of the friction stays what it is.
+    assert result["middle.speed"][spans(result, "clutch")].any()
+    expected = 7 * (2 + np.sin(3 * result.time))
+    assert result["motor.power"] == pytest.approx(expected, rel=1e-14)
+
+
+def test_outputs_that_read_a_slip_of_the_text_leave_the_motion_alone() -> None:
+    without = "\n".join(x for x in SHAFTS.splitlines() if not x.startswith("  output"))
+    one, other = (frot.compile(text).simulate() for text in (SHAFTS, without))
+    assert [(e.time, e.text) for e in one.events] == [(e.time, e.text) for e in other.events]
+    for name in ("first.angle", "last.speed", "clutch.slip", "clutch.friction_torque"):
+        assert (one[name] == other[name]).all(), name
+
+
+def test_a_slide_that_is_held_shows_no_slip() -> None:
+    result = frot.compile("""
+model Sledges
+  import Translational.*;
+  Mass a(m = 0.3 kg), b(m = 0.7 kg);
+  Slide between(mu = 0.4);
+  ForceSource push;
+initial
+  a.position = 0 m; a.speed = 1.7 m/s; b.position = 0 m; b.speed = 0.3 m/s;
+equation
+  between.normal_force = 10 N;
+  push.force = 1 N*sin(5*time/(1 s));
+  connect(a.b, between.a);
+  connect(between.b, b.a);
+  connect(b.b, push.a);
+  experiment(stop = 3 s);
+end Sledges;
+""").simulate()
+    held = spans(result, "between")
+    assert held.sum() > 200 and not result["between.slip"][held].any()
+    assert result["a.speed"][held].all()

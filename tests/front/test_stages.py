@@ -14,7 +14,7 @@ from frot.compiler.mechanics.mechanize import mechanize
 from frot.dsl import Log
 
 import frot
-from frot.command_line import STAGES
+from frot.commands import STAGES
 
 ROOMS = Path(frot.__file__).parents[1]
 SHOWN = {
