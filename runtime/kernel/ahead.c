@@ -124,8 +124,8 @@ static int look(const frot_instant *in, const frot_group *g, double dt, double s
     v[speed] += dt * w->core.a[speed];
   }
   frot_displace(m, g, q, w->relations.step, dt);
-  int moved,
-      status = frot_project(m, in->s, w, in->t + dt, q, v, d, w->search.guess_ahead, NULL, &moved);
+  int moved, status = frot_project(m, in->s, w, in->t + dt, q, v, d, w->search.guess_ahead, NULL,
+                                   NULL, &moved);
   if (status == FROT_OK) status = frot_kinematics(m, in->s, w, in->t + dt, q, v, d);
   for (int i = 0; i < g->n_elements && status == FROT_OK; i++) {
     int e = g->elements[i], row = m->elements[e].row;

@@ -156,7 +156,7 @@ static int move_on(const frot_instant *in, const frot_group *own, double dt, dou
   }
   frot_drift(m, q, w->search.rates, dt);
   return frot_project(m, in->s, w, in->t + dt, q, v, in->s->data + in->l.d, w->search.trial, NULL,
-                      &moved);
+                      NULL, &moved);
 }
 
 /* Whether nothing that was zero has fallen below in the meantime; *slow is 1 + what has fallen

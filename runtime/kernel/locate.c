@@ -45,8 +45,8 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, double t) {
   int moved;
   if (s->weak && w->step.near[DP_STAGES]) return FROT_OK; /* no place there is better: crossing.h */
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
-  int status =
-      frot_project(m, s, w, t, w->step.z1, w->step.z1 + m->nq, s->data + l->d, modes, NULL, &moved);
+  int status = frot_project(m, s, w, t, w->step.z1, w->step.z1 + m->nq, s->data + l->d, modes, NULL,
+                            s->data + l->frozen, &moved);
   if (status != FROT_OK || !moved) return status;
   status = frot_slope(m, s, w, t, w->step.z1, frot_stage(w, DP_STAGES));
   memcpy(w->step.y_end, w->blocks.y, sizeof(double) * (size_t)m->ny);

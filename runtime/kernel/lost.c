@@ -122,7 +122,7 @@ void frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, doub
   if (!measure_loops(m, s, w, t, w->step.z0, left)) return;
   for (int row = 0; row < m->n_rows; row++)
     if (isfinite(left[row])) longest = fmax(longest, left[row]);
-  if (frot_project(m, s, w, t + h, z, z + m->nq, s->data + w->layout.d, modes, NULL, &moved))
+  if (frot_project(m, s, w, t + h, z, z + m->nq, s->data + w->layout.d, modes, NULL, NULL, &moved))
     return;
   if (!measure_loops(m, s, w, t + h, z, later)) return;
   for (int k = 0; k < m->n_groups; k++) {

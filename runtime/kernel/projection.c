@@ -127,19 +127,21 @@ static void correction(frot_work *w, const frot_group *g, int n) {
 /* The correction of what the first `kept` of n rows of the group miss, `missed` times what is
  * rounding at most, while the others stay where they can. */
 static void correct(const frot_model *m, frot_work *w, const frot_group *g, int n, int kept,
-                    double missed, frame *f) {
+                    double missed, const double *frozen, frame *f) {
   int serves =
       f->group == g && f->n == n && f->kept == kept && n >= MANY && missed <= FASTER * f->missed;
   if (!serves) frot_orthonormal_rows(m, w, g, n, kept);
   *f = (frame){g, n, kept, missed};
   correction(w, g, n);
+  for (int i = 0; i < g->n_speeds && frozen; i++)
+    if (frozen[g->unknowns[i]] != 0) w->relations.step[i] = 0;
 }
 
 /* Coordinates onto the gaps that are closed. What sticks is not moved by that: it would creep, and
  * a corner that rests on another one would come off it. */
 static int project_positions(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                              const double *v, const double *d, const frot_contact_mode *modes,
-                             frame *f, int *moved) {
+                             const double *frozen, frame *f, int *moved) {
   for (int pass = 0; pass < PASSES; pass++) {
     int status = frot_kinematics(m, s, w, t, q, v, d), any = 0;
     if (status != FROT_OK) return status;
@@ -160,7 +162,7 @@ static int project_positions(const frot_model *m, frot_state *s, frot_work *w, d
         w->relations.residual[at] = 0;
         w->relations.rows[at++] = m->elements[g->elements[i]].row;
       }
-      correct(m, w, g, at, n, missed, f);
+      correct(m, w, g, at, n, missed, frozen, f);
       frot_displace(m, g, q, w->relations.step, -1);
       any = *moved = 1;
     }
@@ -171,8 +173,8 @@ static int project_positions(const frot_model *m, frot_state *s, frot_work *w, d
 
 static int project_speeds(const frot_model *m, frot_state *s, frot_work *w, double t,
                           const double *q, double *v, const double *d,
-                          const frot_contact_mode *modes, const unsigned char *stuck, frame *f,
-                          int *moved) {
+                          const frot_contact_mode *modes, const unsigned char *stuck,
+                          const double *frozen, frame *f, int *moved) {
   f->missed = INFINITY;
   for (int pass = 0; pass < PASSES; pass++) {
     int status = frot_kinematics(m, s, w, t, q, v, d), any = 0;
@@ -188,7 +190,7 @@ static int project_speeds(const frot_model *m, frot_state *s, frot_work *w, doub
         missed = fmax(missed, miss(w->core.rate[row], bound));
       }
       if (!(missed > 1)) continue;
-      correct(m, w, g, n, n, missed, f);
+      correct(m, w, g, n, n, missed, frozen, f);
       for (int i = 0; i < g->n_speeds; i++) v[g->unknowns[i]] -= w->relations.step[i];
       any = *moved = 1;
     }
@@ -199,7 +201,7 @@ static int project_speeds(const frot_model *m, frot_state *s, frot_work *w, doub
 
 int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  const double *d, const frot_contact_mode *modes, const unsigned char *stuck,
-                 int *moved) {
+                 const double *frozen, int *moved) {
   *moved = frot_normalise(m, q);
   if (m->n_invariants > 0) {
     frot_layout l = frot_layout_of(m);
@@ -213,7 +215,8 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   frame f = {NULL, 0, 0, INFINITY};
   frot_note_parting(m, s, w);
   int status = frot_metric(m, w);
-  if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, &f, moved);
-  if (status == FROT_OK) status = project_speeds(m, s, w, t, q, v, d, modes, stuck, &f, moved);
+  if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, frozen, &f, moved);
+  if (status == FROT_OK)
+    status = project_speeds(m, s, w, t, q, v, d, modes, stuck, frozen, &f, moved);
   return status;
 }

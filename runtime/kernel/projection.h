@@ -7,11 +7,12 @@
 /* Move coordinates and speeds onto the relations that hold in `modes` and onto the invariants, by
  * the least change: in the metric of the speeds or, where there are invariants, in units of each
  * state's size. `stuck` (n_elements, may be NULL): elements whose motion is to be zero whatever
- * their mode. *moved: whether anything moved. FROT_OK or a status that is not recorded as a fault.
+ * their mode. What is `frozen` (nv, may be NULL) does not move: other rows would move it by
+ * rounding. *moved: whether anything moved. FROT_OK or a status that is not recorded as a fault.
  */
 int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
                  const double *d, const frot_contact_mode *modes, const unsigned char *stuck,
-                 int *moved);
+                 const double *frozen, int *moved);
 
 /* Rows that hold in `modes` and act on the speeds themselves, into w->relations.rows; returns their
  * number. With `normals_only`, the relations between positions. */

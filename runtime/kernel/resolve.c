@@ -87,7 +87,7 @@ static int settle_speeds(frot_instant *in, double t, double *q, double *v) {
   memcpy(w->search.trial, w->search.best, sizeof *w->search.trial * modes);
   for (int e = 0; e < m->n_elements; e++) w->search.trial[m->n_contacts + e].friction = FROT_NONE;
   int moved;
-  return frot_project(m, in->s, w, t, q, v, in->s->data + in->l.d, w->search.trial, in->zero,
+  return frot_project(m, in->s, w, t, q, v, in->s->data + in->l.d, w->search.trial, in->zero, NULL,
                       &moved);
 }
 

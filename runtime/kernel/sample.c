@@ -50,7 +50,8 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   else if (holds_anything(m, w, g->modes)) {
     status = frot_dynamics(m, s, w, t, q, v, g->d, g->modes, FROT_MOTION);
     frot_follow_spare(m, w, g->spare);
-    if (status == FROT_OK) status = frot_project(m, s, w, t, q, v, g->d, g->modes, NULL, &moved);
+    if (status == FROT_OK)
+      status = frot_project(m, s, w, t, q, v, g->d, g->modes, NULL, g->frozen, &moved);
   }
   if (status == FROT_OK)
     status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, g->along, 1);

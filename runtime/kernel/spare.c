@@ -156,7 +156,7 @@ int frot_spare_rows_hold(const frot_model *m, frot_state *s, frot_work *w, doubl
   const double *d = s->data + w->layout.d;
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   int moved;
-  if (frot_project(m, s, w, t, z, z + m->nq, d, modes, NULL, &moved) != FROT_OK) return 1;
+  if (frot_project(m, s, w, t, z, z + m->nq, d, modes, NULL, NULL, &moved) != FROT_OK) return 1;
   if (frot_kinematics(m, s, w, t, z, z + m->nq, d) != FROT_OK) return 1;
   const frot_awake_lists *now = w->awake.now;
   for (int i = 0; i < now->n_contacts; i++) {

@@ -73,7 +73,8 @@ static int evaluate(const frot_model *m, frot_state *s, frot_work *w, double t, 
   int moved;
   if (s->tied > 0 && !(i <= DP_STAGES && w->step.near[i])) {
     const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-    int status = frot_project(m, s, w, t, z, z + m->nq, s->data + w->layout.d, modes, NULL, &moved);
+    int status =
+        frot_project(m, s, w, t, z, z + m->nq, s->data + w->layout.d, modes, NULL, NULL, &moved);
     if (status != FROT_OK) return status;
   }
   int status = frot_slope(m, s, w, t, z, frot_stage(w, i));

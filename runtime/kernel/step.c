@@ -136,7 +136,8 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   int status = s->weak && w->step.near[DP_STAGES]
                    ? FROT_OK
-                   : frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL, &moved);
+                   : frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL,
+                                  s->data + l->frozen, &moved);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, end, a->h, x, x + m->nq);
   lost = moved ? frot_speed_lost(m, s, w, end, a->h) : -1;
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
