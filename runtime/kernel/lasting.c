@@ -223,7 +223,7 @@ static int note_rates(const frot_instant *in, const frot_group *g) {
 
 /* How much later an instant is for a part of the step that comes. */
 static double later_by(const frot_instant *in, double part, double way) {
-  double step = in->s->h > 0 ? in->s->h : in->s->h_max;
+  double step = in->s->calm > 0 ? in->s->calm : in->s->h_max;
   return way > 0 ? fmin(part * step, way) : part * step;
 }
 

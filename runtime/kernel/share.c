@@ -307,7 +307,7 @@ int frot_find_growth(const frot_instant *in, const double *d) {
   memset(growth, 0, size);
   for (int k = 0; k < m->nv; k++)
     if (in->v[k] != 0) return 0;
-  double later = LATER * (in->s->h > 0 ? in->s->h : in->s->h_max);
+  double later = LATER * (in->s->calm > 0 ? in->s->calm : in->s->h_max);
   if (!m->time_dependent || !(later > 0)) return 0;
   memcpy(growth, w->core.force, size);
   int status =

@@ -77,6 +77,7 @@ struct frot_state {
    * that the row began with */
   double text_event, text_gap, text_ratio, text_first;
   double crowded_since;
+  double calm;               /* the next step as it is without events that cut steps short */
   double jammed_at;          /* where no step was possible for want of reactions, or NaN */
   double left_at;            /* instant of the last event: see `left` and `vanished` */
   double t;                  /* time reached */

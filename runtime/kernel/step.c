@@ -42,6 +42,8 @@
 #define CLEAR 4
 /* Time beyond which events no longer crowd, in longest steps. */
 #define CROWDED 1e-9
+/* What is left of the length of steps by one that is shorter. */
+#define CALM 0.5
 
 /* Run the step again with the length h, with its dense output. */
 static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a, double h) {
@@ -180,6 +182,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   show(m, s, w, a, recorder);
   if (status != FROT_OK) return status;
   frot_choose_next(m, s, a->stiff);
+  s->calm = fmax(s->h, CALM * s->calm);
   if (s->implicit) frot_wake_within_step(m, s, w);
   if (end > s->crowded_since + CROWDED * s->h_max) {
     s->crowded_since = end, s->crowded = s->idle = 0;
