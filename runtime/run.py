@@ -33,7 +33,7 @@ from frot.runtime.settings import read_option, read_settings
 MOST_POINTS = 10_000_000
 TOLERANCES = (1e-14, 1e-1)
 _GOOD = (OK, STOPPED, TERMINATED)
-IMPACT, POSTURE = 13, 31
+IMPACT, NO_NUMBER, POSTURE = 13, 17, 31
 
 CODES = {
     10: "E0401",
@@ -259,10 +259,18 @@ def _help(fault: Fault) -> str:
     """The remedy: where no step has been taken, to say which way, or to begin elsewhere."""
     if fault.status == IMPACT and fault.item >= 0:
         return _SECOND
+    if fault.status == NO_NUMBER and fault.other >= 0:
+        return _NO_SLOPE
     if fault.status != POSTURE or fault.value != 0:
         return _HELP.get(fault.status, "")
     return _SAY_WHICH if fault.other >= 0 else _BEGIN_BESIDE
 
+
+# Unknowns without a `start` are looked for from 0 on, where a root has no slope.
+_NO_SLOPE = (
+    "give the unknown a start where the equation and its slope have numbers, as "
+    "`Real x(start = 1)`, correct the expression, or keep the motion away from there"
+)
 
 # Nobody looks for a second place of what cannot part: that is no remedy.
 _SECOND = "stop before that time, or let the bodies touch there by a liaison of its own"
@@ -284,7 +292,7 @@ _HELP = {
     14: "a smaller coefficient of friction avoids it; the result holds the motion up to there",
     15: "write `on_indeterminate = rest` or `continue` to go on with one of them",
     16: "look at what switches at that time; change a coefficient or the starting values a little",
-    17: "correct the expression, or keep the motion away from there",
+    NO_NUMBER: "correct the expression, or keep the motion away from there",
     18: "look at what is named: at a denominator, a root or a logarithm that comes to zero, at "
     "growth without limit, at a load that jams a liaison, or at drives that contradict each other",
     22: "give start values near the solution, or keep the motion away from there",

@@ -170,3 +170,21 @@ end M;
     for tolerance in (1e-3, 1e-6, 1e-9):
         run = model.simulate(tolerance=tolerance)
         assert run["u"][-1] == pytest.approx(2.86565441888, rel=max(3 * tolerance, 1e-9))
+
+
+def test_what_has_no_slope_where_the_search_begins_asks_for_a_start() -> None:
+    text = """
+model Drain
+  Real h, q{start};
+initial
+  h = 1;
+equation
+  der(h) = -q*(1 1/s);
+  h = q*sqrt(abs(q));
+  experiment(stop = 1 s);
+end Drain;"""
+    with pytest.raises(frot.SimulationError, match=r"(?s)E0904.*give the unknown a start") as told:
+        frot.compile(text.format(start="")).simulate()
+    assert "for q" in str(told.value)
+    run = frot.compile(text.format(start="(start = 1)")).simulate(tolerance=1e-9)
+    assert run["h"][-1] == pytest.approx((2 / 3) ** 3, abs=1e-8)
