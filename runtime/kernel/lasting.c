@@ -193,16 +193,19 @@ static int still_holds(const frot_instant *in, const int *chosen, int count, int
 
 /* Whether the modes are those of before in a group that has no reactions in them beyond the
  * instant: what friction makes of the reactions that bound it has no solution any more. Then other
- * modes come, though no bound was passed, and reactions jump. */
+ * modes come, or another share of the load, though no bound was passed, and reactions jump. */
 static int has_ended(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   const frot_contact_mode *trial = in->w->search.trial, *before = in->w->search.before;
   if (in->s->jammed_at != in->t || in->s->jammed != m->contact_group[chosen[0]]) return 0;
   for (int c = 0; c < count; c++) {
-    if (trial[chosen[c]].closed != before[chosen[c]].closed) return 0;
+    const frot_contact_mode *now = &trial[chosen[c]], *was = &before[chosen[c]];
+    if (now->closed != was->closed || now->unloaded != was->unloaded) return 0;
     int own[FROT_LAWS_OF_CONTACT], laws = frot_laws_of(m, chosen[c], own);
-    for (int k = 0; k < laws; k++)
-      if (!frot_same_element(in, own[k])) return 0;
+    for (int k = 0; k < laws; k++) {
+      now = trial + m->n_contacts + own[k], was = before + m->n_contacts + own[k];
+      if (now->friction != was->friction || now->at_bound != was->at_bound) return 0;
+    }
   }
   return 1;
 }
