@@ -9,11 +9,16 @@
 #include <string.h>
 
 #include "core.h"
+#include "groups.h"
+#include "linear.h"
 #include "options.h"
+#include "orthogonal.h"
 #include "reactions.h"
 #include "search.h"
+#include "terms.h"
 #include "tolerances.h"
 
+#define MOST 6         /* elements whose friction is free that are put at their bounds together */
 #define UNCHANGED 1e-6 /* part by which what no other reactions change may differ by rounding */
 
 /* Whether an element was at its bound until now, or has come to it. */
@@ -170,6 +175,75 @@ static int find_corner(const frot_instant *in, const int *chosen, int count, int
   return 0;
 }
 
+/* The elements chosen that rest and that no speed moves beside what closes the group, as the slide
+ * of a crank in its dead centre: their friction is free, and loads pins that hold by it. After the
+ * reactions of w->search.trial; returns how many, of the first MOST. */
+static int list_idle(const frot_instant *in, const int *chosen, int count, int idle[MOST]) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
+  const frot_contact_mode *trial = w->search.trial;
+  int n = 0, rank = 0, ns = g->n_speeds, own[FROT_LAWS_OF_CONTACT];
+  for (int i = 0; i < g->n_contacts; i++)
+    rank += frot_is_loaded(m, trial, g->contacts[i]) &&
+            !w->reactions.carried[m->contacts[g->contacts[i]].row_n];
+  for (int c = 0; c < count && !g->general; c++) {
+    int laws = frot_laws_of(m, chosen[c], own);
+    for (int k = 0; k < laws && n < MOST; k++) {
+      int row = m->elements[own[k]].row;
+      if (!frot_is_held(m, trial, own[k]) || !w->reactions.carried[row]) continue;
+      double *x = w->core.rest;
+      memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
+      double length = frot_length_beside(m, w, row, sqrt(frot_dot(x, x, ns)));
+      double rest = frot_reject(x, w->span.basis, rank, ns, w->span.parts);
+      if (rest <= FROT_DEPENDENT * length) idle[n++] = own[k];
+    }
+  }
+  return n;
+}
+
+/* Put the idle elements at their bounds as the digits of `code` to the base 3 say: at neither, at
+ * the one, at the other. Returns how many are. */
+static int put_at_bounds(const frot_instant *in, const int *idle, int n, int code) {
+  frot_contact_mode *trial = in->w->search.trial;
+  int put = 0;
+  for (int i = 0; i < n; i++, code /= 3) {
+    int way = code % 3 == 2 ? -1 : code % 3, contact = in->m->elements[idle[i]].contact;
+    trial[in->m->n_contacts + idle[i]].at_bound = (signed char)(way * trial[contact].side);
+    put += way != 0;
+  }
+  return put;
+}
+
+/* Whether reactions hold, and with `lasting` beyond the instant, with what is idle at its bounds
+ * and the worst of the rest at theirs: with all of it first, for a friction that is free turns a
+ * pin's reaction without end where it begins. Else the modes are as they were. */
+static int relieve_idle(const frot_instant *in, const int *chosen, int count, int lasting) {
+  const frot_model *m = in->m;
+  frot_contact_mode *trial = in->w->search.trial, *before = in->w->search.corner;
+  size_t modes = sizeof *trial * (size_t)(m->n_contacts + m->n_elements);
+  int idle[MOST], n = list_idle(in, chosen, count, idle), combinations = 1;
+  for (int i = 0; i < n; i++) combinations *= 3;
+  memcpy(before, trial, modes);
+  for (int at_bound = n; at_bound > 0; at_bound--)
+    for (int code = 1; code < combinations; code++) {
+      memcpy(trial, before, modes);
+      if (put_at_bounds(in, idle, n, code) != at_bound) continue;
+      if (in->w->search.corners-- <= 0) return 0;
+      if (solve(in, chosen[0]) && relieve(in, chosen, count, 0) &&
+          (!lasting || hold_on(in, chosen, count)))
+        return 1;
+    }
+  memcpy(trial, before, modes);
+  solve(in, chosen[0]);
+  return 0;
+}
+
+/* Reactions at a corner, as above. */
+static int find_any(const frot_instant *in, const int *chosen, int count, int lasting) {
+  return relieve_idle(in, chosen, count, lasting) || find_corner(in, chosen, count, lasting, 0);
+}
+
 int frot_others_carry(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   frot_contact_mode *trial = in->w->search.trial, *before = in->w->search.corner;
@@ -186,12 +260,12 @@ int frot_others_carry(const frot_instant *in, const int *chosen, int count) {
     memcpy(trial, before, modes);
     if (!solve(in, chosen[0])) return 0;
   }
-  return !is_hopeless(in, chosen, count) && find_corner(in, chosen, count, 0, 0);
+  return !is_hopeless(in, chosen, count) && find_any(in, chosen, count, 0);
 }
 
 int frot_others_last(const frot_instant *in, const int *chosen, int count) {
   if (!in->w->reactions.dependent) return 0;
   enum frot_share share = frot_share_load(in, chosen, count);
   if (share == FROT_NO_SHARE) return 0;
-  return share == FROT_SHARED ? hold_on(in, chosen, count) : find_corner(in, chosen, count, 1, 0);
+  return share == FROT_SHARED ? hold_on(in, chosen, count) : find_any(in, chosen, count, 1);
 }
