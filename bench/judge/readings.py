@@ -12,7 +12,9 @@ from judge.scene import Contact, Pin, Scene
 
 FORMED = 1e-4
 PLACED = 1e-6  # an arm is the difference of places, and known to 1e-14 of them: see `check.EXACT`
-CARRIED = 1e-7  # an acceleration is a sum along what joins bodies: 1e-15 of the largest there
+# An acceleration is a sum along what joins bodies, and of what their turning brings to it: it is
+# known to 1e-15 of the largest there.
+CARRIED = 1e-7
 NOTHING = 1e-30  # part of the largest force of a scene below which one is none
 
 
@@ -54,9 +56,11 @@ class Loads:
             arms[k + 2] = max(arms[k + 2], PLACED * float(np.linalg.norm(now.origin(b))))
             size[k : k + 2] = np.max(size[k : k + 2])
             size[k + 2] = max(size[k + 2], size[k] * arms[k + 2])
-        for places, _ in parts(now):
-            for joined in (places[:, :2], places[:, 2]):
-                quickest = np.max(np.abs(self.acceleration[joined]), initial=0.0)
+        for places, joints in parts(now):
+            rows = (r for j in joints for word, r in j.rows.items() if word != "r")
+            turning = max((r.bias_size for r in rows), default=0.0)
+            for joined, carried in ((places[:, :2], turning), (places[:, 2], 0.0)):
+                quickest = np.max(np.abs(self.acceleration[joined]), initial=carried)
                 size[joined] = np.maximum(size[joined], CARRIED * now.mass[joined] * quickest)
             longest = np.max(arms[places[:, 2]], initial=0.0)  # couples act on others as forces
             if longest > 0:
