@@ -107,7 +107,9 @@ def try_setting(
         )
         return Verdict(SLOW, [f"more than {limit:g} s:{reached}"])
     if error is not None and result is None:
-        return judge_start(structure.scene, setting, *_told(error))
+        smooth = {k: 0.0 if k.startswith(("mu", "nu")) else x for k, x in setting.values.items()}
+        begun = whole(smooth, setting.tolerance)
+        return judge_start(structure.scene, setting, *_told(error), begun)
     assert result is not None
     rng = np.random.default_rng(seed)
     judge = Judge(structure.scene, setting.values, result, setting.tolerance)

@@ -18,7 +18,7 @@ from judge.family import Setting
 from judge.mechanics import Floats, Joint, Mechanics
 from judge.motions import CLEAR, Motion, Still, accelerations, count, distinct, motion, motions
 from judge.scene import Contact, Pin, Scene
-from judge.seen import OPEN
+from judge.seen import OPEN, Outcome
 
 EXACT, CONFIRMED, REFUTED, SILENT, SLOW, UNCLEAR = (
     "exact",
@@ -66,12 +66,18 @@ class Start:
         return name in self._row
 
 
-def judge_start(scene: Scene, setting: Setting, code: str, text: str) -> Verdict:
-    """A run that does not start, where the scene knows its start: E0601 is never right there."""
+def judge_start(
+    scene: Scene, setting: Setting, code: str, text: str, begun: Outcome | None
+) -> Verdict:
+    """A run that does not start: E0601 is never right where the scene knows its start.
+
+    Where it does not, that of the same scene without friction is taken, `begun`.
+    """
     if not code.startswith("E09"):
         return Verdict(REFUTED, [f"no start: {text}"])
     try:
-        start = Start(scene, setting.values, setting.stop)
+        known = all(f"x0_{b.name}" in setting.values for b in scene.bodies)
+        start = begun if begun and not known else Start(scene, setting.values, setting.stop)
         return judge_stop(Judge(scene, setting.values, start, setting.tolerance), code, text, 0.0)
     except KeyError:
         return Verdict(UNCLEAR, [f"no start: {text}"])
