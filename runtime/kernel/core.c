@@ -251,7 +251,7 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   if (!frot_call_dynamics(m, s, w, t, q, v, d, wanted)) return FROT_NAN;
   frot_size_drives(m, s, w, t, q, v, d);
   frot_begin_wide(m, w);
-  frot_note_parting(m, s, w);
+  frot_note_parting(s, w);
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_groups && status == FROT_OK; k++) {
     const frot_group *g = &m->groups[now->groups[k]];

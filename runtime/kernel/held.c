@@ -101,7 +101,7 @@ static int take_row(const frot_problem *p, int k, int may) {
     int agree = fabs(bias) <= agrees + frot_free_rounding(w, p->g, measure);
     return agree ? TAKEN : CONTRADICTS;
   }
-  if (may && frot_may_wait(w, row, rest, measure)) return WAITS;
+  if (may && frot_may_wait(m, w, row, rest, measure)) return WAITS;
   w->span.left[row] = rest;
   for (int i = 0; i < ns; i++) x[i] /= rest;
   if (w->reactions.friction[k] == 0)

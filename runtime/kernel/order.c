@@ -2,17 +2,20 @@
 
 #include <string.h>
 
+#include "groups.h"
+
 #define LITTLE 0.1 /* part of its length that is little to be left of a row */
 
-void frot_note_parting(const frot_model *m, const frot_state *s, const frot_work *w) {
-  memset(w->span.parting, 0, (size_t)m->n_rows);
-  for (int i = 0; i < m->n_contacts; i++)
-    if (m->contacts[i].row_n >= 0)
-      w->span.parting[m->contacts[i].row_n] = s->data[w->layout.unilateral + i] != 0;
+void frot_note_parting(const frot_state *s, frot_work *w) {
+  w->span.unilateral = s->data + w->layout.unilateral;
 }
 
-int frot_may_wait(const frot_work *w, int row, double rest, double length) {
-  return w->span.parting[row] && rest < LITTLE * length;
+int frot_may_wait(const frot_model *m, const frot_work *w, int row, double rest, double length) {
+  if (!(rest < LITTLE * length)) return 0;
+  const frot_group *g = frot_group_of(m, row);
+  for (int i = 0; i < g->n_contacts; i++)
+    if (m->contacts[g->contacts[i]].row_n == row) return w->span.unilateral[g->contacts[i]] != 0;
+  return 0;
 }
 
 void frot_let_wait(int *order, int i, int last) {

@@ -96,7 +96,7 @@ void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *
     double rest = frot_reject(x, w->span.basis, rank, ns, parts);
     double least = i < kept ? frot_least_length(m, w, row, length) : FREE * length;
     if (!(rest > least)) continue;
-    if (at < last - 1 && frot_may_wait(w, row, rest, length)) {
+    if (at < last - 1 && frot_may_wait(m, w, row, rest, length)) {
       frot_let_wait(order, at--, --last);
       continue;
     }
@@ -213,7 +213,7 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   }
   if (m->n_rows == 0 || frot_holding_rows(m, w, modes, stuck, 0) == 0) return FROT_OK;
   frame f = {NULL, 0, 0, INFINITY};
-  frot_note_parting(m, s, w);
+  frot_note_parting(s, w);
   int status = frot_metric(m, w);
   if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, frozen, &f, moved);
   if (status == FROT_OK)

@@ -211,7 +211,7 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   frot_reaction_work *r = &w->reactions;
   int n = m->n_rows, elements = m->n_elements;
   TAKE(r->unknown, n), TAKE(r->owner, n), TAKE(r->fold, 2 * n), TAKE(r->friction, n);
-  TAKE(w->span.spare, n), TAKE(w->span.kept, n), TAKE(w->span.parting, n);
+  TAKE(w->span.spare, n), TAKE(w->span.kept, n);
   TAKE(w->span.order, n), w->span.follow = r->follow = 0;
   TAKE(r->sign, m->n_groups), TAKE(r->carried, n), TAKE(r->fold_ratio, 2 * n),
       TAKE(r->ratio, elements);

@@ -135,8 +135,9 @@ typedef struct {
  * that was held last, 0 where it is dependent. */
 typedef struct {
   int rank, follow; /* whether `spare` (n_rows) says what depends on others: spare.h */
-  unsigned char *spare, *kept, *parting; /* parting (n_rows): the normal of what may part */
-  int *along; /* n_rows: how many of them each held row lies along at most */
+  unsigned char *spare, *kept;
+  const double *unilateral; /* n_contacts, of the state: which may part, order.h */
+  int *along;               /* n_rows: how many of them each held row lies along at most */
   int *order; /* n_rows: in which rows were made orthonormal, by their places in the list */
   int *way;   /* n_rows: ways.h */
   double *left, *direction;
