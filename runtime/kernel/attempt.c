@@ -74,7 +74,7 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
     a->h = m->time_dependent ? fmin(s->h, a->longest) : a->longest;
   }
   memcpy(w->step.first, frot_stage(w, 0), sizeof(double) * (size_t)frot_width(w));
-  memcpy(w->step.z1, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
+  frot_copy_awake(w, w->step.z0, w->step.z1);
   if (status == FROT_OK && s->implicit) status = frot_implicit_begin(m, s, w, a->t);
   a->want = a->h, a->most = a->longest;
   if (s->weak) a->h = frot_lay_step(m, s, w, a->t, a->h, a->most);
