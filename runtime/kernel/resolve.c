@@ -35,6 +35,21 @@ static void list_closable(const frot_instant *in, int first) {
   }
 }
 
+/* Whether a gap that closes opens again before it is none, as it is bent by the motion so far: that
+ * of a wheel to the edge of a table that it rolls on to. */
+static int grazes(const frot_instant *in, int i, double rate) {
+  const frot_model *m = in->m;
+  const frot_work *w = in->w;
+  int row = m->contacts[i].row_n;
+  const frot_group *g = frot_group_of(m, row);
+  const double *slope = in->s->data + in->l.slope + m->nq,
+               *entries = frot_entries(m, w->core.rows, row);
+  double bends = w->core.c[row], size = in->s->data[in->l.reach + i];
+  for (int k = 0; k < g->n_speeds; k++) bends += entries[k] * slope[g->unknowns[k]];
+  double gap = w->core.gap[i] + FROT_ROUNDING * (frot_gap_size(m, w, row, in->q) + size);
+  return rate * rate <= 2 * (1 + FROT_TOUCH) * bends * gap;
+}
+
 /* A gap that closes with speed is an impact, one that opens stays open. What the motion as a whole
  * leaves of a speed by rounding is none: what only rounding ever moved is no measure of it. Of what
  * was closed no speed is left, unless its place is another one now: that is never taken away. */
@@ -46,8 +61,10 @@ static int refuse_impacts(const frot_instant *in, double t) {
     double rate = in->w->core.rate[row], fastest = frot_row_speed(m, in->w, row, in->v);
     double least = FROT_TOUCH * frot_typical_speed(in, row);
     double none = closed ? fmax(ELSEWHERE * fastest, least) : least + FROT_ZERO * fastest;
-    if (rate > none) in->w->search.best[i].closed = 0;
-    if (rate < -none) return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
+    if (rate > none || (rate < -none && !closed && grazes(in, i, rate)))
+      in->w->search.best[i].closed = 0;
+    else if (rate < -none)
+      return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
   }
   return FROT_OK;
 }

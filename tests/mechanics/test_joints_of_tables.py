@@ -112,3 +112,62 @@ def test_a_brick_is_pulled_from_one_brick_onto_the_next(touch: str) -> None:
             assert now["b.angle"] == pytest.approx(0, abs=1e-12)
             assert now["one.velocity.x"] == now["two.velocity.x"] == 0
             assert result.balance.relative < 1e-10
+
+
+WHEEL = """planar model Wheel
+  parameter Velocity v = 1 m/s;
+  parameter AngularVelocity w = 0 rad/s;
+  parameter Length x = 0.3 m;
+  parameter Real mu = 0.3;
+  body one: box(mass = 1 kg, size = (2, 0.5) m);
+  body two: box(mass = 1 kg, size = (2, 0.5) m);
+  body d: {shape}(mass = 3 kg, radius = 0.2 m);
+  frame there on ground at (2, 0) m;
+  liaison fix: encastrement(ground, one);
+  liaison fix2: encastrement(there, two);
+  liaison C: contact_ponctuel({first}) with coulomb(mu);
+  liaison D: contact_ponctuel({second}) with coulomb(mu);
+initial
+  d.position = (x, 0.45 m);
+  d.velocity.x = v;
+  d.angular_velocity = w;
+  experiment(stop = 1 s, tolerance = 1e-8);
+end Wheel;"""
+
+
+def rolled(share: float, speed: float, spin: float, mu: float) -> float:
+    """The way of a wheel in 1 s: it slides until it rolls; `share` is its inertia over m r^2."""
+    slip, brake = speed + 0.2 * spin, mu * G
+    lasts = min(1.0, abs(slip) / (brake * (1 + 1 / share))) if brake > 0 else 1.0
+    pull = -math.copysign(brake, slip)
+    return speed + pull * lasts * (1 - lasts / 2)
+
+
+@pytest.mark.parametrize(("shape", "share"), [("disc", 0.5), ("ring", 1.0)])
+@pytest.mark.parametrize(
+    "order", [("d.rim, one.top", "two.top, d.rim"), ("one.top, d.rim", "d.rim, two.top")]
+)
+def test_a_wheel_goes_over_the_joint_of_two_tables(
+    shape: str, share: float, order: tuple[str, str]
+) -> None:
+    """The edge of the table ahead comes to its rim along it: it touches, and meets nothing."""
+    model = frot.compile(WHEEL.format(shape=shape, first=order[0], second=order[1]))
+    for speed, spin, mu, x in (
+        (1.0, -5.0, 0.3, 0.3),
+        (1.0, 2.0, 0.0, 0.3),
+        (2.0, 0.0, 0.3, 0.3),
+        (-1.5, 0.0, 0.2, 1.9),
+        (-1.0, 5.0, 0.4, 1.5),
+        (0.9, 40.0, 0.5, 0.6),
+    ):
+        for tolerance in (1e-3, 1e-5, 1e-7, 1e-9, 1e-12):
+            result = model.simulate(
+                tolerance=tolerance, parameters={"v": speed, "w": spin, "mu": mu, "x": x}
+            )
+            now = result.at(1.0)
+            assert now["d.position.x"] == pytest.approx(
+                x + rolled(share, speed, spin, mu), abs=1e-11
+            )
+            assert now["d.position.y"] == pytest.approx(0.45, abs=1e-12)
+            assert now["C.normal_force"] + now["D.normal_force"] == pytest.approx(3 * G)
+            assert result.balance.relative < 1e-11
