@@ -93,6 +93,7 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
       frot_follow_spare(m, w, s->data + l->spare);
       status = frot_slope(m, s, w, t, w->step.z0, frot_stage(w, 0));
       frot_see_anew(w);
+      if (status != FROT_OK) return status;
     }
     for (int i = 0; i < w->awake.now->n_groups; i++) {
       int k = w->awake.now->groups[i];

@@ -86,7 +86,7 @@ static int measure_loops(const frot_model *m, frot_state *s, frot_work *w, doubl
     for (int i = 0; i < g->n_contacts; i++)
       if (frot_is_loop(m, s, w, g->contacts[i]))
         w->relations.rows[n++] = m->contacts[g->contacts[i]].row_n;
-    frot_orthonormal_rows(m, w, g, n, n);
+    frot_orthonormal_rows(m, w, g, n, n, NULL);
     for (int i = 0; i < n; i++) {
       int own = w->linear.pivot[i];
       w->reactions.carried[w->relations.rows[i]] = own < 0;

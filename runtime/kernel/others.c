@@ -220,21 +220,25 @@ static int put_at_bounds(const frot_instant *in, const int *idle, int n, int cod
  * pin's reaction without end where it begins. Else the modes are as they were. */
 static int relieve_idle(const frot_instant *in, const int *chosen, int count, int lasting) {
   const frot_model *m = in->m;
-  frot_contact_mode *trial = in->w->search.trial, *before = in->w->search.corner;
-  size_t modes = sizeof *trial * (size_t)(m->n_contacts + m->n_elements);
   int idle[MOST], n = list_idle(in, chosen, count, idle), combinations = 1;
+  size_t size = (size_t)(m->n_contacts + m->n_elements);
+  /* what lasts is looked for by looking at others in turn */
+  frot_contact_mode *trial = in->w->search.trial,
+                    *before = in->w->search.idle + (lasting ? size : 0);
+  if (n == 0) return 0;
   for (int i = 0; i < n; i++) combinations *= 3;
-  memcpy(before, trial, modes);
-  for (int at_bound = n; at_bound > 0; at_bound--)
-    for (int code = 1; code < combinations; code++) {
-      memcpy(trial, before, modes);
+  memcpy(before, trial, sizeof *trial * size);
+  for (int at_bound = n, left = 1; left && at_bound > 0; at_bound--)
+    for (int code = 1; left && code < combinations; code++) {
+      memcpy(trial, before, sizeof *trial * size);
       if (put_at_bounds(in, idle, n, code) != at_bound) continue;
-      if (in->w->search.corners-- <= 0) return 0;
+      left = in->w->search.corners-- > 0;
+      if (!left) break;
       if (solve(in, chosen[0]) && relieve(in, chosen, count, 0) &&
           (!lasting || hold_on(in, chosen, count)))
         return 1;
     }
-  memcpy(trial, before, modes);
+  memcpy(trial, before, sizeof *trial * size);
   solve(in, chosen[0]);
   return 0;
 }

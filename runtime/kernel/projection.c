@@ -81,8 +81,17 @@ typedef struct {
   double missed;
 } frame;
 
-void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *g, int n,
-                           int kept) {
+/* Whether a row moves nothing that is not frozen: no more than can hold is asked of it. */
+static int is_frozen(const frot_model *m, const frot_work *w, const frot_group *g, int row,
+                     const double *frozen) {
+  const double *entries = frot_entries(m, w->core.rows, row);
+  for (int i = 0; i < g->n_speeds; i++)
+    if (entries[i] != 0 && frozen[g->unknowns[i]] == 0) return 0;
+  return 1;
+}
+
+void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *g, int n, int kept,
+                           const double *frozen) {
   int ns = g->n_speeds, rank = 0, *order = w->span.order;
   for (int i = 0; i < n; i++) order[i] = i;
   for (int at = 0, last = kept; at < n; at++) {
@@ -94,7 +103,8 @@ void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *
     frot_inwards(w, g, x);
     double length = sqrt(frot_dot(x, x, ns));
     double rest = frot_reject(x, w->span.basis, rank, ns, parts);
-    double least = i < kept ? frot_least_length(m, w, row, length) : FREE * length;
+    int certain = i < kept || (frozen && is_frozen(m, w, g, row, frozen));
+    double least = certain ? frot_least_length(m, w, row, length) : FREE * length;
     if (!(rest > least)) continue;
     if (at < last - 1 && frot_may_wait(m, w, row, rest, length)) {
       frot_let_wait(order, at--, --last);
@@ -130,7 +140,7 @@ static void correct(const frot_model *m, frot_work *w, const frot_group *g, int 
                     double missed, const double *frozen, frame *f) {
   int serves =
       f->group == g && f->n == n && f->kept == kept && n >= MANY && missed <= FASTER * f->missed;
-  if (!serves) frot_orthonormal_rows(m, w, g, n, kept);
+  if (!serves) frot_orthonormal_rows(m, w, g, n, kept, frozen);
   *f = (frame){g, n, kept, missed};
   correction(w, g, n);
   for (int i = 0; i < g->n_speeds && frozen; i++)

@@ -26,7 +26,9 @@ int frot_rows_of_group(const frot_model *m, const frot_group *g, const frot_cont
 /* The n rows H = L^-1 J' of a group in w->relations.rows made orthonormal, H = Q R, Q into
  * w->span.basis: into row i of w->linear.matrix the column i of R, into w->linear.pivot which of
  * them it is, or -1. A row that depends on those before it is left to them; of those after the
- * first `kept` also one that depends on them nearly. */
-void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *g, int n, int kept);
+ * first `kept` also one that depends on them nearly, unless all that it moves is `frozen` (nv, may
+ * be NULL). */
+void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *g, int n, int kept,
+                           const double *frozen);
 
 #endif

@@ -62,7 +62,7 @@ static int refuse_impacts(const frot_instant *in, double t) {
     double least = FROT_TOUCH * frot_typical_speed(in, row);
     double none = closed ? fmax(ELSEWHERE * fastest, least) : least + FROT_ZERO * fastest;
     if (rate > none || (rate < -none && !closed && grazes(in, i, rate)))
-      in->w->search.best[i].closed = 0;
+      frot_open(m, in->w->search.best, i);
     else if (rate < -none)
       return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
   }

@@ -161,7 +161,7 @@ static int turning(const frot_model *m, frot_state *s, frot_work *w, const frot_
                    const double *q, const double *v, const double *d, int *n) {
   *n = list_rows(m, s, w, g);
   if (*n == 0) return 0;
-  frot_orthonormal_rows(m, w, g, *n, *n);
+  frot_orthonormal_rows(m, w, g, *n, *n, NULL);
   int dependent = 0;
   for (int i = 0; i < *n; i++) dependent += w->linear.pivot[i] < 0;
   if (dependent == 0 || isinf(frot_time_of_turn(m, s, g, v))) return 0;

@@ -304,7 +304,8 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
   int nc = m->n_contacts, ne = m->n_elements, nr = m->n_rows;
   TAKE(w->trial, nc + ne), TAKE(w->best, nc + ne), TAKE(w->before, nc + ne);
   TAKE(w->guess, nc + ne), TAKE(w->guess_ahead, nc + ne), TAKE(w->certain, nc);
-  TAKE(w->corner, nc + ne), TAKE(w->found, nc + ne), TAKE(w->slack, nc + ne);
+  TAKE(w->corner, nc + ne), TAKE(w->idle, 2 * (nc + ne)), TAKE(w->found, nc + ne),
+      TAKE(w->slack, nc + ne);
   TAKE(w->zero, ne), TAKE(w->at_rest, ne), TAKE(w->departs, ne), TAKE(w->ahead, ne);
   TAKE(w->motions, FROT_MOTIONS * nr), TAKE(w->pivot_bound, 3 * nr);
   TAKE(w->choice, 4 * nc + 4 * ne), TAKE(w->component, nc), TAKE(w->chosen, nc);

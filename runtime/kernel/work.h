@@ -247,7 +247,7 @@ typedef struct {
  * accelerations of a little later (lasting.c); of both twice: by how much they do not hold
  * (others.c); the states before they were settled. */
 typedef struct {
-  frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner, *found, *slack,
+  frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner, *idle, *found, *slack,
       *closable;
   unsigned char *certain, *zero, *at_rest, *departs;
   signed char *ahead;

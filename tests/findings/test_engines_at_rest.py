@@ -55,8 +55,9 @@ def engine(phases: list[float], start: float, opposed: bool = False) -> str:
         ([0.0, math.pi], False),
         ([0.0, math.pi], True),
         ([0.0, 2 * math.pi / 3, 4 * math.pi / 3], False),
+        ([0.0, math.pi / 2, math.pi, 3 * math.pi / 2], False),
     ],
-    ids=["two in line", "two opposed", "three in line"],
+    ids=["two in line", "two opposed", "three in line", "four in line"],
 )
 def test_an_engine_starts_from_its_dead_centre(phases: list[float], opposed: bool) -> None:
     beside = frot.compile(engine(phases, 1e-9, opposed)).simulate(tolerance=1e-10)
