@@ -133,3 +133,26 @@ def followed_blocks(reduced: Reduced) -> tuple[ca.SX, tuple[Block, ...]]:
         own = Block(track.residual, first, False, False, name, span, track.size, track.start)
         blocks.append(replace(own, followed=True))
     return column(y), tuple(blocks)
+
+
+def row_depends(system: Assembled) -> tuple[tuple[bool, ...], ...]:
+    """For each row: on which coordinates, and last whether on anything else, its Jacobian depends.
+
+    A row that is driven, were it at a constant rate, depends on what drives it.
+
+    Of the coordinates those count whose rates are speeds; any other state counts as anything else.
+    """
+    s = system.reduced.symbols
+    others = ca.vertcat(s.t, s.u, system.discrete, system.y)
+    driven = ca.substitute(system.rate, system.v, ca.SX.zeros(*system.v.shape))
+    rows, coordinates = system.rows.size1(), system.q.numel()
+    table = [[False] * coordinates + [not driven[r].is_zero()] for r in range(rows)]
+    places = [*system.rows.sparsity().get_triplet()[0], *range(rows)]
+    # The rates of rows are asked for all else alone: on coordinates their entries depend.
+    values = ca.vertcat(ca.vec(system.rows.nz[:]), system.rate)
+    entries = len(places) - rows
+    depends = ca.jacobian_sparsity(values, ca.vertcat(system.q, others))
+    for k, x in zip(*depends.get_triplet(), strict=True):
+        if x >= coordinates or k < entries:
+            table[places[k]][min(x, coordinates)] = True
+    return tuple(map(tuple, table))

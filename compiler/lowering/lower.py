@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import casadi as ca
 from frot.compiler.equations.origins import Origin
-from frot.compiler.lowering.assembled import Assembled, Block
+from frot.compiler.lowering.assembled import Assembled, Block, row_depends
 from frot.compiler.lowering.checks import Check, parameter_checks
 from frot.compiler.lowering.explicit import make_explicit
 from frot.compiler.lowering.expressions import Lowering
@@ -243,7 +243,7 @@ def lower(
         n_guessed=initial.guessed[0].numel() if initial.guessed else 0,
         direct=initial.direct,
         n_followed=beginnings[0].numel() if beginnings else 0,
-        row_depends=_row_depends(system),
+        row_depends=row_depends(system),
         dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
         jacobian=jacobian,
         watched=tuple(watched_origins),
@@ -389,26 +389,3 @@ def _invariants(system: Assembled) -> list[ca.SX]:
     states = ca.vertcat(system.q, system.v)
     slope = ca.jacobian(values, states)
     return [values, slope.T, ca.fabs(slope) @ ca.fabs(states)]
-
-
-def _row_depends(system: Assembled) -> tuple[tuple[bool, ...], ...]:
-    """For each row: on which coordinates, and last whether on anything else, its Jacobian depends.
-
-    A row that is driven, were it at a constant rate, depends on what drives it.
-
-    Of the coordinates those count whose rates are speeds; any other state counts as anything else.
-    """
-    s = system.reduced.symbols
-    others = ca.vertcat(s.t, s.u, system.discrete, system.y)
-    driven = ca.substitute(system.rate, system.v, ca.SX.zeros(*system.v.shape))
-    rows, coordinates = system.rows.size1(), system.q.numel()
-    table = [[False] * coordinates + [not driven[r].is_zero()] for r in range(rows)]
-    places = [*system.rows.sparsity().get_triplet()[0], *range(rows)]
-    # The rates of rows are asked for all else alone: on coordinates their entries depend.
-    values = ca.vertcat(ca.vec(system.rows.nz[:]), system.rate)
-    entries = len(places) - rows
-    depends = ca.jacobian_sparsity(values, ca.vertcat(system.q, others))
-    for k, x in zip(*depends.get_triplet(), strict=True):
-        if x >= coordinates or k < entries:
-            table[places[k]][min(x, coordinates)] = True
-    return tuple(map(tuple, table))

@@ -164,16 +164,22 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
   return found;
 }
 
+/* The values after h, as the slopes at the start of the step lead, with its blocks. */
+static double *lead(const frot_model *m, const frot_state *s, frot_work *w, double h) {
+  const double *slope = frot_stage(w, 0);
+  double *z = w->step.z;
+  memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
+  for (int i = 0; i < w->awake.n; i++) z[w->awake.now->states[i]] += h * slope[i];
+  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  return z;
+}
+
 /* Whether a located condition, zero at the start of the step, rises there by the slope. */
 static int rises(const frot_model *m, frot_state *s, frot_work *w, int k, double t, double h) {
-  const double *slope = frot_stage(w, 0), *d = s->data + w->layout.d;
-  double *z = w->step.z, part = AT_ONCE * h, first = slope[w->awake.n + k];
-  int j = w->guards.list[k] - frot_condition_guard(m);
-  memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
-  for (int i = 0; i < w->awake.n; i++) z[w->awake.now->states[i]] += part * slope[i];
-  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  double part = AT_ONCE * h, first = frot_stage(w, 0)[w->awake.n + k], *z = lead(m, s, w, part);
   if (frot_look(m, s, w, t + part, z, z + m->nq) != FROT_OK) return 0;
-  double value = d[j] != 0 ? w->core.condition[j] : -w->core.condition[j];
+  double value =
+      frot_condition_value(w, s->data + w->layout.d, w->guards.list[k] - frot_condition_guard(m));
   return value - first > FROT_CONDITION_ZERO * s->data[w->layout.scale_g + w->guards.list[k]];
 }
 
@@ -228,7 +234,7 @@ int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, doub
   for (int k = 0; k < now->n_located; k++) {
     int j = now->located[k];
     if (j >= m->n_located - m->n_sensed) continue; /* nothing is solved there */
-    double value = d[j] != 0 ? w->core.condition[j] : -w->core.condition[j];
+    double value = frot_condition_value(w, d, j);
     if (!(value < 0 && start[k] >= 0)) continue;
     double at = (w->core.t - t) / h * start[k] / (start[k] - value);
     if (at <= *part) *part = at, passed = j;
@@ -240,12 +246,8 @@ int frot_condition_passed(const frot_model *m, frot_state *s, frot_work *w, doub
  * whether the motion has a slope there, without which nothing is told by those that read
  * accelerations. What the last evaluation has told of its failure stays. */
 static int look_later(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
-  const double *slope = frot_stage(w, 0);
-  double *z = w->step.z;
   int failed = w->blocks.failed, singular = w->blocks.singular, jammed = w->reactions.jammed;
-  memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
-  for (int i = 0; i < w->awake.n; i++) z[w->awake.now->states[i]] += h * slope[i];
-  memcpy(w->blocks.y, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);
+  double *z = lead(m, s, w, h);
   int seen = frot_slope(m, s, w, t + h, z, frot_stage(w, 1)) == FROT_OK;
   if (!seen) frot_kinematics(m, s, w, t + h, z, z + m->nq, s->data + w->layout.d);
   w->blocks.failed = failed, w->blocks.singular = singular, w->reactions.jammed = jammed;
@@ -265,7 +267,7 @@ int frot_condition_at_zero(const frot_model *m, frot_state *s, frot_work *w, int
     if (!(fabs(guard[k]) <= FROT_GUARD_FLOOR * size)) continue;
     if (j == passed) return first + k;
     if (!looked) seen = look_later(m, s, w, t, h), looked = 1;
-    double there = s->data[w->layout.d + j] != 0 ? w->core.condition[j] : -w->core.condition[j];
+    double there = frot_condition_value(w, s->data + w->layout.d, j);
     int known = isfinite(there) && (seen || j < m->n_located - m->n_sensed);
     double moved = known ? fabs(there - guard[k]) / size : 0;
     if (seen && moved == 0) continue; /* where nothing has a slope later any of them may be why */

@@ -130,9 +130,8 @@ void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, c
       int e = (j - m->n_contacts) / 2;
       guard[k] = element_guard(m, s, w, v, modes, e, (j - m->n_contacts) % 2, size);
     } else {
-      double value = w->core.condition[j - conditions];
-      guard[k] = d[j - conditions] != 0 ? value : -value;
-      if (size) *size = fabs(value);
+      guard[k] = frot_condition_value(w, d, j - conditions);
+      if (size) *size = fabs(guard[k]);
     }
   }
 }
@@ -200,4 +199,8 @@ int frot_guard_is_force(const frot_model *m, const frot_state *s, const frot_wor
   if (j >= frot_condition_guard(m)) return 0;
   if (j < m->n_contacts) return modes[j].closed;
   return frot_element_mode(m, modes, e)->friction <= FROT_STICK || j != frot_element_guard(m, e);
+}
+
+double frot_condition_value(const frot_work *w, const double *d, int j) {
+  return d[j] != 0 ? w->core.condition[j] : -w->core.condition[j];
 }

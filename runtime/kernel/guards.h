@@ -52,4 +52,7 @@ int frot_guard_is_force(const frot_model *m, const frot_state *s, const frot_wor
 /* The element whose slip guard j follows in the modes of the state, or -1. */
 int frot_slip_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int j);
 
+/* The guard of condition j as d says it holds, by its value at the last evaluation. */
+double frot_condition_value(const frot_work *w, const double *d, int j);
+
 #endif

@@ -18,7 +18,8 @@ static int same_contact(const frot_instant *in, int i) {
   return a->closed == b->closed && (!a->closed || follows || a->side == b->side);
 }
 
-int frot_same_element(const frot_instant *in, int e) {
+/* Whether an element has the friction in w->search.trial that it had before the instant. */
+static int same_element(const frot_instant *in, int e) {
   return frot_element_mode(in->m, in->w->search.trial, e)->friction ==
          frot_element_mode(in->m, in->w->search.before, e)->friction;
 }
@@ -44,7 +45,7 @@ static long long preference(const frot_instant *in, const int *chosen, int count
       moves &= !stays_beyond(in, own[k]);
       const frot_contact_mode *mode = frot_element_mode(m, in->w->search.trial, own[k]);
       rest += mode->friction == FROT_STICK && mode->at_bound == 0;
-      kept += frot_same_element(in, own[k]);
+      kept += same_element(in, own[k]);
     }
   }
   long long big = (1 + FROT_LAWS_OF_CONTACT) * m->n_contacts + 1;

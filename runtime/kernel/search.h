@@ -60,9 +60,6 @@ int frot_others_carry(const frot_instant *in, const int *chosen, int count);
  * with elements at their bounds and contacts without load, which are set in w->search.trial. */
 int frot_others_last(const frot_instant *in, const int *chosen, int count);
 
-/* Whether an element has the friction in w->search.trial that it had before the instant. */
-int frot_same_element(const frot_instant *in, int element);
-
 /* Whether every law of a contact holds in w->search.trial, so that the side it is pressed on
  * follows from its reaction. */
 int frot_all_held(const frot_instant *in, int contact);

@@ -9,17 +9,19 @@ import pytest
 import frot
 
 G = 9.81
+TWO = """
+  body one: box(mass = 1 kg, size = (2, 0.5) m);
+  body two: box(mass = 1 kg, size = (2, 0.5) m);
+  frame there on ground at (2, 0) m;
+  liaison fix: encastrement(ground, one);
+  liaison fix2: encastrement(there, two);"""
 TABLES = """planar model Joint
   parameter Velocity v = 1 m/s;
   parameter Real mu = 0;
   parameter Length x = -0.5 m;
   parameter Mass m = 2 kg;
-  body one: box(mass = 1 kg, size = (2, 0.5) m);
-  body two: box(mass = 1 kg, size = (2, 0.5) m);
   body b: box(mass = m, size = (0.4, {high}) m);
-  frame there on ground at (2, 0) m;
-  liaison fix: encastrement(ground, one);
-  liaison fix2: encastrement(there, two);
+  {two}
   liaison C: appui_faces({first}) with coulomb(mu);
   liaison D: appui_faces({second}) with coulomb(mu);
 initial
@@ -45,7 +47,7 @@ def slid(speed: float, mu: float, time: float) -> float:
 def test_a_block_slides_over_the_joint_of_two_tables(order: str, high: float) -> None:
     """To and fro, smooth and rough, light and heavy: on a straight way, with all its energy."""
     first, second = ORDERS[order]
-    model = frot.compile(TABLES.format(high=high, first=first, second=second))
+    model = frot.compile(TABLES.format(two=TWO, high=high, first=first, second=second))
     for speed, mu, mass in ((1.0, 0.0, 2.0), (4.0, 0.3, 2e-6), (-3.0, 0.2, 2e6), (-0.8, 0.0, 2.0)):
         start = -0.5 if speed > 0 else 2.4
         for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
@@ -64,7 +66,7 @@ def test_a_block_slides_over_the_joint_of_two_tables(order: str, high: float) ->
 def test_a_block_that_stops_over_the_joint_rests_there() -> None:
     """Whatever of it stands on which: it comes to rest with its middle 1 cm beside the joint."""
     model = frot.compile(
-        TABLES.format(high=0.2, first=ORDERS["mixed"][0], second=ORDERS["mixed"][1])
+        TABLES.format(two=TWO, high=0.2, first=ORDERS["mixed"][0], second=ORDERS["mixed"][1])
     )
     for stands in (0.99, 1.0, 1.01, 1.15, 1.25):
         speed = math.sqrt(2 * 0.3 * G * (stands + 0.5))
@@ -119,12 +121,8 @@ WHEEL = """planar model Wheel
   parameter AngularVelocity w = 0 rad/s;
   parameter Length x = 0.3 m;
   parameter Real mu = 0.3;
-  body one: box(mass = 1 kg, size = (2, 0.5) m);
-  body two: box(mass = 1 kg, size = (2, 0.5) m);
   body d: {shape}(mass = 3 kg, radius = 0.2 m);
-  frame there on ground at (2, 0) m;
-  liaison fix: encastrement(ground, one);
-  liaison fix2: encastrement(there, two);
+  {two}
   liaison C: contact_ponctuel({first}) with coulomb(mu);
   liaison D: contact_ponctuel({second}) with coulomb(mu);
 initial
@@ -151,7 +149,7 @@ def test_a_wheel_goes_over_the_joint_of_two_tables(
     shape: str, share: float, order: tuple[str, str]
 ) -> None:
     """The edge of the table ahead comes to its rim along it: it touches, and meets nothing."""
-    model = frot.compile(WHEEL.format(shape=shape, first=order[0], second=order[1]))
+    model = frot.compile(WHEEL.format(two=TWO, shape=shape, first=order[0], second=order[1]))
     for speed, spin, mu, x in (
         (1.0, -5.0, 0.3, 0.3),
         (1.0, 2.0, 0.0, 0.3),
