@@ -14,7 +14,16 @@ from typing import TYPE_CHECKING
 from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.errors import FrotError, fail
-from frot.runtime.library import Fault, Monitor, Options, RawEvent, Recorder, Statistics, load
+from frot.runtime.library import (
+    Drain,
+    Fault,
+    Monitor,
+    Options,
+    RawEvent,
+    Recorder,
+    Statistics,
+    load,
+)
 from frot.runtime.program import Program
 
 # What gives numbers to the kernel and takes them back must not wait for numpy: a run that prints
@@ -210,10 +219,18 @@ class Engine:
         interrupted: list[BaseException],
     ) -> Run:
         capacity, room, last = _CHUNK, _EVENTS, 0.0
+
+        def take(full: Recorder) -> None:
+            held = (full.events[i] for i in range(full.event_count))
+            events.extend(RawEvent.from_buffer_copy(event) for event in held)
+            full.event_count = 0
+
+        drain = Drain(lambda full, _: take(full.contents))
         while True:
             buffer = zeros(max(capacity, self.segment_size))
             raw = (RawEvent * (room + self._library.frot_events_at_once(self._model)))()
             recorder = Recorder(_address(buffer), len(buffer), 0, raw, len(raw), 0)
+            recorder.drain = ct.cast(drain, ct.c_void_p)
             status = self._unless_refused(
                 int(
                     self._library.frot_advance(
@@ -225,7 +242,8 @@ class Engine:
                 last = buffer[recorder.last + _BEGIN]
                 del buffer[recorder.segment_used :]
                 chunks.append(buffer)
-            events.extend(RawEvent.from_buffer_copy(raw[i]) for i in range(recorder.event_count))
+            drained = recorder.event_count > room
+            take(recorder)
             if any(not isinstance(error, KeyboardInterrupt) for error in interrupted):
                 raise interrupted[0]
             if interrupted:
@@ -236,7 +254,7 @@ class Engine:
             if status != FULL or taken > MOST_MEMORY:
                 return Run(status, _joined(chunks), events, last)
             # only what was short is given more: zeros that nobody fills take time too
-            if recorder.event_count > room:
+            if drained:
                 room *= 2
             else:
                 capacity = min(2 * capacity, _LARGEST_CHUNK)

@@ -42,6 +42,9 @@ class Recorder(ct.Structure):
         ("last", ct.c_longlong),
         ("whole", ct.c_longlong),
         ("naps", ct.c_longlong),
+        ("drain", ct.c_void_p),
+        ("context", ct.c_void_p),
+        ("lost", ct.c_longlong),
     )
 
 
@@ -78,6 +81,7 @@ class Statistics(ct.Structure):
 
 
 Monitor = ct.CFUNCTYPE(ct.c_int, ct.c_void_p, ct.c_double)
+Drain = ct.CFUNCTYPE(None, ct.POINTER(Recorder), ct.c_void_p)
 _POINTER, _DOUBLE, _INT, _LONG = ct.c_void_p, ct.c_double, ct.c_int, ct.c_longlong
 _SIGNATURES: dict[str, tuple[object, tuple[object, ...]]] = {
     "frot_state_size": (ct.c_size_t, (_POINTER,)),

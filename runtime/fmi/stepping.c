@@ -119,20 +119,30 @@ static int spent(void *context, double t) {
   return frot_run_statistics(b->fmu->state)->evaluations > b->most;
 }
 
+/* Logs the events of a recorder whose context is the FMU, and empties it. */
+static void log_events(frot_recorder *recorder, void *context) {
+  const frot_fmu *fmu = context;
+  char sentence[SENTENCE];
+  for (long long i = 0; i < recorder->event_count; i++) {
+    frot_event_text(fmu->model, &recorder->events[i], sentence, sizeof sentence);
+    frot_fmu_say_event(fmu, sentence);
+  }
+  recorder->event_count = 0;
+}
+
 /* Runs the kernel to time t and logs the events on the way. */
 static int advance(frot_fmu *fmu, double t) {
   frot_recorder *recorder = fmu->categories & FROT_FMU_LOG_EVENTS ? &fmu->recorder : NULL;
   budget work = {fmu, frot_run_statistics(fmu->state)->evaluations + frot_fmu_most_work};
-  char sentence[SENTENCE];
-  int status;
+  if (recorder == NULL)
+    return frot_advance(fmu->model, fmu->state, fmu->work, t, NULL, spent, &work);
+  recorder->drain = log_events, recorder->context = fmu;
+  int status, drained;
   do {
-    if (recorder != NULL) recorder->event_count = 0;
     status = frot_advance(fmu->model, fmu->state, fmu->work, t, recorder, spent, &work);
-    for (long long i = 0; recorder != NULL && i < recorder->event_count; i++) {
-      frot_event_text(fmu->model, &recorder->events[i], sentence, sizeof sentence);
-      frot_fmu_say_event(fmu, sentence);
-    }
-  } while (status == FROT_FULL && recorder != NULL && recorder->event_count > 0);
+    drained = recorder->event_count > 0;
+    log_events(recorder, fmu);
+  } while (status == FROT_FULL && drained);
   return status;
 }
 

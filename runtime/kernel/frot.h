@@ -22,8 +22,6 @@
 extern "C" {
 #endif
 
-#define FROT_STAGES 8 /* vectors of the dense output of a segment */
-
 /* Status of every call that can fail. Positive: told in state->fault. */
 enum frot_status {
   FROT_OK = 0,
@@ -101,6 +99,10 @@ typedef struct {
   double where[FROT_WHERE]; /* of FROT_VANISHED; values of that speed */
 } frot_fault;
 
+/* Admissible motions that are told apart at one instant; as many solutions mean at least so many.
+ */
+#define FROT_MOST_MOTIONS 31
+
 typedef struct {
   double t;
   int kind, contact;
@@ -137,15 +139,21 @@ typedef struct frot_work frot_work;
 /* Where segments and events go, in memory of the caller. A segment takes frot_segment_size doubles
  * at most: one in which islands sleep refers to one before it for what stands still. Its first item
  * is its length, its fourth the time at which it begins. The first of each memory stands by itself.
- * With segments NULL only events are recorded. The events need room for frot_events_at_once. */
-typedef struct {
+ * With segments NULL only events are recorded. The events need room for frot_events_at_once, and a
+ * single instant may bring more: then `drain` is called with `context`, which takes the events or
+ * gives more room. Events that still find no room are counted in `lost`. */
+typedef struct frot_recorder frot_recorder;
+struct frot_recorder {
   double *segments;
   long long segment_capacity, segment_used; /* doubles */
   frot_event *events;
   long long event_capacity, event_count;
   long long last;        /* where the last segment begins */
   long long whole, naps; /* the kernel's own: the last that stands by itself, and what slept */
-} frot_recorder;
+  void (*drain)(frot_recorder *recorder, void *context); /* may be NULL */
+  void *context;
+  long long lost;
+};
 
 /* Called now and then with the time reached; a nonzero answer stops the run. May be NULL. */
 typedef int (*frot_monitor)(void *context, double t);
@@ -154,7 +162,7 @@ size_t frot_state_size(const frot_model *model);      /* bytes */
 size_t frot_work_size(const frot_model *model);       /* bytes */
 long long frot_segment_size(const frot_model *model); /* doubles of the longest segment */
 
-/* Events that one instant may bring. */
+/* Events that one instant usually brings at most. */
 long long frot_events_at_once(const frot_model *model);
 
 /* Fill a new state with the defaults of the model. */

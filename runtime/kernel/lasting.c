@@ -280,7 +280,7 @@ int frot_sets_out(const frot_instant *in, const frot_group *g) {
   frot_work *w = in->w;
   double *q = w->step.z, *v = q + m->nq;
   /* room of search.c between two motions */
-  double *lam = w->search.motions + (size_t)(FROT_MOTIONS - 1) * (size_t)m->n_rows;
+  double *lam = w->search.motions + (size_t)FROT_MOST_MOTIONS * (size_t)m->n_rows;
   int sets_out = 0;
   memcpy(lam, w->core.lam, sizeof(double) * (size_t)m->n_rows);
   if (!note_rates(in, g)) return 0;

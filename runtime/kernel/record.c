@@ -11,7 +11,13 @@ long long frot_events_at_once(const frot_model *m) {
 void frot_note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact, int before,
                int after, int solutions) {
   s->statistics.events++;
-  if (!recorder || recorder->event_count >= recorder->event_capacity) return;
+  if (!recorder) return;
+  if (recorder->event_count >= recorder->event_capacity && recorder->drain)
+    recorder->drain(recorder, recorder->context);
+  if (recorder->event_count >= recorder->event_capacity) {
+    recorder->lost++;
+    return;
+  }
   recorder->events[recorder->event_count++] =
       (frot_event){t, kind, contact, before, after, solutions, 0};
 }

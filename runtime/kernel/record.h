@@ -4,7 +4,8 @@
 
 #include "state.h"
 
-/* Count an event and, if there is a recorder with room, record it. */
+/* Count an event and record it, if there is a recorder. A full one is drained first; what finds no
+ * room is counted as lost. */
 void frot_note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact, int before,
                int after, int solutions);
 

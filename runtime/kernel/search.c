@@ -74,8 +74,8 @@ static double unresolved(const frot_instant *in, const frot_group *g, int row) {
 static int count_motion(const frot_instant *in, const int *chosen, int motions) {
   const frot_model *m = in->m;
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
-  double *own = in->w->search.motions + (size_t)(FROT_MOTIONS - 1) * (size_t)m->n_rows;
-  if (motions >= FROT_MOTIONS - 1) return motions;
+  double *own = in->w->search.motions + (size_t)FROT_MOST_MOTIONS * (size_t)m->n_rows;
+  if (motions >= FROT_MOST_MOTIONS) return motions;
   for (int at = 0; at <= motions; at++) {
     const double *other = in->w->search.motions + (size_t)at * (size_t)m->n_rows;
     int differs = 0;

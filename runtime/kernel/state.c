@@ -1,6 +1,8 @@
 /* Layout of the state; parameters and inputs. */
 #include "state.h"
 
+#include "fault.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -163,7 +165,10 @@ int frot_state_valid(const frot_model *m, const void *block, size_t size) {
     return 0;
   if (s->asleep < 0 || s->asleep > m->n_islands) return 0;
   if (s->implicit < 0 || s->implicit > m->has_jacobian) return 0;
-  if (s->fault.contact < -1 || s->fault.contact >= m->n_contacts) return 0;
+  if (!frot_fault_is_valid(m, &s->fault)) return 0;
+  if (s->second < -1 || s->second >= m->n_contacts) return 0;
+  if (s->fleeting < -1 || s->fleeting >= m->n_contacts) return 0;
+  if (s->jammed < -1 || (s->jammed > 0 && s->jammed >= m->n_groups)) return 0;
   if (s->phase == FROT_ENDED && (s->outcome < 0 || s->outcome >= m->n_outcomes)) return 0;
   const frot_contact_mode *modes = (const void *)(s->data + l.modes);
   frot_segment g = frot_segment_at(m, (double *)(s->data + l.segment));

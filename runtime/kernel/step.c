@@ -110,8 +110,9 @@ static void forget_noise(const frot_model *m, frot_state *s, const frot_work *w)
     guards[frot_condition_guard(m) + now->located[k]] *= FORGET;
 }
 
-/* Record the step that was kept, and make its dense output, if it is not there and somebody looks
- * inside the step. Nothing is decided by that, so that the motion does not depend on who looks. */
+/* Record the step that was kept. If a time inside it is asked for and it has no dense output, make
+ * that. Both leave other values in the scratch memory, so all that the step decides about the next
+ * one comes before: the motion does not depend on the times that are asked for. */
 static void show(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a,
                  frot_recorder *recorder) {
   frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
@@ -155,6 +156,15 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   return FROT_OK;
 }
 
+/* An error that is rounding grows with the step, not with its ninth power: it may keep steps short
+ * without one that fails. */
+static void look_at_noise(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a) {
+  if (s->implicit || !(a->ratio > FROT_LIMITING)) return;
+  if (++s->unmeasured < MEASURED && !s->noise_shown) return;
+  s->unmeasured = 0;
+  frot_measure_noise(m, s, w, a->t + a->h);
+}
+
 /* Take the step: it becomes the current segment. */
 static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a, int guard,
                 frot_recorder *recorder) {
@@ -179,6 +189,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
          sizeof(double) * (size_t)w->guards.count);
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   int status = land(m, s, w, a, end, x);
+  if (status == FROT_OK && !s->pending) look_at_noise(m, s, w, a);
   show(m, s, w, a, recorder);
   if (status != FROT_OK) return status;
   frot_choose_next(m, s, a->stiff);
@@ -235,15 +246,6 @@ static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
   return s->pending ? FROT_OK : keep(m, s, w, a, guard, recorder);
 }
 
-/* An error that is rounding grows with the step, not with its ninth power: it may keep steps short
- * without one that fails. */
-static void look_at_noise(const frot_model *m, frot_state *s, frot_work *w, const frot_attempt *a) {
-  if (s->implicit || !(a->ratio > FROT_LIMITING)) return;
-  if (++s->unmeasured < MEASURED && !s->noise_shown) return;
-  s->unmeasured = 0;
-  frot_measure_noise(m, s, w, a->t + a->h);
-}
-
 static int step(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
   frot_attempt a = frot_attempt_from(*frot_segment_at(m, s->data + w->layout.segment).t1);
   if (s->due <= a.t) {
@@ -256,7 +258,6 @@ static int step(const frot_model *m, frot_state *s, frot_work *w, frot_recorder 
   if (status != FROT_OK)
     return frot_fail_step(m, s, w, status, a.t, 0, w->step.z1, w->step.z1 + m->nq);
   status = take(m, s, w, &a, recorder);
-  if (status == FROT_OK && !s->pending) look_at_noise(m, s, w, &a);
   frot_see_anew(w);
   w->reactions.follow = 0;
   return status;

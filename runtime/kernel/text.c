@@ -24,6 +24,9 @@ static const char *outcome_text(const frot_model *m, int outcome) {
   return outcome >= 0 && outcome < m->n_outcomes ? m->outcomes[outcome].text : "";
 }
 
+/* What stands before a number of motions that is the most that are counted. */
+static const char *at_least(int motions) { return motions >= FROT_MOST_MOTIONS ? "at least " : ""; }
+
 void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_t size) {
   const char *name = contact_name(m, e->contact);
   switch (e->kind) {
@@ -41,8 +44,8 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
       snprintf(text, size, "%s: the reaction changes sides at t = %.17g", name, e->t);
       return;
     case FROT_EVENT_SEVERAL:
-      snprintf(text, size, "%s: %d motions are admissible at t = %.17g; taken: %s", name,
-               e->solutions, e->t, mode_name(e->after));
+      snprintf(text, size, "%s: %s%d motions are admissible at t = %.17g; taken: %s", name,
+               at_least(e->solutions), e->solutions, e->t, mode_name(e->after));
       return;
     case FROT_EVENT_WARNING:
       snprintf(text, size, "warning: %s at t = %.17g", outcome_text(m, e->contact), e->t);
@@ -238,8 +241,8 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       return;
     case FROT_SEVERAL:
       snprintf(text, size,
-               "liaison '%s': %d motions are admissible at t = %.17g and on_indeterminate = stop",
-               name, (int)f->value, f->t);
+               "liaison '%s': %s%d motions are admissible at t = %.17g and on_indeterminate = stop",
+               name, at_least((int)f->value), (int)f->value, f->t);
       return;
     case FROT_CHATTER:
       if (f->item >= 0)

@@ -152,7 +152,8 @@ static inline double frot_size_of_time(double t, double h_max) {
 /* Combinations of modes examined one by one; beyond, one motion is looked for by pivoting. */
 #define FROT_ENOUGH 2500
 
-/* Motions told apart at one instant; more are counted as this many. */
-#define FROT_MOTIONS 32
+/* Places for the accelerations of motions at one instant: FROT_MOST_MOTIONS, and one for scratch.
+ */
+#define FROT_MOTIONS (FROT_MOST_MOTIONS + 1)
 
 #endif

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import ctypes as ct
+
 import numpy as np
 import pytest
 from frot.runtime.engine import OK, Engine
+from frot.runtime.library import RawEvent
 from frot.runtime.program import Program
 
 STOPS = {"inclined_block": 3.0, "backspin_hoop": 3.0, "coulomb_oscillator": 12.0}
@@ -99,3 +102,58 @@ def test_the_energy_balance_survives_a_changed_parameter(programs: dict[str, Pro
     engine.advance(12.0)
     residual, scale = engine.energy()[:2]
     assert abs(residual) < 1e-9 * scale
+
+
+# Which indices the sentence of a fault looks up in tables of the model, by its status.
+LOOKED_UP = {
+    **dict.fromkeys((10, 22, 23, 30, 32), ("item",)),
+    **dict.fromkeys((11, 16, 17), ("item", "other")),
+    **dict.fromkeys((18, 31), ("other",)),
+}
+
+
+@pytest.mark.parametrize("status", range(40))
+@pytest.mark.parametrize("field", ["contact", "item", "other"])
+def test_a_state_whose_fault_names_nothing_of_the_model_is_refused(
+    programs: dict[str, Program], status: int, field: str
+) -> None:
+    """A damaged FMU state must not be read outside of the tables of the model."""
+    engine = started(programs["backspin_hoop"])
+    library, instance = engine._library, (engine._model, engine._s)
+    valid = library.frot_state_valid
+    valid.restype, valid.argtypes = ct.c_int, (ct.c_void_p, ct.c_void_p, ct.c_size_t)
+    size = len(engine.save())
+    assert valid(*instance, size)
+    fault = library.frot_last_fault(engine._s).contents
+    read = ("contact", *LOOKED_UP.get(status, ()))
+    for index in (-(2**31), -1000, 1000, 2**31 - 1):
+        fault.status, fault.contact, fault.item, fault.other = status, -1, -1, -1
+        if status in (10, 23, 30, 32):  # their sentences need an entry
+            fault.item = 0
+        setattr(fault, field, index)
+        expected = field not in read and holds_entries(status)
+        assert bool(valid(*instance, size)) == expected
+        if valid(*instance, size):
+            assert engine.fault_text is not None
+            assert engine.fault_places is not None
+
+
+def holds_entries(status: int) -> bool:
+    """Whether the hoop has what the fault is about: the hoop has no assertions."""
+    return status not in (23, 30)
+
+
+def test_the_number_of_motions_is_a_lower_bound_where_no_more_are_counted(
+    programs: dict[str, Program],
+) -> None:
+    engine = started(programs["backspin_hoop"])
+    several, most = 10, 31
+
+    def sentence(solutions: int) -> str:
+        text = ct.create_string_buffer(256)
+        event = RawEvent(0.0, several, 0, 0, 0, solutions, 0)
+        engine._library.frot_event_text(engine._model, ct.byref(event), text, 256)
+        return text.value.decode()
+
+    assert ": 30 motions are admissible" in sentence(most - 1)
+    assert ": at least 31 motions are admissible" in sentence(most)
