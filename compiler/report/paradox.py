@@ -38,8 +38,8 @@ class Paradox:
     """A liaison whose friction may leave no motion, or several, from a coefficient on.
 
     `start`: from which one at the posture of the start, `least` in the worst posture that was found
-    (None where there was no search, or where it ended at no maximum), `where` its coordinates that matter; `mu` is the coefficient
-    that the text has at the start. Infinite: at none.
+    (None where there was no search, or where it ended at no maximum), `where` its coordinates that
+    matter; `mu` is the coefficient that the text has at the start. Infinite: at none.
     """
 
     liaison: Liaison
