@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from frot.dsl.files.writing import PICTURES, check_target, write_whole
+from frot.dsl.messages.escapes import escaped
 from frot.runtime.result import MODES, Result
 
 if TYPE_CHECKING:
@@ -64,7 +65,8 @@ def draw(result: Result) -> Any:
     axes = figure.subplots(
         len(heights), 1, sharex=True, squeeze=False, height_ratios=heights
     ).ravel()
-    figure.suptitle(result.program.doc or result.program.name, fontsize=11)
+    title = escaped(result.program.doc or result.program.name)
+    figure.suptitle(title, fontsize=11, parse_math=False)
     units = {v.name: v.unit.name for v in result.program.variables}
     for axis, (title, names) in zip(axes, panels, strict=False):
         for colour, name in zip(COLOURS, names[:MOST_CURVES], strict=False):

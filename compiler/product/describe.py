@@ -15,6 +15,7 @@ from frot.compiler.report.first_integrals import FirstIntegral
 from frot.compiler.toolchain.chosen import MODEL_FLAGS, Toolchain
 from frot.dsl import default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
+from frot.dsl.messages.escapes import escaped
 from frot.dsl.quantities.dimensions import dimension
 from frot.runtime.program import (
     ExperimentInfo,
@@ -65,7 +66,7 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
         flags=MODEL_FLAGS,
         folder=folder,
         balanced=bool(model.bodies) and not lowered.system.elements and not mechanism.is_driven,
-        conditions=tuple(reduced.conditions.texts),
+        conditions=tuple(escaped(text) for text in reduced.conditions.texts),
         fixed=tuple((p.name, p.structural) for p in model.parameters if p.structural),
         file=file,
         first_integrals=_integrals(lowered.integrals),
