@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from front_door import HOOP, OSCILLATOR, Door, files_in
+from front_door import HOOP, OSCILLATOR, Door, Shell, files_in
 from frot.runtime.result import MODES
 
 import frot
@@ -261,3 +261,24 @@ def test_too_little_memory_is_one_message(door: Door, monkeypatch: pytest.Monkey
 
     monkeypatch.setattr("frot.runtime.engine.Engine.values", values)
     door("simulate", HOOP).refuses("E0808", "not enough memory")
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(
+    "words", ["simulate model.frot -o out.csv", "check model.frot", "explain", "fmt --diff *.frot"]
+)
+def test_a_closed_standard_stream_is_no_fault(closed: str, words: str, shell: Shell) -> None:
+    """The file of the table must not take the number of the closed stream."""
+    (shell.folder / "model.frot").write_text(HOOP.read_text(encoding="utf-8"), encoding="utf-8")
+    answer = shell.run(["sh", "-c", f"{sys.executable} -m frot.command_line {words} {closed}"])
+    assert answer.succeeds().err == ""
+    if "-o" in words:
+        lines = (shell.folder / "out.csv").read_text(encoding="utf-8").splitlines()
+        assert len(lines) == 502 and lines[0].startswith("time,")
+
+
+def test_a_model_is_compiled_with_all_streams_closed(shell: Shell) -> None:
+    (shell.folder / "model.frot").write_text(MANY.replace("1e-7", "0.1"), encoding="utf-8")
+    run = f"{sys.executable} -m frot.command_line simulate model.frot -o out.json <&- >&- 2>&-"
+    shell.run(["sh", "-c", run], FROT_CACHE=shell.folder / "cache").succeeds()
+    assert len(json.loads((shell.folder / "out.json").read_text())["variables"]["time"]) == 11
