@@ -5,7 +5,15 @@ from __future__ import annotations
 from typing import cast
 
 from frot.dsl import checked
-from frot.dsl.catalogue import FORCES, LAWS, LIAISONS, LiaisonKind, find, spellings
+from frot.dsl.catalogue import (
+    FORCES,
+    LAWS,
+    LIAISONS,
+    LiaisonKind,
+    arguments_for,
+    find,
+    spellings,
+)
 from frot.dsl.checked.describe import quantity
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.declarations.bounds import keep_positive
@@ -200,7 +208,8 @@ def _law(written: tree.Expression, to: checked.Liaison | None, scope: Scope) -> 
             help_text = did_you_mean(name, spellings(LAWS))
             scope.log.report("E0202", f"unknown law {name!r}", callee.span, help=help_text)
         return None
-    found = bind(arguments, kind.arguments, name, written.span, scope)
+    wanted = kind.arguments if to is None else arguments_for(kind, to.kind)
+    found = bind(arguments, wanted, name, written.span, scope)
     if not found.complete:
         return None
     values = cast("dict[str, checked.Expression]", found.values)
