@@ -89,6 +89,8 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
                 yield Check(
                     POSITIVE, "interval of 'sample'", condition.arguments[1], condition.span
                 )
+    if not isinstance(model.world.down, str):
+        yield _length("'down' of the world", model.world.down)
     for body in model.bodies:
         if body.shape is not None:
             owner = f"body '{body.name}'"
