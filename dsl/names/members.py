@@ -18,7 +18,7 @@ from frot.dsl.names.things import Thing, as_thing, gathered, kind_of
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree
 
-_AXES = "xyz"
+_AXES, _QUATERNION = "xyz", "wxyz"
 
 
 def member(owner: Thing, node: tree.Member, scope: Scope, want: str) -> Thing | None:
@@ -159,10 +159,14 @@ def _no_member(message: str, node: tree.Member, names: tuple[str, ...], scope: S
 
 def _component(owner: checked.Expression, node: tree.Member, scope: Scope) -> Thing | None:
     name = node.name.text
-    if len(owner.type.shape) == 1 and name in tuple(_AXES[: owner.type.shape[0]]):
-        return element(owner, _AXES.index(name), node.span)
+    quaternion = isinstance(owner, checked.Quantity) and owner.name == "orientation"
+    names = _QUATERNION if quaternion else _AXES
+    if len(owner.type.shape) == 1 and name in tuple(names[: owner.type.shape[0]]):
+        return element(owner, names.index(name), node.span)
     if owner.type.is_scalar:
         message = f"{node.operand.span.text!r} is a scalar: it has no {name!r}"
+    elif quaternion:
+        message = f"an orientation has .w, .x, .y, .z, not '.{name}'"
     elif len(owner.type.shape) == 1 and owner.type.shape[0] <= 3:
         axes = ", ".join(f".{a}" for a in _AXES[: owner.type.shape[0]])
         message = f"a vector of this model has {axes}, not '.{name}'"
