@@ -266,8 +266,10 @@ def _sizes(owner: str, given: Mapping[str, Expression]) -> Iterator[Check]:
             continue
         if name in ("direction", "normal", "axis") and value.type.shape:
             yield _length(f"the {name} of {owner}", value)
-        elif name in ("radius", "a", "b"):
-            yield Check(POSITIVE, f"{name} of {owner}", value, value.span)
+        elif name in ("radius", "a", "b", "semi_axes"):
+            names = component_names(name, value.type.shape)
+            for one, item in zip(names, scalars(value), strict=True):
+                yield Check(POSITIVE, f"{one} of {owner}", item, value.span)
         elif name in ("u", "v"):
             kind = value.type.item
             first, last = (Element(value, k, kind, value.span) for k in (0, 1))
@@ -291,7 +293,10 @@ def _arguments(
         if kind.kind == "inertia" and value.type.shape:
             yield from _moments(owner, value)
         elif is_fixed(value):
-            yield Check(rules[kind.sign], f"{kind.name} of {owner}", value, value.span)
+            for name, item in zip(
+                component_names(kind.name, value.type.shape), scalars(value), strict=True
+            ):
+                yield Check(rules[kind.sign], f"{name} of {owner}", item, value.span)
 
 
 def _outline(owner: str, vertices: Expression) -> Check:

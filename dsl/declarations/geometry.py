@@ -6,6 +6,7 @@ from typing import cast
 
 from frot.dsl import checked
 from frot.dsl.catalogue import SHAPES, Argument, find, spellings, vector
+from frot.dsl.catalogue.shapes import SEMI_AXES
 from frot.dsl.catalogue.types import LENGTH
 from frot.dsl.checked.arrays import vector as checked_vector
 from frot.dsl.checked.describe import describe
@@ -46,6 +47,8 @@ _SURFACES = {
     "plane": (_THROUGH, Argument("normal", REAL, "axis", doc="its normal")),
     "plan": (_THROUGH, Argument("normal", REAL, "axis", doc="its normal")),
     "sphere": (_RADIUS, _CENTRE),
+    "ellipsoid": (SEMI_AXES, _CENTRE),
+    "ellipsoide": (SEMI_AXES, _CENTRE),
     "cylinder": (_RADIUS, Argument("axis", REAL, "axis", required=False, default="z")),
 }
 _ROTATION = (
@@ -186,7 +189,7 @@ def surface(node: tree.Surface, name: str, scope: Scope) -> checked.Surface | No
         found = bind(arguments, _SURFACES[kind], kind, node.kind.span, scope)
         values = cast("dict[str, checked.Expression]", found.values) if found.complete else None
         keep_positive(values or {}, _SURFACES[kind], f"surface '{name}'", scope)
-    kind = {"plan": "plane"}.get(kind, kind)
+    kind = {"plan": "plane", "ellipsoide": "ellipsoid"}.get(kind, kind)
     return None if values is None else checked.Surface(name, owner, kind, values, node.span)
 
 

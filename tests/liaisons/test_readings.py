@@ -59,7 +59,7 @@ def test_other_names_are_none_of_an_orientation(name: str, code: str) -> None:
 
 def test_an_array_of_four_has_no_such_names() -> None:
     with pytest.raises(frot.FrotError, match="E0203"):
-        frot.compile("model M\n  Real a[4] = {1, 2, 3, 4};\n  output Real w = a.w;\nend M;")
+        frot.compile("model M\n  Real a[4] = (1, 2, 3, 4);\n  output Real w = a.w;\nend M;")
 
 
 SCREW = """
