@@ -8,8 +8,9 @@ from graphlib import CycleError, TopologicalSorter
 import casadi as ca
 from frot.compiler.equations.before import Before
 from frot.compiler.equations.text_symbols import TextSymbols, scalars
-from frot.compiler.lowering.expressions import NEVER, RISING, Conditions, Lowering, words
+from frot.compiler.lowering.expressions import NEVER, RISING, Conditions, Lowering
 from frot.compiler.lowering.symbols import shaped
+from frot.compiler.lowering.wording import words
 from frot.compiler.symbolic.columns import column
 from frot.dsl import Log
 from frot.dsl.checked import (

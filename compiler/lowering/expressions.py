@@ -9,6 +9,7 @@ import casadi as ca
 from frot.compiler.equations.before import Before, whole
 from frot.compiler.lowering.symbols import Symbols
 from frot.compiler.lowering.walk import COMPARISONS, is_fixed, quantities_in
+from frot.compiler.lowering.wording import words
 from frot.dsl import Log
 from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked import (
@@ -33,13 +34,6 @@ from frot.dsl.data.classes import dataclass, field, replace
 from frot.dsl.messages.source import Span
 
 NEVER, RISING, ALWAYS = range(3)
-
-
-def words(node: Expression) -> str:
-    """The author's text on one line; a parenthesis cut off at an end of it is put back."""
-    text = " ".join(node.span.text.split())
-    missing = text.count("(") - text.count(")")
-    return "(" * -missing + text + ")" * missing
 
 
 @dataclass(slots=True)
