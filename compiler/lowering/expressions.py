@@ -9,7 +9,6 @@ import casadi as ca
 from frot.compiler.equations.before import Before, whole
 from frot.compiler.lowering.symbols import Symbols
 from frot.compiler.lowering.walk import COMPARISONS, is_fixed, quantities_in
-from frot.compiler.lowering.wording import words
 from frot.dsl import Log
 from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked import (
@@ -30,6 +29,7 @@ from frot.dsl.checked import (
     Vector,
 )
 from frot.dsl.checked.walk import Rules, SharedWalk, parts
+from frot.dsl.checked.wording import words
 from frot.dsl.data.classes import dataclass, field, replace
 from frot.dsl.messages.source import Span
 
