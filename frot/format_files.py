@@ -10,7 +10,7 @@ from pathlib import Path
 from frot.dsl import Log, format_text
 from frot.dsl.files.reading import decode, read_text
 from frot.dsl.messages.errors import FrotError
-from frot.dsl.messages.escapes import escaped
+from frot.dsl.messages.source import escaped
 
 STANDARD_INPUT = "-"
 

@@ -10,7 +10,7 @@ from frot.dsl.checked.show import show_model
 from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostic_data import log_data
 from frot.dsl.messages.errors import FrotError
-from frot.dsl.messages.escapes import escaped
+from frot.dsl.messages.source import escaped
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

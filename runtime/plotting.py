@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from frot.dsl.files.writing import PICTURES, check_target, write_whole
-from frot.dsl.messages.escapes import escaped
+from frot.dsl.messages.source import escaped
 from frot.runtime.panels import LEVEL, Choice, Panel, choose
 from frot.runtime.result import MODES, Result
 

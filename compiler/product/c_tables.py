@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import casadi as ca
-from frot.dsl.messages.escapes import escaped
-from frot.dsl.messages.source import Span
+from frot.dsl.messages.source import Span, escaped
 
 
 def callable_record(function: ca.Function | None) -> str:

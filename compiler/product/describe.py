@@ -15,7 +15,7 @@ from frot.compiler.report.first_integrals import FirstIntegral
 from frot.compiler.toolchain.chosen import MODEL_FLAGS, Toolchain
 from frot.dsl import default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
-from frot.dsl.messages.escapes import escaped
+from frot.dsl.messages.source import escaped
 from frot.dsl.quantities.dimensions import dimension
 from frot.runtime.program import (
     ExperimentInfo,

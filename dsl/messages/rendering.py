@@ -6,8 +6,7 @@ import unicodedata
 
 from frot.dsl.messages.codes import CODES
 from frot.dsl.messages.diagnostics import LIMIT, Diagnostic, Log
-from frot.dsl.messages.escapes import escaped
-from frot.dsl.messages.source import Span
+from frot.dsl.messages.source import Span, escaped
 
 _TAB = 4
 _LONGEST = 160
