@@ -21,6 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     import signal
 
+    _open_closed_streams()
     interrupts = Interrupts()
     try:
         interrupts.__enter__()
@@ -33,6 +34,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
     finally:
         last = signal.SIG_IGN if arguments is None else signal.default_int_handler
         interrupts.leave(last)
+
+
+def _open_closed_streams() -> None:
+    """Give what the caller has closed (`frot ... >&-`) to the null device.
+
+    Else Python has no such stream, and the next file that is opened takes its number.
+    """
+    import os
+
+    if None not in (sys.stdin, sys.stdout, sys.stderr):
+        return
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            # the lowest number that is free
+            os.set_inheritable(os.open(os.devnull, os.O_RDWR), True)
+    sys.stdin = sys.stdin or os.fdopen(0, encoding="utf-8", closefd=False)
+    sys.stdout = sys.stdout or os.fdopen(1, "w", encoding="utf-8", closefd=False)
+    sys.stderr = sys.stderr or os.fdopen(2, "w", encoding="utf-8", closefd=False)
 
 
 if __name__ == "__main__":

@@ -37,6 +37,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         print("  = help: free some space, or send the output elsewhere", file=sys.stderr)
         _discard_output()
         return EXIT_ERROR
+    except MemoryError:
+        _complain(_out_of_memory())
+        return EXIT_ERROR
     except Exception as error:
         from frot.dsl.messages.errors import FrotError
 
@@ -44,6 +47,12 @@ def run(arguments: Sequence[str] | None = None) -> int:
             raise
         _complain(error)
         return EXIT_ERROR
+
+
+def _out_of_memory() -> Exception:
+    from frot.dsl.messages.errors import fail
+
+    return fail("E0808", "the computer has not enough memory for this")
 
 
 def _discard_output() -> None:

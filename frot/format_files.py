@@ -10,6 +10,7 @@ from pathlib import Path
 from frot.dsl import Log, format_text
 from frot.dsl.files.reading import decode, read_text
 from frot.dsl.messages.errors import FrotError
+from frot.dsl.messages.source import escaped
 
 STANDARD_INPUT = "-"
 
@@ -32,7 +33,8 @@ def format_file(path: str, check: bool, diff: bool) -> bool:
         raise FrotError(log)
     changes = form != text
     if diff:
-        _put(_difference(text, form, name))
+        shown = _difference(text, form, name)
+        _put("\n".join(map(escaped, shown.split("\n"))) if sys.stdout.isatty() else shown)
     elif check:
         if changes:
             print(name)

@@ -10,6 +10,7 @@ from frot.dsl.checked.show import show_model
 from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostic_data import log_data
 from frot.dsl.messages.errors import FrotError
+from frot.dsl.messages.source import escaped
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -99,4 +100,4 @@ def emit_stage(path: str, name: str | None, stage: str) -> str:
             printed = show_model(model) if stage == "instance" else print_stage(model, stage, log)
     if log.failed or printed is None:
         raise FrotError(log)
-    return printed
+    return "\n".join(escaped(line) for line in printed.split("\n"))

@@ -1,4 +1,4 @@
-"""A picture of a run: positions, velocities, reactions and the modes of the liaisons over time."""
+"""A picture of a run: curves over time in panels of one unit, and the modes of the liaisons."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from frot.dsl.files.writing import PICTURES, check_target, write_whole
+from frot.dsl.messages.source import escaped
+from frot.runtime.panels import LEVEL, Choice, Panel, choose
 from frot.runtime.result import MODES, Result
 
 if TYPE_CHECKING:
@@ -15,20 +17,11 @@ if TYPE_CHECKING:
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 MODE_COLOURS = {"open": "#e8eef4", "stick": "#3a5a78", "slip": "#e9b44c"}
-MOST_CURVES = 7
-MOST_PANELS = 6
 FINE = 2000
+# Values of all variables that are made at once.
+MOST_VALUES = 2**22
 # More events than this are not marked: their lines would hide the curves.
 MOST_MARKS = 60
-# A curve that varies by less than this part of its size is drawn as the constant it is.
-LEVEL = 1e-5
-PANELS = (
-    ("position", (".position.x", ".position.y", ".position.z", ".u", ".displacement")),
-    ("angle", (".angle",)),
-    ("velocity", (".velocity.x", ".velocity.y", ".velocity.z", ".slip")),
-    ("angular velocity", (".angular_velocity", *(f".angular_velocity.{k}" for k in "xyz"))),
-    ("reaction", (".normal_force", ".tangential_force")),
-)
 
 
 def plot(result: Result, path: str | Path) -> None:
@@ -44,47 +37,69 @@ def draw(result: Result) -> Any:
     """The picture as a matplotlib Figure."""
     from matplotlib.figure import Figure
 
-    # Events fall between the times of the output grid: look more closely, and at both sides.
+    choice = choose(result)
     first, last = result.time[0], result.time[-1]
     events = np.array([e.time for e in result.events if first < e.time < last])
-    times = np.unique(
-        np.concatenate(
-            (np.linspace(first, last, FINE), events, np.nextafter(events, first, dtype=float))
-        )
-    )
-    values = result.at(times)
-    panels = [(title, _curves(result, values, suffixes)) for title, suffixes in PANELS]
-    outputs = [v.name for v in result.program.variables if v.causality == "output"]
-    panels = [(title, names) for title, names in [("output", outputs), *panels] if names]
-    if not panels:
-        panels = _by_unit(result, values)
-    modes = [v.name for v in result.program.variables if v.type == "mode"]
+    times, values = _curves(result, choice, events)
+    panels, modes = choice.panels, choice.modes
     heights = [2.0] * len(panels) + [0.3 + 0.22 * len(modes)] * bool(modes)
     figure = Figure(figsize=(9, 1.2 + sum(heights)), layout="constrained")
     axes = figure.subplots(
         len(heights), 1, sharex=True, squeeze=False, height_ratios=heights
     ).ravel()
-    figure.suptitle(result.program.doc or result.program.name, fontsize=11)
+    title = escaped(result.program.doc or result.program.name)
+    figure.suptitle(title, fontsize=11, parse_math=False)
     units = {v.name: v.unit.name for v in result.program.variables}
-    for axis, (title, names) in zip(axes, panels, strict=False):
-        for colour, name in zip(COLOURS, names[:MOST_CURVES], strict=False):
-            unit = "" if units[name] == "1" else f" ({units[name]})"
-            axis.plot(times, values[name], color=colour, lw=1.4, label=f"{name}{unit}")
+    for axis, panel in zip(axes, panels, strict=False):
+        _draw_panel(axis, panel, times, values, units)
         for event in events if len(events) <= MOST_MARKS else ():
             axis.axvline(event, color="#999999", lw=0.6, ls=":")
-        hidden = len(names) - MOST_CURVES
-        axis.set_ylabel(title if hidden <= 0 else f"{title} ({hidden} not shown)", fontsize=9)
-        if names:
-            axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-        axis.tick_params(labelsize=8)
-        axis.grid(color="#eeeeee", lw=0.6)
-        axis.margins(x=0)
-        _level(axis, [values[name] for name in names[:MOST_CURVES]])
     if modes:
-        _draw_modes(axes[-1], result, modes, times)
-    axes[-1].set_xlabel("time (s)", fontsize=9)
+        _draw_modes(axes[-1], values, modes, times)
+        if choice.hidden_modes:
+            axes[-1].set_ylabel(f"({choice.hidden_modes} not shown)", fontsize=9)
+    more = f" ({choice.hidden} more panels not shown)" if choice.hidden else ""
+    axes[-1].set_xlabel(f"time (s){more}", fontsize=9)
     axes[-1].set_xlim(first, last)
     return figure
+
+
+def _curves(result: Result, choice: Choice, events: Floats) -> tuple[Floats, dict[str, Floats]]:
+    """The times of the picture and what is drawn at them.
+
+    Events lie between the times of the output grid: both sides of each are drawn. Values are taken
+    a block at a time, as each has all variables.
+    """
+    first, last = result.time[0], result.time[-1]
+    few = events[:: -(-len(events) // FINE) or 1]
+    times = np.unique(
+        np.concatenate((np.linspace(first, last, FINE), few, np.nextafter(few, first, dtype=float)))
+    )
+    names = [*(name for panel in choice.panels for name in panel.names), *choice.modes]
+    block = max(MOST_VALUES // max(len(result.program.variables), 1), 1)
+    parts = [result.at(times[k : k + block]) for k in range(0, len(times), block)]
+    return times, {name: np.concatenate([part[name] for part in parts]) for name in names}
+
+
+def _draw_panel(
+    axis: Any, panel: Panel, times: Floats, values: dict[str, Floats], units: dict[str, str]
+) -> None:
+    for colour, name in zip(COLOURS, panel.names, strict=False):
+        unit = "" if units[name] == "1" else f" ({units[name]})"
+        axis.plot(times, values[name], color=colour, lw=1.4, label=f"{name}{unit}")
+    more = f"({panel.hidden} not shown)" if panel.hidden else ""
+    axis.set_ylabel(" ".join(filter(None, (panel.title, more))), fontsize=9)
+    if panel.names:
+        axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    axis.tick_params(labelsize=8)
+    axis.grid(color="#eeeeee", lw=0.6)
+    axis.margins(x=0)
+    if panel.steps:
+        named = [k for k, step in enumerate(panel.steps) if step]
+        axis.set_yticks(named, [panel.steps[k] for k in named])
+        axis.set_ylim(named[0] - 0.3, named[-1] + 0.3)
+    else:
+        _level(axis, [values[name] for name in panel.names])
 
 
 def _level(axis: Any, curves: list[Floats]) -> None:
@@ -97,35 +112,12 @@ def _level(axis: Any, curves: list[Floats]) -> None:
         axis.set_ylim((low + high) / 2 - 0.05 * size, (low + high) / 2 + 0.05 * size)
 
 
-def _curves(result: Result, values: Any, suffixes: tuple[str, ...]) -> list[str]:
-    """Variables with these endings that are not zero throughout, each curve once."""
-    chosen: list[str] = []
-    for suffix in suffixes:
-        for v in result.program.variables:
-            curve = values[v.name]
-            if v.name.endswith(suffix) and v.causality == "local" and np.any(curve != 0):
-                known = (values[name] for name in chosen)
-                if not any(np.array_equal(curve, other) for other in known):
-                    chosen.append(v.name)
-    return chosen
-
-
-def _by_unit(result: Result, values: Any) -> list[tuple[str, list[str]]]:
-    """Panels of all variables, a unit each: the shortest paths first, each curve once."""
-    real = [v for v in result.program.variables if v.type != "mode"]
-    panels: dict[str, list[str]] = {}
-    for v in sorted(real, key=lambda v: v.name.count(".")):
-        names = panels.setdefault("number" if v.unit.name == "1" else v.unit.name, [])
-        if not any(np.array_equal(values[v.name], values[name]) for name in names):
-            names.append(v.name)
-    return list(panels.items())[:MOST_PANELS] or [("", [])]
-
-
-def _draw_modes(axis: Any, result: Result, names: list[str], times: Floats) -> None:
+def _draw_modes(
+    axis: Any, values: dict[str, Floats], names: tuple[str, ...], times: Floats
+) -> None:
     """A strip a liaison, coloured by its mode."""
     from matplotlib.patches import Patch
 
-    values = result.at(times)
     for row, name in enumerate(names):
         mode = values[name].astype(int)
         starts = np.flatnonzero(np.diff(mode, prepend=mode[0] - 1))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from frot.dsl.data.classes import dataclass, field
 
@@ -55,7 +55,9 @@ class ParameterInfo:
 class VariableInfo:
     """A variable a run gives. `type` is `real`, `integer`, `boolean` or `mode`.
 
-    `causality` is `output` or `local`.
+    `causality` is `output` or `local`. `literals` are those of an enumeration, which count from 1.
+    `declared`: the text declares it, in the model or in a component; else it is one of a body, a
+    liaison or an energy. `changes`: false for the mode of a liaison that has one mode only.
     """
 
     name: str
@@ -65,6 +67,12 @@ class VariableInfo:
     doc: str
     min: float | None = None
     max: float | None = None
+    literals: tuple[str, ...] = ()
+    declared: bool = False
+    changes: bool = True
+
+
+_Info = TypeVar("_Info", ParameterInfo, VariableInfo)
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,12 +177,9 @@ def read_program(folder: Path) -> Program:
     return Program(
         **{
             **data,
-            "parameters": tuple(_parameter(entry) for entry in data["parameters"]),
-            "inputs": tuple(_parameter(entry) for entry in data["inputs"]),
-            "variables": tuple(
-                VariableInfo(**{**entry, "unit": _unit(entry["unit"])})
-                for entry in data["variables"]
-            ),
+            "parameters": tuple(_info(ParameterInfo, entry) for entry in data["parameters"]),
+            "inputs": tuple(_info(ParameterInfo, entry) for entry in data["inputs"]),
+            "variables": tuple(_info(VariableInfo, entry) for entry in data["variables"]),
             "contacts": tuple(data["contacts"]),
             "conditions": tuple(data.get("conditions", ())),
             "experiment": ExperimentInfo(**data["experiment"]),
@@ -200,6 +205,6 @@ def _unit(entry: dict[str, Any]) -> Unit:
     return Unit(**{**entry, "exponents": tuple(entry["exponents"])})
 
 
-def _parameter(entry: dict[str, Any]) -> ParameterInfo:
+def _info(kind: type[_Info], entry: dict[str, Any]) -> _Info:
     literals = tuple(entry.get("literals", ()))
-    return ParameterInfo(**{**entry, "unit": _unit(entry["unit"]), "literals": literals})
+    return kind(**{**entry, "unit": _unit(entry["unit"]), "literals": literals})

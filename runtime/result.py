@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 from array import array
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -37,6 +37,8 @@ KINDS = (
 MODES = ("open", "stick", "slip")
 MOST_EVENTS = 40
 MOST_KEPT = 8
+# Rows of a table that are made at once.
+_ROWS = 1000
 MASKED = 1e-10  # part of an acceleration or a step that rounding may make, told from there on
 # Relative residual of the energy balance from which a run is not to be trusted.
 SUSPICIOUS = 1e-4
@@ -231,30 +233,27 @@ class Result(Mapping[str, "Floats"]):
         writers = dict(zip(DATA, (self._csv, self._json, self._npz), strict=True))
         write_whole(path, writers[path.suffix.lower()]())
 
-    def _csv(self) -> bytes:
-        import csv
-
-        text = io.StringIO(newline="")
-        writer = csv.writer(text)
+    def _csv(self) -> Iterator[bytes]:
         modes = {v.name for v in self.program.variables if v.type == "mode"}
-        writer.writerow(list(self))
-        columns = [
-            [MODES[int(x)] for x in self[name]]
-            if name in modes
-            else [repr(x) for x in self[name].tolist()]
-            for name in self
-        ]
-        writer.writerows(zip(*columns, strict=True))
-        return text.getvalue().encode("utf-8")
+        yield _csv_lines([list(self)])
+        for first in range(0, len(self._grid), _ROWS):
+            rows = slice(first, first + _ROWS)
+            columns = [
+                [MODES[int(x)] for x in self[name][rows]]
+                if name in modes
+                else [repr(x) for x in self[name][rows].tolist()]
+                for name in self
+            ]
+            yield _csv_lines(zip(*columns, strict=True))
 
-    def _json(self) -> bytes:
+    def _json(self) -> Iterator[bytes]:
         units = {v.name: v.unit.name for v in self.program.variables}
         content = {
             "model": self.program.name,
             "parameters": self.parameters,
             "units": {"time": "s", **units},
             "modes": list(MODES),
-            "variables": {name: self[name].tolist() for name in self},
+            "variables": _Lists(self),
             "events": [
                 {
                     "time": e.time,
@@ -266,14 +265,17 @@ class Result(Mapping[str, "Floats"]):
                 for e in self.events
             ],
         }
-        return (json.dumps(content, ensure_ascii=False, indent=1) + "\n").encode("utf-8")
+        encoder = json.JSONEncoder(ensure_ascii=False, indent=1)
+        for piece in encoder.iterencode(content):
+            yield piece.encode("utf-8")
+        yield b"\n"
 
-    def _npz(self) -> bytes:
+    def _npz(self) -> Iterator[bytes]:
         import numpy as np
 
         buffer = io.BytesIO()
         np.savez_compressed(buffer, **{name: self[name] for name in self})  # type: ignore[arg-type]
-        return buffer.getvalue()
+        yield buffer.getvalue()
 
     def summary(self) -> str:
         """Events, steps, evaluations, wall time and energy balance, in a few lines.
@@ -349,6 +351,25 @@ class Result(Mapping[str, "Floats"]):
     def _moved(self) -> bool:
         kinetic = self.get("energy.kinetic")
         return kinetic is None or bool(kinetic.any())
+
+
+class _Lists(dict[str, "list[float]"]):
+    """The values of a result as lists of numbers, each made as it is read."""
+
+    def __init__(self, result: Result) -> None:
+        super().__init__({name: [] for name in result})
+        self._result = result
+
+    def items(self) -> Iterator[tuple[str, list[float]]]:  # type: ignore[override]
+        return ((name, self._result[name].tolist()) for name in self)
+
+
+def _csv_lines(rows: Iterable[Iterable[str]]) -> bytes:
+    import csv
+
+    text = io.StringIO(newline="")
+    csv.writer(text).writerows(rows)
+    return text.getvalue().encode("utf-8")
 
 
 def _counted(count: int, noun: str) -> str:

@@ -30,7 +30,8 @@ from frot.runtime.program import (
 from frot.runtime.result import KINDS, MODES, ROLLING, Event, Figures, Result
 from frot.runtime.settings import read_option, read_settings
 
-MOST_POINTS = 10_000_000
+# Output times, and the values of all variables at them: 1 GiB.
+MOST_POINTS, MOST_VALUES = 10_000_000, 2**27
 TOLERANCES = (1e-14, 1e-1)
 _GOOD = (OK, STOPPED, TERMINATED)
 IMPACT, NO_NUMBER, POSTURE = 13, 17, 31
@@ -127,7 +128,8 @@ def simulate(
             f"the tolerance {asked:g} is out of range",
             help=f"choose one from {TOLERANCES[0]:g} to {TOLERANCES[1]:g}",
         )
-    times = _grid(begin, end, _choose(interval, experiment[3], (end - begin) / DEFAULT_POINTS))
+    distance = _choose(interval, experiment[3], (end - begin) / DEFAULT_POINTS)
+    times = _grid(begin, end, distance, len(program.variables))
     begun = clock.perf_counter()
     if engine.start(begin, asked, program.experiment.on_indeterminate) != OK:
         raise _fault(engine, None)
@@ -208,8 +210,8 @@ def _choose(given: float | None, modelled: float, default: float) -> float:
     return default if math.isnan(modelled) else float(modelled)
 
 
-def _grid(begin: float, end: float, interval: float) -> array[float]:
-    """Times begin + k interval below `end`, and `end`."""
+def _grid(begin: float, end: float, interval: float, variables: int) -> array[float]:
+    """Times begin + k interval below `end`, and `end`; the default interval is always taken."""
     if not (math.isfinite(interval) and interval > 0):
         raise fail(
             "E0806",
@@ -217,15 +219,28 @@ def _grid(begin: float, end: float, interval: float) -> array[float]:
             help="leave it out, or choose the distance of the output times in s",
         )
     count = (end - begin) / interval
-    if count > MOST_POINTS:
+    most = max(min(MOST_POINTS, MOST_VALUES // max(variables, 1)), DEFAULT_POINTS)
+    if count * (1 - 1e-12) > most:
+        least = _rounded_up((end - begin) / most)
         raise fail(
             "E0806",
-            f"an interval of {interval:g} s gives {count:.3g} output times",
-            help=f"choose an interval that gives at most {MOST_POINTS}",
+            f"an interval of {interval:g} s gives {count:.3g} output times of {variables} "
+            f"variables; at most {most} can be kept",
+            help=f"choose an interval of {least} s or more; `result.at` of Python gives values "
+            "between output times",
         )
     times = array("d", (begin + k * interval for k in range(round(count * (1 + 1e-12)) + 1)))
     near = 1e-9 * interval
     return times[: bisect_left(times, end - near)] + array("d", [end])
+
+
+def _rounded_up(value: float) -> str:
+    """A positive number of two digits, no smaller than the value."""
+    shown = f"{value:.1e}"
+    if float(shown) < value:
+        unit = 10.0 ** (int(shown.partition("e")[2]) - 1)
+        shown = f"{value + unit:.1e}"
+    return f"{float(shown):g}"
 
 
 def _event(engine: Engine, raw: RawEvent) -> Event:

@@ -8,7 +8,7 @@ from graphlib import CycleError, TopologicalSorter
 import casadi as ca
 from frot.compiler.equations.before import Before
 from frot.compiler.equations.text_symbols import TextSymbols, scalars
-from frot.compiler.lowering.expressions import NEVER, RISING, Conditions, Lowering, words
+from frot.compiler.lowering.expressions import NEVER, RISING, Conditions, Lowering
 from frot.compiler.lowering.symbols import shaped
 from frot.compiler.symbolic.columns import column
 from frot.dsl import Log
@@ -25,6 +25,7 @@ from frot.dsl.checked import (
 )
 from frot.dsl.checked.arrays import component_names
 from frot.dsl.checked.walk import conjuncts, is_instant
+from frot.dsl.checked.wording import words
 from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 

@@ -89,6 +89,8 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
                 yield Check(
                     POSITIVE, "interval of 'sample'", condition.arguments[1], condition.span
                 )
+    if not isinstance(model.world.down, str):
+        yield _length("'down' of the world", model.world.down)
     for body in model.bodies:
         if body.shape is not None:
             owner = f"body '{body.name}'"
@@ -264,8 +266,10 @@ def _sizes(owner: str, given: Mapping[str, Expression]) -> Iterator[Check]:
             continue
         if name in ("direction", "normal", "axis") and value.type.shape:
             yield _length(f"the {name} of {owner}", value)
-        elif name in ("radius", "a", "b"):
-            yield Check(POSITIVE, f"{name} of {owner}", value, value.span)
+        elif name in ("radius", "a", "b", "semi_axes"):
+            names = component_names(name, value.type.shape)
+            for one, item in zip(names, scalars(value), strict=True):
+                yield Check(POSITIVE, f"{one} of {owner}", item, value.span)
         elif name in ("u", "v"):
             kind = value.type.item
             first, last = (Element(value, k, kind, value.span) for k in (0, 1))
@@ -289,7 +293,10 @@ def _arguments(
         if kind.kind == "inertia" and value.type.shape:
             yield from _moments(owner, value)
         elif is_fixed(value):
-            yield Check(rules[kind.sign], f"{kind.name} of {owner}", value, value.span)
+            for name, item in zip(
+                component_names(kind.name, value.type.shape), scalars(value), strict=True
+            ):
+                yield Check(rules[kind.sign], f"{name} of {owner}", item, value.span)
 
 
 def _outline(owner: str, vertices: Expression) -> Check:

@@ -29,17 +29,11 @@ from frot.dsl.checked import (
     Vector,
 )
 from frot.dsl.checked.walk import Rules, SharedWalk, parts
+from frot.dsl.checked.wording import words
 from frot.dsl.data.classes import dataclass, field, replace
 from frot.dsl.messages.source import Span
 
 NEVER, RISING, ALWAYS = range(3)
-
-
-def words(node: Expression) -> str:
-    """The author's text on one line; a parenthesis cut off at an end of it is put back."""
-    text = " ".join(node.span.text.split())
-    missing = text.count("(") - text.count(")")
-    return "(" * -missing + text + ")" * missing
 
 
 @dataclass(slots=True)

@@ -9,6 +9,7 @@ import casadi as ca
 from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.symbolic.columns import column
 from frot.dsl.catalogue import coordinates_of
@@ -23,7 +24,7 @@ from frot.dsl.checked import (
 from frot.dsl.checked.arrays import component_names
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.names.flanges import parameter_type
-from frot.dsl.quantities.dimensions import Dimension, dimension
+from frot.dsl.quantities.dimensions import Dimension, Type, dimension
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -36,7 +37,8 @@ AXES = ("x", "y", "z")
 class Listed:
     """One scalar variable. `quantity` names its type (`Angle`), `unit` is the author's.
 
-    `base` is `real`, `integer` (enumerations are counted from 1) or `boolean`.
+    `base` is `real`, `integer` (enumerations are counted from 1) or `boolean`. `declared`: by the
+    text. `changes`: false for a mode that cannot.
     """
 
     name: str
@@ -49,6 +51,9 @@ class Listed:
     base: str = "real"
     unit: str = ""
     bounds: tuple[tuple[str, Expression], ...] = ()
+    literals: tuple[str, ...] = ()
+    declared: bool = False
+    changes: bool = True
 
 
 LENGTH, VELOCITY, ACCELERATION = (dimension(m=1, s=-k) for k in range(3))
@@ -94,7 +99,9 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
     for link in mechanism.contacts:
         if link.first:
             name = f"{link.liaison.name}.mode"
-            yield Listed(name, ca.SX(0), NUMBER, "open, stick or slip", mode=True)
+            changes = bool(link.frictions) or is_unilateral(link.liaison)
+            doc = "open, stick or slip"
+            yield Listed(name, ca.SX(0), NUMBER, doc, mode=True, changes=changes)
     for element in system.elements:
         yield Listed(f"{element.name}.mode", ca.SX(0), NUMBER, "stick or slip", mode=True)
     # Whatever an output reads of a motion that friction holds is zero to the last bit.
@@ -113,6 +120,8 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
                 base=output.type.base,
                 unit=output.unit,
                 bounds=limits[k],
+                literals=literals_of(output.type),
+                declared=True,
             )
     for variable in mechanism.model.variables:
         yield from _of_text(reduced, variable)
@@ -164,7 +173,14 @@ def _of_text(reduced: Reduced, variable: Variable) -> Iterator[Listed]:
             base=variable.type.base,
             unit=variable.unit,
             bounds=bounds,
+            literals=literals_of(variable.type),
+            declared=True,
         )
+
+
+def literals_of(of: Type) -> tuple[str, ...]:
+    """The literals of an enumeration; none of other types."""
+    return () if of.enumeration is None else of.enumeration.literals
 
 
 def _rates(system: Assembled) -> Iterator[Listed]:

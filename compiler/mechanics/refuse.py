@@ -32,6 +32,8 @@ from frot.dsl.quantities.dimensions import dimension
 
 PLANE_LIAISONS = ("point_courbe", "contact_ponctuel", "courbe_courbe")
 LAWS = ("coulomb", "rolling_resistance")
+# Laws of friction of one liaison: the kernel's FROT_LAWS_OF_CONTACT.
+MOST_LAWS = 2
 _ONE_CONTACT = "a law of one's own acts in a `contact_ponctuel` or a `point_courbe` of the plane"
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
 
@@ -55,6 +57,7 @@ def refuse_unknown(model: Model, ideal: Collection[str], log: Log) -> None:
         _refuse_options(liaison, log)
         for law in liaison.laws:
             _refuse_law(liaison, law, model.planar, liaison.kind.name in ideal, log)
+        _refuse_many_laws(liaison, log)
     for force in model.forces:
         if force.kind.name == "couple":
             _refuse_couple(force, log)
@@ -186,6 +189,20 @@ def _refuse_law(liaison: Liaison, law: Law, planar: bool, ideal: bool, log: Log)
                     node.span,
                     "coefficients may depend on positions and time",
                 )
+
+
+def _refuse_many_laws(liaison: Liaison, log: Log) -> None:
+    """Report more laws of friction than the kernel solves for in one liaison."""
+    dry = [law for law in liaison.laws if law.kind.name in LAWS]
+    if len(dry) <= MOST_LAWS:
+        return
+    names = ", ".join(f"'{law.kind.name}'" for law in dry)
+    refuse(
+        log,
+        f"liaison '{liaison.name}' with the laws {names}, more than {MOST_LAWS} of friction,",
+        dry[MOST_LAWS].span,
+        f"leave out all but {MOST_LAWS}, or give the others to another liaison of the bodies",
+    )
 
 
 def _refuse_couple(force: Force, log: Log) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import casadi as ca
-from frot.dsl.messages.source import Span
+from frot.dsl.messages.source import Span, escaped
 
 
 def callable_record(function: ca.Function | None) -> str:
@@ -30,9 +30,12 @@ def number(value: float) -> str:
 
 
 def text(value: str) -> str:
-    """A C string literal in UTF-8, with octal escapes for all that is not plain."""
+    """A C string literal in UTF-8, with octal escapes for all that is not plain.
+
+    What a terminal would act on is written out: the kernel's sentences are printed.
+    """
     out = []
-    for byte in value.encode("utf-8"):
+    for byte in escaped(value).encode("utf-8"):
         plain = 32 <= byte < 127 and byte not in b'"\\?'
         out.append(chr(byte) if plain else f"\\{byte:03o}")
     return '"' + "".join(out) + '"'

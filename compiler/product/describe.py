@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from frot.compiler.lowering.listing import integral_name, listed_integrals
+from frot.compiler.lowering.listing import integral_name, listed_integrals, literals_of
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.mechanism import is_unilateral, relations_of
@@ -15,6 +15,7 @@ from frot.compiler.report.first_integrals import FirstIntegral
 from frot.compiler.toolchain.chosen import MODEL_FLAGS, Toolchain
 from frot.dsl import default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
+from frot.dsl.messages.source import escaped
 from frot.dsl.quantities.dimensions import dimension
 from frot.runtime.program import (
     ExperimentInfo,
@@ -53,6 +54,9 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
                 "output" if v.output else "local",
                 v.doc,
                 **_limits(v.bounds, values),
+                literals=v.literals,
+                declared=v.declared,
+                changes=v.changes,
             )
             for v in lowered.variables
         ),
@@ -65,7 +69,7 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
         flags=MODEL_FLAGS,
         folder=folder,
         balanced=bool(model.bodies) and not lowered.system.elements and not mechanism.is_driven,
-        conditions=tuple(reduced.conditions.texts),
+        conditions=tuple(escaped(text) for text in reduced.conditions.texts),
         fixed=tuple((p.name, p.structural) for p in model.parameters if p.structural),
         file=file,
         first_integrals=_integrals(lowered.integrals),
@@ -110,7 +114,7 @@ def parameters_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
             p.doc,
             dependent,
             **_limits(p.bounds, values),
-            literals=_literals(p),
+            literals=literals_of(p.type),
         )
         for p, dependent in zip(lowered.reduced.symbols.parameters, lowered.dependent, strict=True)
     )
@@ -128,7 +132,7 @@ def inputs_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
             i.doc,
             dependent=False,
             **_limits(i.bounds, values),
-            literals=_literals(i),
+            literals=literals_of(i.type),
         )
         for i in lowered.reduced.symbols.inputs
     )
@@ -139,11 +143,6 @@ def _limits(
 ) -> dict[str, float]:
     """`min` and `max`, as far as they are numbers at the default parameters."""
     return {name: as_number(evaluate(bound, values)) for name, bound in bounds}
-
-
-def _literals(declared: Parameter | Input) -> tuple[str, ...]:
-    of = declared.type.enumeration
-    return () if of is None else of.literals
 
 
 def _unit(declared: Parameter | Input) -> Unit:

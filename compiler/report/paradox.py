@@ -28,6 +28,9 @@ _MOST_SPEEDS, _MOST_LIAISONS = 8, 4
 _DRAWN = 12
 # Of the steps uphill (rad, m).
 _FIRST, _LAST = 0.3, 1e-3
+# Postures tried by one search: a maximum of the worked models takes 110; a |c| that grows with the
+# distance has none.
+_MOST_POSTURES = 1000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,8 +38,8 @@ class Paradox:
     """A liaison whose friction may leave no motion, or several, from a coefficient on.
 
     `start`: from which one at the posture of the start, `least` in the worst posture that was found
-    (None where none was looked for), `where` its coordinates that matter; `mu` is the coefficient
-    that the text has at the start. Infinite: at none.
+    (None where there was no search, or where it ended at no maximum), `where` its coordinates that
+    matter; `mu` is the coefficient that the text has at the start. Infinite: at none.
     """
 
     liaison: Liaison
@@ -128,14 +131,20 @@ class _Watched:
         return float(np.linalg.norm(read[places])) * radius
 
     def worst(self, state: State) -> tuple[float, State] | None:
-        """The posture with the largest |c| that is found: uphill from the best of some."""
+        """The posture with the largest |c| that is found: uphill from the best of some.
+
+        None where no posture is allowed, or where `_MOST_POSTURES` reach no maximum.
+        """
         random = np.random.default_rng(5)
         drawn = (state.q + 2 * random.standard_normal(state.q.size) for _ in range(_DRAWN))
         best = max((self._at(state, q) for q in drawn), key=lambda x: x[0])
         telling = [k for k in range(state.q.size) if self._matters(best, k)]
-        step = _FIRST
+        step, tried = _FIRST, 0
         while step > _LAST:
             before = best[0]
+            tried += 2 * len(telling)
+            if tried > _MOST_POSTURES:
+                return None
             for k in telling:
                 for way in (step, -step):
                     q = best[1].q.copy()

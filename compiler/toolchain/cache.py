@@ -11,12 +11,16 @@ import shutil
 import stat
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from frot.compiler.toolchain.chosen import KERNEL_FLAGS, MODEL_FLAGS, Toolchain
 from frot.compiler.toolchain.hold import Hold, hold
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.files.folders import cache_folder, room
 from frot.runtime.program import Program, read_program
+
+if TYPE_CHECKING:
+    import tempfile
 
 _ROOMS = ("frot.dsl", "frot.compiler", "frot.runtime")
 SEAL = "seal.json"
@@ -37,12 +41,31 @@ def installed_folder() -> Path:
     return room("frot.runtime") / INSTALLED
 
 
-def spare_folder() -> Path:
+def temporary_folder() -> Path:
     """Where programs go when the cache cannot be written (a service, a container)."""
     import tempfile
 
     user = os.getuid() if hasattr(os, "getuid") else 0
     return Path(tempfile.gettempdir()) / f"frot-{user}"
+
+
+def new_folder(parent: Path) -> tempfile.TemporaryDirectory[str]:
+    """A folder of an unfinished entry in `parent`, which is made if need be; else OSError."""
+    import tempfile
+
+    from frot.compiler.toolchain.cache_size import UNFINISHED
+
+    parent.mkdir(parents=True, exist_ok=True)
+    return tempfile.TemporaryDirectory(prefix=UNFINISHED, dir=parent, ignore_cleanup_errors=True)
+
+
+def _is_writable(parent: Path) -> bool:
+    """Whether a new entry can be made there, by making one: permissions do not say it all."""
+    try:
+        with new_folder(parent):
+            return True
+    except OSError:
+        return False
 
 
 @functools.cache
@@ -104,20 +127,32 @@ def is_ours(folder: Path) -> bool:
 
 
 def stored(kind: str, key: str) -> Kept | None:
-    """The folder put in place under this key, or None. A damaged one of the cache is removed."""
+    """The folder put in place under this key, or None. A damaged one of the cache is removed.
+
+    The temporary folder is read only where the cache cannot be written, as nothing is put there
+    otherwise: what an earlier process has left there is not of the cache that `FROT_CACHE` names.
+    """
     made = installed_folder() / kind / key
     if is_whole(made):
         return Kept(made, None)
-    for where in (cache_folder, spare_folder):
-        cache = where()
-        folder = cache / kind / key
-        if not folder.is_dir() or (where is spare_folder and not is_ours(cache)):
-            continue
-        held = hold(folder)
-        if is_whole(folder):
-            _used_now(folder)
-            return Kept(folder, held)
-        shutil.rmtree(folder, ignore_errors=True)
+    cache = cache_folder()
+    if (kept := _whole(cache / kind / key)) is not None:
+        return kept
+    temporary = temporary_folder()
+    if not (temporary / kind / key).is_dir() or not is_ours(temporary):
+        return None
+    return None if _is_writable(cache / kind) else _whole(temporary / kind / key)
+
+
+def _whole(folder: Path) -> Kept | None:
+    """A folder of the cache, held, if it is whole; a damaged one is removed."""
+    if not folder.is_dir():
+        return None
+    held = hold(folder)
+    if is_whole(folder):
+        _used_now(folder)
+        return Kept(folder, held)
+    shutil.rmtree(folder, ignore_errors=True)
     return None
 
 

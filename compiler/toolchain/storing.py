@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import errno
 import os
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from frot.compiler.toolchain.cache import Kept, is_ours, seal, spare_folder
-from frot.compiler.toolchain.cache_size import UNFINISHED, read_limit, shrink, sweep
+from frot.compiler.toolchain.cache import Kept, is_ours, new_folder, seal, temporary_folder
+from frot.compiler.toolchain.cache_size import read_limit, shrink, sweep
 from frot.compiler.toolchain.hold import hold
 from frot.compiler.toolchain.keeper import Keeper
 from frot.dsl.files.folders import cache_folder
@@ -29,12 +28,12 @@ def store(kind: str, key: str, fill: Callable[[Path], None]) -> Kept:
     cache = cache_folder()
     try:
         try:
-            unfinished = _begin(cache / kind)
+            unfinished = new_folder(cache / kind)
         except OSError as error:
             if error.errno not in _CLOSED:
                 raise
-            cache = _own_spare_folder()
-            unfinished = _begin(cache / kind)
+            cache = _own_temporary_folder()
+            unfinished = new_folder(cache / kind)
         with unfinished as made, Keeper(Path(made)):
             # Held before anything lies in it: a sweeping process takes it for given up otherwise.
             held = hold(Path(made))
@@ -61,14 +60,9 @@ def store(kind: str, key: str, fill: Callable[[Path], None]) -> Kept:
     return kept
 
 
-def _begin(parent: Path) -> tempfile.TemporaryDirectory[str]:
-    parent.mkdir(parents=True, exist_ok=True)
-    return tempfile.TemporaryDirectory(prefix=UNFINISHED, dir=parent, ignore_cleanup_errors=True)
-
-
-def _own_spare_folder() -> Path:
-    """The spare folder, made if need be; FrotError if it is not ours alone: programs are run."""
-    folder = spare_folder()
+def _own_temporary_folder() -> Path:
+    """The temporary folder, made if need be; FrotError unless it is ours alone."""
+    folder = temporary_folder()
     folder.mkdir(mode=0o700, exist_ok=True)
     if not is_ours(folder):
         raise fail(

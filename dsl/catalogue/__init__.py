@@ -16,7 +16,7 @@ from frot.dsl.catalogue.kinds import (
     plain,
     spellings,
 )
-from frot.dsl.catalogue.laws import LAWS
+from frot.dsl.catalogue.laws import LAWS, arguments_for
 from frot.dsl.catalogue.liaisons import LIAISONS
 from frot.dsl.catalogue.members import (
     body_members,
@@ -45,6 +45,7 @@ __all__ = [
     "LawKind",
     "LiaisonKind",
     "Shape",
+    "arguments_for",
     "body_members",
     "coordinates_of",
     "find",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from frot.dsl.catalogue.kinds import Argument, LawKind, table
+from frot.dsl.catalogue.kinds import Argument, LawKind, LiaisonKind, table
 from frot.dsl.catalogue.types import (
     ANGULAR_VELOCITY,
     DAMPING,
@@ -10,6 +10,7 @@ from frot.dsl.catalogue.types import (
     ROTATIONAL_DAMPING,
     VELOCITY,
 )
+from frot.dsl.data.classes import replace
 from frot.dsl.quantities.dimensions import REAL
 
 _MU = Argument("mu", REAL, sign="nonnegative", doc="coefficient of friction of motion")
@@ -127,3 +128,26 @@ _ROWS = (
 )
 
 LAWS = table(_ROWS)
+
+# Coordinates of a liaison that are none of its motions.
+_PLACES = ("u", "abscissa", "gap", "length")
+# Laws of the coordinate itself; the slip of a pin is a velocity at its surface.
+_OF_COORDINATE = ("viscous", "stops")
+
+
+def arguments_for(law: LawKind, liaison: LiaisonKind) -> tuple[Argument, ...]:
+    """The arguments of a law in a liaison, each with the type that fits what the liaison leaves.
+
+    Where it leaves a translation or slip alone, values of rotations are none of it; where it leaves
+    rotations alone, nor are the others. A liaison of relations, or with both, takes either; so do
+    stops on the parameter of a curve, which is a length on a line and an angle on a circle.
+    """
+    if not liaison.arguments or (law.name == "stops" and liaison.along_curve):
+        return law.arguments
+    moves = [of for name, of in liaison.coordinates.items() if name not in _PLACES]
+    turns = [of.dimension in (REAL.dimension, ANGULAR_VELOCITY.dimension) for of in moves]
+    if not any(turns):
+        return tuple(replace(a, others=()) for a in law.arguments)
+    if all(turns) and law.name in _OF_COORDINATE:
+        return tuple(replace(a, type=(*a.others, a.type)[0], others=()) for a in law.arguments)
+    return law.arguments

@@ -101,7 +101,7 @@ _ROWS = (
         POINT,
         POINT,
         (5, None),
-        {"angle": REAL},
+        {"angle": REAL, "speed": ANGULAR_VELOCITY},
         (
             Argument("pitch", LENGTH, doc="advance per turn"),
             _axis("axis"),

@@ -5,6 +5,8 @@ from __future__ import annotations
 from frot.dsl.catalogue.kinds import Argument, Shape, table
 from frot.dsl.catalogue.types import INERTIA, LENGTH, MASS
 
+SEMI_AXES = Argument("semi_axes", LENGTH, "vector", sign="positive", doc="semi-axes along x, y, z")
+_SIZE = Argument("size", LENGTH, "vector", sign="positive", doc="lengths of the edges")
 _MASS = Argument("mass", MASS, sign="positive", doc="mass of the body")
 _RADIUS = Argument("radius", LENGTH, sign="positive", doc="radius")
 _LENGTH = Argument("length", LENGTH, sign="positive", doc="length")
@@ -83,7 +85,7 @@ _ROWS = (
     ),
     Shape(
         "ellipsoid",
-        (_MASS, Argument("semi_axes", LENGTH, "vector", doc="semi-axes along x, y, z"), _INERTIA),
+        (_MASS, SEMI_AXES, _INERTIA),
         freedoms_space=6,
         planar=False,
         geometry={"surface": "surface"},
@@ -102,7 +104,7 @@ _ROWS = (
     ),
     Shape(
         "box",
-        (_MASS, Argument("size", LENGTH, "vector", doc="lengths of the edges"), _INERTIA),
+        (_MASS, _SIZE, _INERTIA),
         freedoms_space=6,
         frames=("G", "bottom", "top", "left", "right", "front", "back"),
         geometry={

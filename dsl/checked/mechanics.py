@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class World:
-    """Gravity: its magnitude and its direction, one of `+x -x +y -y +z -z`."""
+    """Gravity: its magnitude and its direction, one of `+x -x +y -y +z -z` or a vector."""
 
     gravity: Expression | None
-    down: str
+    down: str | Expression
     span: Span | None
 
 

@@ -37,9 +37,11 @@ def keep_positive(
         value = values.get(kind.name)
         if kind.sign != "positive" or value is None or constant(value) is None:
             continue
-        zero = checked.Literal(0.0, value.type, value.span)
-        inside = checked.Binary(">", value, zero, BOOLEAN, value.span)
-        _assert(inside, f"{kind.name} of {what} is not positive any more", scope)
+        zero = checked.Literal(0.0, value.type.item, value.span)
+        names = component_names(kind.name, value.type.shape)
+        for name, item in zip(names, scalars(value), strict=True):
+            inside = checked.Binary(">", item, zero, BOOLEAN, value.span)
+            _assert(inside, f"{name} of {what} is not positive any more", scope)
 
 
 def _written(value: checked.Expression) -> str:

@@ -6,6 +6,7 @@ from typing import cast
 
 from frot.dsl import checked
 from frot.dsl.catalogue import SHAPES, Argument, find, spellings, vector
+from frot.dsl.catalogue.shapes import SEMI_AXES
 from frot.dsl.catalogue.types import LENGTH
 from frot.dsl.checked.arrays import vector as checked_vector
 from frot.dsl.checked.describe import describe
@@ -18,7 +19,7 @@ from frot.dsl.expressions.known import known, out_of_bounds
 from frot.dsl.expressions.names import resolve
 from frot.dsl.expressions.structure import settle
 from frot.dsl.names.entities import Array
-from frot.dsl.names.near import did_you_mean
+from frot.dsl.names.near import did_you_mean, unknown_kind
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import kind_of
 from frot.dsl.names.types import find_class
@@ -46,7 +47,15 @@ _SURFACES = {
     "plane": (_THROUGH, Argument("normal", REAL, "axis", doc="its normal")),
     "plan": (_THROUGH, Argument("normal", REAL, "axis", doc="its normal")),
     "sphere": (_RADIUS, _CENTRE),
+    "ellipsoid": (SEMI_AXES, _CENTRE),
+    "ellipsoide": (SEMI_AXES, _CENTRE),
     "cylinder": (_RADIUS, Argument("axis", REAL, "axis", required=False, default="z")),
+}
+_FRENCH = {
+    "droite": "line",
+    "cercle": "circle",
+    "plan": "plane",
+    "ellipsoide": "ellipsoid",
 }
 _ROTATION = (
     Argument("axis", REAL, "axis", required=False, default="z", space_only=True),
@@ -83,8 +92,8 @@ def body(node: tree.Body, name: str, scope: Scope) -> checked.Body | None:
                 return None
             return checked.Body(name, SHAPES["solid"], given, node.span, node.doc)
         if scope.knows(kind):
-            help_text = did_you_mean(kind, spellings(SHAPES))
-            scope.log.report("E0202", f"unknown shape {kind!r}", callee.span, help=help_text)
+            usable = [k for k, s in SHAPES.items() if (s.planar if scope.planar else s.space)]
+            unknown_kind("shape", kind, spellings(SHAPES), callee.span, scope.log, usable=usable)
         return None
     if not (shape.planar if scope.planar else shape.space):
         here, there = ("planar", "space") if scope.planar else ("space", "planar")
@@ -143,8 +152,9 @@ def curve(node: tree.Curve, name: str, scope: Scope) -> checked.Curve | None:
     if kind == "parametric":
         values = _parametric(node.kind, arguments, ("u",), scope)
     elif kind not in _CURVES:
-        help_text = did_you_mean(kind, (*_CURVES, "parametric"))
-        scope.log.report("E0202", f"unknown curve {kind!r}", callee.span, help=help_text)
+        known_names = (*_CURVES, "parametric")
+        usable = [name for name in known_names if name not in _FRENCH]
+        unknown_kind("curve", kind, known_names, callee.span, scope.log, usable=usable)
         return None
     else:
         found = bind(arguments, _CURVES[kind], kind, node.kind.span, scope)
@@ -152,7 +162,7 @@ def curve(node: tree.Curve, name: str, scope: Scope) -> checked.Curve | None:
         keep_positive(values or {}, _CURVES[kind], f"curve '{name}'", scope)
     if values is None:
         return None
-    kind = {"droite": "line", "cercle": "circle"}.get(kind, kind)
+    kind = _FRENCH.get(kind, kind)
     if kind != "line":
         return checked.Curve(name, owner, kind, values, node.span, node.doc)
     direction = values["direction"]
@@ -179,14 +189,15 @@ def surface(node: tree.Surface, name: str, scope: Scope) -> checked.Surface | No
     elif kind == "implicit":
         values = _implicit(node.kind, arguments, scope)
     elif kind not in _SURFACES:
-        help_text = did_you_mean(kind, (*_SURFACES, "parametric", "implicit"))
-        scope.log.report("E0202", f"unknown surface {kind!r}", callee.span, help=help_text)
+        known_names = (*_SURFACES, "parametric", "implicit")
+        usable = [name for name in known_names if name not in _FRENCH]
+        unknown_kind("surface", kind, known_names, callee.span, scope.log, usable=usable)
         return None
     else:
         found = bind(arguments, _SURFACES[kind], kind, node.kind.span, scope)
         values = cast("dict[str, checked.Expression]", found.values) if found.complete else None
         keep_positive(values or {}, _SURFACES[kind], f"surface '{name}'", scope)
-    kind = {"plan": "plane"}.get(kind, kind)
+    kind = _FRENCH.get(kind, kind)
     return None if values is None else checked.Surface(name, owner, kind, values, node.span)
 
 

@@ -110,13 +110,16 @@ def _base(element: tree.Extends, derived: tuple[Class, ...], scope: Scope) -> Cl
                 help=did_you_mean(node.span.text, scope.space.visible(), scope.log),
             )
         return None
-    if found in derived or len(derived) > _NESTED:
-        path = (
-            " -> ".join(c.name for c in (*derived[derived.index(found) :], found))
-            if (found in derived)
-            else f"more than {_NESTED} bases"
-        )
-        scope.log.report("E0208", f"{found.name!r} extends itself: {path}", node.span)
+    if found in derived:
+        circle = derived[derived.index(found) :]
+        if (members := frozenset(map(id, circle))) not in scope.build.circles:
+            scope.build.circles.add(members)
+            path = " -> ".join(c.name for c in (*circle, found))
+            scope.log.report("E0208", f"{found.name!r} extends itself: {path}", node.span)
+        return None
+    if len(derived) > _NESTED:
+        message = f"bases are nested more than {_NESTED} levels deep"
+        scope.log.report("E0108", message, node.span)
         return None
     if found.kind != derived[0].kind and not (found.kind == "record" and not scope.planar):
         kind = derived[0].kind

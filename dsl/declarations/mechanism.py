@@ -5,7 +5,15 @@ from __future__ import annotations
 from typing import cast
 
 from frot.dsl import checked
-from frot.dsl.catalogue import FORCES, LAWS, LIAISONS, LiaisonKind, find, spellings
+from frot.dsl.catalogue import (
+    FORCES,
+    LAWS,
+    LIAISONS,
+    LiaisonKind,
+    arguments_for,
+    find,
+    spellings,
+)
 from frot.dsl.checked.describe import quantity
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.declarations.bounds import keep_positive
@@ -16,7 +24,7 @@ from frot.dsl.expressions.known import known
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.names.classes import Class
 from frot.dsl.names.members import coordinates
-from frot.dsl.names.near import did_you_mean
+from frot.dsl.names.near import did_you_mean, unknown_kind
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.types import find_class
 from frot.dsl.quantities.dimensions import BOOLEAN
@@ -36,9 +44,15 @@ def liaison(node: tree.Liaison, full_name: str, scope: Scope) -> checked.Liaison
         if defined is not None and defined.kind == "liaison":
             return _stated(node, full_name, defined, arguments, scope)
         if scope.knows(name):
-            help_text = did_you_mean(name, spellings(LIAISONS))
-            word = "joint" if node.keyword == "joint" else "liaison"
-            scope.log.report("E0202", f"unknown {word} {name!r}", callee.span, help=help_text)
+            english = node.keyword == "joint"
+            word = "joint" if english else "liaison"
+            usable = [
+                k.aliases[-1] if english and k.aliases else k.name
+                for k in LIAISONS.values()
+                if not scope.planar or k.relations_planar is not None
+            ]
+            log, known_names = scope.log, spellings(LIAISONS)
+            unknown_kind(word, name, known_names, callee.span, log, usable=usable)
         return None
     if scope.planar and kind.relations_planar is None:
         scope.log.report(
@@ -197,10 +211,10 @@ def _law(written: tree.Expression, to: checked.Liaison | None, scope: Scope) -> 
         if defined is not None and defined.kind == "law":
             return stated_law(defined, arguments, written.span, to, scope)
         if scope.knows(name):
-            help_text = did_you_mean(name, spellings(LAWS))
-            scope.log.report("E0202", f"unknown law {name!r}", callee.span, help=help_text)
+            unknown_kind("law", name, spellings(LAWS), callee.span, scope.log, usable=LAWS)
         return None
-    found = bind(arguments, kind.arguments, name, written.span, scope)
+    wanted = kind.arguments if to is None else arguments_for(kind, to.kind)
+    found = bind(arguments, wanted, name, written.span, scope)
     if not found.complete:
         return None
     values = cast("dict[str, checked.Expression]", found.values)
@@ -230,8 +244,7 @@ def force(node: tree.Force, full_name: str, scope: Scope) -> checked.Force | Non
     kind = find(FORCES, name)
     if kind is None:
         if scope.knows(name):
-            help_text = did_you_mean(name, spellings(FORCES))
-            scope.log.report("E0202", f"unknown force {name!r}", callee.span, help=help_text)
+            unknown_kind("force", name, spellings(FORCES), callee.span, scope.log, usable=FORCES)
         return None
     found = bind(arguments, kind.arguments, name, node.kind.span, scope)
     if not found.complete:

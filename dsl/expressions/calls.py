@@ -14,7 +14,7 @@ from frot.dsl.expressions.functions import expand
 from frot.dsl.expressions.rates import all_alike
 from frot.dsl.expressions.records import construct
 from frot.dsl.names.entities import Record
-from frot.dsl.names.near import did_you_mean
+from frot.dsl.names.near import unknown_kind
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import kind_of
 from frot.dsl.names.types import find_class
@@ -78,10 +78,16 @@ def _tell_unknown(name: str, node: tree.Call, scope: Scope) -> None:
     if not scope.knows(name):
         return
     functions = [n for n in scope.space.visible() if n not in scope.instance.names]
-    help_text = did_you_mean(name, (*FUNCTIONS, *functions), scope.log)
-    if scope.find(name) is not None:
-        help_text = f"{name!r} is not a function; for a product write '{name}*(...)'"
-    scope.log.report("E0202", f"unknown function {name!r}", node.callee.span, help=help_text)
+    product = f"{name!r} is not a function; for a product write '{name}*(...)'"
+    unknown_kind(
+        "function",
+        name,
+        (*FUNCTIONS, *functions),
+        node.callee.span,
+        scope.log,
+        usable=FUNCTIONS,
+        help=product if scope.find(name) is not None else "",
+    )
 
 
 def _positional(node: tree.Call, name: str, scope: Scope) -> bool:

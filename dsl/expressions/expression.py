@@ -84,16 +84,21 @@ def fitting(
         help_text = f"a vector is written '(x, y)': '({node.span.text}, {zero})'"
     elif isinstance(node, tree.Tuple) and not node.unit and found.type.dimension.is_one:
         help_text = f"write the unit after the tuple: '{node.span.text} {kind.dimension.unit}'"
+    if not help_text or (kind.dimension.is_one and not is_number):
+        help_text = _of_other_space(kind, found, scope) or remedy or seconds_missing(kind, found)
     scope.log.report(
-        "E0301",
-        f"expected {wanted}, found {shown}",
-        node.span,
-        caret=shown,
-        help=help_text
-        if help_text and (is_number or not kind.dimension.is_one)
-        else remedy or seconds_missing(kind, found),
+        "E0301", f"expected {wanted}, found {shown}", node.span, caret=shown, help=help_text
     )
     return None
+
+
+def _of_other_space(kind: Type, found: checked.Expression, scope: Scope) -> str:
+    """The help for a pair in a space model, or three components in a planar one; or empty."""
+    if kind.shape == (3,) and found.type.shape == (2,) and not scope.planar:
+        return "this model is in space: write 'planar model' where positions are pairs"
+    if kind.shape == (2,) and found.type.shape == (3,) and scope.planar:
+        return "this model is planar: its vectors have two components, along x and y"
+    return ""
 
 
 def agrees(found: Type, wanted: Type) -> bool:

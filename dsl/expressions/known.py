@@ -33,9 +33,7 @@ def check_bounds(argument: Argument, node: checked.Expression, scope: Scope) -> 
     """Report a value outside of what the argument allows, where the value is known."""
     value = computed(node, scope)
     items = value if isinstance(value, tuple) else (value,)
-    positive = argument.sign == "positive" or (
-        argument.kind == "vector" and argument.name in ("size", "semi_axes")
-    )
+    positive = argument.sign == "positive"
     for item in items:
         if not isinstance(item, float):
             return

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import stat
+from collections.abc import Iterable
 from pathlib import Path
 
 from frot.dsl.messages.errors import fail
@@ -34,25 +35,27 @@ def check_target(path: str | Path, formats: tuple[str, ...]) -> Path:
     return path
 
 
-def write_whole(path: Path, content: bytes) -> None:
+def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:
     """Write a file so that it is there whole or not at all; FrotError (E0803) if it cannot be.
 
-    A file that is there keeps its permissions, and a link stays one to the file written.
+    `content`: the bytes, or pieces of them that are made as they are written. A file that is there
+    keeps its permissions, and a link stays one to the file written.
     """
     import tempfile
 
+    pieces = (content,) if isinstance(content, bytes) else content
     target = Path(os.path.realpath(path))
     try:
         if target.exists() and not target.is_file():
             # a device or a pipe is written to, never replaced
             with open(target, "wb") as device:
-                device.write(content)
+                device.writelines(pieces)
             return
         mode = _permissions(target)
         handle, name = tempfile.mkstemp(prefix=f".{target.name}-", dir=target.parent)
         try:
             with os.fdopen(handle, "wb") as file:
-                file.write(content)
+                file.writelines(pieces)
             os.chmod(name, mode)
             os.replace(name, target)
         except BaseException:

@@ -73,6 +73,12 @@ TOOLS: Mapping[str, Row] = {
         "Name a file that ends in .fmu; report the message if the fault is in the archive.",
         "",
     ),
+    "E0808": (
+        "not enough memory",
+        "The system gave no more memory: what the command was to make is too large for it.",
+        "Choose fewer output times, an earlier stop time or a smaller model.",
+        "",
+    ),
     "E0901": (
         "fault in the run",
         "The motion could not be computed past the time named.",

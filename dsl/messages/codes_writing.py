@@ -92,7 +92,7 @@ _NAMES = {
     "E0202": (
         "unknown kind",
         "There is no such function, shape, curve, liaison, law or force.",
-        "Write one of the kinds of docs/language.md; French and English names are known.",
+        "Write one of those that are listed; French and English names are known.",
         snippet("body ball: boule(mass = 1 kg);"),
     ),
     "E0203": (

@@ -6,7 +6,7 @@ import unicodedata
 
 from frot.dsl.messages.codes import CODES
 from frot.dsl.messages.diagnostics import LIMIT, Diagnostic, Log
-from frot.dsl.messages.source import Span
+from frot.dsl.messages.source import Span, escaped
 
 _TAB = 4
 _LONGEST = 160
@@ -22,13 +22,13 @@ def render(diagnostic: Diagnostic, colour: bool = False) -> str:
         return f"{_COLOURS[style]}{text}{_RESET}" if colour and text else text
 
     head = paint(f"{severity}[{diagnostic.code}]", severity)
-    lines = [f"{head}: {paint(_clean(diagnostic.message), 'bold')}"]
+    lines = [f"{head}: {paint(escaped(diagnostic.message), 'bold')}"]
     width = 1
     if diagnostic.span is not None:
         places = [diagnostic.span, *(label.span for label in diagnostic.labels)]
         width = max(len(str(_line_of(p))) for p in places)
         rule = paint("|", "rule")
-        lines.append(f"{' ' * width}{paint('-->', 'rule')} {diagnostic.span.place}")
+        lines.append(f"{' ' * width}{paint('-->', 'rule')} {escaped(diagnostic.span.place)}")
         lines.append(f"{' ' * width} {rule}")
         carets = [(diagnostic.span, diagnostic.caret, "^", severity)]
         carets += [(label.span, label.text, "-", "rule") for label in diagnostic.labels]
@@ -38,10 +38,10 @@ def render(diagnostic: Diagnostic, colour: bool = False) -> str:
                 lines.append(f"{side} {rule} {shown}".rstrip())
                 lines.append(f"{' ' * width} {rule} {paint(under.rstrip(), style)}")
     equals = f"{' ' * width} {paint('=', 'rule')}"
-    lines.extend(f"{equals} note: {_clean(note)}" for note in diagnostic.notes)
+    lines.extend(f"{equals} note: {escaped(note)}" for note in diagnostic.notes)
     # Every message has a remedy: its own, or that of its code.
     remedy = diagnostic.help or CODES[diagnostic.code].remedy
-    lines.append(f"{equals} help: {_clean(remedy)}")
+    lines.append(f"{equals} help: {escaped(remedy)}")
     return "\n".join(lines)
 
 
@@ -108,12 +108,7 @@ def _shown(character: str) -> str:
         return " " * _TAB
     if unicodedata.combining(character) or character.isprintable():
         return character
-    return "\N{REPLACEMENT CHARACTER}"
-
-
-def _clean(text: str) -> str:
-    """A message on one line, without characters that a terminal would act on."""
-    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
+    return escaped(character)
 
 
 def columns(text: str) -> int:

@@ -52,7 +52,7 @@ class Build:
     `named` are the connectors whose variables a component's text names. `used` are the identities
     of what was named. `before` are the calls of `pre` and `change`, to be judged at the end.
     `unused`: how deep in branches that never count; `items_beyond`: items asked for there that are
-    none.
+    none. `circles`: the classes of each circle of bases that was reported.
     """
 
     log: Log
@@ -80,6 +80,7 @@ class Build:
     functions: dict[int, object] = field(default_factory=dict)
     clauses: dict[object, object] = field(default_factory=dict)
     before: list[tuple[checked.Call, checked.Variable, bool]] = field(default_factory=list)
+    circles: set[frozenset[int]] = field(default_factory=set)
     heights: dict[int, tuple[checked.Expression, int]] = field(default_factory=dict)
     size: int = 0
     unused: int = 0

@@ -62,16 +62,23 @@ class Namespace:
 
     def own(self, name: str) -> Class | None:
         """The class defined here by that name, or in a base."""
-        found = self.classes.get(name)
-        if found is None and name in self.definitions:
-            found = Class(self.definitions[name], self)
-            self.classes[name] = found
-        if found is None:
-            for base in self.bases:
-                found = base.own(name)
-                if found is not None:
-                    return found
-        return found
+        for space in self._with_bases():
+            found = space.classes.get(name)
+            if found is None and name in space.definitions:
+                found = space.classes[name] = Class(space.definitions[name], space)
+            if found is not None:
+                return found
+        return None
+
+    def _with_bases(self) -> Iterator[Namespace]:
+        """This namespace and those of its bases, each once: bases may extend each other."""
+        waiting, seen = [self], set[int]()
+        while waiting:
+            space = waiting.pop()
+            if id(space) not in seen:
+                seen.add(id(space))
+                yield space
+                waiting += reversed(space.bases)
 
     def find(self, name: str) -> Class | None:
         """The class seen by that name from here: the innermost one."""
@@ -95,13 +102,12 @@ class Namespace:
         """Every name of a class that is seen from here."""
         space: Namespace | None = self
         while space is not None:
-            yield from space.definitions
+            for one in space._with_bases():
+                yield from one.definitions
             yield from space.imports
             for star in space.stars:
                 if star.target is not None:
                     yield from star.target.space.definitions
-            for base in space.bases:
-                yield from base.definitions
             space = space.outer
         yield from ("RotationalFlange", "TranslationalFlange")
 

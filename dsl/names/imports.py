@@ -13,7 +13,7 @@ from frot.dsl.files.import_scan import SUFFIX, locate, member, plain_path
 from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostics import Label, Log
 from frot.dsl.messages.source import Source
-from frot.dsl.names.classes import Class, Imported, Namespace, library, namespace
+from frot.dsl.names.classes import Class, Imported, Namespace, built_in, library, namespace
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.text import tree
 from frot.dsl.text.parsing import parse
@@ -117,12 +117,14 @@ class Libraries:
                     return found, word.text
                 if found.space.knows(word.text):
                     names = _names(found.space)
+                    near = did_you_mean(word.text, names, self.log)
+                    own = f"{word.text!r} is a word of the language: leave the import out"
                     self.log.report(
                         "E0210",
                         f"{found.name!r} has no member {word.text!r}",
                         word.span,
                         notes=(f"there are: {', '.join(names)}",) if names else (),
-                        help=did_you_mean(word.text, names, self.log),
+                        help=own if built_in(word.text) else near,
                     )
                 return None
             found = inner

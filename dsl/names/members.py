@@ -18,7 +18,13 @@ from frot.dsl.names.things import Thing, as_thing, gathered, kind_of
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree
 
-_AXES = "xyz"
+_AXES, _QUATERNION = "xyz", "wxyz"
+# Places of the ground in a planar model, and in space; the help where a member is of the other.
+_GROUND = ("line", "plane")
+_OTHER = {
+    False: "'{}' is of planar models, and this one is in space: write 'planar model'",
+    True: "'{}' is of models in space, and this one is planar",
+}
 
 
 def member(owner: Thing, node: tree.Member, scope: Scope, want: str) -> Thing | None:
@@ -91,7 +97,9 @@ def _of_body(body: checked.Body, node: tree.Member, scope: Scope, want: str) -> 
     what = "variable" if want == "value" else "frame"
     places = (*frames, *geometry)
     candidates = (*members, *places) if want == "value" else (*places, *members)
-    _no_member(f"no {what} {name!r} on body {body.name!r}", node, candidates, scope)
+    other = {*body_members(not scope.planar, turns), *(_GROUND if body.shape is None else ())}
+    help_text = _OTHER[scope.planar].format(name) if name in other else ""
+    _no_member(f"no {what} {name!r} on body {body.name!r}", node, candidates, scope, help_text)
     return None
 
 
@@ -150,8 +158,10 @@ def _quantity(
     return checked.Quantity(owner, node.name.text, kind, node.span)
 
 
-def _no_member(message: str, node: tree.Member, names: tuple[str, ...], scope: Scope) -> None:
-    help_text = did_you_mean(node.name.text, names, scope.log)
+def _no_member(
+    message: str, node: tree.Member, names: tuple[str, ...], scope: Scope, help_text: str = ""
+) -> None:
+    help_text = help_text or did_you_mean(node.name.text, names, scope.log)
     listed = ", ".join(names[:20]) or "none"
     notes = () if help_text else (f"there are: {listed}",)
     scope.log.report("E0203", message, node.name.span, notes=notes, help=help_text)
@@ -159,10 +169,14 @@ def _no_member(message: str, node: tree.Member, names: tuple[str, ...], scope: S
 
 def _component(owner: checked.Expression, node: tree.Member, scope: Scope) -> Thing | None:
     name = node.name.text
-    if len(owner.type.shape) == 1 and name in tuple(_AXES[: owner.type.shape[0]]):
-        return element(owner, _AXES.index(name), node.span)
+    quaternion = isinstance(owner, checked.Quantity) and owner.name == "orientation"
+    names = _QUATERNION if quaternion else _AXES
+    if len(owner.type.shape) == 1 and name in tuple(names[: owner.type.shape[0]]):
+        return element(owner, names.index(name), node.span)
     if owner.type.is_scalar:
         message = f"{node.operand.span.text!r} is a scalar: it has no {name!r}"
+    elif quaternion:
+        message = f"an orientation has .w, .x, .y, .z, not '.{name}'"
     elif len(owner.type.shape) == 1 and owner.type.shape[0] <= 3:
         axes = ", ".join(f".{a}" for a in _AXES[: owner.type.shape[0]])
         message = f"a vector of this model has {axes}, not '.{name}'"

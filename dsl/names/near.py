@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 from frot.dsl.catalogue import plain
 from frot.dsl.messages.diagnostics import LIMIT, Log
+from frot.dsl.messages.source import Span
 
 _CANDIDATES = 2000
 # What the same is called elsewhere.
@@ -62,6 +63,23 @@ def near(word: str, names: Iterable[str]) -> str:
                 break
     close = difflib.get_close_matches(wanted, folded, n=1, cutoff=0.6)
     return folded[close[0]] if close else ""
+
+
+def unknown_kind(
+    what: str,
+    word: str,
+    known: Iterable[str],
+    span: Span,
+    log: Log,
+    *,
+    usable: Iterable[str] = (),
+    help: str = "",
+) -> None:
+    """Report a kind that is none of those `known` (E0202), and list those `usable`, else all."""
+    known = list(known)
+    note = f"there are: {', '.join(usable or known)}"
+    help_text = help or did_you_mean(word, known, log)
+    log.report("E0202", f"unknown {what} {word!r}", span, notes=(note,), help=help_text)
 
 
 def did_you_mean(word: str, names: Iterable[str], log: Log | None = None) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from frot.dsl import checked
@@ -22,6 +23,7 @@ from frot.dsl.statements.equations import both_sides
 from frot.dsl.text import tree
 
 _GRAVITY = Argument("gravity", ACCELERATION, required=False, sign="nonnegative")
+_DOWN = Argument("down", REAL, "vector", required=False)
 _EXPERIMENT = (
     Argument("stop", TIME, required=False),
     Argument("start", TIME, required=False),
@@ -57,22 +59,34 @@ def default_world(planar: bool) -> checked.World:
 
 
 def world(call: tree.Call, scope: Scope) -> checked.World:
-    """The world of `world(gravity = ..., down = -y)`."""
+    """The world of `world(gravity = ..., down = -y)`; `down` may be a vector of parameters."""
     rest, words = _split(call.arguments, ("down",))
-    found = bind(rest, (_GRAVITY,), "world", call.span, scope, constants=True)
-    down = default_world(scope.planar).down
-    if "down" in words:
-        down = _direction(words["down"].value, scope) or down
+    axis = None
+    if "down" in words and _is_axis(words["down"].value):
+        axis = _direction(words["down"].value, scope)
+    else:
+        rest = list(call.arguments)
+    found = bind(rest, (_GRAVITY, _DOWN), "world", call.span, scope, constants=True)
+    down = axis or found.values.get("down") or default_world(scope.planar).down
     gravity = found.values.get("gravity")
     return checked.World(gravity, down, call.span)  # type: ignore[arg-type]
 
 
+def _falls(world: checked.World, scope: Scope) -> tuple[object, ...]:
+    """Size and unit vector of gravity as far as they are known, to be compared."""
+    size = _STANDARD if world.gravity is None else known(world.gravity, scope)
+    if isinstance(world.down, str):
+        sign = -1.0 if world.down[0] == "-" else 1.0
+        return size, tuple(sign * (axis == world.down[1]) for axis in "xyz"[: scope.size])
+    items = known(world.down, scope)
+    if not isinstance(items, tuple) or not (length := math.hypot(*items)):
+        return size, world.down.span.text
+    return size, tuple(item / length for item in items)
+
+
 def same_world(found: checked.World, holds: checked.World, component: str, scope: Scope) -> None:
     """Tell a component, or another base, whose world is not that of the model: there is one."""
-    gravities = [
-        _STANDARD if w.gravity is None else known(w.gravity, scope) for w in (found, holds)
-    ]
-    if found.down == holds.down and gravities[0] == gravities[1]:
+    if _falls(found, scope) == _falls(holds, scope):
         return
     assert found.span is not None
     whose = f"component {component!r}" if component else "this base"
@@ -86,6 +100,11 @@ def same_world(found: checked.World, holds: checked.World, component: str, scope
     )
 
 
+def _is_axis(node: tree.Expression) -> bool:
+    inner = node.operand if isinstance(node, tree.Prefix) else node
+    return isinstance(inner, tree.Name) and inner.text in ("x", "y", "z")
+
+
 def _direction(node: tree.Expression, scope: Scope) -> str | None:
     sign, axis = "+", node
     if isinstance(node, tree.Prefix) and node.op in "+-":
@@ -94,7 +113,7 @@ def _direction(node: tree.Expression, scope: Scope) -> str | None:
     if isinstance(axis, tree.Name) and axis.text in axes:
         return sign + axis.text
     shown = ", ".join(f"{s}{a}" for a in axes for s in "+-")
-    message = f"'down' is one of {shown}, found {node.span.text!r}"
+    message = f"'down' is one of {shown}, or a vector, found {node.span.text!r}"
     scope.log.report("E0404", message, node.span)
     return None
 

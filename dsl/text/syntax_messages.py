@@ -6,20 +6,22 @@ import difflib
 import re
 import unicodedata
 from collections.abc import Sequence
-from typing import Protocol
 
 from frot.dsl.messages.diagnostics import Label, Log
 from frot.dsl.messages.source import Source, Span
+from frot.dsl.text.foreign import (
+    FOREIGN,
+    IN_UNIT,
+    MEANT,
+    MODELICA,
+    RAISED,
+    Lexeme,
+    as_text,
+    declared_by_equals,
+    in_parentheses,
+    of_modelica,
+)
 from frot.dsl.text.lex import JUNK
-
-
-class Lexeme(Protocol):
-    """A token: its terminal and its place."""
-
-    type: str
-    start: int
-    end: int
-
 
 _OPENING = (
     "initial",
@@ -55,64 +57,10 @@ _SAY = {
     "IN": "'in'",
     "RSQB": "']'",
 }
-
-
-# Signs of other keyboards and of word processors, and what is meant by them.
-_MEANT = {
-    **dict.fromkeys("\u2212\u2010\u2011\u2012\u2013\u2014\uff0d", "-"),
-    **dict.fromkeys("×·⋅∙∗＊", "*"),
-    **dict.fromkeys("÷∕⁄", "/"),
-    **dict.fromkeys("“”„«»″＂", '"'),
-    **dict.fromkeys("，、", ","),
-    "；": ";",
-    "：": ":",
-    "（": "(",
-    "）": ")",
-    "＝": "=",
-    "＋": "+",
-    "≤": "<=",
-    "≥": ">=",
-    "≠": "<>",
-    "⩵": "==",
-}
-# Signs of other languages, and how the same is said in this one.
-_FOREIGN = {
-    "#": "comments are written '// ...' or '/* ... */'",
-    "!": "a condition is negated by 'not', and 'a <> b' says that two values differ",
-    "&": "conditions are joined by 'and'",
-    "|": "conditions are joined by 'or'; the size of a value is 'abs(x)'",
-    "?": "a choice is written 'if c then a else b'",
-    "\\": "a quotient is written 'a/b'",
-    "@": "a product of matrices is written 'A*B'",
-    "~": "a condition is negated by 'not'",
-    **dict.fromkeys("°˚", "leave a space between a number and its unit: '20 °', or write '20 deg'"),
-    "$": "names have letters, digits and '_'",
-}
-# Words of Modelica that have no place here, and how the same is said.
-_MODELICA = {
-    "discrete": "leave the word out: a variable that a 'when' gives its values keeps them between",
-    "algorithm": "there are equations only: write 'equation', and 'left = right;' without order",
-    "protected": "leave the word out: every declaration can be read from outside",
-    "public": "leave the word out: every declaration can be read from outside",
-    "inner": "leave the word out, and hand the value down as a parameter of the part",
-    "outer": "leave the word out, and declare the value as a parameter of this model",
-    "replaceable": "leave the word out, and choose the part where it is declared",
-    "redeclare": "declare the part in the model that is built, by its own type",
-    "annotation": "leave it out; a run is described by 'experiment(stop = 1 s);'",
-    "block": "write 'model'",
-    "class": "write 'model'",
-    "within": "leave it out: a file is a member of the folder it lies in",
-    "encapsulated": "leave the word out",
-    "each": "leave the word out: a value of one item is given to all of them",
-    "elif": "write 'elseif'",
-    "elsif": "write 'elseif'",
-}
-_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
 _COMMA = re.compile(r"(\d+),(\d+)")
 _LIAISON = ("LIAISON", "JOINT")
 _SINGLE = ("FRAME", "CURVE", "SURFACE")
 _ROLES = ("PARAMETER", "CONSTANT", "INPUT", "OUTPUT")
-_IN_UNIT = dict.fromkeys("·⋅", ", or '.' in a unit: 'N.m'")
 
 
 def _shown(text: str) -> str:
@@ -204,11 +152,14 @@ def unexpected(
     text = source.text
     word = text[token.start : token.end]
     span = _span(source, token)
-    foreign = _of_modelica(text, previous, token, statement)
-    if foreign is not None:
+    foreign = of_modelica(text, previous, token, statement)
+    declared = declared_by_equals(text, statement) if token.type == "EQUAL" else None
+    if declared is not None:
+        log.report("E0101", f"'=' in the declaration of a {declared[0]}", span, help=declared[1])
+    elif foreign is not None:
         found = text[foreign.start : foreign.end].rpartition(" ")[2]
         place = Span(source, foreign.end - len(found), foreign.end)
-        log.report("E0101", f"{found!r} is no word of this language", place, help=_MODELICA[found])
+        log.report("E0101", f"{found!r} is no word of this language", place, help=MODELICA[found])
     elif token.type == JUNK:
         _junk(log, source, token)
     elif (
@@ -219,7 +170,7 @@ def unexpected(
     ):
         number = text[previous.start : previous.end]
         remedy = f"for a unit leave a space: '{number} {word}'; for a product: '{number}*{word}'"
-        if (power := word.translate(_RAISED)).isdigit():
+        if (power := word.translate(RAISED)).isdigit():
             remedy = f"a power is written '{number}^{power}'"
         log.report(
             "E0106",
@@ -266,8 +217,9 @@ def unexpected(
         remedy = f"put the {what} into a model beside its body, and declare an array of that model"
         log.report("E0101", f"a {what} cannot be declared as an array", span, help=remedy)
     elif word == "[" and "LPAR" in expected:
-        help_text = "an array is written '(1, 2, 3)', a matrix '((1, 2), (3, 4))'"
-        log.report("E0101", "unexpected '['", span, help=help_text)
+        log.report("E0101", "unexpected '['", span, help=in_parentheses(text, token.start))
+    elif token.type == "STRING" and (help_text := as_text(text, token, statement)):
+        log.report("E0101", f"unexpected {_shown(word)!r}", span, help=help_text)
     elif token.type == "COMMA" and statement and statement[0].type in _LIAISON:
         help_text = "the laws of a liaison follow the word 'with': '... with coulomb(0.3);'"
         log.report("E0101", "unexpected ','", span, help=help_text)
@@ -290,18 +242,6 @@ def unexpected(
         log.report("E0105", "'end' without a model to end", span)
     else:
         _misplaced(log, source, previous, token, expected, statement)
-
-
-def _of_modelica(
-    text: str, previous: Lexeme | None, token: Lexeme, statement: Sequence[Lexeme]
-) -> Lexeme | None:
-    """The word of Modelica that the token, or what stands before it, is."""
-    first = statement[0] if statement and previous is not None else None
-    followed = len(statement) > 1 and text[statement[1].start].isalpha()
-    for place in (token, previous, first if followed else None):
-        if place is not None and text[place.start : place.end].rpartition(" ")[2] in _MODELICA:
-            return place
-    return None
 
 
 def _none_open(statement: Sequence[Lexeme]) -> bool:
@@ -339,13 +279,13 @@ def _junk(log: Log, source: Source, token: Lexeme) -> None:
     elif character == "'":
         help_text = "the derivative of x is written 'der(x)', a text in double quotes"
         log.report("E0101", 'unexpected "\'"', span, help=help_text)
-    elif character in _MEANT:
+    elif character in MEANT:
         log.report(
             "E0101",
             f"the character {character!r} ({unicodedata.name(character).lower()}) is not "
-            f"{_MEANT[character]!r}, though it looks so",
+            f"{MEANT[character]!r}, though it looks so",
             span,
-            help=f"write {_MEANT[character]!r}" + _IN_UNIT.get(character, ""),
+            help=f"write {MEANT[character]!r}" + IN_UNIT.get(character, ""),
         )
     elif character in "{}":
         log.report(
@@ -355,7 +295,7 @@ def _junk(log: Log, source: Source, token: Lexeme) -> None:
             help="vectors are written '(x, y, z)', matrices '((a, b), (c, d))'",
         )
     else:
-        help_text = _FOREIGN.get(character, "")
+        help_text = FOREIGN.get(character, "")
         log.report("E0101", f"unexpected character {_shown(character)!r}", span, help=help_text)
 
 

@@ -9,7 +9,7 @@ from frot.dsl.messages.source import Source, Span
 from frot.dsl.quantities.spelling import corrected
 from frot.dsl.quantities.units import is_unit
 from frot.dsl.text import tree
-from frot.dsl.text.syntax_messages import Lexeme
+from frot.dsl.text.foreign import Lexeme
 
 _WITH_UNIT = re.compile(r"[\d.)](?:[eE][+-]?\d+)?[^\S\n]+(\S+)")
 _FACTOR = re.compile(r"[\w%°]+(?:\^?-?\d+)?")

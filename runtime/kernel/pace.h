@@ -11,7 +11,9 @@
 
 #include "work.h"
 
-/* The longest step at t; `still`: nothing moves. */
+/* The longest step at t; `still`: nothing moves. It follows the run of the text and the time
+ * already run, not the time at which the caller stops: values do not depend on when they are read.
+ */
 double frot_longest_step(const frot_model *m, const frot_state *s, const frot_work *w, double t,
                          int still);
 

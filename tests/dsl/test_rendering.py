@@ -67,7 +67,9 @@ def test_without_a_place() -> None:
 
 def test_control_characters_are_not_printed() -> None:
     text = "x = \x1b[31m;\n"
-    assert "\x1b" not in render(Diagnostic("E0101", "bad \x1b", at(text, "31")))
+    shown = render(Diagnostic("E0101", "bad \x1b", at(text, "31"))).splitlines()
+    assert shown[0] == r"error[E0101]: bad \x1b"
+    assert shown[3] == r"1 | x = \x1b[31m;" and shown[4].index("^^") == shown[3].index("31")
 
 
 def test_colours_change_nothing_but_colours() -> None:

@@ -174,8 +174,10 @@ def test_a_cache_that_cannot_be_made_is_replaced_by_a_temporary_one(
     assert list(cache.glob("frot-*/programs/*/program.so"))
 
 
-def test_a_cache_folder_that_takes_no_files_does_no_harm_or_is_told(shell: Shell) -> None:
-    answer = shell("simulate", HOOP, FROT_CACHE="/proc")
+def test_a_cache_folder_that_takes_no_files_does_no_harm_or_is_told(
+    shell: Shell, cache: Path
+) -> None:
+    answer = shell("simulate", HOOP, FROT_CACHE="/proc", TMPDIR=cache)
     if answer.status:
         answer.refuses("E0803", "set FROT_CACHE")
 

@@ -215,14 +215,14 @@ class TestOneFileThreeNames:
 def test_a_cache_that_may_be_read_only_is_used_and_another_is_filled(
     cache: Path, door: Door, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """What lies on a read-only disk is found, what is new goes to a spare folder."""
+    """What lies on a read-only disk is found, what is new goes to the temporary folder."""
     import errno
     import tempfile
 
     door("simulate", HOOP).succeeds()
-    spare = tmp_path / "spare"
-    spare.mkdir()
-    monkeypatch.setattr(tempfile, "tempdir", str(spare))
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     made = tempfile.mkdtemp
 
     def mkdtemp(suffix: str | None = None, prefix: str | None = None, dir: object = None) -> str:
@@ -232,22 +232,44 @@ def test_a_cache_that_may_be_read_only_is_used_and_another_is_filled(
 
     monkeypatch.setattr(tempfile, "mkdtemp", mkdtemp)
     door("simulate", HOOP).succeeds()
-    assert not list(spare.rglob("program.so"))
+    assert not list(temporary.rglob("program.so"))
     text = HOOP.read_text(encoding="utf-8").replace("ring(", "disc(")
     door("simulate", door.write(text)).succeeds()
-    assert len(list(spare.glob("frot-*/programs/*/program.so"))) == 1
+    assert len(list(temporary.glob("frot-*/programs/*/program.so"))) == 1
+    (program,) = temporary.glob("frot-*/programs/*")
+    os.utime(program, (1.0, 1.0))
     door("simulate", "model.frot").succeeds()
+    assert program.stat().st_mtime > 1.0 and not list((cache / "programs").glob(".new-*"))
 
 
-def test_a_spare_folder_of_someone_else_is_not_trusted(
+def test_a_temporary_folder_of_someone_else_is_not_trusted(
     cache: Path, door: Door, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """Programs are run: whoever can write the folder could run theirs."""
     import tempfile
 
-    spare = tmp_path / "spare"
-    (spare / f"frot-{os.getuid()}").mkdir(parents=True)
-    os.chmod(spare / f"frot-{os.getuid()}", 0o777)
-    monkeypatch.setattr(tempfile, "tempdir", str(spare))
+    temporary = tmp_path / "temporary"
+    (temporary / f"frot-{os.getuid()}").mkdir(parents=True)
+    os.chmod(temporary / f"frot-{os.getuid()}", 0o777)
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     monkeypatch.setenv("FROT_CACHE", "/dev/null/none")
     door("simulate", HOOP).refuses("E0803", "belongs to someone else", "set FROT_CACHE")
+
+
+@pytest.mark.usefixtures("with_kernel")
+def test_a_cache_that_can_be_written_does_not_read_the_temporary_folder(
+    cache: Path, door: Door, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """What an earlier run has left in the temporary folder is not of the cache of `FROT_CACHE`."""
+    import tempfile
+
+    door("simulate", HOOP).succeeds()
+    (program,) = (cache / "programs").iterdir()
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    left = temporary / f"frot-{os.getuid()}"
+    left.mkdir(mode=0o700)
+    shutil.move(cache / "programs", left / "programs")
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
+    door("simulate", HOOP).succeeds()
+    assert [path.name for path in (cache / "programs").iterdir()] == [program.name]

@@ -7,11 +7,12 @@ import os
 import resource
 import subprocess
 import sys
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
 import pytest
-from front_door import HOOP, OSCILLATOR, Door, files_in
+from front_door import HOOP, OSCILLATOR, Door, Shell, files_in
 from frot.runtime.result import MODES
 
 import frot
@@ -207,3 +208,77 @@ def test_what_is_constant_but_for_rounding_is_drawn_level() -> None:
     low, high = panel.get_ylim()
     assert high - low > 0.3
     assert panel.get_ylabel() == "output"
+
+
+MANY = """
+planar model Many
+  body p[100]: particle(mass = 1 kg);
+  experiment(stop = 1 s, interval = 1e-7 s);
+end Many;
+"""
+
+
+def test_output_times_are_limited_by_the_number_of_variables(door: Door) -> None:
+    """A table of all variables takes at most 2^27 numbers of 8 bytes."""
+    name = door.write(MANY)
+    refusal = door("simulate", name)
+    refusal.refuses("E0806", "an interval of 1e-07 s gives 1e+07 output times of 704 variables")
+    most = 2**27 // 704
+    assert f"at most {most} can be kept" in refusal.err
+    least = float(refusal.err.partition("choose an interval of ")[2].split()[0])
+    assert 1 / most <= least < 1.1 / most
+    door("simulate", name, "--interval", str(10 * least)).succeeds()
+    with pytest.raises(frot.FrotError):
+        frot.load(name).simulate(interval=1 / (most + 1))
+
+
+def test_a_model_of_any_size_has_its_default_output_times(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("frot.runtime.run.MOST_VALUES", 1000)
+    model = frot.compile(MANY.replace(", interval = 1e-7 s", ""))
+    assert len(model.simulate().time) == 501
+    with pytest.raises(frot.FrotError):
+        model.simulate(interval=1 / 502)
+
+
+@pytest.mark.parametrize("suffix", ["csv", "json"])
+def test_a_table_is_written_without_a_copy_of_it_as_text(
+    suffix: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """100 001 rows of six numbers are some 12 MB of text."""
+    result = frot.load(OSCILLATOR).simulate(stop=12.0, interval=12e-5)
+    result[next(iter(result))]
+    target = folder / f"out.{suffix}"
+    tracemalloc.start()
+    result.save(target)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert most < target.stat().st_size
+
+
+def test_too_little_memory_is_one_message(door: Door, monkeypatch: pytest.MonkeyPatch) -> None:
+    def values(*_: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("frot.runtime.engine.Engine.values", values)
+    door("simulate", HOOP).refuses("E0808", "not enough memory")
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(
+    "words", ["simulate model.frot -o out.csv", "check model.frot", "explain", "fmt --diff *.frot"]
+)
+def test_a_closed_standard_stream_is_no_fault(closed: str, words: str, shell: Shell) -> None:
+    """The file of the table must not take the number of the closed stream."""
+    (shell.folder / "model.frot").write_text(HOOP.read_text(encoding="utf-8"), encoding="utf-8")
+    answer = shell.run(["sh", "-c", f"{sys.executable} -m frot.command_line {words} {closed}"])
+    assert answer.succeeds().err == ""
+    if "-o" in words:
+        lines = (shell.folder / "out.csv").read_text(encoding="utf-8").splitlines()
+        assert len(lines) == 502 and lines[0].startswith("time,")
+
+
+def test_a_model_is_compiled_with_all_streams_closed(shell: Shell) -> None:
+    (shell.folder / "model.frot").write_text(MANY.replace("1e-7", "0.1"), encoding="utf-8")
+    run = f"{sys.executable} -m frot.command_line simulate model.frot -o out.json <&- >&- 2>&-"
+    shell.run(["sh", "-c", run], FROT_CACHE=shell.folder / "cache").succeeds()
+    assert len(json.loads((shell.folder / "out.json").read_text())["variables"]["time"]) == 11

@@ -4,6 +4,8 @@ import warnings
 
 import numpy as np
 import pytest
+from frot.compiler.report.dynamics import State
+from frot.compiler.report.paradox import _Watched
 
 import frot
 
@@ -114,3 +116,48 @@ initial
   k.gap = 0 m;
 end Huge;
 """).report()
+
+
+@pytest.mark.parametrize("far", ["1e4", "1e6", "1e9"])
+def test_a_coupling_that_grows_with_the_distance_has_no_worst_posture(
+    far: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A block whose one corner is far away, turned by a = -pi/6 on a slope of 30 degrees.
+
+    N = N0 + c f, where c = x y m/(I + m x^2) of the corner's place (x, y) from G along the line and
+    its normal; here (w/2, -d) of the block, whose I = m(w^2 + h^2)/12. The other liaison is open.
+    """
+    tried = []
+    coupling = _Watched.coupling
+
+    def counted(self: _Watched, state: State) -> float | None:
+        tried.append(state)
+        if len(tried) > 5000:
+            pytest.fail("the search goes on")
+        return coupling(self, state)
+
+    monkeypatch.setattr(_Watched, "coupling", counted)
+    front, back = (
+        frot.compile(f"""
+planar model FarCorner
+  parameter Angle slope = 30 deg;
+  body block: box(mass = 2 kg, size = (0.4, 1) m);
+  frame lower on block at (0.2, -{far}) m;
+  frame upper on block at (-0.2, -0.5) m;
+  curve incline on ground: line(through = (0, 0) m, direction = (cos(slope), -sin(slope)));
+  liaison front: contact_ponctuel(incline, lower) with coulomb(0.3);
+  liaison back: contact_ponctuel(incline, upper) with coulomb(0.3);
+initial
+  block.position = (0.5*sin(slope), 0.5*cos(slope))*(1 m);
+  block.angle = -slope;
+end FarCorner;
+""")
+        .report()
+        .analysis.paradoxes
+    )
+    inertia = (0.4**2 + 1) / 12
+    assert front.at_start == pytest.approx((inertia + 0.04) / (0.2 * float(far)), rel=1e-9)
+    assert front.least is None
+    # The largest x y/(I + x^2) of x^2 + y^2 = r^2, at any turn of the block.
+    square = 0.04 + 0.25
+    assert back.least == pytest.approx(2 * np.sqrt(inertia * (inertia + square)) / square, rel=1e-5)

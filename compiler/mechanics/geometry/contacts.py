@@ -184,7 +184,11 @@ def gravity(world: World, kinematics: Kinematics) -> ca.SX:
     """Acceleration of free fall (3)."""
     given = world.gravity
     size = ca.SX(STANDARD_GRAVITY) if given is None else kinematics.fixed.lower(given)
-    return ca.sparsify(size * DOWN[world.down])
+    if isinstance(world.down, str):
+        return ca.sparsify(size * DOWN[world.down])
+    way = ca.densify(kinematics.fixed.lower(world.down))
+    way = ca.vertcat(way, ca.SX.zeros(3 - way.numel()))
+    return ca.sparsify(size * way / ca.norm_2(way))
 
 
 def _upward(world: World, kinematics: Kinematics) -> ca.SX:

@@ -6,7 +6,7 @@ from frot.compiler.lowering.walk import has_time, subexpressions
 from frot.compiler.mechanics.geometry.figure import Placed, Point
 from frot.compiler.mechanics.geometry.given import Implicit, Path, Sheet
 from frot.compiler.mechanics.geometry.plain import Dot, Flat, Straight
-from frot.compiler.mechanics.geometry.round import Ball, Oval, Ring
+from frot.compiler.mechanics.geometry.round import Ball, Egg, Oval, Ring
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import (
@@ -89,6 +89,8 @@ def _surface(surface: Surface, span: Span) -> Placed | None:
             return Placed(_at(surface, "through", span), Flat(Axis(given["normal"]), False))
         case "sphere":
             return Placed(_at(surface, "centre", span), Ball(given["radius"]))
+        case "ellipsoid":
+            return Placed(_at(surface, "centre", span), Egg(given["semi_axes"]))
         case "cylinder":
             tube = Straight(Axis(given["axis"]), given["radius"])
             return Placed(_at(surface, "through", span), tube)

@@ -194,8 +194,8 @@ class Egg(Figure):
 
     @property
     def rolls(self) -> bool:
-        """It does."""
-        return True
+        """With semi-axes that stay."""
+        return not has_time(self.semi)
 
     def function(self, x: ca.SX, lower: Lower) -> ca.SX:
         """Half of x . S^-1 x - 1."""
