@@ -9,6 +9,7 @@ import numpy as np
 
 from judge.mechanics import Joint, Mechanics, Row
 from judge.readings import Loads
+from judge.rests import rest
 from judge.scene import Contact, Pin
 from judge.seen import EXACT, OPEN, SLACK, SLIP, STICK, Seen
 
@@ -26,6 +27,7 @@ def instant(seen: Seen, t: float) -> None:
         outputs(seen, now, joint, row, t)
         law(seen, now, joint, row, loads, t)
     residual(seen, loads, t)
+    rest(seen, now, row, t)
 
 
 def relation(
@@ -196,14 +198,14 @@ def residual(seen: Seen, loads: Loads, t: float) -> None:
 
 def jump(seen: Seen, t: float) -> None:
     """Positions and velocities are continuous: there are no impacts."""
-    before, after = seen.row(math.nextafter(t, -math.inf)), seen.row(t)
+    before, after = seen.row(seen.just_before(t)), seen.row(t)
     for b in seen.scene.bodies:
         for axis in "xy":
             for what, size in (("position", seen.length), ("velocity", seen.speed[b.name])):
                 name = f"{b.name}.{what}.{axis}"
-                allowed = (SLACK * seen.tol + 1e-12) * size
+                allowed = (10 * seen.tol + 1e-12) * size
                 seen.found.hold(f"jump of {what}", after[name] - before[name], allowed, t, name)
         if b.turns:
             name = f"{b.name}.angular_velocity"
-            allowed = (SLACK * seen.tol + 1e-12) * seen.speed[f"{b.name}.w"]
+            allowed = (10 * seen.tol + 1e-12) * seen.speed[f"{b.name}.w"]
             seen.found.hold("jump of velocity", after[name] - before[name], allowed, t, name)

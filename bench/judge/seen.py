@@ -21,6 +21,10 @@ OPEN, STICK, SLIP = 0, 1, 2
 LOOKS = 5
 
 
+# Part of an instant by which a record is read before it: an event is in effect some ulps earlier.
+BEFORE = 1e-13
+
+
 class Happening(Protocol):
     """An event of a result."""
 
@@ -96,6 +100,10 @@ class Seen:
         """All variables at a time."""
         now = self.result.at(np.array([t]))
         return {name: float(now[name][0]) for name in now}
+
+    def just_before(self, t: float) -> float:
+        """The instant at which the record is read for what was before t."""
+        return max(t - BEFORE * abs(t), float(self.result.time[0]))
 
     def mechanics(self, t: float, sides: Mapping[str, int] | None = None) -> Mechanics:
         """The scene in the state the result tells at t."""
