@@ -13,6 +13,7 @@ from judge.energies import balance
 from judge.instants import instant, jump
 from judge.integrals import integrals
 from judge.seen import Findings, Seen
+from judge.sides import recorded_sides
 from judge.switches import switch
 
 # Part of a run that stopped within which it had stopped: an instant is known no better.
@@ -34,6 +35,7 @@ class Judge(Seen):
 
         Of a run that `stopped`, what it did at last, before it knew, is judged with the stop.
         """
+        recorded_sides(self)
         begin, end = float(self.result.time[0]), float(self.result.time[-1])
         end -= AT_LAST * (end - begin) if stopped else 0.0
         marks = sorted({e.time for e in self.result.events if begin <= e.time <= end})

@@ -11,8 +11,9 @@ import numpy as np
 
 from judge.mechanics import Floats, Joint, Mechanics, Row
 from judge.motions import accelerations, parts
-from judge.readings import start_sides, state_of
+from judge.readings import state_of
 from judge.scene import Pin, Scene
+from judge.sides import start_sides
 
 EXACT = 1e-8
 SLACK = 300.0

@@ -77,7 +77,8 @@ def judge_start(
     if not code.startswith("E09"):
         return Verdict(REFUTED, [f"no start: {text}"])
     try:
-        known = all(f"x0_{b.name}" in setting.values for b in scene.bodies)
+        known = setting.start_known
+        known = known and all(f"x0_{b.name}" in setting.values for b in scene.bodies)
         start = begun if begun and not known else Start(scene, setting.values, setting.stop)
         return judge_stop(Judge(scene, setting.values, start, setting.tolerance), code, text, 0.0)
     except KeyError:
