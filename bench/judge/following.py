@@ -39,24 +39,37 @@ SOON = 1e-4
 SLIGHT = 1e-9
 
 
-def lasts(seen: Seen, now: Mechanics, found: Motion, still: Mapping[str, Still], t: float) -> bool:
-    """Whether the modes hold a little later too.
+def lasts(
+    seen: Seen,
+    now: Mechanics,
+    found: Motion,
+    still: Mapping[str, Still],
+    t: float,
+    most: float = math.inf,
+) -> bool:
+    """Whether the modes are admissible after a short step too; `most` bounds the pace.
 
     What is slightly wrong, and ten times so after ten times as long, is no rounding, nor what
     following the motion roughly makes of it.
     """
-    soon = later(seen, now, found, still, t, SOON)
+    soon = later(seen, now, found, still, t, SOON, most)
     if soon <= -SLIGHT or soon >= -1e-3 * SLIGHT:
         return soon > -SLIGHT
-    return not 5 < later(seen, now, found, still, t, 10 * SOON) / soon < 20
+    return not 5 < later(seen, now, found, still, t, 10 * SOON, most) / soon < 20
 
 
 def later(
-    seen: Seen, now: Mechanics, found: Motion, still: Mapping[str, Still], t: float, part: float
+    seen: Seen,
+    now: Mechanics,
+    found: Motion,
+    still: Mapping[str, Still],
+    t: float,
+    part: float,
+    most: float,
 ) -> float:
     """The margin of the same modes a part of their pace later, along the motion they give."""
     quick = accelerations(now)
-    pace = math.inf
+    pace = most
     for k in range(now.n):
         if abs(found.acceleration[k]) > 1e-9 * quick[k] or abs(now.speed[k]) > 0:
             length = 1.0 if k % 3 == 2 else seen.length

@@ -13,6 +13,8 @@ from judge.rests import rest
 from judge.scene import Contact, Pin
 from judge.seen import EXACT, OPEN, SLACK, SLIP, STICK, Seen
 
+ARMS = 1e-14
+
 
 def instant(seen: Seen, t: float) -> None:
     """Everything that must hold at one instant."""
@@ -140,6 +142,8 @@ def friction(
     force = loads.reactions[name][word]
     largest = max(joint.mu_s, joint.mu)
     small = (SLACK * seen.tol + 1e-9) * largest * load + 1e-11 * max(largest, least) * load
+    if "x" in joint.rows:  # a couple of a pin is known as forces with their arms are
+        small += ARMS * float(np.max(joint.rows["x"].reach[2::3])) * load
     slip = row.get(f"{name}.slip", r.rate)
     if mode == STICK:
         seen.found.hold("held slip", slip, 0.0, t, name)

@@ -105,11 +105,12 @@ def _rest_excluded(seen: Seen, before: Mapping[str, float], left: list[str], t: 
         still[name] = replace(still[name], touching=True, slip=0)
     if count(now, still) > 10 * MOST:
         return
+    span = float(seen.result.time[-1] - seen.result.time[0])
     for modes in itertools.islice(_old(now, still, before), MOST):
         found = motion(now, modes, still)
         if found is None or found.margin <= -CLEAR:
             continue
-        if found.margin > CLEAR or lasts(seen, now, found, still, t):
+        if found.margin > CLEAR or lasts(seen, now, found, still, t, span):
             seen.found.fault(
                 f"rest ended early: {', '.join(left)} at t = {t!r}, "
                 f"margin of rest {found.margin:.2g}"

@@ -18,6 +18,7 @@ from judge.check import Judge
 from judge.compare import compare
 from judge.family import Family, Setting, Structure
 from judge.guesses import FAMILIES as GUESSES
+from judge.held import FAMILIES as HELD
 from judge.machines import FAMILIES as MACHINES
 from judge.others import Ran, agree
 from judge.speeds import judge_refusal, judge_speeds
@@ -33,7 +34,9 @@ from judge.verdict import (
 )
 from judge.write import END, write
 
-FAMILIES: dict[str, Family] = {f.name: f for f in (*ANYTHING, *MACHINES, *TABLES, *GUESSES, *ALIKE)}
+FAMILIES: dict[str, Family] = {
+    f.name: f for f in (*ANYTHING, *MACHINES, *TABLES, *GUESSES, *HELD, *ALIKE)
+}
 
 # Steps that a radian or an event is worth at most, where a run takes its time.
 BUSY = 20
