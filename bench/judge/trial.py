@@ -21,6 +21,9 @@ from judge.guesses import FAMILIES as GUESSES
 from judge.held import FAMILIES as HELD
 from judge.machines import FAMILIES as MACHINES
 from judge.others import Ran, agree
+from judge.space.families import FAMILIES as SPACE
+from judge.space.scene import SpaceScene
+from judge.space.trial import try_mechanism
 from judge.speeds import judge_refusal, judge_speeds
 from judge.tables import FAMILIES as TABLES
 from judge.verdict import (
@@ -35,7 +38,7 @@ from judge.verdict import (
 from judge.write import END, write
 
 FAMILIES: dict[str, Family] = {
-    f.name: f for f in (*ANYTHING, *MACHINES, *TABLES, *GUESSES, *HELD, *ALIKE)
+    f.name: f for f in (*ANYTHING, *MACHINES, *TABLES, *GUESSES, *HELD, *ALIKE, *SPACE)
 }
 
 # Steps that a radian or an event is worth at most, where a run takes its time.
@@ -78,6 +81,8 @@ def try_setting(
     model: frot.Model, structure: Structure, setting: Setting, seed: int, limit: float
 ) -> Verdict:
     """Run and judge; `limit` is processor time of the run in seconds."""
+    if isinstance(structure.scene, SpaceScene):
+        return try_mechanism(model, structure.scene, setting, seed, limit)
     late: list[int] = []
 
     def fresh() -> Callable[[float], bool]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from judge.scene import Body, Contact, Force, Line, Pin, Point, Scene
+from judge.space.scene import END, SpaceScene
 from judge.values import DIMENSIONS, Value
 
 UNITS = {
@@ -22,11 +23,8 @@ UNITS = {
 }
 
 
-END = "T_end"
-
-
 def write(
-    scene: Scene,
+    scene: Scene | SpaceScene,
     values: dict[str, float] | None = None,
     experiment: str = "",
     *,
@@ -37,6 +35,8 @@ def write(
     Without an `experiment` the end of the run is the parameter `END`. With `small` the values are
     written in g, mm and ms.
     """
+    if isinstance(scene, SpaceScene):
+        return scene.text(values, experiment)
     lines = [f"planar model {scene.name}"]
     if scene.gravity is not None:
         down = "" if scene.down == "-y" else f", down = {scene.down}"
