@@ -1,6 +1,4 @@
-"""Families of scenes that move as others: groups that nothing binds together, the same scene told
-otherwise.
-"""
+"""Families of scenes that move as others: groups beside each other, a scene written otherwise."""
 
 from __future__ import annotations
 

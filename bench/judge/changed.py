@@ -52,12 +52,15 @@ class Rebuilt:
         self.scene = s
 
     def maybe(self, v: Value | None) -> Value | None:
+        """The value mapped, if there is one."""
         return None if v is None else self.value(v)
 
     def pair(self, at: Pair) -> Pair:
+        """Both values mapped."""
         return self.value(at[0]), self.value(at[1])
 
     def of(self, b: Body | None) -> Body | None:
+        """The body of this scene that stands for one of the first; None is the ground."""
         return None if b is None else self.bodies[b.name]
 
     def _body(self, b: Body) -> Body:
@@ -181,9 +184,9 @@ class Moved(Rebuilt):
                 self.words[f"{b.name}.{what}.x"] = x * self.c + y * self.s
                 self.words[f"{b.name}.{what}.y"] = (y * self.c - x * self.s) * flip
         super().__init__(scene, lambda v: put_in(v, self.words))
-        given = (as_value(x) for x in AXES[scene.down])
-        x, y = (v.at(_nothing) for v in self.around((next(given), next(given))))
-        self.scene.down = next((w for w, d in AXES.items() if d == (x, y)), scene.down)
+        axis = self.around((as_value(AXES[scene.down][0]), as_value(AXES[scene.down][1])))
+        along = tuple(v.at(_nothing) for v in axis)
+        self.scene.down = next((w for w, d in AXES.items() if d == along), scene.down)
         self.scene.statements = self._statements(scene.statements)
 
     def around(self, at: Pair) -> Pair:

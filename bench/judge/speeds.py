@@ -91,7 +91,8 @@ def judge_speeds(
         for i, word in enumerate(("velocity.x", "velocity.y", "angular_velocity")):
             if i == 2 and not b.turns:
                 continue
-            room = NEAREST * (largest if i < 2 else size[k + 2])
+            wide = b.size.at(start.look) if b.size is not None else np.inf
+            room = NEAREST * (largest if i < 2 else size[k + 2] + largest / wide)
             if abs(start.speed[k + i] - wanted[k + i]) > room:
                 faults.append(
                     f"start speed: {b.name}.{word} is {start.speed[k + i]:.12g}, nearest to the "

@@ -72,7 +72,9 @@ def _small(x: float, kind: str) -> str:
     above = [u if p == 1 else f"{u}^{p}" for u, p in units if p > 0]
     below = [u if p == -1 else f"{u}^{-p}" for u, p in units if p < 0]
     unit = ".".join(above) or ("rad" if kind in ("Angle", "AngularVelocity") else "")
-    return f"{x * 1e3 ** sum(powers)!r} {'/'.join([unit, *below])}".rstrip()
+    power = sum(powers)
+    number = x * 1e3**power if power >= 0 else x / 1e3**-power
+    return f"{number!r} {'/'.join([unit, *below])}".rstrip()
 
 
 def _owner(body: Body | None) -> str:

@@ -50,7 +50,7 @@ VALUES = {
     "T0": 1.0,
     "v0": 0.0,
 }
-# The bound of rest, 1.2*0.3*2 kg*9.81 m/s^2, is reached at 1.7658 s; a sledge of 1 m/s stops before.
+# The bound of rest, 1.2*0.3*2 kg*9.81 m/s^2, is reached at 1.7658 s; 1 m/s are lost before that.
 STOP = 3.0
 
 

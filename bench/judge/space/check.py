@@ -21,6 +21,7 @@ AXES = "xyz"
 
 
 def vector(row: Mapping[str, float], name: str) -> Floats:
+    """The components of a vector of a record."""
     return np.array([row[f"{name}.{a}"] for a in AXES])
 
 
@@ -139,7 +140,8 @@ class SpaceJudge:
         for c in self.scene.links:
             force, couple = vector(row, f"{c.name}.force"), vector(row, f"{c.name}.torque")
             at, push = now.touching(c), np.zeros(now.n)
-            for body, sign in ((c.b.body, 1.0), (c.a.body, -1.0)):
+            on_b = -1.0 if c.kind == "point_surface" else 1.0  # its text names the point first
+            for body, sign in ((c.b.body, on_b), (c.a.body, -on_b)):
                 if body is None:
                     continue
                 k, arm = now.at[body.name], at - now.state[body.name].position

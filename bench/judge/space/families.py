@@ -7,40 +7,40 @@ that all relations and drives leave, so that the start is the one that the guess
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from judge.family import Family, Random, Setting, Structure
 from judge.space.rows import Floats, Mechanism, State, about, axes, unit
-from judge.space.scene import DOWN, SIZES, Frame, Link, SpaceScene, Triple, X, Y, Z
+from judge.space.scene import DOWN, SIZES, Frame, Link, Push, SpaceScene, Triple, X, Y, Z
 
-TREE = [
-    "rotoide",
-    "prismatique",
-    "verrou",
-    "helicoidale",
-    "cardan",
-    "spherique",
-    "appui_plan",
-    "lineaire_annulaire",
-    "encastrement",
-    "tige",
-    "point_surface",
-    "contact",
-    "ball",
-]
-TREE_PARTS = (6, 2, 2, 2, 2, 3, 1, 1, 1, 1, 1, 1, 1)
-LOOP = [
-    "spherique",
-    "tige",
-    "lineaire_annulaire",
-    "point_surface",
-    "contact",
-    "cardan",
-    "rotoide",
-    "verrou",
-]
-LOOP_PARTS = (2, 3, 2, 2, 2, 1, 1, 1)
+TREE = {
+    "rotoide": 6,
+    "spherique": 3,
+    "prismatique": 2,
+    "verrou": 2,
+    "helicoidale": 2,
+    "cardan": 2,
+    "appui_plan": 1,
+    "lineaire_annulaire": 1,
+    "encastrement": 1,
+    "tige": 1,
+    "point_surface": 1,
+    "contact": 1,
+    "ball": 1,
+}
+LOOP = {
+    "tige": 3,
+    "spherique": 2,
+    "lineaire_annulaire": 2,
+    "point_surface": 2,
+    "contact": 2,
+    "cardan": 1,
+    "rotoide": 1,
+    "verrou": 1,
+}
 DRIVES = {"rotoide": "angle", "prismatique": "displacement"}
 # Singular values of the rows, over the largest: below the first none, above the second clear.
 NONE, CLEAR = 1e-9, 1e-2
@@ -59,9 +59,10 @@ class Maker:
         self.count += 1
         return f"{of}{self.count}"
 
-    def chosen(self, kinds: list[str], parts: tuple[int, ...]) -> str:
+    def chosen(self, kinds: Mapping[str, int]) -> str:
         """One of the kinds, by their parts."""
-        return str(self.rng.choice(kinds, p=np.array(parts) / sum(parts)))
+        parts = np.array(list(kinds.values()))
+        return str(self.rng.choice(list(kinds), p=parts / np.sum(parts)))
 
     def direction(self) -> Triple:
         """An axis of the frame, or any."""
@@ -74,14 +75,13 @@ class Maker:
         """A tree of bodies, closed by some more links, with forces."""
         rng, s = self.rng, self.s
         for i in range(int(rng.integers(1, most + 1))):
-            b = s.body(f"b{i}", str(rng.choice(list(SIZES))))
+            s.body(f"b{i}", str(rng.choice(list(SIZES))))
             if rng.random() > 0.05:
-                self.link(i, self.chosen(TREE, TREE_PARTS))
+                self.link(i, self.chosen(TREE))
         for _ in range(loops):
-            self.link(int(rng.integers(len(s.bodies))), self.chosen(LOOP, LOOP_PARTS))
+            self.link(int(rng.integers(len(s.bodies))), self.chosen(LOOP))
         for _ in range(int(rng.integers(0, 3))):
             self.push()
-        del b
         return s
 
     def link(self, of: int, kind: str) -> None:
@@ -113,8 +113,6 @@ class Maker:
 
     def push(self) -> None:
         """A force off the centre of mass, a couple, a spring or a damper."""
-        from judge.space.scene import Push
-
         rng, s = self.rng, self.s
         kind = str(rng.choice(["on", "couple", "spring", "damper"], p=[0.5, 0.2, 0.2, 0.1]))
         body, word = s.bodies[int(rng.integers(len(s.bodies)))], self.word("p")
@@ -198,8 +196,6 @@ def _put(
         now = state[f.body.name]
         local, own = now.axes.T @ (place - now.position), now.axes.T @ turned
     values |= {f"{k}_{f.name}": float(x) for k, x in zip("xyz", local, strict=True)}
-    from scipy.spatial.transform import Rotation
-
     vector = Rotation.from_matrix(own).as_rotvec()
     angle = float(np.linalg.norm(vector))
     axis = vector / angle if angle > 0 else np.array(Z)
@@ -314,7 +310,7 @@ def start_of(s: SpaceScene, values: dict[str, float]) -> dict[str, State]:
     return state
 
 
-def _family(most: int, loops: int):  # type: ignore[no-untyped-def]
+def _family(most: int, loops: int) -> Callable[[Random], Structure]:
     def make(rng: Random) -> Structure:
         while True:
             s = Maker(rng).make(most, int(rng.integers(0, loops + 1)) if loops == 1 else loops)
