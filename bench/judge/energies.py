@@ -10,7 +10,7 @@ from judge.mechanics import Floats, inertia
 from judge.seen import SLACK, Seen
 
 # Part of the energies of a run to which its residual is that of the record.
-BALANCED = 1e-9
+BALANCED = 1e-7
 
 
 def balance(seen: Seen, rng: np.random.Generator, begin: float, end: float) -> None:

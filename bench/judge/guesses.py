@@ -29,13 +29,17 @@ class Loose(Maker):
     def start(self) -> None:
         """Guesses of some coordinates, gaps of some contacts that are closed."""
         super().start()
+        for c in self.s.contacts:
+            if c.kind == "point_courbe" and self.rng.random() < 0.5:
+                along = self.s.parameter(f"along_{c.name}", "Length")
+                self.s.statements.append(f"guess({c.name}.abscissa = {along.text})")
         parting = [c.name for c in self.s.contacts if not c.bilateral]
         self.open = {n for n in parting if self.rng.random() < OPEN_PART}
         kept = self.rng.random()
         self.s.statements = [
             x
             for x in self.s.statements
-            if x.split(".")[0] not in self.open
+            if x.split(".gap")[0] not in self.open
             and self.rng.random() < (kept if x.startswith("guess(") else 0.5)
         ]
 

@@ -94,6 +94,9 @@ class Mechanics:
             self._apply(f)
         self.joints = {c.name: self._contact(c) for c in scene.contacts}
         self.joints |= {p.name: self._pin(p) for p in scene.pins}
+        # what `motions` finds of this instant once
+        self.quick: Floats | None = None
+        self.parts: list[tuple[NDArray[np.intp], list[Joint]]] | None = None
 
     # points
 

@@ -78,6 +78,7 @@ class Seen:
     def __init__(self, scene: Scene, values: Mapping[str, float], result: Outcome, tol: float):
         self.scene, self.values, self.result, self.tol = scene, values, result, tol
         self.found = Findings()
+        self.placed = True  # the scene says where every body starts
         self.sides: dict[str, int] = {}
         begin = float(result.time[0])
         self.sides = start_sides(scene, self.mechanics(begin, {}))

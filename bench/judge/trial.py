@@ -162,6 +162,7 @@ def _started(
 ) -> Verdict:
     """A run that starts; of one that is `late` what it reached is judged."""
     judge = Judge(structure.scene, setting.values, result, setting.tolerance)
+    judge.placed = setting.start_known
     found = judge.examine(np.random.default_rng(seed), stopped=bool(code))
     found.faults += judge_several(judge)
     if structure.speeds:
