@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from judge.mechanics import Floats, Joint, Mechanics
 from judge.motions import parts
@@ -20,23 +21,37 @@ def rest(seen: Seen, now: Mechanics, row: Mapping[str, float], t: float) -> None
     for places, joints in parts(now):
         if not any(row.get(f"{j.liaison.name}.mode") == STICK for j in joints):
             continue
-        held = [r for j in joints for r in _held(seen, j, row)]
-        places_of = places.ravel()
-        matrix = np.array(held)[:, places_of] / np.sqrt(now.mass[places_of])
-        lengths = np.linalg.norm(matrix, axis=1)
-        matrix = matrix[lengths > 0] / lengths[lengths > 0][:, None]
-        _, s, vt = np.linalg.svd(matrix)
-        if np.any((s > NONE) & (s < SOME)):
-            continue
-        free = vt[int(np.sum(s >= SOME)) :]
-        for k in places[:, 0] // 3:
-            body = now.scene.bodies[int(k)]
-            mine = np.isin(places_of, 3 * k + np.arange(3 if body.turns else 2))
-            if np.max(np.abs(free[:, mine]), initial=0.0) > NONE:
-                continue
+        held = np.array([r for j in joints for r in _held(seen, j, row)])
+        for k in _resting(now, places, held):
+            body = now.scene.bodies[k]
             names = ["velocity.x", "velocity.y"] + (["angular_velocity"] if body.turns else [])
             for name in names:
                 seen.found.hold("rest", row[f"{body.name}.{name}"], 0.0, t, f"{body.name}.{name}")
+
+
+def _resting(now: Mechanics, places: NDArray[np.intp], rows: Floats) -> list[int]:
+    """Bodies that rows among them and the ground leave no velocity.
+
+    Where a body that moves is in a dead centre another one may have no velocity for an instant.
+    """
+    resting = [int(k) for k in places[:, 0] // 3]
+    while resting:
+        own = [3 * k + i for k in resting for i in range(3 if now.scene.bodies[k].turns else 2)]
+        others = np.setdiff1d(np.arange(now.n), own)
+        among = rows[np.all(rows[:, others] == 0, axis=1)][:, own] / np.sqrt(now.mass[own])
+        lengths = np.linalg.norm(among, axis=1)
+        among = among[lengths > 0] / lengths[lengths > 0][:, None]
+        if not len(among):
+            return []
+        _, s, vt = np.linalg.svd(among)
+        if np.any((s > NONE) & (s < SOME)):
+            return []
+        free = np.max(np.abs(vt[int(np.sum(s >= SOME)) :]), axis=0, initial=0.0)
+        left = [k for k in resting if np.max(free[np.array(own) // 3 == k]) <= NONE]
+        if left == resting:
+            return resting
+        resting = left
+    return []
 
 
 def _held(seen: Seen, joint: Joint, row: Mapping[str, float]) -> list[Floats]:

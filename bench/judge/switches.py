@@ -111,9 +111,10 @@ def _rest_excluded(seen: Seen, before: Mapping[str, float], left: list[str], t: 
         if found is None or found.margin <= -CLEAR:
             continue
         if found.margin > CLEAR or lasts(seen, now, found, still, t, span):
+            many = "" if found.sign else ", reactions are not unique"
             seen.found.fault(
                 f"rest ended early: {', '.join(left)} at t = {t!r}, "
-                f"margin of rest {found.margin:.2g}"
+                f"margin of rest {found.margin:.2g}{many}"
             )
             return
 
