@@ -64,7 +64,7 @@ def groups(rng: Random) -> Structure:
     return Structure(whole, draw, others)
 
 
-def told_otherwise(rng: Random) -> Structure:
+def written_otherwise(rng: Random) -> Structure:
     """The same in mm, g, ms; turned; mirrored; declared in another order, under other names."""
     base = _small(SCENES[int(rng.integers(len(SCENES)))], rng, 4)
     scene, way = (
@@ -115,5 +115,7 @@ def back(turn: float, flip: float) -> Callable[[Mapping[str, Floats], str], Floa
 
 FAMILIES = (
     Family("groups", groups, 2, 8, "groups that nothing binds together, each as alone"),
-    Family("otherwise", told_otherwise, 2, 8, "the same turned, mirrored, reordered, in mm, g, ms"),
+    Family(
+        "otherwise", written_otherwise, 2, 8, "the same turned, mirrored, reordered, in mm, g, ms"
+    ),
 )

@@ -67,6 +67,21 @@ class Start:
         return name in self._row
 
 
+# Part of the speeds there by which a start enters a contact, above rounding.
+ENTERS = 1e-9
+
+
+def _enters(scene: Scene, setting: Setting, known: bool) -> bool:
+    """Whether stated speeds enter a contact; guessed ones are corrected where it is closed."""
+    if not known:
+        return False
+    start = Start(scene, setting.values, setting.stop)
+    judge = Judge(scene, setting.values, start, setting.tolerance)  # type: ignore[arg-type]
+    now = judge.mechanics(0.0)
+    rows = (j.rows["n"] for j in now.joints.values() if "n" in j.rows)
+    return any(r.rate < -ENTERS * judge.usual(r) for r in rows)
+
+
 def judge_start(
     scene: Scene, setting: Setting, code: str, text: str, begun: Outcome | None
 ) -> Verdict:
@@ -79,6 +94,8 @@ def judge_start(
     try:
         known = setting.start_known
         known = known and all(f"x0_{b.name}" in setting.values for b in scene.bodies)
+        if code == "E0905" and not _enters(scene, setting, known):
+            return Verdict(REFUTED, [f"no start: {text}"])
         start = begun if begun and not known else Start(scene, setting.values, setting.stop)
         return judge_stop(Judge(scene, setting.values, start, setting.tolerance), code, text, 0.0)
     except KeyError:

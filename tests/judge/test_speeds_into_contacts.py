@@ -9,7 +9,7 @@ from judge.family import Setting, Structure
 from judge.scene import Contact, Scene
 from judge.speeds import Speeds, judge_refusal, judge_speeds
 from judge.trial import try_setting
-from judge.verdict import CONFIRMED, EXACT, REFUTED, Start
+from judge.verdict import CONFIRMED, EXACT, REFUTED, Start, judge_start
 from judge.write import write
 
 import frot
@@ -111,3 +111,20 @@ def test_sizes_of_speeds_are_those_of_the_feet() -> None:
         Speeds(bar("guessed"), values((1.0, v, 0.0)), 1.0).enters() for v in (-1e-12, -1e-3)
     )
     assert slow < 1e-9 < fast
+
+
+@pytest.mark.parametrize(
+    ("speed", "known", "kind"),
+    [
+        ((1.0, -2.0, 0.0), True, CONFIRMED),
+        ((1.0, 0.0, 0.0), True, REFUTED),
+        ((1.0, -2.0, 0.0), False, REFUTED),
+    ],
+)
+def test_bodies_meet_at_the_start_by_stated_speeds_alone(
+    speed: tuple[float, ...], known: bool, kind: str
+) -> None:
+    """E0905 at the start is right where a stated speed enters a contact, never for guesses."""
+    setting = Setting(values(speed), 1.0, start_known=known)
+    text = "E0905: liaison 'c0': the bodies meet"
+    assert judge_start(bar("stated"), setting, "E0905", text, None).kind == kind

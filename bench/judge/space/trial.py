@@ -37,16 +37,18 @@ def try_mechanism(
     if late:
         reached = "" if result is None else f" {result.time[-1]!r} of {setting.stop!r} s"
         return Verdict(SLOW, [f"more than {limit:g} s:{reached}"])
-    told = "" if error is None else f"{error.diagnostics[0].code}: {error.diagnostics[0].message}"
+    message = (
+        "" if error is None else f"{error.diagnostics[0].code}: {error.diagnostics[0].message}"
+    )
     if result is None:
-        return Verdict(REFUTED, [f"no start: {told}"])
+        return Verdict(REFUTED, [f"no start: {message}"])
     judge = SpaceJudge(scene, setting, result)
     found = judge.examine(np.random.default_rng(seed))
     if found.faults:
-        return Verdict(SILENT, found.faults + [told] * bool(told), found.worst)
+        return Verdict(SILENT, found.faults + [message] * bool(message), found.worst)
     if error is None:
         return Verdict(EXACT, [], found.worst)
     end = float(result.time[-1])
     if judge.singular(end):
-        return Verdict(CONFIRMED, [f"a singular posture: {told}"], found.worst)
-    return Verdict(REFUTED, [told], found.worst)
+        return Verdict(CONFIRMED, [f"a singular posture: {message}"], found.worst)
+    return Verdict(REFUTED, [message], found.worst)
