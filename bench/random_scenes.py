@@ -1,4 +1,4 @@
-"""Random planar scenes, run and judged by Newton-Euler alone: see `judge/`.
+"""Random scenes, run and judged by Newton-Euler alone: see `judge/`.
 
     python bench/random_scenes.py --seed 1 --count 3000
 

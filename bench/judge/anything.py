@@ -332,12 +332,16 @@ class Maker:
                 assert c.point is not None
                 side = 1 if up[1] > 0 or (c.kind == "point_courbe" and c.bilateral) else -1
                 at = world(c.point)
-            at = at + float(rng.uniform(-0.5, 0.5)) * d
+            at = at + float(rng.uniform(-0.5, 0.5)) * d - side * self.gap(rng, c) * up
             x = local(at, owner)
             values[f"x_{c.line.name}"], values[f"y_{c.line.name}"] = float(x[0]), float(x[1])
             values[f"a_{c.line.name}"] = a - (state[owner.name][2] if owner is not None else 0.0)
             sides[c.name] = side
         return sides
+
+    def gap(self, _rng: Random, _contact: Contact) -> float:
+        """How far a contact is open at the start."""
+        return 0.0
 
     def move(
         self,
@@ -385,11 +389,12 @@ def anything(rng: Random) -> Structure:
     """A scene that can move and whose liaisons do not say the same twice."""
     while True:
         made = Maker(rng).make()
-        if _moves(made, rng):
+        if stands_alone(made, rng):
             return made
 
 
-def _moves(made: Structure, rng: Random) -> bool:
+def stands_alone(made: Structure, rng: Random) -> bool:
+    """Whether liaisons leave some motion, and none says what others say."""
     values = made.draw(rng).values
     s = made.scene
 

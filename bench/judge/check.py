@@ -13,6 +13,8 @@ from judge.energies import balance
 from judge.instants import instant, jump
 from judge.integrals import integrals
 from judge.seen import Findings, Seen
+from judge.sides import recorded_sides
+from judge.switches import switch
 
 # Part of a run that stopped within which it had stopped: an instant is known no better.
 AT_LAST = 1e-9
@@ -33,6 +35,7 @@ class Judge(Seen):
 
         Of a run that `stopped`, what it did at last, before it knew, is judged with the stop.
         """
+        recorded_sides(self)
         begin, end = float(self.result.time[0]), float(self.result.time[-1])
         end -= AT_LAST * (end - begin) if stopped else 0.0
         marks = sorted({e.time for e in self.result.events if begin <= e.time <= end})
@@ -40,15 +43,16 @@ class Judge(Seen):
         chosen = [marks[int(k)] for k in rng.permutation(len(marks))[:events]]
         times += chosen
         for t in times:
-            instant(self, self._clear(float(t), marks, begin, end))
+            instant(self, self.clear(float(t), marks, begin, end))
         for t in chosen:
             if t > begin:
                 jump(self, float(t))
+                switch(self, float(t), self.clear(float(t), marks, begin, end))
         integrals(self, rng, marks, begin, end)
         balance(self, rng, begin, end)
         return self.found
 
-    def _clear(self, t: float, marks: list[float], begin: float, end: float) -> float:
+    def clear(self, t: float, marks: list[float], begin: float, end: float) -> float:
         """A little later where a condition switches, so that all agree on its truth.
 
         A run that stops there tells the motion before: that is looked at a little earlier.

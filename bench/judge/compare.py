@@ -11,12 +11,22 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 import frot
-from judge.family import Setting
+from judge.family import Random, Setting
 from judge.scene import Scene
 
 FINEST = 1e-12
 FACTOR = 100.0
 Run = Callable[[Mapping[str, float], float], frot.Result | None]
+
+
+def nearby(values: Mapping[str, float], part: float, rng: Random) -> dict[str, float]:
+    """Values that differ by about `part` of them.
+
+    The factors `more` by which coefficients are larger at rest stay: they are not below one.
+    """
+    return {
+        k: x if "more" in k else x * (1 + part * float(rng.normal())) for k, x in values.items()
+    }
 
 
 def compare(scene: Scene, setting: Setting, result: frot.Result, run: Run, seed: int) -> list[str]:
@@ -37,10 +47,7 @@ def compare(scene: Scene, setting: Setting, result: frot.Result, run: Run, seed:
     ]
     exact = fine.at(times)
     for _ in range(2):
-        changed = {
-            k: x * (1 + setting.tolerance * float(rng.normal())) for k, x in setting.values.items()
-        }
-        other = run(changed, FINEST)
+        other = run(nearby(setting.values, setting.tolerance, rng), FINEST)
         if other is None:
             return []
         now = other.at(times)

@@ -9,6 +9,9 @@ import numpy as np
 from judge.mechanics import Floats, inertia
 from judge.seen import SLACK, Seen
 
+# Part of the energies of a run to which its residual is that of the record.
+BALANCED = 1e-7
+
 
 def balance(seen: Seen, rng: np.random.Generator, begin: float, end: float) -> None:
     """Kinetic + potential + dissipated - work is constant, and the kinetic energy right."""
@@ -38,6 +41,13 @@ def balance(seen: Seen, rng: np.random.Generator, begin: float, end: float) -> N
     seen.found.hold(
         "energy balance", float(np.max(total) - np.min(total)), allowed, begin, "energy"
     )
+    recorded = getattr(seen.result, "balance", None)
+    if recorded is not None:
+        ends = seen.result.at(np.array([begin, float(seen.result.time[-1])]))
+        ended = [ends[f"energy.{x}"] for x in ("kinetic", "potential", "dissipated", "work")]
+        whole = ended[0] + ended[1] + ended[2] - ended[3]
+        missed = recorded.residual - float(whole[1] - whole[0])
+        seen.found.hold("energy residual", missed, BALANCED * float(grid), begin, "energy")
     fall = float(np.min(np.diff(parts[2]), initial=0.0))
     seen.found.hold("dissipated", fall, (SLACK * seen.tol + 1e-12) * float(grid), begin, "energy")
 

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from judge.scene import Scene
 from judge.values import DIMENSIONS
+
+if TYPE_CHECKING:
+    from judge.others import Other
 
 Random = np.random.Generator
 
@@ -22,15 +26,20 @@ class Setting:
     tolerance: float = 1e-8
     compare: bool = False
     start_known: bool = True
+    units: tuple[float, float, float] = (1.0, 1.0, 1.0)
 
 
 @dataclass(slots=True)
 class Structure:
-    """A scene and a function that draws settings; `settings` is how many one text is worth."""
+    """A scene, a function that draws settings, and scenes that must move as it does.
+
+    `speeds`, "guessed" or "stated", may go into contacts that are stated to be closed.
+    """
 
     scene: Scene
     draw: Callable[[Random], Setting]
-    notes: dict[str, object] = field(default_factory=dict)
+    others: list[Other] = field(default_factory=list)
+    speeds: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +59,9 @@ def in_units(scene: Scene, setting: Setting, mass: float, length: float, time: f
     for name, x in setting.values.items():
         a, b, c = DIMENSIONS[scene.parameters[name]]
         values[name] = x * mass**a * length**b * time**c
-    return Setting(values, setting.stop * time, setting.tolerance, setting.compare)
+    m, x, t = setting.units
+    units = (m * mass, x * length, t * time)
+    return replace(setting, values=values, stop=setting.stop * time, units=units)
 
 
 def decades(rng: Random, most: float = 6.0) -> tuple[float, float, float]:

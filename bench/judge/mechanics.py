@@ -24,6 +24,9 @@ Floats = NDArray[np.float64]
 KNOWN = 1e-6
 
 
+AXES = {"+x": (1.0, 0.0), "-x": (-1.0, 0.0), "+y": (0.0, 1.0), "-y": (0.0, -1.0)}
+
+
 def left(v: Floats) -> Floats:
     """The vector turned by a right angle, counter-clockwise."""
     return np.array([-v[1], v[0]])
@@ -91,6 +94,9 @@ class Mechanics:
             self._apply(f)
         self.joints = {c.name: self._contact(c) for c in scene.contacts}
         self.joints |= {p.name: self._pin(p) for p in scene.pins}
+        # what `motions` finds of this instant once
+        self.quick: Floats | None = None
+        self.parts: list[tuple[NDArray[np.intp], list[Joint]]] | None = None
 
     # points
 
@@ -166,7 +172,11 @@ class Mechanics:
     def _weigh(self) -> None:
         g = 9.81 if self.scene.gravity is None else self.scene.gravity.at(self.look)
         for b in self.scene.bodies:
-            self.push(b, self.origin(b), np.array([0.0, -g * b.mass.at(self.look)]))
+            self.push(b, self.origin(b), g * b.mass.at(self.look) * self.down())
+
+    def down(self) -> Floats:
+        """The direction of gravity."""
+        return np.array(AXES[self.scene.down])
 
     def _velocity(self, p: Point) -> tuple[Floats, float]:
         """The velocity of a point, and the size of its terms."""

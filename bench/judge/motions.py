@@ -217,6 +217,12 @@ def acting(joint: Joint) -> list[str]:
 
 def accelerations(now: Mechanics) -> Floats:
     """Sizes of the accelerations that the loads and the motion can bring about."""
+    if now.quick is None:
+        now.quick = _accelerations(now)
+    return now.quick
+
+
+def _accelerations(now: Mechanics) -> Floats:
     quick = now.load_size / now.mass
     for places, joints in parts(now):
         here = quick[places]
@@ -234,6 +240,12 @@ def parts(now: Mechanics) -> list[tuple[NDArray[np.intp], list[Joint]]]:
 
     What no liaison joins cannot act on each other: one part has no size for the other.
     """
+    if now.parts is None:
+        now.parts = _parts(now)
+    return now.parts
+
+
+def _parts(now: Mechanics) -> list[tuple[NDArray[np.intp], list[Joint]]]:
     of = np.arange(now.n // 3)
     moved = {}
     for name, joint in now.joints.items():

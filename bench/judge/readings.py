@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from judge.mechanics import Floats, Joint, Mechanics, left
+from judge.mechanics import Floats, Joint, Mechanics
 from judge.motions import parts
 from judge.scene import Contact, Pin, Scene
 
@@ -121,27 +121,3 @@ def state_of(scene: Scene, row: Mapping[str, float]) -> dict[str, tuple[float, .
         )
         state[b.name] = (x, y, turn[0], vx, vy, turn[1])
     return state
-
-
-def start_sides(scene: Scene, now: Mechanics) -> dict[str, int]:
-    """The side each contact starts on, seen along its line's direction: 1 is the left."""
-    sides = {}
-    places = [np.max(np.abs(now.origin(b))) for b in scene.bodies]
-    lengths = [b.size.at(now.look) for b in scene.bodies if b.size is not None]
-    wide = max(float(x) for x in (*places, *lengths, *(j.size for j in now.joints.values())))
-    for c in scene.contacts:
-        joint = now.joints[c.name]
-        up = left(joint.direction)
-        height = joint.gap if c.rim is None else joint.gap + c.rim.size.at(now.look)  # type: ignore[union-attr]
-        if c.kind == "point_courbe" and c.bilateral:
-            sides[c.name] = 1
-        elif abs(height) > 1e-9 * wide:
-            sides[c.name] = 1 if height > 0 else -1
-        else:  # on the line: against gravity, else where G is, else the left
-            g = 9.81 if scene.gravity is None else scene.gravity.at(now.look)
-            middle = (now.origin(c.body) - joint.touching) @ up
-            if g > 0 and abs(up[1]) > 1e-9:
-                sides[c.name] = 1 if up[1] > 0 else -1
-            else:
-                sides[c.name] = -1 if middle < -1e-9 * wide else 1
-    return sides

@@ -105,7 +105,10 @@ class Force:
 
 @dataclass(slots=True)
 class Scene:
-    """All of a scene. `statements` are lines of `initial`; `told` names liaisons put out."""
+    """All of a scene. `statements` are lines of `initial`; `told` names liaisons put out.
+
+    `down` is an axis with its sign, in which gravity acts.
+    """
 
     name: str
     parameters: dict[str, str] = field(default_factory=dict)
@@ -118,6 +121,7 @@ class Scene:
     statements: list[str] = field(default_factory=list)
     told: list[str] = field(default_factory=list)
     gravity: Value | None = None
+    down: str = "-y"
     indeterminate: str = "rest"
 
     def parameter(self, word: str, kind: str) -> Value:

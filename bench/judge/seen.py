@@ -11,14 +11,19 @@ import numpy as np
 
 from judge.mechanics import Floats, Joint, Mechanics, Row
 from judge.motions import accelerations, parts
-from judge.readings import start_sides, state_of
+from judge.readings import state_of
 from judge.scene import Pin, Scene
+from judge.sides import start_sides
 
 EXACT = 1e-8
 SLACK = 300.0
 OPEN, STICK, SLIP = 0, 1, 2
 # Instants at which what loads would bring about is asked for: one at the start may bring nothing.
 LOOKS = 5
+
+
+# Part of an instant by which a record is read before it: an event is in effect some ulps earlier.
+BEFORE = 1e-13
 
 
 class Happening(Protocol):
@@ -73,6 +78,7 @@ class Seen:
     def __init__(self, scene: Scene, values: Mapping[str, float], result: Outcome, tol: float):
         self.scene, self.values, self.result, self.tol = scene, values, result, tol
         self.found = Findings()
+        self.placed = True  # the scene says where every body starts
         self.sides: dict[str, int] = {}
         begin = float(result.time[0])
         self.sides = start_sides(scene, self.mechanics(begin, {}))
@@ -96,6 +102,10 @@ class Seen:
         """All variables at a time."""
         now = self.result.at(np.array([t]))
         return {name: float(now[name][0]) for name in now}
+
+    def just_before(self, t: float) -> float:
+        """The instant at which the record is read for what was before t."""
+        return max(t - BEFORE * abs(t), float(self.result.time[0]))
 
     def mechanics(self, t: float, sides: Mapping[str, int] | None = None) -> Mechanics:
         """The scene in the state the result tells at t."""

@@ -6,17 +6,25 @@ import json
 import sys
 import time
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
 import frot
+from judge.alike import FAMILIES as ALIKE
 from judge.anything import FAMILIES as ANYTHING
 from judge.check import Judge
 from judge.compare import compare
 from judge.family import Family, Setting, Structure
+from judge.guesses import FAMILIES as GUESSES
+from judge.held import FAMILIES as HELD
 from judge.machines import FAMILIES as MACHINES
+from judge.others import Ran, agree
+from judge.space.families import FAMILIES as SPACE
+from judge.space.scene import SpaceScene
+from judge.space.trial import try_mechanism
+from judge.speeds import judge_refusal, judge_speeds
 from judge.tables import FAMILIES as TABLES
 from judge.verdict import (
     EXACT,
@@ -29,7 +37,9 @@ from judge.verdict import (
 )
 from judge.write import END, write
 
-FAMILIES: dict[str, Family] = {f.name: f for f in (*ANYTHING, *MACHINES, *TABLES)}
+FAMILIES: dict[str, Family] = {
+    f.name: f for f in (*ANYTHING, *MACHINES, *TABLES, *GUESSES, *HELD, *ALIKE, *SPACE)
+}
 
 # Steps that a radian or an event is worth at most, where a run takes its time.
 BUSY = 20
@@ -71,9 +81,11 @@ def try_setting(
     model: frot.Model, structure: Structure, setting: Setting, seed: int, limit: float
 ) -> Verdict:
     """Run and judge; `limit` is processor time of the run in seconds."""
+    if isinstance(structure.scene, SpaceScene):
+        return try_mechanism(model, structure.scene, setting, seed, limit)
     late: list[int] = []
 
-    def run(values: Mapping[str, float], tolerance: float) -> frot.Result:
+    def fresh() -> Callable[[float], bool]:
         deadline = time.process_time() + limit
 
         def watch(_: float) -> bool:
@@ -81,8 +93,11 @@ def try_setting(
                 late.append(1)
             return bool(late)
 
+        return watch
+
+    def run(values: Mapping[str, float], tolerance: float) -> frot.Result:
         every = {**values, END: setting.stop}
-        return model.simulate(tolerance=tolerance, parameters=every, watch=watch)
+        return model.simulate(tolerance=tolerance, parameters=every, watch=fresh())
 
     def whole(values: Mapping[str, float], tolerance: float) -> frot.Result | None:
         try:
@@ -106,20 +121,58 @@ def try_setting(
             else f" reached {result.time[-1]!r} of {setting.stop!r} s, {result.figures.steps} steps"
         )
         return Verdict(SLOW, [f"more than {limit:g} s:{reached}"])
-    if error is not None and result is None:
-        smooth = {k: 0.0 if k.startswith(("mu", "nu")) else x for k, x in setting.values.items()}
-        begun = whole(smooth, setting.tolerance)
-        return judge_start(structure.scene, setting, *_told(error), begun)
-    assert result is not None
-    rng = np.random.default_rng(seed)
+    code, text = _told(error) if error is not None else ("", "")
+    if result is None:
+        verdict = _unstarted(structure, setting, code, text, whole)
+    else:
+        verdict = _started(structure, setting, result, code, text, whole, seed, bool(late))
+    if structure.others and not late:
+        judge = result and Judge(structure.scene, setting.values, result, setting.tolerance)
+        ran = Ran(result, code, 0.0 if result is None else float(result.time[-1]))
+        faults = agree(judge, ran, structure.others, setting, fresh(), seed)
+        if faults:
+            verdict = Verdict(SILENT, faults + verdict.why, verdict.worst)
+    return verdict
+
+
+Whole = Callable[[Mapping[str, float], float], frot.Result | None]
+
+
+def _unstarted(
+    structure: Structure, setting: Setting, code: str, text: str, whole: Whole
+) -> Verdict:
+    """A run without a start."""
+    scene = structure.scene
+    refusal = judge_refusal(scene, setting.values, setting.stop, structure.speeds, text)
+    if refusal is not None:
+        return refusal
+    smooth = {k: 0.0 if k.startswith(("mu", "nu")) else x for k, x in setting.values.items()}
+    return judge_start(scene, setting, code, text, whole(smooth, setting.tolerance))
+
+
+def _started(
+    structure: Structure,
+    setting: Setting,
+    result: frot.Result,
+    code: str,
+    text: str,
+    whole: Whole,
+    seed: int,
+    late: bool,
+) -> Verdict:
+    """A run that starts; of one that is `late` what it reached is judged."""
     judge = Judge(structure.scene, setting.values, result, setting.tolerance)
-    found = judge.examine(rng, stopped=error is not None)
+    judge.placed = setting.start_known
+    found = judge.examine(np.random.default_rng(seed), stopped=bool(code))
     found.faults += judge_several(judge)
+    if structure.speeds:
+        found.faults += judge_speeds(
+            structure.scene, setting.values, setting.stop, structure.speeds, judge
+        )
     stop = Verdict(EXACT)
-    if late:  # what was reached is judged
+    if late:
         pass
-    elif error is not None:
-        code, text = _told(error)
+    elif code:
         stop = judge_stop(judge, code, text, float(result.time[-1]))
     elif abs(result.time[-1] - setting.stop) > 1e-12 * abs(setting.stop):
         found.faults.append(f"ends early: at {result.time[-1]!r} of {setting.stop!r}")

@@ -15,9 +15,10 @@ import numpy as np
 
 from judge.check import Judge
 from judge.family import Setting
+from judge.following import lasts, still_of
 from judge.mechanics import Floats, Joint, Mechanics
-from judge.motions import CLEAR, Motion, Still, accelerations, count, distinct, motion, motions
-from judge.scene import Contact, Pin, Scene
+from judge.motions import CLEAR, Motion, accelerations, count, distinct, motions
+from judge.scene import Contact, Scene
 from judge.seen import OPEN, Outcome
 
 EXACT, CONFIRMED, REFUTED, SILENT, SLOW, UNCLEAR = (
@@ -66,6 +67,21 @@ class Start:
         return name in self._row
 
 
+# Part of the speeds there by which a start enters a contact, above rounding.
+ENTERS = 1e-9
+
+
+def _enters(scene: Scene, setting: Setting, known: bool) -> bool:
+    """Whether stated speeds enter a contact; guessed ones are corrected where it is closed."""
+    if not known:
+        return False
+    start = Start(scene, setting.values, setting.stop)
+    judge = Judge(scene, setting.values, start, setting.tolerance)  # type: ignore[arg-type]
+    now = judge.mechanics(0.0)
+    rows = (j.rows["n"] for j in now.joints.values() if "n" in j.rows)
+    return any(r.rate < -ENTERS * judge.usual(r) for r in rows)
+
+
 def judge_start(
     scene: Scene, setting: Setting, code: str, text: str, begun: Outcome | None
 ) -> Verdict:
@@ -76,100 +92,14 @@ def judge_start(
     if not code.startswith("E09"):
         return Verdict(REFUTED, [f"no start: {text}"])
     try:
-        known = all(f"x0_{b.name}" in setting.values for b in scene.bodies)
+        known = setting.start_known
+        known = known and all(f"x0_{b.name}" in setting.values for b in scene.bodies)
+        if code == "E0905" and not _enters(scene, setting, known):
+            return Verdict(REFUTED, [f"no start: {text}"])
         start = begun if begun and not known else Start(scene, setting.values, setting.stop)
         return judge_stop(Judge(scene, setting.values, start, setting.tolerance), code, text, 0.0)
     except KeyError:
         return Verdict(UNCLEAR, [f"no start: {text}"])
-
-
-def still_of(judge: Judge, now: Mechanics, loose: float) -> dict[str, Still]:
-    """Which liaisons touch and which slips are zero, to `loose` of their sizes."""
-    still = {}
-    for name, joint in now.joints.items():
-        word = "c" if isinstance(joint.liaison, Pin) else "t"
-        touching = abs(joint.gap) <= loose * max(judge.length, joint.size)
-        if touching and isinstance(joint.liaison, Contact) and not joint.liaison.bilateral:
-            rate = joint.rows["n"].rate
-            touching = rate <= loose * judge.usual(joint.rows["n"])
-        slip = sense(judge, now, joint, word, loose)
-        roll = sense(judge, now, joint, "r", loose) if word == "t" else 0
-        still[name] = Still(touching, slip, roll)
-    return still
-
-
-def sense(judge: Judge, now: Mechanics, joint: Joint, word: str, loose: float) -> int:
-    r = joint.rows[word]
-    if abs(r.rate) <= loose * judge.usual(r):
-        return 0
-    return 1 if r.rate > 0 else -1
-
-
-# How far a motion is followed, in parts of its pace, and what of a margin is no fault then.
-SOON = 1e-4
-SLIGHT = 1e-9
-
-
-def lasts(
-    judge: Judge, now: Mechanics, found: Motion, still: Mapping[str, Still], t: float
-) -> bool:
-    """Whether the modes hold a little later too.
-
-    What is slightly wrong, and ten times so after ten times as long, is no rounding, nor what
-    following the motion roughly makes of it.
-    """
-    soon = later(judge, now, found, still, t, SOON)
-    if soon <= -SLIGHT or soon >= -1e-3 * SLIGHT:
-        return soon > -SLIGHT
-    return not 5 < later(judge, now, found, still, t, 10 * SOON) / soon < 20
-
-
-def later(
-    judge: Judge, now: Mechanics, found: Motion, still: Mapping[str, Still], t: float, part: float
-) -> float:
-    """The margin of the same modes a part of their pace later, along the motion they give."""
-    quick = accelerations(now)
-    pace = math.inf
-    for k in range(now.n):
-        if abs(found.acceleration[k]) > 1e-9 * quick[k] or abs(now.speed[k]) > 0:
-            length = 1.0 if k % 3 == 2 else judge.length
-            speed, a = abs(now.speed[k]), abs(found.acceleration[k])
-            pace = min(
-                pace,
-                length / speed if speed > 0 else math.inf,
-                math.sqrt(length / a) if a > 0 else math.inf,
-            )
-    end = float(judge.result.time[-1]) - float(judge.result.time[0])
-    h = part * (pace if math.isfinite(pace) else max(end, 1e-300))
-    place = now.place + h * now.speed + h * h / 2 * found.acceleration
-    speed = now.speed + h * found.acceleration
-    state = {}
-    for b in judge.scene.bodies:
-        k = now.at[b.name]
-        state[b.name] = (*place[k : k + 3], *speed[k : k + 3])
-
-    def look(word: str) -> float:
-        if word == "time":
-            return t + h
-        if word in judge.values:
-            return judge.values[word]
-        body, what, axis = word.split(".")
-        return float(state[body][(0 if what == "position" else 3) + "xy".index(axis)])
-
-    then = Mechanics(judge.scene, look, state, now.sides)
-    moved = {}
-    for name, joint in then.joints.items():
-        mode, before = found.modes[name], still[name]
-        word = "c" if isinstance(joint.liaison, Pin) else "t"
-        slip = before.slip or (mode.slip and (1 if joint.rows[word].rate > 0 else -1))
-        roll = before.roll
-        if word == "t" and not roll:
-            roll = mode.roll and (1 if joint.rows["r"].rate > 0 else -1)
-        if mode.slip and slip != mode.slip:
-            return -1.0
-        moved[name] = replace(before, slip=slip, roll=roll)
-    again = motion(then, found.modes, moved)
-    return -1.0 if again is None or again.sign * found.sign < 0 else again.margin
 
 
 # Part of its size within which a slip is none where a run stopped. Whatever the tolerance of the

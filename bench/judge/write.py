@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from judge.scene import Body, Contact, Force, Line, Pin, Point, Scene
-from judge.values import Value
+from judge.space.scene import END, SpaceScene
+from judge.values import DIMENSIONS, Value
 
 UNITS = {
     "Real": "",
@@ -22,20 +23,28 @@ UNITS = {
 }
 
 
-END = "T_end"
-
-
-def write(scene: Scene, values: dict[str, float] | None = None, experiment: str = "") -> str:
+def write(
+    scene: Scene | SpaceScene,
+    values: dict[str, float] | None = None,
+    experiment: str = "",
+    *,
+    small: bool = False,
+) -> str:
     """The scene's text; `values` become the defaults of its parameters (1 where not given).
 
-    Without an `experiment` the end of the run is the parameter `END`.
+    Without an `experiment` the end of the run is the parameter `END`. With `small` the values are
+    written in g, mm and ms.
     """
+    if isinstance(scene, SpaceScene):
+        return scene.text(values, experiment)
     lines = [f"planar model {scene.name}"]
     if scene.gravity is not None:
-        lines.append(f"  world(gravity = {scene.gravity.text});")
+        down = "" if scene.down == "-y" else f", down = {scene.down}"
+        lines.append(f"  world(gravity = {scene.gravity.text}{down});")
     for word, kind in scene.parameters.items():
-        number = repr(float((values or {}).get(word, 1.0)))
-        lines.append(f"  parameter {kind} {word} = {number}{UNITS[kind]};")
+        number = float((values or {}).get(word, 1.0))
+        written = _small(number, kind) if small else f"{number!r}{UNITS[kind]}"
+        lines.append(f"  parameter {kind} {word} = {written};")
     if not experiment:
         lines.append(f"  parameter Time {END} = 1 s;")
         experiment = f"stop = {END}"
@@ -54,6 +63,18 @@ def write(scene: Scene, values: dict[str, float] | None = None, experiment: str 
     told = ", ".join(x for x in (experiment, f"on_indeterminate = {scene.indeterminate}") if x)
     lines += [f"  experiment({told});", f"end {scene.name};", ""]
     return "\n".join(lines)
+
+
+def _small(x: float, kind: str) -> str:
+    """A number in g, mm and ms; what has no dimension stays."""
+    powers = DIMENSIONS[kind]
+    units = tuple(zip(("g", "mm", "ms"), powers, strict=True))
+    above = [u if p == 1 else f"{u}^{p}" for u, p in units if p > 0]
+    below = [u if p == -1 else f"{u}^{-p}" for u, p in units if p < 0]
+    unit = ".".join(above) or ("rad" if kind in ("Angle", "AngularVelocity") else "")
+    power = sum(powers)
+    number = x * 1e3**power if power >= 0 else x / 1e3**-power
+    return f"{number!r} {'/'.join([unit, *below])}".rstrip()
 
 
 def _owner(body: Body | None) -> str:
