@@ -11,6 +11,7 @@ from frot.compiler.lowering.assembled import (
     Solution,
     followed_blocks,
 )
+from frot.compiler.lowering.held_slips import with_held_slips
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl import Log
@@ -18,7 +19,8 @@ from frot.dsl import Log
 
 def assemble(reduced: Reduced, log: Log) -> Assembled | None:
     """The kernel's system; what cannot be solved is reported."""
-    return _plain(reduced) if reduced.plain else solve_equations(reduced, log)
+    system = _plain(reduced) if reduced.plain else solve_equations(reduced, log)
+    return system if system is None else with_held_slips(system)
 
 
 def _plain(reduced: Reduced) -> Assembled:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains, Resolver, replace_known
@@ -68,7 +68,8 @@ class Assembled:
     come first, then one for each friction element. `rates` are those of q; with `late` they, or
     `power`, depend on z, lam or the y of late blocks. `solution` is what the symbols of the text
     are in terms of these. `tree`: of large trees of bodies `matrix` and `force` have what `Reduced`
-    says; where both are looked at, `in_full`.
+    says; where both are looked at, `in_full`. `held` puts zero for
+    what friction holds.
     """
 
     reduced: Reduced
@@ -102,6 +103,11 @@ class Assembled:
     divisors: tuple[Pivot, ...]
     solution: Solution
     tree: Tree
+    held: Callable[[ca.SX], ca.SX] | None = None
+
+    def at_rest(self, value: ca.SX) -> ca.SX:
+        """The value with slips of the text that friction holds zero to the last bit."""
+        return value if self.held is None else self.held(value)
 
     def resolve(self, value: ca.SX) -> ca.SX:
         """An expression of the text's symbols in terms of t, q, v, u, p, d, y, z and lam."""

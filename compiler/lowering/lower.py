@@ -132,7 +132,7 @@ def lower(
     watched, watched_origins = watch_numbers(system)
     checks = parameter_checks(reduced.mechanism, s.parameters, system.pivots)
     update = lower_update(system, log)
-    values = resolve(settled(column(v.value for v in variables)))
+    values = system.at_rest(resolve(settled(column(v.value for v in variables))))
     if log.failed or not _is_known(values, system, variables, log):
         return None
     given, is_set = ca.SX.sym("given", s.p.numel()), ca.SX.sym("set", s.p.numel())
