@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 OK, FULL, STOPPED, TERMINATED = 0, 1, 2, 3
-NAN, ALGEBRAIC, VANISHED = 17, 22, 32
+NAN, ALGEBRAIC, VANISHED, INDEX = 17, 22, 32, 33
 # A change of parameters or inputs that was taken back, and the message that tells it.
 REFUSALS = {10: "E0401", 24: "E0908"}
 INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
@@ -282,9 +282,10 @@ class Engine:
         if status == VANISHED:
             log.report("E0911", self.fault_text, None, notes=places)
             return NoValues(log, times[row])
-        if places and self.fault.status in (NAN, ALGEBRAIC) and self.fault.t == times[row]:
+        codes = {NAN: "E0904", ALGEBRAIC: "E0907", INDEX: "E0912"}
+        code = codes.get(self.fault.status)
+        if places and code is not None and self.fault.t == times[row]:
             remedy = "correct the expression, or keep the motion away from there"
-            code = "E0904" if self.fault.status == NAN else "E0907"
             log.report(code, self.fault_text, None, notes=places, help=remedy)
             return NoValues(log, times[row])
         what = f"variable '{self.program.variables[column].name}' has no finite value"

@@ -33,7 +33,7 @@ from frot.runtime.settings import read_option, read_settings
 MOST_POINTS = 10_000_000
 TOLERANCES = (1e-14, 1e-1)
 _GOOD = (OK, STOPPED, TERMINATED)
-IMPACT, NO_NUMBER, POSTURE = 13, 17, 31
+IMPACT, NO_NUMBER, POSTURE, INDEX = 13, 17, 31, 33
 
 CODES = {
     10: "E0401",
@@ -50,6 +50,7 @@ CODES = {
     30: "E0909",
     POSTURE: "E0910",
     VANISHED: "E0911",
+    INDEX: "E0912",
 }
 
 
@@ -302,6 +303,8 @@ _HELP = {
     VANISHED: "state or guess another place, keep the motion away from there, or give the figure "
     "another form; what touches along a line is a `lineaire_rectiligne`, a `roulement` of parallel "
     "cylinders, or a model of the plane",
+    INDEX: "write in that branch the derivative of what it says, as `der(y) = der(x)` in the place "
+    "of `y = x`, and let the values agree where it is entered",
     19: "give every body a mass and an inertia of a usual size",
     20: "leave friction out of some of the liaisons that act on each other",
 }

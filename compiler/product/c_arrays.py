@@ -38,7 +38,13 @@ def tables_of(
             [record(*_at(x.text, x.span), text(x.unit)) for x in lowered.statements],
         ),
         "loads": ("frot_load", [record(*_at(x.name, x.span)) for x in reduced.mechanism.forces]),
-        "equations": ("frot_load", [record(*_at(x.text, x.span)) for x in lowered.watched]),
+        "equations": (
+            "frot_watched",
+            [
+                record(*_at(x.origin.text, x.origin.span), text(x.lacks) if x.lacks else "NULL")
+                for x in lowered.watched
+            ],
+        ),
         "vanishings": (
             "frot_vanishing",
             [

@@ -58,8 +58,10 @@ class Zeros:
             own = -(now / lengths**2)[:, None] * slopes
             for j in range(along.numel()):
                 moved[j][:, k], alone[j][:, k] = steps[:, j], own[:, j]
-        self._moved = self._with_steps(moved)
-        self._alone = self._with_steps(alone)
+        symbols = ca.vertsplit(along)
+        self._still = np.zeros((self._count + 1, PLACES))
+        self._moved = dict(zip((x.element_hash() for x in symbols), moved, strict=True))
+        self._alone = dict(zip((x.element_hash() for x in symbols), alone, strict=True))
 
     def _draw(self, symbol: ca.SX) -> Numbers:
         """The values of a symbol, one a place."""
@@ -71,16 +73,13 @@ class Zeros:
             self._names.append(symbol)
         return self._drawn[key]
 
-    def _with_steps(self, steps: Sequence[Numbers]) -> Callable[[ca.SX], Numbers]:
-        symbols = ca.vertsplit(self._along)
-        by = {x.element_hash(): step for x, step in zip(symbols, steps, strict=True)}
-        nothing = np.zeros_like(steps[0])
+    def _draw_moved(self, symbol: ca.SX) -> Numbers:
+        """The same where all expressions are zero, and where all are but one."""
+        return self._draw(symbol) + self._moved.get(symbol.element_hash(), self._still)
 
-        def draw(symbol: ca.SX) -> Numbers:
-            moved: Numbers = self._draw(symbol) + by.get(symbol.element_hash(), nothing)
-            return moved
-
-        return draw
+    def _draw_alone(self, symbol: ca.SX) -> Numbers:
+        """The same where one of the expressions is zero."""
+        return self._draw(symbol) + self._alone.get(symbol.element_hash(), self._still[1:])
 
     def together(self, value: ca.SX) -> tuple[int, ...]:
         """The expressions that a scalar, linear in them, is a sum of; none if it is no such sum.
@@ -89,11 +88,11 @@ class Zeros:
         """
         if not ca.symvar(value) or self.is_zero(value):
             return ()
-        (number,) = evaluate([value], self._alone)
+        (number,) = evaluate([value], self._draw_alone)
         found = np.flatnonzero(np.all(_is_nothing(number), axis=1))
         if found.size:
             return (int(found[0]),)
-        (number,) = evaluate([value], self._moved)
+        (number,) = evaluate([value], self._draw_moved)
         which = sorted(_vanishes_with(number))
         if not 0 < len(which) <= MOST:
             return ()
@@ -119,7 +118,7 @@ class Zeros:
         if not inputs:
             return values, [frozenset()] * len(items)
         function = ca.Function("f", [column(inputs)], [column(items)])
-        numbers = _Numbers(self._moved)
+        numbers = _Numbers(self._draw_moved)
         work = [ca.SX(0)] * function.sz_w()
         inside = [frozenset[int]()] * function.sz_w()
         made, found = list(items), [frozenset[int]()] * len(items)

@@ -159,7 +159,7 @@ typedef struct {
   const frot_load *states;          /* nq + nv: names and places of q and v; may be NULL */
   const frot_held *held;            /* n_held */
   const frot_vanishing *vanishings; /* n_vanishing */
-  const frot_load *equations;       /* n_watched: their words and places */
+  const frot_watched *equations;    /* n_watched */
   /* n_position, n_velocity: statement of each scalar equation; ~s of one that is none of the text
    */
   const int *position_statement;
