@@ -39,6 +39,8 @@ _BEGIN = 3
 _EVENTS = 2**8
 # Bytes of recorded steps after which a run is told to be too long.
 MOST_MEMORY = 2**30
+# Events of a run.
+MOST_EVENTS = 1_000_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,8 +49,8 @@ class Run:
 
     The kernel's status, the segments one after the other as the kernel records them, the events,
     and the time at which the last segment begins. Status FULL: the steps take more than
-    MOST_MEMORY, or Ctrl-C came as those of a call had no more room; the run has not come to its
-    end. Status STOPPED: by `watch`, or by Ctrl-C. After Ctrl-C `interrupted`.
+    MOST_MEMORY, there are more than MOST_EVENTS, or Ctrl-C came as those of a call had no more
+    room; the run has not come to its end. Status STOPPED: by `watch`, or by Ctrl-C. After Ctrl-C `interrupted`.
     """
 
     status: int
@@ -233,7 +235,7 @@ class Engine:
                 told = FULL if status == FULL else STOPPED
                 return Run(told, _joined(chunks), events, last, True)
             taken = 8 * sum(len(chunk) for chunk in chunks)
-            if status != FULL or taken > MOST_MEMORY:
+            if status != FULL or taken > MOST_MEMORY or len(events) > MOST_EVENTS:
                 return Run(status, _joined(chunks), events, last)
             # only what was short is given more: zeros that nobody fills take time too
             if recorder.event_count > room:

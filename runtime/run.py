@@ -12,6 +12,7 @@ from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.errors import FrotError, fail
 from frot.runtime.engine import (
     FULL,
+    MOST_EVENTS,
     MOST_MEMORY,
     OK,
     STOPPED,
@@ -173,7 +174,7 @@ def simulate(
     if run.interrupted:
         raise Interrupted(end, result)
     if run.status == FULL:
-        raise _too_long(result, end)
+        raise _too_long(result, end, len(run.events))
     if run.status not in _GOOD or result is None:
         raise _fault(engine, result)
     return result
@@ -192,14 +193,15 @@ def _last_value(engine: Engine, record: array[float], there: float, lost: float)
     return there
 
 
-def _too_long(result: Result | None, reached: float) -> SimulationError:
+def _too_long(result: Result | None, reached: float, events: int) -> SimulationError:
     log = Log()
-    log.report(
-        "E0901",
-        f"the steps up to t = {reached:.6g} s take more than {MOST_MEMORY / 2**30:g} GiB",
-        None,
-        help="choose an earlier stop time or a larger tolerance",
-    )
+    if events > MOST_EVENTS:
+        text = f"the run has more than {MOST_EVENTS} events up to t = {reached:.6g} s"
+        remedy = "choose an earlier stop time, sample less often, or let the text end the run"
+    else:
+        text = f"the steps up to t = {reached:.6g} s take more than {MOST_MEMORY / 2**30:g} GiB"
+        remedy = "choose an earlier stop time or a larger tolerance"
+    log.report("E0901", text, None, help=remedy)
     return SimulationError(log, result)
 
 
