@@ -50,7 +50,8 @@ class Run:
     The kernel's status, the segments one after the other as the kernel records them, the events,
     and the time at which the last segment begins. Status FULL: the steps take more than
     MOST_MEMORY, there are more than MOST_EVENTS, or Ctrl-C came as those of a call had no more
-    room; the run has not come to its end. Status STOPPED: by `watch`, or by Ctrl-C. After Ctrl-C `interrupted`.
+    room; the run has not come to its end. Status STOPPED: by `watch`, or by Ctrl-C. After Ctrl-C
+    `interrupted`.
     """
 
     status: int

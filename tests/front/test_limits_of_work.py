@@ -3,9 +3,9 @@
 import math
 
 import pytest
+from frot.runtime import engine, run
 
 import frot
-from frot.runtime import engine, run
 
 SAMPLED = """
 model Fast
