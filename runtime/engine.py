@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 OK, FULL, STOPPED, TERMINATED = 0, 1, 2, 3
-NAN, ALGEBRAIC, VANISHED = 17, 22, 32
+NAN, ALGEBRAIC, VANISHED, INDEX = 17, 22, 32, 33
 # A change of parameters or inputs that was taken back, and the message that tells it.
 REFUSALS = {10: "E0401", 24: "E0908"}
 INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
@@ -48,6 +48,8 @@ _BEGIN = 3
 _EVENTS = 2**8
 # Bytes of recorded steps after which a run is told to be too long.
 MOST_MEMORY = 2**30
+# Events of a run.
+MOST_EVENTS = 1_000_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,8 +58,9 @@ class Run:
 
     The kernel's status, the segments one after the other as the kernel records them, the events,
     and the time at which the last segment begins. Status FULL: the steps take more than
-    MOST_MEMORY, or Ctrl-C came as those of a call had no more room; the run has not come to its
-    end. Status STOPPED: by `watch`, or by Ctrl-C. After Ctrl-C `interrupted`.
+    MOST_MEMORY, there are more than MOST_EVENTS, or Ctrl-C came as those of a call had no more
+    room; the run has not come to its end. Status STOPPED: by `watch`, or by Ctrl-C. After Ctrl-C
+    `interrupted`.
     """
 
     status: int
@@ -251,7 +254,7 @@ class Engine:
                 told = FULL if status == FULL else STOPPED
                 return Run(told, _joined(chunks), events, last, True)
             taken = 8 * sum(len(chunk) for chunk in chunks)
-            if status != FULL or taken > MOST_MEMORY:
+            if status != FULL or taken > MOST_MEMORY or len(events) > MOST_EVENTS:
                 return Run(status, _joined(chunks), events, last)
             # only what was short is given more: zeros that nobody fills take time too
             if drained:
@@ -300,9 +303,10 @@ class Engine:
         if status == VANISHED:
             log.report("E0911", self.fault_text, None, notes=places)
             return NoValues(log, times[row])
-        if places and self.fault.status in (NAN, ALGEBRAIC) and self.fault.t == times[row]:
+        codes = {NAN: "E0904", ALGEBRAIC: "E0907", INDEX: "E0912"}
+        code = codes.get(self.fault.status)
+        if places and code is not None and self.fault.t == times[row]:
             remedy = "correct the expression, or keep the motion away from there"
-            code = "E0904" if self.fault.status == NAN else "E0907"
             log.report(code, self.fault_text, None, notes=places, help=remedy)
             return NoValues(log, times[row])
         what = f"variable '{self.program.variables[column].name}' has no finite value"

@@ -12,6 +12,7 @@ from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.errors import FrotError, fail
 from frot.runtime.engine import (
     FULL,
+    MOST_EVENTS,
     MOST_MEMORY,
     OK,
     STOPPED,
@@ -34,7 +35,7 @@ from frot.runtime.settings import read_option, read_settings
 MOST_POINTS, MOST_VALUES = 10_000_000, 2**27
 TOLERANCES = (1e-14, 1e-1)
 _GOOD = (OK, STOPPED, TERMINATED)
-IMPACT, NO_NUMBER, POSTURE = 13, 17, 31
+IMPACT, NO_NUMBER, POSTURE, INDEX = 13, 17, 31, 33
 
 CODES = {
     10: "E0401",
@@ -51,6 +52,7 @@ CODES = {
     30: "E0909",
     POSTURE: "E0910",
     VANISHED: "E0911",
+    INDEX: "E0912",
 }
 
 
@@ -174,7 +176,7 @@ def simulate(
     if run.interrupted:
         raise Interrupted(end, result)
     if run.status == FULL:
-        raise _too_long(result, end)
+        raise _too_long(result, end, len(run.events))
     if run.status not in _GOOD or result is None:
         raise _fault(engine, result)
     return result
@@ -193,14 +195,15 @@ def _last_value(engine: Engine, record: array[float], there: float, lost: float)
     return there
 
 
-def _too_long(result: Result | None, reached: float) -> SimulationError:
+def _too_long(result: Result | None, reached: float, events: int) -> SimulationError:
     log = Log()
-    log.report(
-        "E0901",
-        f"the steps up to t = {reached:.6g} s take more than {MOST_MEMORY / 2**30:g} GiB",
-        None,
-        help="choose an earlier stop time or a larger tolerance",
-    )
+    if events > MOST_EVENTS:
+        text = f"the run has more than {MOST_EVENTS} events up to t = {reached:.6g} s"
+        remedy = "choose an earlier stop time, sample less often, or let the text end the run"
+    else:
+        text = f"the steps up to t = {reached:.6g} s take more than {MOST_MEMORY / 2**30:g} GiB"
+        remedy = "choose an earlier stop time or a larger tolerance"
+    log.report("E0901", text, None, help=remedy)
     return SimulationError(log, result)
 
 
@@ -317,6 +320,8 @@ _HELP = {
     VANISHED: "state or guess another place, keep the motion away from there, or give the figure "
     "another form; what touches along a line is a `lineaire_rectiligne`, a `roulement` of parallel "
     "cylinders, or a model of the plane",
+    INDEX: "write in that branch the derivative of what it says, as `der(y) = der(x)` in the place "
+    "of `y = x`, and let the values agree where it is entered",
     19: "give every body a mass and an inertia of a usual size",
     20: "leave friction out of some of the liaisons that act on each other",
 }

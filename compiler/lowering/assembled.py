@@ -11,6 +11,7 @@ from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.text_symbols import FrictionElement
 from frot.compiler.mechanics.reduce import Reduced, Tree
 from frot.compiler.symbolic.columns import column
+from frot.compiler.symbolic.vanishing_sums import Zeros
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 
@@ -60,6 +61,25 @@ class Solution:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class HeldSlips:
+    """The slips of the text: where they are zero, and for each whether friction holds it."""
+
+    zeros: Zeros
+    sticks: tuple[ca.SX, ...]
+
+    def put(self, value: ca.SX) -> tuple[ca.SX, frozenset[int]]:
+        """The value with what friction holds at zero, and the slips that stand in it."""
+        new, found = self.zeros.replace(value, lambda x, k: ca.if_else(self._stick(k), 0, x))
+        return new, frozenset[int]().union(*found)
+
+    def _stick(self, which: frozenset[int]) -> ca.SX:
+        whole = ca.SX(1)
+        for k in sorted(which):
+            whole = whole * self.sticks[k]
+        return whole
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Assembled:
     """States (q, v), y, and the core system `matrix` z = `force` + `spread` lam.
 
@@ -68,7 +88,8 @@ class Assembled:
     come first, then one for each friction element. `rates` are those of q; with `late` they, or
     `power`, depend on z, lam or the y of late blocks. `solution` is what the symbols of the text
     are in terms of these. `tree`: of large trees of bodies `matrix` and `force` have what `Reduced`
-    says; where both are looked at, `in_full`.
+    says; where both are looked at, `in_full`. `held` puts zero for
+    what friction holds.
     """
 
     reduced: Reduced
@@ -102,6 +123,11 @@ class Assembled:
     divisors: tuple[Pivot, ...]
     solution: Solution
     tree: Tree
+    held: HeldSlips | None = None
+
+    def at_rest(self, value: ca.SX) -> ca.SX:
+        """The value with slips of the text that friction holds zero to the last bit."""
+        return value if self.held is None else self.held.put(value)[0]
 
     def resolve(self, value: ca.SX) -> ca.SX:
         """An expression of the text's symbols in terms of t, q, v, u, p, d, y, z and lam."""

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import casadi as ca
 from frot.compiler.equations.before import Before, whole
 from frot.compiler.lowering.symbols import Symbols
-from frot.compiler.lowering.walk import COMPARISONS, is_fixed, quantities_in
+from frot.compiler.lowering.walk import is_fixed, quantities_in
 from frot.dsl import Log
 from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked import (
@@ -42,9 +42,10 @@ class Conditions:
 
     `strict`: whether the condition is false where its value is zero. `texts` are as the author
     wrote them, at `spans`; `told` says when a change is an event to him (frot_told). `contacts`:
-    of one that is no switch of the text, the contact a figure of which ends there. In their last
-    order the first `located` change by the motion, the last `sensed` of these by what it is solved
-    for, the `timed` after them by time alone.
+    of one that is no switch of the text, the contact a figure of which ends there. `at_rest`: the
+    values with motions of liaisons that friction holds at zero, None where there are none. In their
+    last order the first `located` change by the motion, the last `sensed` of these by what it is
+    solved for, the `timed` after them by time alone.
     """
 
     flags: list[ca.SX] = field(default_factory=list)
@@ -54,6 +55,7 @@ class Conditions:
     spans: list[Span | None] = field(default_factory=list)
     told: list[int] = field(default_factory=list)
     contacts: list[int] = field(default_factory=list)
+    at_rest: list[ca.SX | None] = field(default_factory=list)
     located: int = 0
     sensed: int = 0
     timed: int = 0
@@ -66,6 +68,7 @@ class Conditions:
         span: Span | None,
         told: int = ALWAYS,
         contact: int = -1,
+        at_rest: ca.SX | None = None,
     ) -> ca.SX:
         """A flag, 0 or 1, that follows the sign of `value` by located events."""
         found = self.find(value, strict, contact)
@@ -79,6 +82,7 @@ class Conditions:
         self.spans.append(span)
         self.told.append(told)
         self.contacts.append(contact)
+        self.at_rest.append(at_rest)
         return flag
 
     def find(self, value: ca.SX, strict: bool, contact: int = -1) -> ca.SX | None:
@@ -93,7 +97,7 @@ class Conditions:
         """Put the conditions into another order."""
         columns: tuple[list[Any], ...] = (
             *(self.flags, self.values, self.strict),
-            *(self.texts, self.spans, self.told, self.contacts),
+            *(self.texts, self.spans, self.told, self.contacts, self.at_rest),
         )
         for items in columns:
             items[:] = [items[k] for k in order]
@@ -189,11 +193,7 @@ class Lowering(SharedWalk[ca.SX]):
         return None if is_fixed(expression) else self.conditions
 
     def _binary(self, node: Binary) -> ca.SX:
-        left, right, held = *map(self.of, (node.left, node.right)), ca.SX(0)
-        if node.op in COMPARISONS and self.holds is not None and self.at_rest is not None:
-            held = sum((self.holds(q) for q in quantities_in(node)), held)
-            still = self if held.is_zero() else replace(self, quantity=self.at_rest, done={})
-            left, right = still.of(node.left), still.of(node.right)
+        left, right = map(self.of, (node.left, node.right))
         match node.op:
             case "+":
                 return left + right
@@ -211,6 +211,9 @@ class Lowering(SharedWalk[ca.SX]):
             case "or":
                 return left + right - left * right
         conditions = self._located(node)
+        held = ca.SX(0)
+        if self.holds is not None:
+            held = sum((self.holds(q) for q in quantities_in(node)), held)
         if node.op in ("==", "<>"):
             if conditions is not None and node.left.type.base == "real":
                 self.log.report(
@@ -219,19 +222,33 @@ class Lowering(SharedWalk[ca.SX]):
                     node.span,
                     help="compare by `<` and `>`, or compare whole numbers",
                 )
+            if not held.is_zero():
+                left, right = self._at_rest(node)
             return left == right if node.op == "==" else left != right
         positive = left - right if node.op in (">", ">=") else right - left
         strict = node.op in ("<", ">")
-        if not held.is_zero():
-            # Zero exactly, not to rounding: nothing is left in doubt.
-            decided = ca.SX(-1.0 if strict else 1.0)
-            positive = ca.if_else((held > 0) * (positive == 0), decided, positive)
+        still = None if held.is_zero() else self._still(node, held)
         if conditions is not None:
-            return conditions.add(positive, strict, self._told(words(node)), node.span)
+            told = self._told(words(node))
+            return conditions.add(positive, strict, told, node.span, at_rest=still)
         flag = None if self.known is None else self.known.find(positive, strict)
         if flag is not None:
             return flag
+        positive = positive if still is None else still
         return positive > 0 if strict else positive >= 0
+
+    def _at_rest(self, node: Binary) -> tuple[ca.SX, ca.SX]:
+        """Both sides with motions that friction holds at zero."""
+        assert self.at_rest is not None
+        still = replace(self, quantity=self.at_rest, done={})
+        return still.of(node.left), still.of(node.right)
+
+    def _still(self, node: Binary, held: ca.SX) -> ca.SX:
+        """What is positive where a comparison is true, decided where friction holds it at zero."""
+        left, right = self._at_rest(node)
+        positive = left - right if node.op in (">", ">=") else right - left
+        decided = ca.SX(-1.0 if node.op in ("<", ">") else 1.0)
+        return ca.if_else((held > 0) * (positive == 0), decided, positive)
 
     def _call(self, node: Call) -> ca.SX:
         if node.function == "noEvent":

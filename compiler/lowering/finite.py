@@ -8,12 +8,16 @@ and with what an equation was divided by when it was solved.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import casadi as ca
+import numpy as np
 from frot.compiler.equations.origins import Origin
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.symbolic.columns import column
+from frot.compiler.symbolic.drawn import read_as_truths
+from frot.dsl.data.classes import dataclass
 
 _RISKY = {
     getattr(ca, f"OP_{name}")
@@ -26,19 +30,37 @@ _RISKY = {
 _LARGEST = 1e300
 
 
-def watch_numbers(system: Assembled) -> tuple[ca.SX, list[Origin]]:
+# Truths in a divisor, all values of which are tried.
+_MOST = 8
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Watched:
+    """What may give no number; `lacks`: the unknown that it was solved for, if a branch has none.
+
+    Then the divisor is zero wherever that branch is taken.
+    """
+
+    origin: Origin
+    lacks: str = ""
+
+
+def watch_numbers(system: Assembled) -> tuple[ca.SX, list[Watched]]:
     """The values to look at when a number is missed, and what they belong to."""
     equations, conditions = system.reduced.equations, system.reduced.conditions
     written = [
-        (value, Origin(span, text, ""))
+        (value, Watched(Origin(span, text, "")))
         for value, span, text in zip(
             conditions.values, conditions.spans, conditions.texts, strict=True
         )
         if span is not None
     ]
-    divided = [(1 / x.value, x.origin) for x in system.divisors]
+    divided = [
+        (1 / x.value, Watched(x.origin, x.unknown if _vanishes_in_a_branch(x.value) else ""))
+        for x in system.divisors
+    ]
     everything = [
-        *zip(equations.values, equations.origins, strict=True),
+        *zip(equations.values, map(Watched, equations.origins), strict=True),
         *written,
         *divided,
     ]
@@ -49,6 +71,21 @@ def watch_numbers(system: Assembled) -> tuple[ca.SX, list[Origin]]:
     guarded = ca.if_else(ca.fabs(known) < _LARGEST, known, 1)
     watched = ca.substitute(values, inside, guarded) if inside.numel() else values
     return watched, [everything[k][1] for k in risky]
+
+
+def _vanishes_in_a_branch(divisor: ca.SX) -> bool:
+    """Whether a divisor is zero on one branch of the conditions in it, whatever the values are."""
+    symbols = ca.symvar(divisor)
+    function = ca.Function("divisor", [column(symbols)], [divisor])
+    truths = sorted(read_as_truths(function))
+    if not 0 < len(truths) <= _MOST:
+        return False
+    place = np.random.default_rng(1).uniform(0.5, 2, len(symbols))
+    for values in itertools.product((0.0, 1.0), repeat=len(truths)):
+        place[truths] = values
+        if float(function(ca.DM(place))) == 0:
+            return True
+    return False
 
 
 def _risky(values: Sequence[ca.SX]) -> list[int]:

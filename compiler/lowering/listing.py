@@ -107,7 +107,7 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
     # Whatever an output reads of a motion that friction holds is zero to the last bit.
     showing = replace(looking, quantity=reduced.variables.at_rest, done={})
     for output in mechanism.model.outputs:
-        value = reduced.variables.slips_at_rest(showing.lower(output.value))
+        value = showing.lower(output.value)
         limits = arrays.bounds_of(output.bounds, value.numel())
         for k, (suffix, part) in enumerate(_components(output.name, value)):
             yield Listed(

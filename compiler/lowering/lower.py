@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import casadi as ca
-from frot.compiler.equations.origins import Origin
 from frot.compiler.lowering.assembled import Assembled, Block, row_depends
 from frot.compiler.lowering.checks import Check, parameter_checks
 from frot.compiler.lowering.explicit import make_explicit
 from frot.compiler.lowering.expressions import Lowering
-from frot.compiler.lowering.finite import watch_numbers
+from frot.compiler.lowering.finite import Watched, watch_numbers
 from frot.compiler.lowering.first_conditions import first_conditions
 from frot.compiler.lowering.groups import Grouping
 from frot.compiler.lowering.initial_values import Initial, Statement, lower_initial
@@ -77,7 +76,7 @@ class Lowered:
     row_depends: tuple[tuple[bool, ...], ...]
     dependent: tuple[bool, ...]
     jacobian: Jacobian | None
-    watched: tuple[Origin, ...]
+    watched: tuple[Watched, ...]
     ranks: Ranks
     integrals: tuple[FirstIntegral, ...]
 
@@ -129,10 +128,10 @@ def lower(
     conditions, timers = sort_conditions(system, located)
     switching = tuple(_switching(k, b, system, conditions) for k, b in enumerate(system.blocks))
     conditions = straighten(system, conditions)
-    watched, watched_origins = watch_numbers(system)
+    watched, equations = watch_numbers(system)
     checks = parameter_checks(reduced.mechanism, s.parameters, system.pivots)
     update = lower_update(system, log)
-    values = resolve(settled(column(v.value for v in variables)))
+    values = system.at_rest(resolve(settled(column(v.value for v in variables))))
     if log.failed or not _is_known(values, system, variables, log):
         return None
     given, is_set = ca.SX.sym("given", s.p.numel()), ca.SX.sym("set", s.p.numel())
@@ -246,7 +245,7 @@ def lower(
         row_depends=row_depends(system),
         dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),
         jacobian=jacobian,
-        watched=tuple(watched_origins),
+        watched=tuple(equations),
         ranks=rank_whens(system, conditions, update),
         integrals=integrals,
     )

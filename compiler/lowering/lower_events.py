@@ -40,7 +40,7 @@ def lower_update(system: Assembled, log: Log) -> list[ca.SX] | None:
             )
             continue
         rest = ca.substitute(target, inside[0], ca.SX(0))
-        value = (system.resolve(settled(jump.value)) - rest) / slope
+        value = (system.at_rest(system.resolve(settled(jump.value))) - rest) / slope
         k = place[inside[0].element_hash()]
         after[k] = ca.if_else(active, value, after[k])
         actives.setdefault(k, []).append((active, jump.span))
@@ -53,8 +53,8 @@ def lower_update(system: Assembled, log: Log) -> list[ca.SX] | None:
     return [
         column(after[:nq]),
         column(after[nq:]),
-        system.resolve(settled(column(events.values))),
-        system.resolve(settled(column(events.asked))),
+        system.at_rest(system.resolve(settled(column(events.values)))),
+        system.at_rest(system.resolve(settled(column(events.asked)))),
     ]
 
 

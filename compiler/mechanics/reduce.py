@@ -164,7 +164,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     equations = gather(mechanism.model.equations, moving, log)
     moving.friction = None
     add_slip_accelerations(equations, text)
-    give_slip_modes(mechanism.model, variables, text, len(mechanism.contacts))
+    give_slip_modes(variables, text, len(mechanism.contacts))
     events = gather_events(
         mechanism.model,
         text,

@@ -15,7 +15,6 @@ from frot.compiler.mechanics.liaisons.stated import Reader, unit_of
 from frot.compiler.mechanics.link import Geometry, Link, Reaction, point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere
-from frot.compiler.symbolic.columns import column
 from frot.dsl.catalogue import MODES
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity, Variable
 from frot.dsl.data.classes import dataclass, field
@@ -23,8 +22,17 @@ from frot.dsl.data.classes import dataclass, field
 # The motions that friction may hold, and the mode in which it does: the literals count from 1.
 HELD = ("slip", "speed")
 STICK = MODES.index("stick") + 1
+# The sense of a contact that is open or has no friction.
+FREE = 2
 # Operations within which two moments of inertia are seen to be the same expression.
 _DEEP = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Sense:
+    """Whether a contact slips forwards (1) or backwards (-1), or sticks (0); FREE of any other."""
+
+    contact: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,7 +44,6 @@ class Variables:
     liaisons that one of faces stands for, `values` are those of the text, `frictions` is what
     laws of the user give on the body, `modes` those that are read: numbers of contacts, symbols;
     the first of them are `felt`, for something follows them, the others are only looked at.
-    `slips` are variables of the text that friction may hold, and what they are when it does.
     """
 
     symbols: Symbols
@@ -49,9 +56,8 @@ class Variables:
     corners: Mapping[Liaison, tuple[Liaison, ...]]
     values: Mapping[Variable, ca.SX]
     frictions: dict[Liaison, ca.SX] = field(default_factory=dict)
-    modes: dict[Liaison | FrictionElement, tuple[int, ca.SX]] = field(default_factory=dict)
-    felt: list[Liaison | FrictionElement] = field(default_factory=list)
-    slips: list[tuple[ca.SX, ca.SX]] = field(default_factory=list)
+    modes: dict[Liaison | FrictionElement | Sense, tuple[int, ca.SX]] = field(default_factory=dict)
+    felt: list[Liaison | FrictionElement | Sense] = field(default_factory=list)
     _inertias: dict[Body, ca.SX] = field(default_factory=dict, repr=False)
 
     def quantity(self, node: Quantity) -> ca.SX:
@@ -72,13 +78,6 @@ class Variables:
         """As `quantity`, but a motion that friction holds is zero to the last bit."""
         held, value = self.holds(node), self.quantity(node)
         return value if held.is_zero() else ca.if_else(held, 0, value)
-
-    def slips_at_rest(self, value: ca.SX) -> ca.SX:
-        """The value with slips of the text that friction holds at zero, to the last bit."""
-        if not self.slips:
-            return value
-        moving, shown = map(column, zip(*self.slips, strict=True))
-        return ca.substitute(value, moving, shown)
 
     def rate(self, value: ca.SX) -> ca.SX:
         """d/dt of a function of time, coordinates, speeds and variables of the text."""

@@ -8,6 +8,7 @@ import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.jacobian import alike
 from frot.compiler.lowering.lower import Lowered
+from frot.compiler.mechanics.variables import Sense
 from frot.compiler.product.c_tables import callable_record, number, place, record, text
 from frot.dsl.messages.source import Span
 
@@ -37,7 +38,13 @@ def tables_of(
             [record(*_at(x.text, x.span), text(x.unit)) for x in lowered.statements],
         ),
         "loads": ("frot_load", [record(*_at(x.name, x.span)) for x in reduced.mechanism.forces]),
-        "equations": ("frot_load", [record(*_at(x.text, x.span)) for x in lowered.watched]),
+        "equations": (
+            "frot_watched",
+            [
+                record(*_at(x.origin.text, x.origin.span), text(x.lacks) if x.lacks else "NULL")
+                for x in lowered.watched
+            ],
+        ),
         "vanishings": (
             "frot_vanishing",
             [
@@ -70,6 +77,10 @@ def tables_of(
         "when_condition": ("int", _whole(events.conditions)),
         "when_rank": ("int", _whole(lowered.ranks.whens)),
         "mode_contact": ("int", _whole(k for k, _ in reduced.variables.modes.values())),
+        "mode_sense": (
+            "unsigned char",
+            _whole(isinstance(x, Sense) for x in reduced.variables.modes),
+        ),
         "when_at_start": ("unsigned char", _whole(events.at_start)),
         "outcomes": (
             "frot_outcome",

@@ -46,7 +46,7 @@ def _draw(values: ca.SX, choices: Sequence[ca.SX], signed: bool) -> list[NDArray
     if not symbols:
         return [ca.DM(values).full()]
     function = ca.Function("drawn", [column(symbols)], [ca.densify(values)])
-    own, read = {x.element_hash() for x in choices}, _read_as_truths(function)
+    own, read = {x.element_hash() for x in choices}, read_as_truths(function)
     turns = np.array([x.element_hash() in own for x in symbols])
     truths = np.array([k in read for k in range(len(symbols))]) & ~turns
     count = BRANCHES if turns.any() or truths.any() else PLACES
@@ -66,7 +66,7 @@ def _draw(values: ca.SX, choices: Sequence[ca.SX], signed: bool) -> list[NDArray
     return found
 
 
-def _read_as_truths(function: ca.Function) -> set[int]:
+def read_as_truths(function: ca.Function) -> set[int]:
     """The items of a function's argument that are truths: something switches by them."""
     item: dict[int, int] = {}
     found: set[int] = set()

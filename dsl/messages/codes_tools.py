@@ -159,6 +159,20 @@ TOOLS: Mapping[str, Row] = {
             "guide.u = 0;",
         ),
     ),
+    "E0912": (
+        "an index that changes with a branch",
+        "One branch of an equation holds the unknown that it is solved for, and the branch that is "
+        "taken does not: it relates states, and would have to be differentiated. Equations are "
+        "differentiated as often in all branches.",
+        "Write in that branch the derivative of what it says, and let the values agree where it is "
+        "entered.",
+        snippet(
+            "Real x, y, f;\nBoolean free = time > 1 s;",
+            "x = 0; y = 0;",
+            "equation\n  der(x) = (1 - f)*1 1/s;\n  der(y) = f*1 1/s;\n"
+            "  if free then\n    f = 0;\n  else\n    y = x;\n  end if;\n",
+        ),
+    ),
     "E0907": (
         "equations without a solution",
         "The equations named do not determine their unknowns at this instant: no solution was "

@@ -41,6 +41,11 @@ static int wrong_equation(const frot_model *m, frot_state *s, frot_work *w, cons
   return -1;
 }
 
+/* The fault of such an equation. */
+static int status_of(const frot_model *m, int equation) {
+  return m->equations[equation].lacks ? FROT_INDEX : FROT_NAN;
+}
+
 /* The group that kept the last step from being any longer: that without reactions, or of the state
  * whose error was the largest; -1 where that is not known. */
 static int group_at_fault(const frot_model *m, const frot_work *w) {
@@ -112,7 +117,7 @@ int frot_fail_evaluation(const frot_model *m, frot_state *s, frot_work *w, int s
   int equation = -1;
   if (status == FROT_NAN && other < 0 && contact < 0)
     equation = wrong_equation(m, s, w, w->core.q, w->core.v, w->core.d);
-  if (equation >= 0) item = m->n_loads + equation;
+  if (equation >= 0) item = m->n_loads + equation, status = status_of(m, equation);
   return frot_fail(s, status, t, contact, item, other, w->blocks.singular);
 }
 
@@ -120,7 +125,8 @@ int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status,
                    const double *q, const double *v) {
   int equation = -1;
   if (status == FROT_NAN) equation = wrong_equation(m, s, w, q, v, s->data + w->layout.d);
-  if (equation >= 0) return frot_fail(s, FROT_NAN, t, -1, m->n_loads + equation, -1, h);
+  if (equation >= 0)
+    return frot_fail(s, status_of(m, equation), t, -1, m->n_loads + equation, -1, h);
   if (status == FROT_ALGEBRAIC || (status == FROT_NAN && w->blocks.failed >= 0))
     return frot_fail_evaluation(m, s, w, status, t);
   int blamed = wrong_contact(m, w, status), state = -1;

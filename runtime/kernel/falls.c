@@ -39,13 +39,20 @@ void frot_guard_polynomial(const frot_state *s, const frot_work *w, int guard, d
   }
 }
 
-/* The value below which guard j, at zero to rounding at time t, counts as fallen. */
+/* The value below which guard j, at zero at time t, counts as fallen with the one that is located,
+ * whose instant rounding leaves `unsure`: by the same measure, but no more than the error that the
+ * run allows. */
 static double fallen(const frot_model *m, const frot_state *s, const frot_work *w, int j, double t,
-                     double slope) {
+                     double slope, double unsure) {
   double size = s->data[w->layout.scale_g + j];
-  if (j < frot_condition_guard(m)) return FROT_ZERO * size;
-  return FROT_CONDITION_ZERO * size + 8 * DBL_EPSILON * fabs(t) * fabs(slope);
+  if (j >= frot_condition_guard(m))
+    return FROT_CONDITION_ZERO * size + 8 * DBL_EPSILON * fabs(t) * fabs(slope);
+  double error = fmax(s->tolerance * size, unsure * fabs(slope));
+  return fmax(FROT_ZERO * size, fmin(FROT_LOCATED * size, error));
 }
+
+/* The slope of a guard at the end of its polynomial over h. */
+static double slope_at_end(const double g[7], double h) { return 6 * (g[6] - g[5]) / h; }
 
 double frot_close_to_fall(const frot_model *m, const frot_state *s, const frot_work *w, int k,
                           double t, double slope) {
@@ -206,12 +213,15 @@ void frot_fire_at_start(frot_state *s, const frot_work *w, int guard) {
 
 void frot_fire_guards(const frot_model *m, frot_state *s, const frot_work *w, int first, double t,
                       double h) {
-  int n = w->awake.n;
+  int n = w->awake.n, located = w->guards.list[first];
   const double *end = frot_stage(w, DP_STAGES) + n, *start = frot_stage(w, 0) + n;
+  double g[7], unsure = 0;
+  frot_guard_polynomial(s, w, first, h, g);
+  if (located < frot_condition_guard(m))
+    unsure = FROT_ROUNDING * s->data[w->layout.scale_g + located] / fabs(slope_at_end(g, h));
   for (int k = 0; k < w->guards.count; k++) {
-    double g[7];
     frot_guard_polynomial(s, w, k, h, g);
-    double limit = fallen(m, s, w, w->guards.list[k], t + h, 6 * (g[6] - g[5]) / h);
+    double limit = fallen(m, s, w, w->guards.list[k], t + h, slope_at_end(g, h), unsure);
     if (k == first || (end[k] <= limit && start[k] > limit))
       s->data[w->layout.fired + w->guards.list[k]] = 1;
   }

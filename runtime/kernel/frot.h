@@ -44,6 +44,7 @@ enum frot_status {
   FROT_REFUSED = 24,     /* a change from outside cannot be made in a run; the old values stay */
   FROT_EVENT_FAULT = 30, /* an event of the text cannot do what it says */
   FROT_VANISHED = 32,    /* a curve or surface has no tangent or normal where a liaison needs it */
+  FROT_INDEX = 33,       /* a branch does not hold the unknown its equation is solved for */
   FROT_POSTURE = 31,     /* relations of a loop do not tell how it goes on */
   FROT_JUMP = 25         /* a `reinit` or a switch moves a body against what holds it */
 };

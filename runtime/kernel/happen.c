@@ -333,7 +333,9 @@ static int read_modes(const instant *in) {
   double *read = in->s->data + in->l.d + m->n_conditions + m->n_contacts;
   int changed = 0;
   for (int k = 0; k < m->n_modes; k++) {
-    double mode = frot_mode_value(m, modes_of(in), m->mode_contact[k]);
+    int i = m->mode_contact[k];
+    double mode = m->mode_sense[k] ? frot_sense_of_slip(m, modes_of(in), i)
+                                   : frot_mode_value(m, modes_of(in), i);
     if (mode != read[k]) read[k] = mode, changed |= k < m->n_felt;
   }
   return changed;

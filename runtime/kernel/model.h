@@ -159,7 +159,7 @@ typedef struct {
   const frot_load *states;          /* nq + nv: names and places of q and v; may be NULL */
   const frot_held *held;            /* n_held */
   const frot_vanishing *vanishings; /* n_vanishing */
-  const frot_load *equations;       /* n_watched: their words and places */
+  const frot_watched *equations;    /* n_watched */
   /* n_position, n_velocity: statement of each scalar equation; ~s of one that is none of the text
    */
   const int *position_statement;
@@ -176,10 +176,11 @@ typedef struct {
   const int *q_speed;                    /* nq: the speed that is the rate of q[k], or -1 */
   /* nq: the first state that is no coordinate and has the dimension of q[k]; k for coordinates */
   const int *q_alike;
-  const frot_block *blocks;  /* n_blocks */
-  const int *when_condition; /* n_whens: it fires when this condition comes to hold */
-  const int *when_rank;      /* n_whens: those of lower ranks act before, at one instant */
-  const int *mode_contact;   /* n_modes: the contact whose mode it is */
+  const frot_block *blocks;        /* n_blocks */
+  const int *when_condition;       /* n_whens: it fires when this condition comes to hold */
+  const int *when_rank;            /* n_whens: those of lower ranks act before, at one instant */
+  const int *mode_contact;         /* n_modes: the contact whose mode it is */
+  const unsigned char *mode_sense; /* n_modes: 1: the sense of its slip in its place */
   const unsigned char
       *when_at_start;           /* n_whens: 1 where it also fires if that holds at the start */
   const frot_outcome *outcomes; /* n_outcomes */

@@ -189,6 +189,12 @@ typedef struct {
   const char *text, *where, *place;
 } frot_vanishing;
 
+/* An equation of the text that may give no number. `lacks`: the unknown that it is solved for and
+ * that a branch of it does not hold, or NULL: where that branch is taken its index is another. */
+typedef struct {
+  const char *name, *place, *lacks;
+} frot_watched;
+
 /* An applied force, or a state. */
 typedef struct {
   const char *name, *place;

@@ -109,6 +109,21 @@ int frot_mode_value(const frot_model *m, const frot_contact_mode *modes, int con
   return modes[m->n_contacts + sliding].friction == FROT_STICK ? FROT_MODE_STICK : FROT_MODE_SLIP;
 }
 
+int frot_sense_of_slip(const frot_model *m, const frot_contact_mode *modes, int contact) {
+  int sliding = m->contacts[contact].sliding;
+  if (!modes[contact].closed || sliding < 0) return FROT_SENSE_FREE;
+  switch (modes[m->n_contacts + sliding].friction) {
+    case FROT_STICK:
+      return 0;
+    case FROT_SLIP_FORWARD:
+      return 1;
+    case FROT_SLIP_BACKWARD:
+      return -1;
+    default:
+      return FROT_SENSE_FREE;
+  }
+}
+
 int frot_fail(frot_state *s, int status, double t, int contact, int item, int other, double value) {
   s->fault = (frot_fault){status, contact, item, other, t, value, {0, 0, 0}};
   s->phase = FROT_FAULTED;

@@ -139,6 +139,11 @@ void frot_open(const frot_model *model, frot_contact_mode *modes, int contact);
 /* Value of a liaison's variable `mode`. */
 int frot_mode_value(const frot_model *model, const frot_contact_mode *modes, int contact);
 
+/* Whether a contact slips forwards (1) or backwards (-1), or sticks (0); of one that is open or has
+ * no friction that is free. */
+enum { FROT_SENSE_FREE = 2 };
+int frot_sense_of_slip(const frot_model *model, const frot_contact_mode *modes, int contact);
+
 /* That nothing is wrong at t. */
 frot_fault frot_no_fault(double t);
 /* Record a fault and return its status. */

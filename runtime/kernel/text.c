@@ -268,6 +268,15 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
     case FROT_JUMP:
       frot_refusal_text(m, f, text, size);
       return;
+    case FROT_INDEX: {
+      const frot_watched *equation = &m->equations[f->item - m->n_loads];
+      snprintf(
+          text, size,
+          "the branch that is taken at t = %.17g in the place of `%s` does not hold '%s', which "
+          "the equation is solved for: the index of the equations changes with the branch",
+          f->t, equation->name, equation->lacks);
+      return;
+    }
     case FROT_NAN:
       if (f->other >= 0) {
         snprintf(text, size, "the equations for %s give no finite number at t = %.17g",
@@ -393,6 +402,7 @@ void frot_fault_places(const frot_model *m, const frot_state *s, char *text, siz
                 : past < 0           ? m->equations[f->item - m->n_loads].place
                                      : cause_place(m, past);
   }
+  if (f->status == FROT_INDEX) places[0] = m->equations[f->item - m->n_loads].place;
   if (f->status == FROT_NAN && f->other >= 0) places[0] = m->blocks[f->other].place;
   if (f->status == FROT_DIVERGE && f->other >= 0 && m->states)
     places[0] = m->states[f->other].place;

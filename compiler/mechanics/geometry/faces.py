@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from frot.compiler.lowering.walk import follows_time
+from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.figures import figure_of
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.refuse import refuse_places
@@ -56,11 +57,16 @@ def _corners(liaison: Liaison, planar: bool) -> tuple[tuple[Place, Place], ...] 
         face, other = (liaison.a, liaison.b) if first else (liaison.b, liaison.a)
         ends = shape_of(face.body).corners(face) if isinstance(face, BodyGeometry) else ()
         plane = figure_of(other, planar)
-        if not ends or plane is None or plane.figure.plane is None:
+        if not ends or plane is None or not _is_flat(plane.figure, planar):
             continue
         if not found or (plane.figure.has_ends and is_unilateral(liaison)):
             found += [(corner, other) if first else (other, corner) for corner in ends]
     return tuple(found) or None
+
+
+def _is_flat(figure: Figure, planar: bool) -> bool:
+    """Whether it is a plane, or in the plane a line, one that depends on time too."""
+    return figure.plane is not None or (planar and figure.line is not None)
 
 
 def _contacts(liaison: Liaison, pairs: tuple[tuple[Place, Place], ...]) -> Iterator[Liaison]:
