@@ -26,6 +26,7 @@ from drawn_groups import PLAIN, Axes, Group, draw_group, text_of
 # Of a start, and of a motion at the tolerance of the texts; both in SI, for values of about 1.
 START, MOTION = 1e-8, 1e-6
 BALANCE = 1e-7
+WRITTEN = (Axes(small_units=True), Axes(turns=1), Axes(turns=2), Axes(turns=3))
 
 
 @dataclass(frozen=True)
@@ -87,8 +88,8 @@ def differences(
     return found
 
 
-def examine(seed: int, number: int) -> tuple[int, list[str]]:
-    """How many runs of a scene were compared, and what is wrong with them."""
+def examine(seed: int, number: int, others: Sequence[Axes] = WRITTEN) -> tuple[int, list[str]]:
+    """How many groups of a scene start, and what is wrong with them; `others` are compared too."""
     chance = np.random.default_rng((seed, number))
     groups = [draw_group(chance, f"_{k}") for k in range(3)]
     gravity = float(chance.choice([0.0, chance.uniform(0.5, 10)]))
@@ -99,7 +100,7 @@ def examine(seed: int, number: int) -> tuple[int, list[str]]:
     for group, own in zip(able, runs, strict=True):
         text = text_of([group], gravity)
         faults += [f"{fault}\n{text}" for fault in _wrong(own, group)]
-        for axes in (Axes(small_units=True), Axes(turns=1), Axes(turns=2), Axes(turns=3)):
+        for axes in others:
             found = differences(own, run(text_of([group], gravity, axes)), [group], axes)
             if found:
                 faults.append(f"{axes}: {found[:2]}\n{text}")
@@ -133,10 +134,12 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--first", type=int, default=0, help="number of the first scene")
     parser.add_argument("--count", type=int, default=50)
+    parser.add_argument("--beside", action="store_true", help="neither other units nor other axes")
     chosen = parser.parse_args()
+    others = () if chosen.beside else WRITTEN
     ran = wrong = 0
     for number in range(chosen.first, chosen.first + chosen.count):
-        count, faults = examine(chosen.seed, number)
+        count, faults = examine(chosen.seed, number, others)
         ran, wrong = ran + count, wrong + bool(faults)
         for fault in faults:
             print(f"scene {number}: {fault}", flush=True)
