@@ -63,6 +63,7 @@ class Kinematics:
 
     `nodes` are the steps of the tree, each after those above it, `node_of` the last of each body
     and `beyond` the vector (3) from its origin to the body's G.
+    `still` are the bodies that cannot move.
     `tangents` are those of the curves that carry bodies, by the length of their parameter;
     `tracks` what is followed where figures touch, with the rates of the parameters; `spots` are
     the coordinates of what rolls along planes, `starts` where they and its height begin to be
@@ -84,6 +85,7 @@ class Kinematics:
         self.symbols = symbols
         self.fixed = fixed
         self.planar = mechanism.model.planar
+        self.still = mechanism.fixed
         self.bodies: dict[Body, Moving] = {mechanism.model.ground: AT_REST}
         self.readings, _ = reading_places(mechanism)
         self.nodes: list[Node] = []

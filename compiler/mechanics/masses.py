@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 import casadi as ca
 from frot.compiler.mechanics.dynamics import Push, Step, make_steps, trees_of
-from frot.compiler.mechanics.geometry.contacts import gravity
+from frot.compiler.mechanics.geometry.sides import gravity
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.variables import Variables
 from frot.dsl.checked import Body

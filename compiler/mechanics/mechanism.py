@@ -89,6 +89,17 @@ class Mechanism:
         return tuple(one for link in links for one in link.counted(self.model.planar))
 
     @property
+    def fixed(self) -> frozenset[Body]:
+        """The ground and the bodies that are joined to it so that they cannot move."""
+        joints = [x.joint for x in (*self.contacts, *self.ideal)]
+        welded = [set(x.bodies) for x in joints if x is not None and x.is_rigid]
+        found, count = {self.model.ground}, 0
+        while len(found) > count:
+            count = len(found)
+            found.update(*(both for both in welded if both & found))
+        return frozenset(found)
+
+    @property
     def is_driven(self) -> bool:
         """Whether liaisons that depend on time do work, which nobody counts."""
         return is_driven(self.model)

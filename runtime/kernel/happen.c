@@ -271,6 +271,7 @@ static int fire_whens(const instant *in, int first, int *happened) {
   frot_state *s = in->s;
   const double *d = s->data + in->l.d;
   double before[3], after[3];
+  int ended = FROT_OK;
   *happened = 0;
   memcpy(in->w->events.was, in->w->events.before, sizeof(double) * (size_t)m->n_conditions);
   for (int round = 0;; round++) {
@@ -282,17 +283,17 @@ static int fire_whens(const instant *in, int first, int *happened) {
     int status = FROT_OK;
     if (round == 0) status = frot_energies(m, s, in->w, in->t, in->q, in->v, d, before);
     if (status != FROT_OK) return frot_fail_evaluation(in->m, s, in->w, status, in->t);
-    status = update(in, begins, &changed);
+    ended = update(in, begins, &changed);
     *happened |= changed;
-    if (status != FROT_OK) return status;
-    if (!changed) break;
+    if (ended != FROT_OK && ended != FROT_TERMINATED) return ended;
+    if (!changed || ended != FROT_OK) break;
   }
   if (!*happened) return FROT_OK;
   /* what the text gives or takes is no part of the balance of the motion */
   int status = frot_energies(m, s, in->w, in->t, in->q, in->v, d, after);
   if (status != FROT_OK) return frot_fail_evaluation(in->m, s, in->w, status, in->t);
   s->energy += after[0] + after[1] - before[0] - before[1];
-  return FROT_OK;
+  return ended;
 }
 
 static int end_run(const instant *in) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "apart.h"
+#include "approach.h"
 #include "branch.h"
 #include "closest.h"
 #include "conditions.h"
@@ -102,30 +103,15 @@ static int solve_statements(frot_opening *p, double *side) {
 }
 
 /* From a place where the statements hold to one where the liaisons do too; chooses the sides of the
- * contacts. Leaves w->core.gap there. */
+ * contacts. */
 static int put_together(frot_opening *p, double *side) {
-  const frot_model *m = p->m;
-  const frot_part *part = p->part;
-  frot_work *w = p->w;
-  int status;
   frot_choose_sides(p, side, 0);
   frot_take_liaisons(p);
   /* what cannot part may move a point over a line: its side is the one where it comes to be */
-  status = frot_solve_widely(p);
+  int status = frot_solve_widely(p);
   if (status != FROT_OK) return status;
   frot_choose_sides(p, side, 0);
-  for (;;) {
-    status = frot_solve_widely(p);
-    if (status != FROT_OK) return status;
-    frot_look_at_sides(p);
-    int added = 0;
-    for (int k = 0; k < part->n_contacts; k++) {
-      int i = part->contacts[k];
-      if (p->use[i] || m->contacts[i].reduced || !frot_has_normal(&m->contacts[i])) continue;
-      if (w->core.gap[i] < -FROT_TOUCH * frot_length_size(m, w, i, p->q)) p->use[i] = 1, added = 1;
-    }
-    if (!added) return FROT_OK;
-  }
+  return frot_keep_outside(p);
 }
 
 /* Keep coordinates and unknowns of blocks, or take them again. */
@@ -149,6 +135,24 @@ static void keep_place(const frot_opening *p, double *side, int again) {
   }
 }
 
+/* Put the place of the part outside of what it has come to be inside of since the sides were
+ * chosen, on the sides where it is now. */
+static int stay_outside(frot_opening *p, double *side) {
+  if (frot_look_at_part(p) != FROT_OK) return 0;
+  frot_choose_sides(p, side, 0);
+  return frot_keep_outside(p) == FROT_OK;
+}
+
+/* From a place that meets the guesses to the one that is nearest to the beginning and does too. */
+static int meet_nearest(frot_opening *p, double *side) {
+  frot_begin_as_met(p);
+  p->guessed = 1;
+  int met = frot_note_beginning(p) == FROT_OK && frot_solve_nearest(p) == FROT_OK &&
+            frot_come_closest(p) == FROT_OK;
+  p->guessed = 0;
+  return met && stay_outside(p, side);
+}
+
 /* Whether another place of the part, put together with its own sides, misses its guesses by far
  * less than `missed`: then the nearest of that kind to where the search began. */
 static int put_elsewhere(frot_opening *p, double *side, double missed) {
@@ -159,6 +163,7 @@ static int put_elsewhere(frot_opening *p, double *side, double missed) {
   double *best = p->w->opening.other, *nearest = best + p->n_own + p->part->ny;
   double other = frot_least_missed(p);
   if (!(other < sqrt(FROT_GUESS_LESS) * missed)) return 0;
+  if (other == 0) return meet_nearest(p, side);
   copy_place(p, best, 0);
   frot_begin_as_met(p);
   int status = frot_note_beginning(p) == FROT_OK ? frot_come_closest(p) : FROT_NAN;
@@ -167,7 +172,7 @@ static int put_elsewhere(frot_opening *p, double *side, double missed) {
   int same = status == FROT_OK && !(other < sqrt(FROT_GUESS_LESS) * frot_least_missed(p));
   frot_clear_opening(p);
   copy_place(p, same ? nearest : best, 1);
-  return frot_solve_nearest(p) == FROT_OK;
+  return frot_solve_nearest(p) == FROT_OK && stay_outside(p, side);
 }
 
 /* Where the place of the part that is found misses the guesses, another one if that misses them by
@@ -178,7 +183,7 @@ static int look_elsewhere(frot_opening *p, double *side, int status) {
   keep_place(p, side, 0);
   double missed = status == FROT_OK ? frot_least_missed(p) : INFINITY;
   /* the way on from it may have led to where they are met */
-  int found = missed > 0 ? put_elsewhere(p, side, missed) : frot_solve_nearest(p) == FROT_OK;
+  int found = missed > 0 ? put_elsewhere(p, side, missed) : meet_nearest(p, side);
   if (found) return FROT_OK;
   frot_clear_opening(p);
   keep_place(p, side, 1);
@@ -242,31 +247,12 @@ static int solve_positions(frot_opening *p, double *side, int stay) {
 
 /* Speeds of a part; opens contacts that separate. */
 static int move_part(frot_opening *p, frot_contact_mode *modes) {
-  const frot_model *m = p->m;
-  frot_work *w = p->w;
   int status = frot_follow_guessed_speeds(p);
-  if (status == FROT_OK && p->part->n_contacts > 0) { /* what speeds are measured by below */
+  if (status == FROT_OK && p->part->n_contacts > 0) { /* what speeds are measured by */
     status = frot_opening_metric(p);
     if (status != FROT_OK) return frot_no_number(p, status);
   }
-  for (; status == FROT_OK;) {
-    status = frot_solve_nearest(p);
-    if (status != FROT_OK) return status;
-    int added = 0;
-    for (int k = 0; k < p->part->n_contacts; k++) {
-      int i = p->part->contacts[k], row = m->contacts[i].row_n;
-      const frot_contact *contact = &m->contacts[i];
-      if (p->use[i] || contact->reduced || !frot_has_normal(contact) || !modes[i].closed) continue;
-      double size = DBL_EPSILON * frot_row_size(m, w, row, p->v) +
-                    FROT_NO_DIGIT * frot_row_speed(m, w, row, p->v);
-      if (w->core.rate[row] > size)
-        modes[i].closed = 0; /* it leaves */
-      else if (w->core.rate[row] < -size)
-        p->use[i] = 1, added = 1;
-    }
-    if (!added) return FROT_OK;
-  }
-  return status;
+  return status == FROT_OK ? frot_stop_approach(p, modes) : status;
 }
 
 /* All speeds, part by part. */

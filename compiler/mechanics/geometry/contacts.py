@@ -14,13 +14,14 @@ from frot.compiler.mechanics.geometry.ended import (
     track_to_ends,
 )
 from frot.compiler.mechanics.geometry.paths import slope_at
+from frot.compiler.mechanics.geometry.sides import sides_of
 from frot.compiler.mechanics.geometry.touches import is_closed, touch
 from frot.compiler.mechanics.geometry.tracking import Track, on_side, track
 from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.link import Geometry, Reaction, point_body
 from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
-from frot.compiler.mechanics.spatial import Pose, X, Y, Z, cross, nowhere
+from frot.compiler.mechanics.spatial import Pose, Z, cross, nowhere
 from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import World
 from frot.dsl.data.classes import dataclass, field, replace
@@ -28,19 +29,14 @@ from frot.dsl.data.classes import dataclass, field, replace
 if TYPE_CHECKING:
     from frot.compiler.mechanics.geometry.contact import Contact
 
-STANDARD_GRAVITY = 9.81
-DOWN = {"+x": X, "-x": -X, "+y": Y, "-y": -Y, "+z": Z, "-z": -Z}
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ContactGeometry(Geometry):
     """A contact as functions of the coordinates.
 
     `line.normal` points to the left of the line's direction; `side`, chosen once, multiplies it by
-    the side of the body. `gap` >= 0 while apart, `approach` its rate. `witness` are the three
-    numbers the first of which that is not zero has the sign of the side: height of the point or of
-    the rim's centre over the line, part of the normal that is against gravity, height of the body's
-    G. `reach` is the size of
+    the side of the body. `gap` >= 0 while apart, `approach` its rate. `witness`: see sides.py.
+    `reach` is the size of
     the lengths that the gap is made of beside the coordinates, even where they cancel out. `slip`
     and `roll` are the velocity of the body's material point relative to the line's, along the
     line's direction, and the relative angular velocity. `lengths`: of a thread, by name.
@@ -141,31 +137,6 @@ class ContactGeometry(Geometry):
         raise KeyError(name)
 
 
-def _witness(contact: Contact, line: Line, kinematics: Kinematics, world: World) -> ca.SX:
-    """What chooses the side.
-
-    |n . (c - o)| - r has a corner on the line, so the gap is s n . (c - o) - r, with the sign s
-    that the product has where the run begins: s n points to the body, which never gets through. On
-    the line itself the side is outside of a body with sides, else up, then that of G; of what rests
-    with its line on the ground down.
-    The ground is below its own line, whatever the start says, and a point that cannot leave its
-    line has its normal to the left.
-    """
-    if contact.floor or contact.keeps_left:
-        return ca.SX.ones(3)
-    centre = kinematics.position(contact.point)
-    middle = kinematics.position(point_body(contact.point))
-    up = ca.dot(line.normal, _natural(contact, world, kinematics))
-    if contact.track.figure.has_ends:  # of what is solid the outside comes first
-        inwards = ca.dot(
-            line.normal, kinematics.position(point_body(contact.track.point)) - line.through
-        )
-        least, largest = contact.track.figure.ends(kinematics.fixed.lower)
-        up = ca.if_else(ca.fabs(inwards) > AT_END * (largest - least), -ca.sign(inwards), up)
-    height, own = (ca.dot(line.normal, x - line.through) for x in (centre, middle))
-    return ca.vertcat(height, up, own)
-
-
 def _reach(contact: Contact, line: Line, kinematics: Kinematics) -> ca.SX:
     """Size of the vectors from the bodies' coordinates to the point and to the line."""
     base = point_body(contact.track.point)
@@ -178,30 +149,6 @@ def _reach(contact: Contact, line: Line, kinematics: Kinematics) -> ca.SX:
     return ca.dot(ca.fabs(line.normal), sizes) + ca.dot(
         ca.fabs(turn @ line.normal), ca.fabs(through)
     )
-
-
-def gravity(world: World, kinematics: Kinematics) -> ca.SX:
-    """Acceleration of free fall (3)."""
-    given = world.gravity
-    size = ca.SX(STANDARD_GRAVITY) if given is None else kinematics.fixed.lower(given)
-    if isinstance(world.down, str):
-        return ca.sparsify(size * DOWN[world.down])
-    way = ca.densify(kinematics.fixed.lower(world.down))
-    way = ca.vertcat(way, ca.SX.zeros(3 - way.numel()))
-    return ca.sparsify(size * way / ca.norm_2(way))
-
-
-def _upward(world: World, kinematics: Kinematics) -> ca.SX:
-    """Unit vector against gravity, zero without gravity."""
-    fall = gravity(world, kinematics)
-    size = ca.sqrt(ca.sumsqr(fall))
-    return -fall / ca.if_else(size > 0, size, 1)
-
-
-def _natural(contact: Contact, world: World, kinematics: Kinematics) -> ca.SX:
-    """Where what touches a line is meant to be: above it, but what is fixed below what moves."""
-    up = _upward(world, kinematics)
-    return up if point_body(contact.point).shape is not None else -up
 
 
 def contact_geometry(
@@ -252,7 +199,7 @@ def _on_line(
         side=side,
         gap=side * height - radius,
         approach=side * ca.dot(line.normal, nearing),
-        witness=_witness(contact, line, kinematics, world),
+        witness=sides_of(contact, line, height, kinematics, world),
         reach=radius + _reach(contact, line, kinematics),
         slip=ca.dot(line.direction, apart),
         roll=ca.dot(Z, turning),
@@ -286,7 +233,7 @@ def _on_segment(
         side=side,
         gap=ca.if_else(one.ended, way, side * ca.dot(line.normal, apart)) - radius,
         approach=ca.dot(normal, body.velocity_of(centre) - on_base),
-        witness=_witness(contact, line, kinematics, world),
+        witness=sides_of(contact, line, ca.dot(line.normal, apart), kinematics, world),
         reach=radius + largest - least + _reach(contact, line, kinematics),
         slip=ca.dot(here.direction, slip),
         roll=ca.dot(Z, body.angular - base.angular),
@@ -341,22 +288,20 @@ def _on_curve(
         if a.has_ends:
             least, largest = a.ends(lower)
             abscissa = ca.fmin(ca.fmax(abscissa, least), largest)
-    normal, witness = side * found.normal, left * found.witness
+    normal = side * found.normal
     line = Line(found.place, cross(normal, Z), normal)
     apart, nearing, turning = _apart(contact, kinematics, found.place, found.place)
-    up = ca.dot(normal, _natural(contact, world, kinematics))
     sizes = kinematics.lengths_between(
         (point_body(contact.track.point), kinematics.local_point(contact.track.point)),
         (point_body(contact.point), kinematics.local_point(contact.point)),
     )
-    kept = contact.keeps_left
     return ContactGeometry(
         contact=contact,
         line=line,
         side=side,
         gap=found.gap,
         approach=ca.dot(found.normal, nearing) + found.own,
-        witness=ca.SX.ones(3) if kept else ca.vertcat(witness, up, witness),
+        witness=sides_of(contact, line, left * found.witness, kinematics, world),
         reach=found.size + ca.dot(ca.fabs(normal), sizes),
         slip=ca.dot(line.direction, apart + found.drift),
         roll=ca.dot(Z, turning),

@@ -145,6 +145,13 @@ class Figure:
         """What is zero on it, at a place (3) in its axes, and grows outwards."""
         raise NotImplementedError
 
+    def beyond(self, x: ca.SX, lower: Lower) -> ca.SX | None:
+        """A length that has the sign of the side of a closed curve of the plane: outside +1.
+
+        Of the place (3) in its axes; None of what is not known to be closed.
+        """
+        return None
+
     def radius_in(self, lower: Lower) -> ca.SX:
         """The radius of what is round about its place; zero of a point or a line."""
         raise NotImplementedError

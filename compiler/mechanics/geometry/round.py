@@ -54,6 +54,10 @@ class Ball(Figure):
         """The distance from the centre, less the radius."""
         return ca.sqrt(ca.sumsqr(x)) - lower(self.radius)
 
+    def beyond(self, x: ca.SX, lower: Lower) -> ca.SX:
+        """The same."""
+        return self.function(x, lower)
+
     def radius_in(self, lower: Lower) -> ca.SX:
         """About the centre."""
         return lower(self.radius)
@@ -163,6 +167,12 @@ class Oval(Figure):
     def beginnings(self, lower: Lower) -> list[ca.SX]:
         """All around."""
         return _all_around()
+
+    def beyond(self, x: ca.SX, lower: Lower) -> ca.SX:
+        """How far a place is beyond the similar ellipse through it, measured along an axis."""
+        (a, first), (b, second) = self.semi_axes(lower)
+        part = ca.sqrt((ca.dot(first, x) / a) ** 2 + (ca.dot(second, x) / b) ** 2)
+        return (part - 1) * ca.fmin(a, b)
 
     def spread(self, pose: Pose, lower: Lower) -> ca.SX:
         """A^2 e e' + b^2 f f': an ellipsoid without thickness."""

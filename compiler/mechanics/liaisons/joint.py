@@ -49,6 +49,11 @@ class Joint(Link):
         return self
 
     @property
+    def is_rigid(self) -> bool:
+        """Whether it joins two bodies to one."""
+        return self.carries and not self.motions
+
+    @property
     def ends(self) -> tuple[Point, Point]:
         """Its places."""
         return self.a, self.b

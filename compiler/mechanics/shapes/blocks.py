@@ -98,6 +98,10 @@ class Box(Shape):
         )
         return Placed(centre, Flat(Axis(normal), False, borders))
 
+    def outside(self, part: BodyGeometry, lower: Lower) -> ca.SX:
+        """The left of each edge."""
+        return ca.SX(1)
+
     def corners(self, face: BodyGeometry) -> tuple[BodyPoint, ...]:
         """Four of a face, two of an edge."""
         planar = face.body.arguments["size"].type.shape[0] == 2

@@ -36,6 +36,10 @@ class Disc(_Round):
         about_z = 0.5 * lower(body.arguments["mass"]) * lower(body.arguments["radius"]) ** 2
         return principal(about_z / 2, about_z / 2, about_z)
 
+    def outside(self, part: BodyGeometry, lower: Lower) -> ca.SX:
+        """The left of a circle is its inside."""
+        return ca.SX(-1)
+
 
 class Ring(_Round):
     """A thin ring: all mass at the radius."""
@@ -63,6 +67,10 @@ class Ellipse(Shape):
         given = part.body.arguments
         return at_centre(part, curves.Oval(Axis("z"), given["a"], given["b"]))
 
+    def outside(self, part: BodyGeometry, lower: Lower) -> ca.SX:
+        """The left of an ellipse is its inside."""
+        return ca.SX(-1)
+
 
 class Polygon(Shape):
     """A homogeneous lamina; its corners in order, G is its centroid."""
@@ -85,7 +93,7 @@ class Polygon(Shape):
         return principal(ca.SX(0), ca.SX(0), mass * (second / area - away))
 
     def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
-        """A side, from its second corner to its first: what is inside is to its right."""
+        """A side, from its first corner to its second."""
         corners = self.corners(part)
         if not corners:
             return None
@@ -94,6 +102,11 @@ class Polygon(Shape):
         ends = [element(vertices, item_of(x.name, "corners") - 1, span) for x in (second, first)]
         along = Binary("-", ends[0], ends[1], ends[0].type, span)
         return Placed(first, Segment(Axis(along), True))
+
+    def outside(self, part: BodyGeometry, lower: Lower) -> ca.SX:
+        """The right of each side where the corners go round counter-clockwise, else the left."""
+        area, *_ = _areas(lower(part.body.arguments["vertices"]))
+        return -ca.sign(area)
 
     def corners(self, face: BodyGeometry) -> tuple[BodyPoint, ...]:
         """The two ends of `sides[k]`."""

@@ -24,6 +24,10 @@ class Shape:
         """The figure of a rim, a surface, a face, ...; None of one that has no figure yet."""
         return None
 
+    def outside(self, part: BodyGeometry, lower: Lower) -> ca.SX:
+        """In the plane the side of a curve that its matter leaves free: +1 left, 0 both."""
+        return ca.SX(0)
+
     def corners(self, face: BodyGeometry) -> tuple[BodyPoint, ...]:
         """The corners of a face, or of a side; none of what is neither."""
         return ()
