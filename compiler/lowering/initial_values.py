@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 import casadi as ca
 from frot.compiler.equations.before import whole
 from frot.compiler.equations.chains import replace_known
-from frot.compiler.equations.initial_rates import at_given_speeds, finds_places
+from frot.compiler.equations.initial_rates import finds_places, given_speeds, holds_at_rest
 from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
@@ -43,7 +43,8 @@ class Initial:
     """Outputs of the functions of the start, and the statements behind.
 
     `direct`: the scalar equations on positions that hold where the search begins, whatever is
-    guessed. `vectors`: of each guessed scalar the first item of its vector.
+    guessed. `optional`: those that hold in any equilibrium, and that the others need not leave
+    open. `vectors`: of each guessed scalar the first item of its vector.
     `guessed_dimensions`: of each guess of a speed.
     """
 
@@ -55,6 +56,7 @@ class Initial:
     position_statement: tuple[int, ...]
     velocity_statement: tuple[int, ...]
     direct: tuple[bool, ...]
+    optional: tuple[bool, ...]
     guessed: list[ca.SX]
     vectors: tuple[int, ...]
     guessed_speeds: list[ca.SX]
@@ -65,7 +67,8 @@ class Initial:
 class _Residual:
     """A statement that something is zero; `only`: the one unknown that is to make it so.
 
-    `solved`: it is on an acceleration or a reaction. `statement` s < 0 is that of ~s, which is none
+    `solved`: it is on an acceleration or a reaction, of which `implicit` speaks. `optional`: it is
+    one of places where they can hold, else one of speeds. `statement` s < 0 is that of ~s, which is none
     of the text, but keeps a quaternion's length or an angle within half a turn of its count.
     `direct`: it gives a state its value, where the search begins.
     """
@@ -75,6 +78,8 @@ class _Residual:
     statement: int
     only: ca.SX | None = None
     solved: bool = False
+    implicit: ca.SX | None = None
+    optional: bool = False
     direct: bool = False
 
 
@@ -146,6 +151,7 @@ def lower_initial(
         position_statement=tuple(r.statement for r in position),
         velocity_statement=tuple(r.statement for r in velocity),
         direct=tuple(r.statement < 0 or r.direct for r in position),
+        optional=tuple(r.optional for r in position),
         guessed=guessed,
         vectors=vectors,
         guessed_speeds=moved,
@@ -160,15 +166,19 @@ def _placed(
     statements: list[Statement],
     log: Log,
 ) -> list[_Residual]:
-    """The statements, where those on accelerations that find places hold at given speeds."""
+    """The statements, where those on accelerations that find places hold at given speeds.
+
+    One that holds in any equilibrium is optional among those on places where others find them: a
+    chain has fewer freedoms than links that are at rest.
+    """
     of_places = [r.value for r in found if not r.solved and not _depends(r.value, system, system.v)]
     of_speeds = [r.value for r in found if not r.solved and _depends(r.value, system, system.v)]
+    speeds = given_speeds(of_speeds, direct, system) if any(r.solved for r in found) else None
     placed: list[_Residual] = []
     for residual in found:
         moves = residual.solved and _depends(residual.value, system, system.v)
         if moves and finds_places(residual.value, of_places, system):
-            value = at_given_speeds(residual.value, of_speeds, direct, system)
-            if value is None:
+            if speeds is None:
                 log.report(
                     "E0602",
                     "this initial statement is to find places, at speeds that follow from other "
@@ -177,11 +187,18 @@ def _placed(
                     help="state these speeds one by one, or the places",
                 )
                 continue
-            residual = replace(residual, value=value)
+            residual = _at(residual, speeds)
+        elif moves and speeds is not None and holds_at_rest(residual.implicit, speeds, system):
+            placed.append(replace(_at(residual, speeds), optional=True))
         if residual.solved and not _depends(residual.value, system, system.v):
             of_places.append(residual.value)
         placed.append(residual)
     return placed
+
+
+def _at(residual: _Residual, speeds: Mapping[int, ca.SX]) -> _Residual:
+    value, size = (replace_known(x, speeds) for x in (residual.value, residual.size))
+    return replace(residual, value=value, size=size)
 
 
 def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Link]]:
@@ -254,7 +271,8 @@ def _residuals(
     settled = system.reduced.variables.settled
     left = system.resolve(settled(looking.lower(equation.left)))
     right = system.resolve(settled(looking.lower(equation.right)))
-    solved = ca.depends_on(left - right, ca.vertcat(system.z, system.lam))
+    implicit = left - right
+    solved = ca.depends_on(implicit, ca.vertcat(system.z, system.lam))
     left, right = explicit(left), explicit(right)
     difference = left - right
     if any(x.element_hash() in later for x in ca.symvar(difference)):
@@ -267,10 +285,16 @@ def _residuals(
         )
         return []
     sizes = ca.fabs(left) + ca.fabs(right)
+    if solved:
+        # An acceleration is zero where its terms cancel.
+        sizes += _size(difference, system)
     return [
-        _Residual(value, size, index, solved=solved)
-        for value, size in zip(
-            scalars(difference), scalars(ca.SX.zeros(difference.shape) + sizes), strict=True
+        _Residual(value, size, index, solved=solved, implicit=own if solved else None)
+        for value, size, own in zip(
+            scalars(difference),
+            scalars(ca.SX.zeros(difference.shape) + sizes),
+            scalars(implicit),
+            strict=True,
         )
     ]
 

@@ -206,16 +206,23 @@ static int solve_part(frot_opening *p, double *side) {
   return several ? look_elsewhere(p, side, status) : status;
 }
 
-/* The coordinates of a part, from where its search begins or, to `stay`, from where they are. */
+static int has_optional(const frot_opening *p) {
+  for (int i = 0; i < p->part->n_stated; i++)
+    if (p->m->position_optional[p->part->stated[i]]) return 1;
+  return 0;
+}
+
+/* The coordinates of a part, from where its search begins or, to `stay`, from where they are: at
+ * first near there, then widely; with all statements, then without those that are optional. */
 static int place_part(frot_opening *p, double *side, int stay) {
-  if (!stay) begin_part(p);
-  int status = solve_part(p, side);
-  if (status != FROT_INITIAL) return status;
-  frot_clear_opening(p);
-  begin_part(p);
-  p->wide = 1;
-  status = solve_part(p, side);
-  p->wide = 0;
+  int status = FROT_INITIAL;
+  for (int k = has_optional(p) ? 0 : 2; k < 4 && status == FROT_INITIAL; k++) {
+    if (p->s->phase == FROT_FAULTED) frot_clear_opening(p), stay = 0;
+    if (!stay) begin_part(p);
+    p->fewest = k / 2, p->wide = k % 2;
+    status = solve_part(p, side);
+  }
+  p->wide = p->fewest = 0;
   if (status == FROT_INITIAL && p->s->fault.item < 0) frot_tell_apart(p);
   return status;
 }

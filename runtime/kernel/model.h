@@ -166,6 +166,8 @@ typedef struct {
   const int *velocity_statement;
   /* n_position: 1 where a statement holds where the search begins, whatever is guessed */
   const unsigned char *position_direct;
+  /* n_position: 1 where a statement on accelerations is left to speeds if no places meet it too */
+  const unsigned char *position_optional;
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;      /* np: frot_type */
   /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t,

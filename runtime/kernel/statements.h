@@ -28,6 +28,7 @@ typedef struct {
   int alike;    /* what holds by one liaison counts alike, by the arms of the angles (damped.h) */
   int aim;      /* they are no equations, but what is to be missed least (descend.h) */
   int some;     /* of unknowns and equations those alone that in_turn.c says (damped.h) */
+  int fewest;   /* of the statements those alone that are not optional */
   int direct;   /* of the statements those alone that hold where the search begins */
   int timeless; /* of the statements those alone that hold at any time */
   double left;  /* the part of w->opening.left that may still be missed (gradual.h) */
