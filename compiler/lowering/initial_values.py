@@ -29,6 +29,10 @@ from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import Dimension
 
 
+# frot_balance of the kernel.
+_NO_BALANCE, _BALANCE, _OPTIONAL_BALANCE = range(3)
+
+
 @dataclass(frozen=True, slots=True)
 class Statement:
     """A statement that the kernel can blame: its text, its place and the unit of its sides."""
@@ -43,8 +47,8 @@ class Initial:
     """Outputs of the functions of the start, and the statements behind.
 
     `direct`: the scalar equations on positions that hold where the search begins, whatever is
-    guessed. `optional`: those that hold in any equilibrium, and that the others need not leave
-    open. `vectors`: of each guessed scalar the first item of its vector.
+    guessed; `balance`: which of them hold in any equilibrium (frot_balance). `vectors`: of each
+    guessed scalar the first item of its vector.
     `guessed_dimensions`: of each guess of a speed.
     """
 
@@ -56,7 +60,7 @@ class Initial:
     position_statement: tuple[int, ...]
     velocity_statement: tuple[int, ...]
     direct: tuple[bool, ...]
-    optional: tuple[bool, ...]
+    balance: tuple[int, ...]
     guessed: list[ca.SX]
     vectors: tuple[int, ...]
     guessed_speeds: list[ca.SX]
@@ -67,8 +71,7 @@ class Initial:
 class _Residual:
     """A statement that something is zero; `only`: the one unknown that is to make it so.
 
-    `solved`: it is on an acceleration or a reaction, of which `implicit` speaks. `optional`: it is
-    one of places where they can hold, else one of speeds. `statement` s < 0 is that of ~s, which is none
+    `solved`: it is on an acceleration or a reaction, of which `implicit` speaks. `statement` s < 0 is that of ~s, which is none
     of the text, but keeps a quaternion's length or an angle within half a turn of its count.
     `direct`: it gives a state its value, where the search begins.
     """
@@ -79,7 +82,7 @@ class _Residual:
     only: ca.SX | None = None
     solved: bool = False
     implicit: ca.SX | None = None
-    optional: bool = False
+    balance: int = _NO_BALANCE
     direct: bool = False
 
 
@@ -151,7 +154,7 @@ def lower_initial(
         position_statement=tuple(r.statement for r in position),
         velocity_statement=tuple(r.statement for r in velocity),
         direct=tuple(r.statement < 0 or r.direct for r in position),
-        optional=tuple(r.optional for r in position),
+        balance=tuple(r.balance for r in position),
         guessed=guessed,
         vectors=vectors,
         guessed_speeds=moved,
@@ -177,6 +180,9 @@ def _placed(
     placed: list[_Residual] = []
     for residual in found:
         moves = residual.solved and _depends(residual.value, system, system.v)
+        at_rest = speeds is not None and holds_at_rest(residual.implicit, speeds, system)
+        if at_rest:
+            residual = replace(residual, balance=_BALANCE)
         if moves and finds_places(residual.value, of_places, system):
             if speeds is None:
                 log.report(
@@ -188,10 +194,14 @@ def _placed(
                 )
                 continue
             residual = _at(residual, speeds)
-        elif moves and speeds is not None and holds_at_rest(residual.implicit, speeds, system):
-            placed.append(replace(_at(residual, speeds), optional=True))
+        elif moves and speeds is not None and at_rest:
+            placed.append(replace(_at(residual, speeds), balance=_OPTIONAL_BALANCE))
         if residual.solved and not _depends(residual.value, system, system.v):
             of_places.append(residual.value)
+        elif residual.solved:
+            # It is zero where terms of places cancel, which no speed is a factor of.
+            terms = residual.value if speeds is None else replace_known(residual.value, speeds)
+            residual = replace(residual, size=residual.size + _size(terms, system))
         placed.append(residual)
     return placed
 
@@ -285,9 +295,6 @@ def _residuals(
         )
         return []
     sizes = ca.fabs(left) + ca.fabs(right)
-    if solved:
-        # An acceleration is zero where its terms cancel.
-        sizes += _size(difference, system)
     return [
         _Residual(value, size, index, solved=solved, implicit=own if solved else None)
         for value, size, own in zip(

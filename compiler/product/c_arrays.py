@@ -54,7 +54,7 @@ def tables_of(
         ),
         "states": ("frot_load", [record(*x) for x in _states(system)]),
         "position_direct": ("unsigned char", _whole(lowered.direct)),
-        "position_optional": ("unsigned char", _whole(lowered.optional)),
+        "position_balance": ("unsigned char", _whole(lowered.balance)),
         "position_statement": ("int", _whole(lowered.position_statement)),
         "velocity_statement": ("int", _whole(lowered.velocity_statement)),
         "p_dependent": ("int", _whole(lowered.dependent)),

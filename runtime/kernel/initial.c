@@ -12,6 +12,7 @@
 #include "guesses.h"
 #include "nearest.h"
 #include "parts.h"
+#include "relaxation.h"
 #include "sides.h"
 #include "statements.h"
 #include "terms.h"
@@ -206,23 +207,42 @@ static int solve_part(frot_opening *p, double *side) {
   return several ? look_elsewhere(p, side, status) : status;
 }
 
+/* The coordinates of a part, from where its search begins or, to `stay`, from where they are: near
+ * there, or where the part comes to rest, or widely. */
+static int look_for_places(frot_opening *p, double *side, int stay) {
+  if (!stay) begin_part(p);
+  int status = solve_part(p, side);
+  if (status == FROT_INITIAL && frot_has_balance(p)) {
+    frot_fault fault = p->s->fault;
+    frot_clear_opening(p);
+    begin_part(p);
+    status = frot_relax(p) ? solve_part(p, side) : FROT_INITIAL;
+    if (status != FROT_OK) p->s->fault = fault, p->s->phase = FROT_FAULTED, status = FROT_INITIAL;
+  }
+  if (status != FROT_INITIAL) return status;
+  frot_clear_opening(p);
+  begin_part(p);
+  p->wide = 1;
+  status = solve_part(p, side);
+  p->wide = 0;
+  return status;
+}
+
 static int has_optional(const frot_opening *p) {
   for (int i = 0; i < p->part->n_stated; i++)
-    if (p->m->position_optional[p->part->stated[i]]) return 1;
+    if (p->m->position_balance[p->part->stated[i]] == FROT_OPTIONAL_BALANCE) return 1;
   return 0;
 }
 
-/* The coordinates of a part, from where its search begins or, to `stay`, from where they are: at
- * first near there, then widely; with all statements, then without those that are optional. */
+/* The coordinates of a part, with all statements or without those that are optional. */
 static int place_part(frot_opening *p, double *side, int stay) {
-  int status = FROT_INITIAL;
-  for (int k = has_optional(p) ? 0 : 2; k < 4 && status == FROT_INITIAL; k++) {
-    if (p->s->phase == FROT_FAULTED) frot_clear_opening(p), stay = 0;
-    if (!stay) begin_part(p);
-    p->fewest = k / 2, p->wide = k % 2;
-    status = solve_part(p, side);
+  int status = look_for_places(p, side, stay);
+  if (status == FROT_INITIAL && has_optional(p)) {
+    frot_clear_opening(p);
+    p->fewest = 1;
+    status = look_for_places(p, side, 0);
+    p->fewest = 0;
   }
-  p->wide = p->fewest = 0;
   if (status == FROT_INITIAL && p->s->fault.item < 0) frot_tell_apart(p);
   return status;
 }

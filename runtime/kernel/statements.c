@@ -136,7 +136,9 @@ static int append_ways(const frot_opening *p, int n) {
 /* Whether equation i, a statement, is left out. */
 static int is_left_out(const frot_opening *p, int i) {
   int statement = frot_statement_of(p, i);
-  if (!p->velocity && p->fewest && p->m->position_optional[p->part->stated[i]]) return 1;
+  int balance = p->velocity ? FROT_NO_BALANCE : p->m->position_balance[p->part->stated[i]];
+  if (p->fewest && balance == FROT_OPTIONAL_BALANCE) return 1;
+  if (p->unbalanced && balance != FROT_NO_BALANCE) return 1;
   if (p->direct && !p->m->position_direct[p->part->stated[i]]) return 1;
   return p->timeless && statement >= 0 && statement < p->m->n_statements - p->m->n_invariants;
 }

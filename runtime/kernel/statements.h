@@ -25,14 +25,15 @@ typedef struct {
   double scene;      /* largest value, term and residual where the search begins */
   int wide;          /* the search may begin elsewhere too */
   int guessed;       /* the guesses of places are equations too, after the others */
-  int alike;    /* what holds by one liaison counts alike, by the arms of the angles (damped.h) */
-  int aim;      /* they are no equations, but what is to be missed least (descend.h) */
-  int some;     /* of unknowns and equations those alone that in_turn.c says (damped.h) */
-  int fewest;   /* of the statements those alone that are not optional */
-  int direct;   /* of the statements those alone that hold where the search begins */
-  int timeless; /* of the statements those alone that hold at any time */
-  double left;  /* the part of w->opening.left that may still be missed (gradual.h) */
-  int ways;     /* speeds are to begin a motion in singular postures too (ways.h) */
+  int alike;      /* what holds by one liaison counts alike, by the arms of the angles (damped.h) */
+  int aim;        /* they are no equations, but what is to be missed least (descend.h) */
+  int some;       /* of unknowns and equations those alone that in_turn.c says (damped.h) */
+  int fewest;     /* of the statements those alone that are not optional */
+  int unbalanced; /* of the statements those alone that are not on accelerations */
+  int direct;     /* of the statements those alone that hold where the search begins */
+  int timeless;   /* of the statements those alone that hold at any time */
+  double left;    /* the part of w->opening.left that may still be missed (gradual.h) */
+  int ways;       /* speeds are to begin a motion in singular postures too (ways.h) */
 } frot_opening;
 
 /* The speed of the scene that moves change k, -1 where there is none. */
