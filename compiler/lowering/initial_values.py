@@ -29,8 +29,8 @@ from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import Dimension
 
 
-# frot_balance of the kernel.
-_NO_BALANCE, _BALANCE, _OPTIONAL_BALANCE = range(3)
+# frot_statement_kind of the kernel.
+_PLAIN, _BALANCE, _OPTIONAL, _COUNTER = range(4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +47,7 @@ class Initial:
     """Outputs of the functions of the start, and the statements behind.
 
     `direct`: the scalar equations on positions that hold where the search begins, whatever is
-    guessed; `balance`: which of them hold in any equilibrium (frot_balance). `vectors`: of each
+    guessed; `kinds`: what they are (frot_statement_kind). `vectors`: of each
     guessed scalar the first item of its vector.
     `guessed_dimensions`: of each guess of a speed.
     """
@@ -60,7 +60,7 @@ class Initial:
     position_statement: tuple[int, ...]
     velocity_statement: tuple[int, ...]
     direct: tuple[bool, ...]
-    balance: tuple[int, ...]
+    kinds: tuple[int, ...]
     guessed: list[ca.SX]
     vectors: tuple[int, ...]
     guessed_speeds: list[ca.SX]
@@ -82,7 +82,7 @@ class _Residual:
     only: ca.SX | None = None
     solved: bool = False
     implicit: ca.SX | None = None
-    balance: int = _NO_BALANCE
+    kind: int = _PLAIN
     direct: bool = False
 
 
@@ -129,7 +129,7 @@ def lower_initial(
         statements.append(Statement(text, span, "1"))
     for counter, angle, link in _counted(system):
         own = ca.atan2(ca.sin(angle - counter), ca.cos(angle - counter))
-        found.append(_Residual(own, ca.SX(1), ~len(statements), counter))
+        found.append(_Residual(own, ca.SX(1), ~len(statements), counter, kind=_COUNTER))
         text = f"the turns of {link.liaison.name}"
         statements.append(Statement(text, link.liaison.span, "1"))
     for value, origin in zip(
@@ -154,7 +154,7 @@ def lower_initial(
         position_statement=tuple(r.statement for r in position),
         velocity_statement=tuple(r.statement for r in velocity),
         direct=tuple(r.statement < 0 or r.direct for r in position),
-        balance=tuple(r.balance for r in position),
+        kinds=tuple(r.kind for r in position),
         guessed=guessed,
         vectors=vectors,
         guessed_speeds=moved,
@@ -182,7 +182,7 @@ def _placed(
         moves = residual.solved and _depends(residual.value, system, system.v)
         at_rest = speeds is not None and holds_at_rest(residual.implicit, speeds, system)
         if at_rest:
-            residual = replace(residual, balance=_BALANCE)
+            residual = replace(residual, kind=_BALANCE)
         if moves and finds_places(residual.value, of_places, system):
             if speeds is None:
                 log.report(
@@ -195,7 +195,7 @@ def _placed(
                 continue
             residual = _at(residual, speeds)
         elif moves and speeds is not None and at_rest:
-            placed.append(replace(_at(residual, speeds), balance=_OPTIONAL_BALANCE))
+            placed.append(replace(_at(residual, speeds), kind=_OPTIONAL))
         if residual.solved and not _depends(residual.value, system, system.v):
             of_places.append(residual.value)
         elif residual.solved:
@@ -243,6 +243,7 @@ def _statement(equation: InitialEquation) -> Statement:
     from frot.compiler.product.units import unit_of
 
     text = " ".join(equation.span.text.split()).rstrip("; ")
+    text = f"{text} {equation.place}".rstrip()
     return Statement(text, equation.span, unit_of(equation.left.type.dimension).name)
 
 

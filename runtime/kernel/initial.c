@@ -230,7 +230,7 @@ static int look_for_places(frot_opening *p, double *side, int stay) {
 
 static int has_optional(const frot_opening *p) {
   for (int i = 0; i < p->part->n_stated; i++)
-    if (p->m->position_balance[p->part->stated[i]] == FROT_OPTIONAL_BALANCE) return 1;
+    if (p->m->position_kind[p->part->stated[i]] == FROT_OPTIONAL) return 1;
   return 0;
 }
 

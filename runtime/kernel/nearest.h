@@ -27,6 +27,10 @@ void frot_row_in_metric(const frot_opening *p, const double *row, double *y);
 /* The length of the row of equation i in the units of the metric. */
 double frot_row_length(const frot_opening *p, int i);
 
+/* w->opening.row_weight <- one over the length of each row in the metric, of the items of a vector
+ * over that of the longest: one that is met with slope zero counts by what the others can do. */
+void frot_weigh_rows(const frot_opening *p);
+
 /* x <- x0 + part * L'^-1 y. Returns the largest change, and in *size the largest value. */
 double frot_move_opening(const frot_opening *p, const double *y, const double *x0, double part,
                          double *x, double *size);

@@ -24,8 +24,10 @@
 #define SETTLED 1e-4
 
 int frot_has_balance(const frot_opening *p) {
-  for (int i = 0; i < p->part->n_stated; i++)
-    if (p->m->position_balance[p->part->stated[i]] != FROT_NO_BALANCE) return 1;
+  for (int i = 0; i < p->part->n_stated; i++) {
+    int kind = p->m->position_kind[p->part->stated[i]];
+    if (kind == FROT_BALANCE || kind == FROT_OPTIONAL) return 1;
+  }
   return 0;
 }
 

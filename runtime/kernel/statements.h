@@ -18,6 +18,7 @@ typedef struct {
   const double *d;
   unsigned char *use;   /* per contact of the scene: its gap or its normal speed is to be zero */
   int velocity, n;      /* for speeds; equations of the last evaluation */
+  int n_contacts;       /* of them, after those that are stated, relations of contacts */
   const double *factor; /* of the metric of the changes that have a speed, of the given order */
   const double *basis;  /* the coordinates from which changes are counted (changes.h) */
   int order, attached;
@@ -69,6 +70,14 @@ static inline int frot_are_alike(const frot_opening *p, int i, int k) {
   return frot_is_equation(p, i) && frot_is_equation(p, k) && a->turns == b->turns &&
          strcmp(a->name, b->name) == 0;
 }
+
+/* Whether equation i gives a counter that no other equation speaks of: the counter follows from
+ * where the rest is, and says nothing of the way there. */
+int frot_is_follower(const frot_opening *p, int i);
+
+/* Whether equations i and k are items of one vector: of a statement, a guess, or of the lengths or
+ * the directions of a liaison. */
+int frot_are_items(const frot_opening *p, int i, int k);
 
 /* Whether equation i, which no unknown moves, holds: to rounding of lengths `reach`. */
 int frot_is_still(const frot_opening *p, int i, double reach);
