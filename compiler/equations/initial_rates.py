@@ -37,9 +37,7 @@ def given_speeds(
     return at if all(x.is_zero() for x in known) else None
 
 
-def holds_at_rest(
-    value: ca.SX | None, speeds: Mapping[int, ca.SX], system: Assembled
-) -> bool:
+def holds_at_rest(value: ca.SX | None, speeds: Mapping[int, ca.SX], system: Assembled) -> bool:
     """Whether a statement on accelerations alone is true of any equilibrium at these speeds."""
     unknown = ca.vertcat(system.z[system.nv :], system.lam)
     if value is None or (unknown.numel() and ca.depends_on(value, unknown)):

@@ -28,7 +28,6 @@ from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import Dimension
 
-
 # frot_statement_kind of the kernel.
 _PLAIN, _BALANCE, _OPTIONAL, _COUNTER = range(4)
 
@@ -71,8 +70,9 @@ class Initial:
 class _Residual:
     """A statement that something is zero; `only`: the one unknown that is to make it so.
 
-    `solved`: it is on an acceleration or a reaction, of which `implicit` speaks. `statement` s < 0 is that of ~s, which is none
-    of the text, but keeps a quaternion's length or an angle within half a turn of its count.
+    `solved`: it is on an acceleration or a reaction, of which `implicit` speaks. `statement` s < 0
+    is that of ~s, which is none of the text, but keeps a quaternion's length or an angle within
+    half a turn of its count. `kind`: frot_statement_kind.
     `direct`: it gives a state its value, where the search begins.
     """
 

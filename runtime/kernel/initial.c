@@ -212,7 +212,7 @@ static int solve_part(frot_opening *p, double *side) {
 static int look_for_places(frot_opening *p, double *side, int stay) {
   if (!stay) begin_part(p);
   int status = solve_part(p, side);
-  if (status == FROT_INITIAL && frot_has_balance(p)) {
+  if (status == FROT_INITIAL && frot_balance_of(p) != FROT_PLAIN) {
     frot_fault fault = p->s->fault;
     frot_clear_opening(p);
     begin_part(p);
@@ -228,16 +228,10 @@ static int look_for_places(frot_opening *p, double *side, int stay) {
   return status;
 }
 
-static int has_optional(const frot_opening *p) {
-  for (int i = 0; i < p->part->n_stated; i++)
-    if (p->m->position_kind[p->part->stated[i]] == FROT_OPTIONAL) return 1;
-  return 0;
-}
-
 /* The coordinates of a part, with all statements or without those that are optional. */
 static int place_part(frot_opening *p, double *side, int stay) {
   int status = look_for_places(p, side, stay);
-  if (status == FROT_INITIAL && has_optional(p)) {
+  if (status == FROT_INITIAL && frot_balance_of(p) == FROT_OPTIONAL) {
     frot_clear_opening(p);
     p->fewest = 1;
     status = look_for_places(p, side, 0);

@@ -131,8 +131,10 @@ double frot_move_opening(const frot_opening *p, const double *y, const double *x
 }
 
 void frot_begin_units(const frot_opening *p) {
-  double *unit = p->w->relations.unit;
-  for (int k = 0; k < p->n_own; k++) unit[k] = p->x[k] != 0 ? fabs(p->x[k]) : 1;
+  double *unit = p->w->relations.unit, largest = 0;
+  for (int k = 0; k < p->n_own; k++) largest = fmax(largest, fabs(p->x[k]));
+  for (int k = 0; k < p->n_own; k++)
+    unit[k] = fabs(p->x[k]) > DBL_EPSILON * largest ? fabs(p->x[k]) : 1;
   for (int i = 0; i < p->part->n_turns; i++)
     for (int k = 0; k < 4; k++) unit[p->w->opening.turns[i].at + k] = 1;
 }

@@ -15,7 +15,8 @@ int frot_solve_nearest(frot_opening *p);
  * rolls has no inertia, it is that of a place turned aside. */
 int frot_opening_metric(frot_opening *p);
 
-/* Units of the changes that no mass measures: the sizes of the present values. */
+/* Units of the changes that no mass measures: the sizes of the present values, 1 of those that are
+ * zero or rounding of the others. */
 void frot_begin_units(const frot_opening *p);
 
 /* y <- a change of the unknowns, in units in which its length is that of the metric. */

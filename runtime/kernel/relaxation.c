@@ -23,12 +23,13 @@
 /* Part of the first accelerations that is left at the end: Newton's method finds the place then. */
 #define SETTLED 1e-4
 
-int frot_has_balance(const frot_opening *p) {
+int frot_balance_of(const frot_opening *p) {
+  int found = FROT_PLAIN;
   for (int i = 0; i < p->part->n_stated; i++) {
     int kind = p->m->position_kind[p->part->stated[i]];
-    if (kind == FROT_BALANCE || kind == FROT_OPTIONAL) return 1;
+    if (kind == FROT_OPTIONAL || (kind == FROT_BALANCE && found == FROT_PLAIN)) found = kind;
   }
-  return 0;
+  return found;
 }
 
 /* a.b of speeds or accelerations (nv) of the part, in the metric of the mass. */

@@ -4,8 +4,9 @@
 
 #include "statements.h"
 
-/* Whether statements on accelerations find places of the part. */
-int frot_has_balance(const frot_opening *p);
+/* FROT_OPTIONAL where a statement of the part is that, FROT_BALANCE where one is on accelerations,
+ * else FROT_PLAIN. */
+int frot_balance_of(const frot_opening *p);
 
 /* From p->x to a place where the liaisons and the other statements hold, then along them to one
  * near a stable equilibrium. Returns 0 where none is found. */
