@@ -25,15 +25,22 @@ def finds_places(value: ca.SX, places: Sequence[ca.SX], system: Assembled) -> bo
     return int(ca.sprank(ca.DM(ca.vertcat(known, own).sparsity(), 1))) > before
 
 
-def at_given_speeds(
-    value: ca.SX, speeds: Sequence[ca.SX], given: Mapping[int, ca.SX], system: Assembled
-) -> ca.SX | None:
-    """The statement at the speeds that are stated, or at rest; None where others tell speeds.
+def given_speeds(
+    speeds: Sequence[ca.SX], given: Mapping[int, ca.SX], system: Assembled
+) -> dict[int, ca.SX] | None:
+    """The speeds that are stated, else zero; None where statements or liaisons give other ones.
 
     `speeds` are the statements on speeds, `given` the values that are stated one by one.
     """
     at = {v.element_hash(): given.get(v.element_hash(), ca.SX(0)) for v in scalars_of(system.v)}
-    told = [ca.simplify(replace_known(x, at)) for x in (*speeds, *scalars_of(system.rate))]
-    if not all(x.is_zero() for x in told):
-        return None
-    return replace_known(value, at)
+    known = [ca.simplify(replace_known(x, at)) for x in (*speeds, *scalars_of(system.rate))]
+    return at if all(x.is_zero() for x in known) else None
+
+
+def holds_at_rest(value: ca.SX | None, speeds: Mapping[int, ca.SX], system: Assembled) -> bool:
+    """Whether a statement on accelerations alone is true of any equilibrium at these speeds."""
+    unknown = ca.vertcat(system.z[system.nv :], system.lam)
+    if value is None or (unknown.numel() and ca.depends_on(value, unknown)):
+        return False
+    none = {z.element_hash(): ca.SX(0) for z in scalars_of(system.z)}
+    return bool(ca.simplify(replace_known(value, {**speeds, **none})).is_zero())

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 import casadi as ca
 from frot.compiler.equations.before import whole
 from frot.compiler.equations.chains import replace_known
-from frot.compiler.equations.initial_rates import at_given_speeds, finds_places
+from frot.compiler.equations.initial_rates import finds_places, given_speeds, holds_at_rest
 from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
@@ -28,6 +28,9 @@ from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import Dimension
 
+# frot_statement_kind of the kernel.
+_PLAIN, _BALANCE, _OPTIONAL, _COUNTER = range(4)
+
 
 @dataclass(frozen=True, slots=True)
 class Statement:
@@ -43,7 +46,8 @@ class Initial:
     """Outputs of the functions of the start, and the statements behind.
 
     `direct`: the scalar equations on positions that hold where the search begins, whatever is
-    guessed. `vectors`: of each guessed scalar the first item of its vector.
+    guessed; `kinds`: what they are (frot_statement_kind). `vectors`: of each
+    guessed scalar the first item of its vector.
     `guessed_dimensions`: of each guess of a speed.
     """
 
@@ -55,6 +59,7 @@ class Initial:
     position_statement: tuple[int, ...]
     velocity_statement: tuple[int, ...]
     direct: tuple[bool, ...]
+    kinds: tuple[int, ...]
     guessed: list[ca.SX]
     vectors: tuple[int, ...]
     guessed_speeds: list[ca.SX]
@@ -65,8 +70,9 @@ class Initial:
 class _Residual:
     """A statement that something is zero; `only`: the one unknown that is to make it so.
 
-    `solved`: it is on an acceleration or a reaction. `statement` s < 0 is that of ~s, which is none
-    of the text, but keeps a quaternion's length or an angle within half a turn of its count.
+    `solved`: it is on an acceleration or a reaction, of which `implicit` speaks. `statement` s < 0
+    is that of ~s, which is none of the text, but keeps a quaternion's length or an angle within
+    half a turn of its count. `kind`: frot_statement_kind.
     `direct`: it gives a state its value, where the search begins.
     """
 
@@ -75,6 +81,8 @@ class _Residual:
     statement: int
     only: ca.SX | None = None
     solved: bool = False
+    implicit: ca.SX | None = None
+    kind: int = _PLAIN
     direct: bool = False
 
 
@@ -121,7 +129,7 @@ def lower_initial(
         statements.append(Statement(text, span, "1"))
     for counter, angle, link in _counted(system):
         own = ca.atan2(ca.sin(angle - counter), ca.cos(angle - counter))
-        found.append(_Residual(own, ca.SX(1), ~len(statements), counter))
+        found.append(_Residual(own, ca.SX(1), ~len(statements), counter, kind=_COUNTER))
         text = f"the turns of {link.liaison.name}"
         statements.append(Statement(text, link.liaison.span, "1"))
     for value, origin in zip(
@@ -146,6 +154,7 @@ def lower_initial(
         position_statement=tuple(r.statement for r in position),
         velocity_statement=tuple(r.statement for r in velocity),
         direct=tuple(r.statement < 0 or r.direct for r in position),
+        kinds=tuple(r.kind for r in position),
         guessed=guessed,
         vectors=vectors,
         guessed_speeds=moved,
@@ -160,15 +169,22 @@ def _placed(
     statements: list[Statement],
     log: Log,
 ) -> list[_Residual]:
-    """The statements, where those on accelerations that find places hold at given speeds."""
+    """The statements, where those on accelerations that find places hold at given speeds.
+
+    One that holds in any equilibrium is optional among those on places where others find them: a
+    chain has fewer freedoms than links that are at rest.
+    """
     of_places = [r.value for r in found if not r.solved and not _depends(r.value, system, system.v)]
     of_speeds = [r.value for r in found if not r.solved and _depends(r.value, system, system.v)]
+    speeds = given_speeds(of_speeds, direct, system) if any(r.solved for r in found) else None
     placed: list[_Residual] = []
     for residual in found:
         moves = residual.solved and _depends(residual.value, system, system.v)
+        at_rest = speeds is not None and holds_at_rest(residual.implicit, speeds, system)
+        if at_rest:
+            residual = replace(residual, kind=_BALANCE)
         if moves and finds_places(residual.value, of_places, system):
-            value = at_given_speeds(residual.value, of_speeds, direct, system)
-            if value is None:
+            if speeds is None:
                 log.report(
                     "E0602",
                     "this initial statement is to find places, at speeds that follow from other "
@@ -177,11 +193,22 @@ def _placed(
                     help="state these speeds one by one, or the places",
                 )
                 continue
-            residual = replace(residual, value=value)
+            residual = _at(residual, speeds)
+        elif moves and speeds is not None and at_rest:
+            placed.append(replace(_at(residual, speeds), kind=_OPTIONAL))
         if residual.solved and not _depends(residual.value, system, system.v):
             of_places.append(residual.value)
+        elif residual.solved:
+            # It is zero where terms of places cancel, which no speed is a factor of.
+            terms = residual.value if speeds is None else replace_known(residual.value, speeds)
+            residual = replace(residual, size=residual.size + _size(terms, system))
         placed.append(residual)
     return placed
+
+
+def _at(residual: _Residual, speeds: Mapping[int, ca.SX]) -> _Residual:
+    value, size = (replace_known(x, speeds) for x in (residual.value, residual.size))
+    return replace(residual, value=value, size=size)
 
 
 def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Link]]:
@@ -216,6 +243,7 @@ def _statement(equation: InitialEquation) -> Statement:
     from frot.compiler.product.units import unit_of
 
     text = " ".join(equation.span.text.split()).rstrip("; ")
+    text = f"{text} {equation.place}".rstrip()
     return Statement(text, equation.span, unit_of(equation.left.type.dimension).name)
 
 
@@ -254,7 +282,8 @@ def _residuals(
     settled = system.reduced.variables.settled
     left = system.resolve(settled(looking.lower(equation.left)))
     right = system.resolve(settled(looking.lower(equation.right)))
-    solved = ca.depends_on(left - right, ca.vertcat(system.z, system.lam))
+    implicit = left - right
+    solved = ca.depends_on(implicit, ca.vertcat(system.z, system.lam))
     left, right = explicit(left), explicit(right)
     difference = left - right
     if any(x.element_hash() in later for x in ca.symvar(difference)):
@@ -268,9 +297,12 @@ def _residuals(
         return []
     sizes = ca.fabs(left) + ca.fabs(right)
     return [
-        _Residual(value, size, index, solved=solved)
-        for value, size in zip(
-            scalars(difference), scalars(ca.SX.zeros(difference.shape) + sizes), strict=True
+        _Residual(value, size, index, solved=solved, implicit=own if solved else None)
+        for value, size, own in zip(
+            scalars(difference),
+            scalars(ca.SX.zeros(difference.shape) + sizes),
+            scalars(implicit),
+            strict=True,
         )
     ]
 

@@ -72,6 +72,7 @@ class Lowered:
     velocity_statement: tuple[int, ...]
     n_guessed: int
     direct: tuple[bool, ...]
+    kinds_of_places: tuple[int, ...]
     n_followed: int
     row_depends: tuple[tuple[bool, ...], ...]
     dependent: tuple[bool, ...]
@@ -241,6 +242,7 @@ def lower(
         velocity_statement=initial.velocity_statement,
         n_guessed=initial.guessed[0].numel() if initial.guessed else 0,
         direct=initial.direct,
+        kinds_of_places=initial.kinds,
         n_followed=beginnings[0].numel() if beginnings else 0,
         row_depends=row_depends(system),
         dependent=tuple(bool(parameters_needed(parameter, s)) for parameter in s.parameters),

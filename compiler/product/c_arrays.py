@@ -61,6 +61,7 @@ def tables_of(
         ),
         "states": ("frot_load", [record(*x) for x in _states(system)]),
         "position_direct": ("unsigned char", _whole(lowered.direct)),
+        "position_kind": ("unsigned char", _whole(lowered.kinds_of_places)),
         "position_statement": ("int", _whole(lowered.position_statement)),
         "velocity_statement": ("int", _whole(lowered.velocity_statement)),
         "p_dependent": ("int", _whole(lowered.dependent)),

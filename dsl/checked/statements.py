@@ -97,9 +97,13 @@ class When:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class InitialEquation:
-    """`left = right` of the `initial` section; `guess` marks those that only guide."""
+    """`left = right` of the `initial` section; `guess` marks those that only guide.
+
+    `place` tells it from others of the same span: the round of its loop and its component.
+    """
 
     left: Expression
     right: Expression
     span: Span
     guess: bool = False
+    place: str = ""

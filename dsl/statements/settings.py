@@ -261,4 +261,16 @@ def _initial(
                 help="name a variable of a body, a frame or a liaison on one side",
             )
             return
-        scope.build.initial.append(checked.InitialEquation(first, second, span, guess))
+        made = checked.InitialEquation(first, second, span, guess, _place(scope))
+        scope.build.initial.append(made)
+
+
+def _place(scope: Scope) -> str:
+    """The round of the loop that a statement stands in, and its component, in words."""
+    rounds = [
+        f"{name} = {x.value:g}"
+        for name, x in scope.local.items()
+        if isinstance(x, checked.Literal) and isinstance(x.value, float)
+    ]
+    words = [f"for {', '.join(rounds)}"] if rounds else []
+    return " ".join([*words, f"in {scope.instance.name}"] if scope.instance.name else words)

@@ -72,13 +72,12 @@ static void weigh_alike(const frot_opening *p) {
 
 void frot_weigh_equations(const frot_opening *p) {
   const frot_relation_work *r = &p->w->relations;
-  if (p->alike) {
-    weigh_alike(p);
-    return;
-  }
+  double *weight = p->w->opening.row_weight;
+  if (p->alike) weigh_alike(p);
   for (int i = 0; i < p->n; i++) {
     double size = fmax(frot_statement_size(p, i), fabs(r->residual[i]));
-    p->w->opening.row_weight[i] = size > 0 ? 1 / size : 0;
+    if (!p->alike) weight[i] = size > 0 ? 1 / size : 0;
+    if (frot_is_follower(p, i)) weight[i] = 0;
   }
 }
 

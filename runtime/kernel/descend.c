@@ -60,13 +60,12 @@ static void turn_rows(const frot_opening *p, const descent *s, int rank, double 
 static void span_rows(const frot_opening *p, descent *s) {
   double *weight = p->w->opening.row_weight;
   int n = 0, ny = s->ny;
+  frot_weigh_rows(p);
   for (int j = 0; j < p->n_rows; j++) {
     int i = p->w->opening.rows[j];
     double *y = s->basis + ny * n;
-    frot_row_in_metric(p, p->w->relations.jacobian + s->nx * i, y);
-    double length = sqrt(frot_dot(y, y, ny));
-    weight[i] = length > 0 && isfinite(1 / length) ? 1 / length : 0;
     if (weight[i] == 0) continue;
+    frot_row_in_metric(p, p->w->relations.jacobian + s->nx * i, y);
     for (int k = 0; k < ny; k++) y[k] *= weight[i];
     s->row[n++] = i;
   }

@@ -16,6 +16,10 @@
 #define WHOLE_TURN 6.3
 /* From a beginning as near as this, in angles, the straight way leads to what is nearest. */
 #define BEND 1.0
+/* Beginnings beside each other are a Kronecker sequence. A change has one of so many strides: no
+ * multiple of the golden section is an integer, so that each change differs between beginnings. */
+#define GOLDEN 0.6180339887498949
+#define STRIDES 12
 
 /* The square root of what change i moves of mass or inertia. */
 static double moved_by(const frot_opening *p, int i) {
@@ -49,7 +53,7 @@ void frot_begin_elsewhere(frot_opening *p, int k, int alike) {
   span_turns(p, span);
   memset(changes, 0, sizeof(double) * (size_t)p->n_own);
   for (int i = 0; i < p->n_own; i++) {
-    double part = fmod((k / 2 + 1) * (0.3819660112501051 + 0.6180339887498949 * i), 1);
+    double part = fmod(GOLDEN * ((k / 2 + 1) * (1 + i % STRIDES) + i), 1);
     changes[i] = (k % 2 ? -1 : 1) * 3 * (0.1 + 0.9 * part) * unit_of(p, i, span, alike);
   }
   /* an orientation stays of length 1 */

@@ -13,6 +13,7 @@
 #include "guesses.h"
 #include "nearest.h"
 #include "parts.h"
+#include "relaxation.h"
 #include "sides.h"
 #include "statements.h"
 #include "terms.h"
@@ -211,16 +212,36 @@ static int solve_part(frot_opening *p, double *side) {
   return several ? look_elsewhere(p, side, status) : status;
 }
 
-/* The coordinates of a part, from where its search begins or, to `stay`, from where they are. */
-static int place_part(frot_opening *p, double *side, int stay) {
+/* The coordinates of a part, from where its search begins or, to `stay`, from where they are: near
+ * there, or where the part comes to rest, or widely. */
+static int look_for_places(frot_opening *p, double *side, int stay) {
   if (!stay) begin_part(p);
   int status = solve_part(p, side);
+  if (status == FROT_INITIAL && frot_balance_of(p) != FROT_PLAIN) {
+    frot_fault fault = p->s->fault;
+    frot_clear_opening(p);
+    begin_part(p);
+    status = frot_relax(p) ? solve_part(p, side) : FROT_INITIAL;
+    if (status != FROT_OK) p->s->fault = fault, p->s->phase = FROT_FAULTED, status = FROT_INITIAL;
+  }
   if (status != FROT_INITIAL) return status;
   frot_clear_opening(p);
   begin_part(p);
   p->wide = 1;
   status = solve_part(p, side);
   p->wide = 0;
+  return status;
+}
+
+/* The coordinates of a part, with all statements or without those that are optional. */
+static int place_part(frot_opening *p, double *side, int stay) {
+  int status = look_for_places(p, side, stay);
+  if (status == FROT_INITIAL && frot_balance_of(p) == FROT_OPTIONAL) {
+    frot_clear_opening(p);
+    p->fewest = 1;
+    status = look_for_places(p, side, 0);
+    p->fewest = 0;
+  }
   if (status == FROT_INITIAL && p->s->fault.item < 0) frot_tell_apart(p);
   return status;
 }

@@ -13,6 +13,16 @@ extern "C" {
 /* One scalar variable. */
 enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 3 };
 
+/* Statements on places. Those on accelerations may be true of any equilibrium; one that is optional
+ * is left to speeds if no places meet it too. A counter is an angle within half a turn of the one
+ * that it counts: the slopes speak of the counter alone. */
+enum frot_statement_kind {
+  FROT_PLAIN = 0,
+  FROT_BALANCE = 1,
+  FROT_OPTIONAL = 2,
+  FROT_COUNTER = 3
+};
+
 /* Inputs of the generated functions, in this order:
  *   t, q (nq), v (nv), u (nu), p (np), d (nd: conditions 0/1, then the sides +1/-1 of the contacts,
  *   then the discrete variables), y (ny: unknowns of the blocks)
@@ -166,6 +176,7 @@ typedef struct {
   const int *velocity_statement;
   /* n_position: 1 where a statement holds where the search begins, whatever is guessed */
   const unsigned char *position_direct;
+  const unsigned char *position_kind; /* n_position: frot_statement_kind */
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;      /* np: frot_type */
   /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t,

@@ -131,14 +131,16 @@ double frot_move_opening(const frot_opening *p, const double *y, const double *x
 }
 
 void frot_begin_units(const frot_opening *p) {
-  double *unit = p->w->relations.unit;
-  for (int k = 0; k < p->n_own; k++) unit[k] = p->x[k] != 0 ? fabs(p->x[k]) : 1;
+  double *unit = p->w->relations.unit, largest = 0;
+  for (int k = 0; k < p->n_own; k++) largest = fmax(largest, fabs(p->x[k]));
+  for (int k = 0; k < p->n_own; k++)
+    unit[k] = fabs(p->x[k]) > DBL_EPSILON * largest ? fabs(p->x[k]) : 1;
   for (int i = 0; i < p->part->n_turns; i++)
     for (int k = 0; k < 4; k++) unit[p->w->opening.turns[i].at + k] = 1;
 }
 
 /* Sum of the squares of the residuals, each as the change that would remove it alone, so that units
- * do not matter, and whether they are all near rounding. */
+ * do not matter, without counters that follow, and whether they are all near rounding. */
 static double square(const frot_opening *p, int *close) {
   double sum = 0;
   *close = 1;
@@ -151,19 +153,34 @@ static double square(const frot_opening *p, int *close) {
   return sum;
 }
 
-/* Least change of the unknowns that removes the residuals to first order, over L, into w->step.
- * Each row is divided by its length in the metric. */
+void frot_weigh_rows(const frot_opening *p) {
+  double *weight = p->w->opening.row_weight;
+  const int *rows = p->w->opening.rows;
+  for (int j = 0; j < p->n_rows; j++) weight[rows[j]] = frot_row_length(p, rows[j]);
+  for (int j = 0, end; j < p->n_rows; j = end) {
+    double longest = 0;
+    for (end = j; end < p->n_rows && frot_are_items(p, rows[j], rows[end]); end++)
+      longest = fmax(longest, weight[rows[end]]);
+    for (int i = j; i < end; i++) {
+      double *own = weight + rows[i];
+      *own = *own > 0 && isfinite(1 / longest) ? 1 / longest : 0;
+    }
+  }
+}
+
+/* Least change of the unknowns that removes the residuals to first order, over L, into w->step. */
 static void least_change(const frot_opening *p) {
   frot_work *w = p->w;
   int nx = p->n_own, own = p->n_own, n = p->n_rows;
   double *a = w->linear.matrix, *b = w->linear.right, *y = w->relations.step;
+  frot_weigh_rows(p);
   for (int j = 0; j < n; j++) {
     int i = w->opening.rows[j];
+    double weight = w->opening.row_weight[i];
     frot_row_in_metric(p, w->relations.jacobian + nx * i, y);
-    double length = sqrt(frot_dot(y, y, own)), *weight = w->opening.row_weight + i;
-    *weight = length > 0 && isfinite(1 / length) ? 1 / length : 0;
-    for (int k = 0; k < own; k++) a[k * n + j] = y[k] * *weight;
-    b[j] = -w->relations.residual[i] * *weight;
+    for (int k = 0; k < own; k++) a[k * n + j] = y[k] * weight;
+    b[j] = -w->relations.residual[i] * weight;
+    if (frot_is_follower(p, i)) w->opening.row_weight[i] = 0;
   }
   frot_least_norm(a, b, n, own, FROT_RANK, y, w->linear.scratch, w->linear.pivot);
   frot_backward(p->factor, p->order, p->attached, y);

@@ -136,6 +136,9 @@ static int append_ways(const frot_opening *p, int n) {
 /* Whether equation i, a statement, is left out. */
 static int is_left_out(const frot_opening *p, int i) {
   int statement = frot_statement_of(p, i);
+  int kind = p->velocity ? FROT_PLAIN : p->m->position_kind[p->part->stated[i]];
+  if (p->fewest && kind == FROT_OPTIONAL) return 1;
+  if (p->unbalanced && (kind == FROT_BALANCE || kind == FROT_OPTIONAL)) return 1;
   if (p->direct && !p->m->position_direct[p->part->stated[i]]) return 1;
   return p->timeless && statement >= 0 && statement < p->m->n_statements - p->m->n_invariants;
 }
@@ -180,6 +183,27 @@ static void over_unknowns(const frot_opening *p, int group, const double *entrie
   }
 }
 
+int frot_is_follower(const frot_opening *p, int i) {
+  if (p->velocity || i >= p->part->n_stated) return 0;
+  if (p->m->position_kind[p->part->stated[i]] != FROT_COUNTER) return 0;
+  int counter = frot_only_unknown(p, i);
+  for (int k = 0; k < p->n && counter >= 0; k++)
+    if (k != i && p->w->relations.jacobian[p->n_own * k + counter] != 0) return 0;
+  return 1;
+}
+
+int frot_are_items(const frot_opening *p, int i, int k) {
+  const frot_part *part = p->part;
+  const int *contact = p->w->opening.contact_of;
+  int own = part->n_stated, guesses = own + p->n_contacts;
+  if (i == k) return 1;
+  if (i < own || k < own)
+    return i < own && k < own && frot_statement_of(p, i) == frot_statement_of(p, k);
+  if (i < guesses && k < guesses) return frot_are_alike(p, contact[i - own], contact[k - own]);
+  if (i < guesses || k < guesses || !p->guessed) return 0;
+  return part->vectors[i - guesses] == part->vectors[k - guesses];
+}
+
 /* The contact i as equation n. */
 static void append_contact(frot_opening *p, int i, int n) {
   const frot_model *m = p->m;
@@ -210,7 +234,11 @@ int frot_evaluate_statements(frot_opening *p) {
   for (int i = 0; i < n; i++)
     if (!w->opening.left_out[i]) w->opening.rows[p->n_rows++] = i;
   for (int i = 0; i < part->n_contacts; i++)
-    if (frot_is_equation(p, part->contacts[i])) append_contact(p, part->contacts[i], n++);
+    if (frot_is_equation(p, part->contacts[i])) {
+      w->opening.contact_of[n - part->n_stated] = part->contacts[i];
+      append_contact(p, part->contacts[i], n++);
+    }
+  p->n_contacts = n - part->n_stated;
   if ((p->guessed || p->aim) && !p->velocity && part->n_guessed > 0) {
     w->call.res[0] = w->relations.residual + n, w->call.res[1] = w->relations.jacobian + nx * n;
     w->call.res[2] = w->relations.size + n;
@@ -276,13 +304,14 @@ int frot_statement_agrees(const frot_opening *p, int i, double before) {
 }
 
 /* The equation that is missed by most, beside equation `beside` (-1: none) and what says the same
- * statement; of the text and of contacts, or of neither. -1 where there is none. */
-static int most_missed(const frot_opening *p, int beside, int of_text) {
+ * statement; of the text and of contacts, or of neither; by more than rounding unless `rounding`.
+ * -1 where there is none. */
+static int most_missed(const frot_opening *p, int beside, int of_text, int rounding) {
   int own = p->part->n_stated, most = -1;
   const double *residual = p->w->relations.residual;
   for (int i = 0; i < p->n; i++) {
     if (i == beside || (i >= own || frot_statement_of(p, i) >= 0) != of_text) continue;
-    if (beside >= 0 && frot_statement_agrees(p, i, 0)) continue;
+    if (!rounding && frot_statement_agrees(p, i, 0)) continue;
     if (beside >= 0 && i < own && beside < own &&
         frot_statement_of(p, i) == frot_statement_of(p, beside))
       continue;
@@ -293,21 +322,25 @@ static int most_missed(const frot_opening *p, int beside, int of_text) {
 
 int frot_contradiction(const frot_opening *p) {
   int own = p->part->n_stated, contact = -1;
-  int worst = most_missed(p, -1, 1), other = most_missed(p, worst, 1);
-  if (worst < 0) worst = most_missed(p, -1, 0);
+  int worst = most_missed(p, -1, 1, 0);
+  if (worst < 0) worst = most_missed(p, -1, 0, 0);
+  for (int of_text = 1; of_text >= 0 && worst < 0; of_text--)
+    worst = most_missed(p, -1, of_text, 1);
+  int other = most_missed(p, worst, 1, 0);
   /* what keeps a quaternion a turn is told beside a statement alone, not beside a liaison */
-  if (other < 0 && worst < own) other = most_missed(p, worst, 0);
+  if (other < 0 && worst < own) other = most_missed(p, worst, 0, 0);
   int rows[2] = {worst, other}, items[2] = {-1, -1};
+  double off[2] = {0, 0}, gap = 0;
   for (int k = 0; k < 2; k++) {
     if (rows[k] < 0) continue;
+    off[k] = fabs(p->w->relations.residual[rows[k]]);
     if (rows[k] < own) {
       int s = frot_statement_of(p, rows[k]);
       items[k] = s < 0 ? ~s : s;
       continue;
     }
-    for (int i = 0, at = own; i < p->part->n_contacts; i++)
-      if (frot_is_equation(p, p->part->contacts[i]) && at++ == rows[k])
-        contact = p->part->contacts[i];
+    if (rows[k] < own + p->n_contacts)
+      contact = p->w->opening.contact_of[rows[k] - own], gap = off[k];
   }
   if (items[0] < 0) items[0] = items[1], items[1] = -1;
   /* without statements bodies could rest, but for what time moves */
@@ -315,9 +348,10 @@ int frot_contradiction(const frot_opening *p) {
     if (frot_statement_of(p, i) >= 0 && !frot_statement_agrees(p, i, 0))
       items[0] = frot_statement_of(p, i);
   if (items[0] < 0 && p->velocity) items[1] = -2;
-  /* the least-squares solution shares the contradiction out among the equations */
-  double apart = fabs(p->w->relations.residual[worst]) +
-                 (other < 0 ? 0 : fabs(p->w->relations.residual[other]));
+  /* the least-squares solution shares the contradiction out among equations of one unit */
+  const frot_statement *told = p->m->statements;
+  int alike = items[1] >= 0 && strcmp(told[items[0]].unit, told[items[1]].unit) == 0;
+  double apart = contact >= 0 ? gap : alike ? off[0] + off[1] : off[0];
   return frot_fail(p->s, FROT_INITIAL, p->t, contact, items[0], items[1], apart);
 }
 

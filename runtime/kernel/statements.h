@@ -18,6 +18,7 @@ typedef struct {
   const double *d;
   unsigned char *use;   /* per contact of the scene: its gap or its normal speed is to be zero */
   int velocity, n;      /* for speeds; equations of the last evaluation */
+  int n_contacts;       /* of them, after those that are stated, relations of contacts */
   const double *factor; /* of the metric of the changes that have a speed, of the given order */
   const double *basis;  /* the coordinates from which changes are counted (changes.h) */
   int order, attached;
@@ -25,13 +26,15 @@ typedef struct {
   double scene;      /* largest value, term and residual where the search begins */
   int wide;          /* the search may begin elsewhere too */
   int guessed;       /* the guesses of places are equations too, after the others */
-  int alike;    /* what holds by one liaison counts alike, by the arms of the angles (damped.h) */
-  int aim;      /* they are no equations, but what is to be missed least (descend.h) */
-  int some;     /* of unknowns and equations those alone that in_turn.c says (damped.h) */
-  int direct;   /* of the statements those alone that hold where the search begins */
-  int timeless; /* of the statements those alone that hold at any time */
-  double left;  /* the part of w->opening.left that may still be missed (gradual.h) */
-  int ways;     /* speeds are to begin a motion in singular postures too (ways.h) */
+  int alike;      /* what holds by one liaison counts alike, by the arms of the angles (damped.h) */
+  int aim;        /* they are no equations, but what is to be missed least (descend.h) */
+  int some;       /* of unknowns and equations those alone that in_turn.c says (damped.h) */
+  int fewest;     /* of the statements those alone that are not optional */
+  int unbalanced; /* of the statements those alone that are not on accelerations */
+  int direct;     /* of the statements those alone that hold where the search begins */
+  int timeless;   /* of the statements those alone that hold at any time */
+  double left;    /* the part of w->opening.left that may still be missed (gradual.h) */
+  int ways;       /* speeds are to begin a motion in singular postures too (ways.h) */
 } frot_opening;
 
 /* The speed of the scene that moves change k, -1 where there is none. */
@@ -67,6 +70,14 @@ static inline int frot_are_alike(const frot_opening *p, int i, int k) {
   return frot_is_equation(p, i) && frot_is_equation(p, k) && a->turns == b->turns &&
          strcmp(a->name, b->name) == 0;
 }
+
+/* Whether equation i gives a counter that no other equation speaks of: the counter follows from
+ * where the rest is, and says nothing of the way there. */
+int frot_is_follower(const frot_opening *p, int i);
+
+/* Whether equations i and k are items of one vector: of a statement, a guess, or of the lengths or
+ * the directions of a liaison. */
+int frot_are_items(const frot_opening *p, int i, int k);
 
 /* Whether equation i, which no unknown moves, holds: to rounding of lengths `reach`. */
 int frot_is_still(const frot_opening *p, int i, double reach);

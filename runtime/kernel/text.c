@@ -67,17 +67,24 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
   }
 }
 
+/* The unit of what is left of a relation of a liaison, between positions or speeds. */
+static const char *unit_of_gap(const frot_model *m, int contact, int speeds) {
+  int turns = contact >= 0 && m->contacts[contact].turns;
+  return speeds ? (turns ? "rad/s" : "m/s") : turns ? "rad" : "m";
+}
+
 static void initial_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
   const char *one = f->item >= 0 ? m->statements[f->item].text : "";
-  const char *unit = f->item >= 0 ? m->statements[f->item].unit : "in SI";
+  const char *unit = f->contact >= 0 || f->item < 0 ? unit_of_gap(m, f->contact, f->other == -2)
+                                                    : m->statements[f->item].unit;
   char by[64];
   snprintf(by, sizeof by, strcmp(unit, "1") == 0 ? "by %.3g" : "by %.3g %s", f->value, unit);
   if (f->value != f->value)
     snprintf(text, size, "the initial statement `%s` gives no finite number", one);
   else if (f->contact >= 0 && f->item < 0 && f->other != -3)
     snprintf(text, size,
-             "no %s were found at which liaison '%s' holds together with the others: in the last "
-             "ones that were tried %.3g %s are left",
+             "no %s were found at which liaison '%s' holds together with the others: at the last "
+             "ones tried %.3g %s are left",
              f->other == -2 ? "speeds" : "positions", contact_name(m, f->contact), f->value, unit);
   else if (f->contact >= 0 && f->item < 0)
     snprintf(text, size,

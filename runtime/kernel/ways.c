@@ -22,6 +22,9 @@ static const double at[POINTS] = {-2, -1, 1, 2};
 static const double weight[POINTS] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
 /* Part of its terms below which what turns a combination is rounding, or lies among the rows. */
 #define TURNS_NOT 1e-6
+/* The least size of the rate of a row, in what its longest like would turn by: central differences
+ * have rounding of some 1e-13 of that. */
+#define LEAST_RATE 1e-4
 
 /* The rows of loops of a group into w->relations.rows, their number; 0 where anything else than
  * these acts, for it would follow reactions that have no limit in the posture. */
@@ -98,9 +101,37 @@ static int turn_rows(const frot_model *m, frot_state *s, frot_work *w, const fro
   return frot_kinematics(m, s, w, t, q, v, d);
 }
 
+/* longest[k] <- the length, times L^-1, of the longest of the rows of loops between places (k = 0)
+ * and between directions (k = 1). */
+static void measure_rows(const frot_model *m, const frot_state *s, frot_work *w,
+                         const frot_group *g, double longest[2]) {
+  double *half = w->core.rest;
+  longest[0] = longest[1] = 0;
+  for (int i = 0; i < g->n_contacts; i++) {
+    const frot_contact *contact = &m->contacts[g->contacts[i]];
+    if (!frot_is_loop(m, s, w, g->contacts[i])) continue;
+    memcpy(half, frot_entries(m, w->core.rows, contact->row_n),
+           sizeof(double) * (size_t)g->n_speeds);
+    frot_inwards(w, g, half);
+    double *own = &longest[contact->turns != 0];
+    *own = fmax(*own, sqrt(frot_dot(half, half, g->n_speeds)));
+  }
+}
+
+/* sizes (n) <- the least sizes of the rates of the rows of loops, at this pace of the angles. */
+static void size_rates(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
+                       double pace, double *sizes) {
+  double longest[2];
+  measure_rows(m, s, w, g, longest);
+  for (int i = 0, n = 0; i < g->n_contacts; i++)
+    if (frot_is_loop(m, s, w, g->contacts[i]))
+      sizes[n++] = LEAST_RATE * pace * longest[m->contacts[g->contacts[i]].turns != 0];
+}
+
 /* The rates of the combinations that leave nothing of the dependent rows, times L^-1, one after the
  * other into w->linear.scratch, and the sizes of their terms into w->reactions.weight. */
-static void turn_combinations(const frot_model *m, frot_work *w, const frot_group *g, int n) {
+static void turn_combinations(const frot_model *m, const frot_state *s, frot_work *w,
+                              const frot_group *g, double pace, int n) {
   int ns = g->n_speeds;
   double *all = w->linear.scratch, *values = w->reactions.solution;
   for (int k = 0; k < ns; k++) {
@@ -110,10 +141,11 @@ static void turn_combinations(const frot_model *m, frot_work *w, const frot_grou
     for (int i = 0, row = 0; i < n; i++)
       if (w->linear.pivot[i] < 0) all[ns * row++ + k] = w->span.bias_size[i];
   }
+  size_rates(m, s, w, g, pace, values);
   for (int i = 0, row = 0; i < n; i++) {
     double *rate = frot_entries(m, w->step.motion, w->relations.rows[i]);
     frot_inwards(w, g, rate);
-    values[i] = sqrt(frot_dot(rate, rate, ns));
+    values[i] = fmax(values[i], sqrt(frot_dot(rate, rate, ns)));
     if (w->linear.pivot[i] < 0) frot_inwards(w, g, all + ns * row++);
   }
   leave_over(w, n, 1);
@@ -166,7 +198,7 @@ static int turning(const frot_model *m, frot_state *s, frot_work *w, const frot_
   for (int i = 0; i < *n; i++) dependent += w->linear.pivot[i] < 0;
   if (dependent == 0 || isinf(frot_time_of_turn(m, s, g, v))) return 0;
   if (turn_rows(m, s, w, g, t, q, v, d, *n) != FROT_OK) return 0;
-  turn_combinations(m, w, g, *n);
+  turn_combinations(m, s, w, g, 1 / frot_time_of_turn(m, s, g, v), *n);
   return keep_own(w, g, *n);
 }
 

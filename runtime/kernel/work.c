@@ -266,6 +266,7 @@ static void bind_opening(const frot_model *m, const extent *e, frot_opening_work
   TAKE(w->own, nx), TAKE(w->rows, e->equations), TAKE(w->number, larger(m->nq, m->nv));
   TAKE(w->turns, most.n_turns), TAKE(w->left_out, most.n_stated), TAKE(w->kept, nx);
   TAKE(w->state, nx), TAKE(w->chosen, e->equations);
+  TAKE(w->contact_of, most.n_contacts);
   TAKE(w->sides, 4 * most.n_contacts), TAKE(w->start, m->nv);
   TAKE(w->first, larger(m->nq, nx + ny + most.n_contacts)), TAKE(w->first_use, most.n_contacts);
   TAKE(w->descent, 6 * nx), TAKE(w->multiplier, e->equations);

@@ -178,6 +178,7 @@ typedef struct {
   unsigned char *state, *chosen;   /* of unknowns, of equations: in_turn.c */
   unsigned char *left_out, *kept;  /* left_out: equations, statements.c; kept: nearest.c */
   double *descent, *multiplier;    /* descend.c */
+  int *contact_of;                 /* of each equation that is a relation of a contact: which */
   double *start, *second;          /* branch.c: speeds */
   double *first; /* initial.c: q, y and the sides of the place found first, its `use` */
   unsigned char *first_use;

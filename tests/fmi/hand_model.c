@@ -121,6 +121,7 @@ static const int row_reads[2] = {1, -1};
 static const int row_beside[2] = {-1, 0};
 static const int none[2] = {0, 0};
 static const unsigned char held_at_start[1] = {1};
+static const unsigned char plain[1] = {0};
 static const frot_check checks[2] = {
     {FROT_POSITIVE, "mass of body 'block'", "hand_model.c:2:1"},
     {FROT_NOT_NEGATIVE, "friction of 'guide'", "hand_model.c:3:1"}};
@@ -195,6 +196,7 @@ const frot_model frot_the_model = {
     .parts = parts,
     .speed_parts = speed_parts,
     .position_direct = held_at_start,
+    .position_kind = plain,
     .position_statement = position_statement,
     .velocity_statement = velocity_statement,
     .p_dependent = p_dependent,

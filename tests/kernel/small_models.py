@@ -332,6 +332,7 @@ def source(m: Small) -> str:
         ("frot_part", "parts"): [_part(m, made, "place", n_position)],
         ("frot_part", "speed_parts"): [_part(m, made, "speed", n_velocity)],
         ("unsigned char", "position_direct"): [0] * n_position,
+        ("unsigned char", "position_kind"): [0] * n_position,
         ("int", "position_statement"): range(n_position),
         ("int", "velocity_statement"): [n_position + i for i in range(n_velocity)],
         ("int", "p_dependent"): [0] * len(m.parameters),

@@ -260,7 +260,9 @@ def tangency(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track
     other, bent_other = _bend(second.slopes[0], s[1])
     apart, between = bent - bent_other, second.point - first.point
     across = cross(one, apart) / long_of(apart)
-    residual = ca.vertcat(ca.dot(between, first.slopes[0]), ca.dot(apart, other))
+    # The slope of the second is the square of `apart`, whichever of the curves is straight.
+    turned = other - ca.if_else(ca.dot(one, other) < 0, -1, 1) * one
+    residual = ca.vertcat(ca.dot(between, first.slopes[0]), ca.dot(apart, turned))
     angle = ca.dot(across, other)
     by_unknowns = ca.jacobian(residual, s)
     inside = solve_in_units(by_unknowns, ca.jacobian(residual, way))
