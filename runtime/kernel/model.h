@@ -10,6 +10,9 @@
 extern "C" {
 #endif
 
+/* On what the Jacobian of a row depends. */
+enum frot_depends { FROT_DEPENDS = 1, FROT_BEYOND_ENDS = 2 };
+
 /* One scalar variable. */
 enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 3 };
 
@@ -84,6 +87,9 @@ typedef struct {
   /* pace -> sizes of what depends on time at given states (n_paced), and its rates by time alone
    * (n_paced). Called where n_paced > 0. */
   frot_callable pace;
+  /* terms -> sizes of the terms of q' (nq), which may cancel; 0 of coordinates, and where q' is no
+   * sum. Called where a state is no coordinate. */
+  frot_callable terms;
   /* dynamics -> q' (nq), A (n_matrix), h (nw), J (as given), c (n_rows), rate (n_rows), gap
    *   (n_contacts), conditions (n_located), coefficients of motion and of rest (2 x n_elements),
    *   power of the forces that have no potential (1) */
@@ -168,8 +174,9 @@ typedef struct {
   const unsigned char *position_direct;
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;      /* np: frot_type */
-  /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t,
-   * an input, a discrete variable or y */
+  /* n_rows x (nq + 1), by rows: FROT_DEPENDS where the row's Jacobian depends on that coordinate,
+   * FROT_BEYOND_ENDS where it does so only while a condition of its contact holds; last: on t, an
+   * input, a discrete variable or y */
   const unsigned char *row_depends;
   const frot_condition *conditions;      /* n_conditions */
   const unsigned char *condition_strict; /* n_conditions: 1 for < and >, 0 for <= and >= */
