@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import casadi as ca
-from frot.compiler.lowering.assembled import Assembled, Block, row_depends
+from frot.compiler.lowering.assembled import Assembled, Block, row_depends, terms_of_rates
 from frot.compiler.lowering.checks import Check, parameter_checks
 from frot.compiler.lowering.explicit import make_explicit
 from frot.compiler.lowering.expressions import Lowering
@@ -74,7 +74,7 @@ class Lowered:
     direct: tuple[bool, ...]
     kinds_of_places: tuple[int, ...]
     n_followed: int
-    row_depends: tuple[tuple[bool, ...], ...]
+    row_depends: tuple[tuple[int, ...], ...]
     dependent: tuple[bool, ...]
     jacobian: Jacobian | None
     watched: tuple[Watched, ...]
@@ -187,6 +187,9 @@ def lower(
     if reduced.drives.nnz():
         none = ca.SX.zeros(len(system.elements))
         outputs["drives"] = (state, [ca.vertcat(resolve(reduced.drives), none)])
+    terms = terms_of_rates(system)
+    if terms.nnz():
+        outputs["terms"] = (state, [ca.densify(terms)])
     pace = make_pace(system, conditions[: reduced.conditions.located])
     if pace is not None:
         outputs["pace"] = (state, list(pace))

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core.h"
+#include "groups.h"
 #include "linear.h"
 #include "orthogonal.h"
 #include "projection.h"
@@ -32,11 +33,68 @@ static void drop_cancelled(const frot_model *m, const frot_state *s, frot_work *
   }
 }
 
-/* Marks the speeds of a group that the rows which depend on frozen coordinates alone hold: the unit
- * vector of such a speed lies in their span. Columns are taken in units of their largest entry, so
- * that units do not matter: masses say nothing of what holds. */
-static int frozen_by_rows(const frot_model *m, frot_work *w, const frot_group *g, int n,
-                          const double *known, double *frozen) {
+/* Whether coordinate k stays where it is while the known speeds are zero. */
+static int stays(const frot_model *m, int k, const double *known) {
+  if (m->q_speed[k] >= 0) return known[m->q_speed[k]] != 0;
+  for (int i = 0; i < m->n_turns; i++) {
+    const frot_turn *turn = &m->turns[i];
+    if (k < turn->at || k >= turn->at + 4) continue;
+    for (int j = 0; j < 3; j++)
+      if (turn->speed[j] >= 0 && known[turn->speed[j]] == 0) return 0;
+    return 1;
+  }
+  return 0;
+}
+
+/* The contact of a row, or -1 of an item of the text. */
+static int contact_of(const frot_model *m, int row) {
+  const frot_group *g = frot_group_of(m, row);
+  for (int i = 0; i < g->n_contacts; i++)
+    if (m->contacts[g->contacts[i]].row_n == row) return g->contacts[i];
+  for (int i = 0; i < g->n_elements; i++)
+    if (m->elements[g->elements[i]].row == row) return m->elements[g->elements[i]].contact;
+  return -1;
+}
+
+/* Whether the contact of a row has passed an end of a figure. */
+static int is_beyond_end(const frot_model *m, const frot_state *s, const frot_work *w, int row) {
+  const double *d = s->data + w->layout.d;
+  int contact = contact_of(m, row);
+  for (int k = 0; k < m->n_conditions && contact >= 0; k++)
+    if (m->conditions[k].contact == contact && d[k] != 0) return 1;
+  return 0;
+}
+
+/* On what the row depends here: values of row_depends up to which it does. */
+static int depends_up_to(const frot_model *m, const frot_state *s, const frot_work *w, int row) {
+  return is_beyond_end(m, s, w, row) ? FROT_BEYOND_ENDS : FROT_DEPENDS;
+}
+
+/* Whether a row depends on coordinates alone that stay. */
+static int is_constant(const frot_model *m, int row, int up_to, const double *known) {
+  const unsigned char *depends = m->row_depends + row * (m->nq + 1);
+  for (int k = 0; k < m->nq; k++)
+    if (depends[k] != 0 && depends[k] <= up_to && !stays(m, k, known)) return 0;
+  return 1;
+}
+
+/* Marks the rows of a group that move a speed which is not known, in whatever posture: into
+ * w->span.order by their places in the group. */
+static void note_moving_rows(const frot_group *g, frot_work *w, const double *known) {
+  memset(w->span.order, 0, sizeof(int) * (size_t)g->n_rows);
+  for (int i = 0; i < g->n_given; i++) {
+    int column = g->given[i] % g->n;
+    if (column >= g->n_speeds || known[g->unknowns[column]] == 0)
+      w->span.order[g->given[i] / g->n] = 1;
+  }
+}
+
+/* Marks the speeds of a group that rows hold which are constant, or move nothing but such speeds:
+ * the unit vector of such a speed lies in their span. A row of the second kind may turn with other
+ * coordinates; its speed is zero all the same. Columns are taken in units of their largest entry,
+ * so that units do not matter: masses say nothing of what holds. */
+static int frozen_by_rows(const frot_model *m, const frot_state *s, frot_work *w,
+                          const frot_group *g, int n, const double *known, double *frozen) {
   int ns = g->n_speeds, count = 0, columns = 0;
   double *unit = w->core.rest, *scale = w->core.column;
   for (int k = 0; k < ns; k++) {
@@ -44,12 +102,12 @@ static int frozen_by_rows(const frot_model *m, frot_work *w, const frot_group *g
     for (int i = 0; i < n; i++)
       scale[k] = fmax(scale[k], fabs(frot_entries(m, w->core.rows, w->relations.rows[i])[k]));
   }
+  note_moving_rows(g, w, known);
   for (int i = 0; i < n; i++) {
-    int row = w->relations.rows[i], usable = !m->row_depends[row * (m->nq + 1) + m->nq];
-    for (int k = 0; k < m->nq && usable; k++)
-      if (m->row_depends[row * (m->nq + 1) + k] && (m->q_speed[k] < 0 || known[m->q_speed[k]] == 0))
-        usable = 0;
-    if (!usable) continue;
+    int row = w->relations.rows[i], up_to = depends_up_to(m, s, w, row);
+    int other = m->row_depends[row * (m->nq + 1) + m->nq];
+    if (other != 0 && other <= up_to) continue;
+    if (w->span.order[m->row_local[row]] != 0 && !is_constant(m, row, up_to, known)) continue;
     double *x = w->span.basis + ns * columns;
     const double *entries = frot_entries(m, w->core.rows, row);
     for (int k = 0; k < ns; k++) x[k] = scale[k] > 0 ? entries[k] / scale[k] : 0;
@@ -79,7 +137,7 @@ void frot_find_frozen(const frot_model *m, const frot_state *s, frot_work *w,
     int n = frot_rows_of_group(m, g, modes, NULL, 0, w->relations.rows), count = g->n_speeds + 1;
     for (int k = 0; k < g->n_speeds; k++) known[g->unknowns[k]] = 1;
     while (n > 0) {
-      int now = frozen_by_rows(m, w, g, n, known, frozen);
+      int now = frozen_by_rows(m, s, w, g, n, known, frozen);
       if (now == count || now == 0) break;
       count = now;
       for (int k = 0; k < g->n_speeds; k++) known[g->unknowns[k]] = frozen[g->unknowns[k]];

@@ -133,22 +133,31 @@ static int orthonormalize(frot_problem *p) {
   return 0;
 }
 
+/* The conditions of a group whose matrix is any matrix: what the unknowns do to the held rows.
+ * Those that are left to others are no conditions. */
+static void hold_general(frot_problem *p) {
+  frot_work *w = p->w;
+  int n = p->unknowns, at = 0;
+  for (int c = 0; c < n; c++) {
+    double size = fabs(frot_unknown_effect(p, w->reactions.unknown[c], c));
+    w->reactions.unit_of[c] = size > 0 ? 1 / sqrt(size) : 1;
+  }
+  for (int r = 0; r < p->held; r++) {
+    double scale = w->reactions.unit_of[r];
+    if (frot_is_spare(w, w->reactions.unknown[r])) continue;
+    for (int c = 0; c < n; c++)
+      w->linear.matrix[c * n + at] =
+          scale * w->reactions.unit_of[c] * frot_unknown_effect(p, w->reactions.unknown[r], c);
+    w->linear.right[at++] = -scale * frot_known_part(p, w->reactions.unknown[r]);
+  }
+  p->equations = at;
+}
+
 int frot_hold_rows(frot_problem *p) {
   frot_work *w = p->w;
   int n = p->unknowns, ns = p->g->n_speeds;
   if (p->g->general) {
-    p->equations = p->held;
-    for (int c = 0; c < n; c++) {
-      double size = fabs(frot_unknown_effect(p, w->reactions.unknown[c], c));
-      w->reactions.unit_of[c] = size > 0 ? 1 / sqrt(size) : 1;
-    }
-    for (int r = 0; r < p->held; r++) {
-      double scale = w->reactions.unit_of[r];
-      for (int c = 0; c < n; c++)
-        w->linear.matrix[c * n + r] =
-            scale * w->reactions.unit_of[c] * frot_unknown_effect(p, w->reactions.unknown[r], c);
-      w->linear.right[r] = -scale * frot_known_part(p, w->reactions.unknown[r]);
-    }
+    hold_general(p);
     return 0;
   }
   if (orthonormalize(p)) return 1;

@@ -8,6 +8,7 @@
 #include "linear.h"
 #include "orthogonal.h"
 #include "projection.h"
+#include "spare.h"
 #include "terms.h"
 #include "tolerances.h"
 #include "turns.h"
@@ -56,8 +57,8 @@ static int add(const frot_model *m, frot_work *w, int *n, double residual, doubl
   return fabs(residual) > FROT_ROUNDING * size;
 }
 
-/* The equations into w->relations.jacobian, by rows, and w->relations.residual; returns whether one
- * is off. */
+/* The equations into w->relations.jacobian, by rows, and w->relations.residual, without those of
+ * rows that are left to others; returns whether one is off. */
 static int list_equations(const frot_model *m, frot_state *s, frot_work *w, double t,
                           const double *q, const double *v, const double *d,
                           const frot_contact_mode *modes, const unsigned char *stuck, int *n) {
@@ -75,6 +76,7 @@ static int list_equations(const frot_model *m, frot_state *s, frot_work *w, doub
   for (int i = 0; i < m->n_contacts; i++) {
     const frot_contact *contact = &m->contacts[i];
     if (!modes[i].closed || contact->reduced || contact->row_n < 0 || contact->kinematic) continue;
+    if (frot_is_spare(w, contact->row_n)) continue;
     double *row = w->relations.jacobian + nx * *n;
     memset(row, 0, sizeof(double) * (size_t)nx);
     const frot_group *group = frot_group_of(m, contact->row_n);
@@ -84,6 +86,7 @@ static int list_equations(const frot_model *m, frot_state *s, frot_work *w, doub
   }
   int held = frot_holding_rows(m, w, modes, stuck, 0);
   for (int i = 0; i < held; i++) {
+    if (frot_is_spare(w, w->relations.rows[i])) continue;
     double *row = w->relations.jacobian + nx * *n;
     memset(row, 0, sizeof(double) * (size_t)nx);
     const frot_group *group = frot_group_of(m, w->relations.rows[i]);

@@ -7,6 +7,7 @@
 #include "core.h"
 #include "guards.h"
 #include "reactions.h"
+#include "terms.h"
 
 /* Whether all accelerations are numbers. */
 static int groups_finite(const frot_model *m, const frot_work *w) {
@@ -56,6 +57,7 @@ int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, co
   w->reactions.warm = 1;
   frot_accelerations(m, w, frozen);
   if (!groups_finite(m, w)) return FROT_NAN;
+  frot_rest_in_rounding(m, s, w, t, q, v, d);
   if (late) {
     status = frot_solve_late(m, s, w, t, q, v, d);
     if (status != FROT_OK) return status;

@@ -10,18 +10,16 @@
 extern "C" {
 #endif
 
+/* On what the Jacobian of a row depends. */
+enum frot_depends { FROT_DEPENDS = 1, FROT_BEYOND_ENDS = 2 };
+
 /* One scalar variable. */
 enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 3 };
 
 /* Statements on places. Those on accelerations may be true of any equilibrium; one that is optional
  * is left to speeds if no places meet it too. A counter is an angle within half a turn of the one
  * that it counts: the slopes speak of the counter alone. */
-enum frot_statement_kind {
-  FROT_PLAIN = 0,
-  FROT_BALANCE = 1,
-  FROT_OPTIONAL = 2,
-  FROT_COUNTER = 3
-};
+enum frot_statement_kind { FROT_PLAIN = 0, FROT_BALANCE = 1, FROT_OPTIONAL = 2, FROT_COUNTER = 3 };
 
 /* Inputs of the generated functions, in this order:
  *   t, q (nq), v (nv), u (nu), p (np), d (nd: conditions 0/1, then the sides +1/-1 of the contacts,
@@ -94,6 +92,9 @@ typedef struct {
   /* pace -> sizes of what depends on time at given states (n_paced), and its rates by time alone
    * (n_paced). Called where n_paced > 0. */
   frot_callable pace;
+  /* terms -> sizes of the terms of q' (nq), which may cancel; 0 of coordinates, and where q' is no
+   * sum. Called where a state is no coordinate. */
+  frot_callable terms;
   /* dynamics -> q' (nq), A (n_matrix), h (nw), J (as given), c (n_rows), rate (n_rows), gap
    *   (n_contacts), conditions (n_located), coefficients of motion and of rest (2 x n_elements),
    *   power of the forces that have no potential (1) */
@@ -179,8 +180,9 @@ typedef struct {
   const unsigned char *position_kind; /* n_position: frot_statement_kind */
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;      /* np: frot_type */
-  /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t,
-   * an input, a discrete variable or y */
+  /* n_rows x (nq + 1), by rows: FROT_DEPENDS where the row's Jacobian depends on that coordinate,
+   * FROT_BEYOND_ENDS where it does so only while a condition of its contact holds; last: on t, an
+   * input, a discrete variable or y */
   const unsigned char *row_depends;
   const frot_condition *conditions;      /* n_conditions */
   const unsigned char *condition_strict; /* n_conditions: 1 for < and >, 0 for <= and >= */

@@ -6,6 +6,8 @@
 #include "error.h"
 #include "groups.h"
 #include "guards.h"
+#include "inertia.h"
+#include "linear.h"
 #include "mechanics.h"
 #include "stages.h"
 #include "terms.h"
@@ -44,6 +46,21 @@ static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, doubl
     double rounding = FROT_ROUNDING * size[state - m->nq];
     if (largest && largest[j] > FROT_NOISE_MARGIN * rounding) continue;
     noise[state] = fmax(noise[state], fmax(largest ? 1 : 0, USUAL * level(s)) * rounding);
+  }
+}
+
+/* The same of the rates of states that are no coordinates, by their own terms at z. */
+static void add_rounding_of_rates(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                  const double *z) {
+  double *noise = s->data + w->layout.noise, *terms = w->step.f + MOVED * w->layout.nz;
+  if (!m->terms.call) return;
+  frot_inputs(s, w, &t, z, z + m->nq, s->data + w->layout.d);
+  w->call.res[0] = terms;
+  frot_call(w, &m->terms);
+  for (int j = 0; j < m->nq; j++) {
+    if (m->q_speed[j] >= 0 || !isfinite(terms[j])) continue;
+    double rounding = USUAL * FROT_ROUNDING * terms[j];
+    noise[j] = fmax(noise[j], level(s) * rounding);
   }
 }
 
@@ -105,10 +122,60 @@ static void note_in_matrix(const frot_model *m, frot_work *w, const frot_group *
   }
 }
 
+/* Raise what a turn made of the items of an orientation: a rotation by an angle moves them by half
+ * of it at most. */
+static void raise_turns(const frot_model *m, const frot_group *g, const double *angle,
+                        double *size) {
+  for (int i = 0; i < m->n_turns; i++) {
+    const frot_turn *turn = &m->turns[i];
+    if (&m->groups[m->speed_group[turn->speed[2]]] != g) continue;
+    double most = 0;
+    for (int k = 0; k < 3; k++)
+      if (turn->speed[k] >= 0) most = fmax(most, angle[m->speed_local[turn->speed[k]]]);
+    for (int k = 0; k < 4; k++) size[turn->at + k] = fmax(size[turn->at + k], 0.5 * most);
+  }
+}
+
+/* Coordinates and speeds that a row keeps are known to the rounding of its gap and its rate: both
+ * are put onto the row by the least change, A^-1 J' (J A^-1 J')^-1 of what is missed. */
+static void note_row(const frot_model *m, const frot_state *s, frot_work *w, int contact,
+                     double *size) {
+  int row = m->contacts[contact].row_n;
+  const frot_group *g = frot_group_of(m, row);
+  const double *entries = frot_entries(m, w->core.rows, row), *z = w->step.z0;
+  double *change = w->core.rest, *angle = w->relations.step, rate = 0;
+  double gap = frot_gap_size(m, w, row, z) + s->data[w->layout.reach + contact];
+  for (int k = 0; k < g->n_speeds; k++) rate += fabs(entries[k] * z[m->nq + g->unknowns[k]]);
+  memcpy(change, entries, sizeof(double) * (size_t)g->n_speeds);
+  frot_inwards(w, g, change);
+  double own = frot_dot(change, change, g->n_speeds);
+  if (!(own > 0)) return;
+  frot_outwards(w, g, change);
+  for (int k = 0; k < g->n_speeds; k++) {
+    int speed = g->unknowns[k], at = m->speed_coordinate[speed];
+    double part = fabs(change[k]) / own;
+    size[m->nq + speed] = fmax(size[m->nq + speed], part * rate);
+    if (at >= 0) size[at] = fmax(size[at], part * gap);
+    angle[k] = part * gap;
+  }
+  raise_turns(m, g, angle, size);
+}
+
+static void note_rows(const frot_model *m, const frot_state *s, frot_work *w, double *size) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  const frot_awake_lists *now = w->awake.now;
+  for (int k = 0; k < now->n_contacts; k++) {
+    const frot_contact *c = &m->contacts[now->contacts[k]];
+    int kept = modes[now->contacts[k]].closed && c->row_n >= 0 && !c->reduced && !c->kinematic;
+    if (kept && !frot_group_of(m, c->row_n)->general) note_row(m, s, w, now->contacts[k], size);
+  }
+}
+
 /* Sizes of what rounding moves: of a value itself, and of a coordinate or speed the largest of its
  * kind among those that its inertia is shared with. For bodies carried by bodies are placed by sums
- * of these, in which a small one is no better than the largest. */
-static void note_neighbours(const frot_model *m, frot_work *w, double *size) {
+ * of these, in which a small one is no better than the largest. What rows keep is no better than
+ * the lengths that they are made of. */
+static void note_neighbours(const frot_model *m, const frot_state *s, frot_work *w, double *size) {
   for (int j = 0; j < m->nq + m->nv; j++) size[j] = fabs(w->step.z0[j]);
   for (int i = 0; i < w->awake.now->n_groups; i++) {
     const frot_group *g = &m->groups[w->awake.now->groups[i]];
@@ -117,6 +184,7 @@ static void note_neighbours(const frot_model *m, frot_work *w, double *size) {
     else if (!g->general)
       note_in_matrix(m, w, g, size);
   }
+  note_rows(m, s, w, size);
 }
 
 /* What rounding of rates makes of speeds, and of states that are no coordinates, in the stages of a
@@ -220,10 +288,11 @@ int frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double 
   s->noise_shown = 0, s->noise_measured = 1, s->heard_at = now;
   int astray = strays(m, s, w, t);
   if (slope_from_start(m, s, w, t, w->step.z0, base) != FROT_OK) return 0;
-  note_neighbours(m, w, size);
+  note_neighbours(m, s, w, size);
   for (int j = 0; j < n + w->layout.ng; j++)
     noise[j] *= j < m->nq && m->q_speed[j] < 0 ? plain : before;
   add_rounding(m, s, w, t, w->step.z0, NULL);
+  add_rounding_of_rates(m, s, w, t, w->step.z0);
   add_rounding_of_stages(m, w, noise, fabs(t - now), size);
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {

@@ -44,10 +44,11 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   int status = FROT_OK, moved;
   frot_normalise(m, q);
   /* relations between the states hold at every instant looked at, not only at the ends of steps */
-  if (m->n_invariants > 0)
+  if (m->n_invariants > 0) {
+    frot_follow_spare(m, w, g->spare);
     status =
         frot_project_jointly(m, s, w, t, q, v, g->d, g->modes, NULL, g->sizes, g->frozen, &moved);
-  else if (holds_anything(m, w, g->modes)) {
+  } else if (holds_anything(m, w, g->modes)) {
     status = frot_dynamics(m, s, w, t, q, v, g->d, g->modes, FROT_MOTION);
     frot_follow_spare(m, w, g->spare);
     if (status == FROT_OK)

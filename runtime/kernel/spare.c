@@ -84,6 +84,70 @@ static int decide_anew(const frot_model *m, frot_state *s, const frot_work *w, c
   return sorted;
 }
 
+/* The rows of a general group that hold into `list`, normals first; *normals is their number. */
+static int list_held(const frot_model *m, const frot_state *s, const frot_group *g,
+                     const frot_layout *l, int *list, int *normals) {
+  const frot_contact_mode *modes = (const void *)(s->data + l->modes);
+  int n = 0;
+  for (int i = 0; i < g->n_contacts; i++)
+    if (frot_is_loaded(m, modes, g->contacts[i])) list[n++] = m->contacts[g->contacts[i]].row_n;
+  *normals = n;
+  for (int i = 0; i < g->n_elements; i++)
+    if (frot_is_held(m, modes, g->elements[i])) list[n++] = m->elements[g->elements[i]].row;
+  return n;
+}
+
+/* The largest entry left of row i of n, with its column. */
+static double largest_of(const double *matrix, int n, int i, int *column) {
+  double largest = 0;
+  for (int c = 0; c < n; c++)
+    if (fabs(matrix[n * i + c]) > largest) largest = fabs(matrix[n * i + c]), *column = c;
+  return largest;
+}
+
+/* Take column c of the pivot row i from the others. */
+static void eliminate(double *matrix, int n, int i, int c) {
+  const double *pivot = matrix + n * i;
+  for (int r = 0; r < n; r++) {
+    double part = r == i ? 0 : matrix[n * r + c] / pivot[c];
+    for (int k = 0; k < n && part != 0; k++) matrix[n * r + k] -= part * pivot[k];
+    if (r != i) matrix[n * r + c] = 0;
+  }
+}
+
+/* Mark the rows of a general group that depend on others by w->reactions.carried: those that no
+ * pivot is left for in what the reactions of the rows do to the rows, scaled. Normals are taken
+ * before friction, and the largest first. */
+static void rank_general(const frot_model *m, const frot_state *s, frot_work *w,
+                         const frot_group *g) {
+  int *list = w->reactions.unknown, *taken = w->linear.pivot, normals;
+  int n = list_held(m, s, g, &w->layout, list, &normals);
+  double *matrix = w->linear.matrix, *unit = w->linear.right;
+  for (int i = 0; i < n; i++) {
+    double own = fabs(frot_effect(m, w, list[i], list[i]));
+    unit[i] = own > 0 ? 1 / sqrt(own) : 1, taken[i] = 0;
+  }
+  for (int i = 0; i < n; i++)
+    for (int c = 0; c < n; c++)
+      matrix[n * i + c] = unit[i] * unit[c] * frot_effect(m, w, list[i], list[c]);
+  for (int end = normals, kept = 0; kept < n; kept++) {
+    int best = -1, column = 0, at = 0;
+    double most = FROT_RANK;
+    for (int i = 0; i < end; i++) {
+      double left = taken[i] ? 0 : largest_of(matrix, n, i, &at);
+      if (left > most) most = left, best = i, column = at;
+    }
+    if (best < 0 && end == n) break;
+    if (best < 0) {
+      end = n, kept--;
+      continue;
+    }
+    taken[best] = 1;
+    eliminate(matrix, n, best, column);
+  }
+  for (int i = 0; i < n; i++) w->reactions.carried[list[i]] = (unsigned char)!taken[i];
+}
+
 /* Rows that are not listed depend on others as the evaluation found. */
 static void note_others(const frot_model *m, frot_state *s, const frot_work *w,
                         const frot_group *g) {
@@ -107,6 +171,7 @@ int frot_note_spare(const frot_model *m, frot_state *s, frot_work *w) {
   s->spare_loops = 0;
   for (int k = 0; k < now->n_groups; k++) {
     const frot_group *g = &m->groups[now->groups[k]];
+    if (g->general) rank_general(m, s, w, g);
     int *list = w->reactions.unknown, n = list_rows(m, s, w, g, 1, NULL, list, 0);
     s->spare_loops |= decide_anew(m, s, w, g, list, 0, n);
     int first = list_rows(m, s, w, g, 1, spare, list, 0);
@@ -179,7 +244,7 @@ long long frot_free_speeds(const frot_model *m, const frot_state *s, const frot_
   for (int i = 0; i < m->n_contacts; i++) {
     int row = m->contacts[i].row_n;
     if (row < 0 || m->contacts[i].reduced || s->data[w->layout.unilateral + i] != 0) continue;
-    held += !w->reactions.carried[row];
+    held += frot_group_of(m, row)->general || !w->reactions.carried[row];
   }
   return m->nv - held;
 }

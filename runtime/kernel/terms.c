@@ -216,6 +216,18 @@ static void hold_all_sizes(const frot_model *m, const frot_state *s, const frot_
   }
 }
 
+/* Sizes of the terms of a group's accelerations into w->core.load_size, after frot_call_sizes. */
+static void size_accelerations(const frot_model *m, const frot_state *s, frot_work *w,
+                               const frot_group *g, const double *q) {
+  int wide = frot_in_wide(m, w, g);
+  if (wide)
+    load_eliminated(m, w, g, w->core.load);
+  else
+    load_reactions(m, s, w, g, q, w->core.load);
+  spread_in_inverse(w, g, w->core.load, wide, w->core.load_size);
+  hold_all_sizes(m, s, w, g, w->core.load_size);
+}
+
 void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
                              const double *q, const double *v, const double *d, double *size) {
   memset(size, 0, sizeof(double) * (size_t)m->nv);
@@ -223,15 +235,33 @@ void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, d
   frot_call_sizes(m, s, w, t, q, v, d);
   for (int k = 0; k < w->awake.now->n_groups; k++) {
     const frot_group *g = &m->groups[w->awake.now->groups[k]];
-    double *sum = w->core.load_size;
-    int wide = frot_in_wide(m, w, g);
-    if (wide)
-      load_eliminated(m, w, g, w->core.load);
-    else
-      load_reactions(m, s, w, g, q, w->core.load);
-    spread_in_inverse(w, g, w->core.load, wide, sum);
-    hold_all_sizes(m, s, w, g, sum);
-    for (int j = 0; j < g->n_speeds; j++) size[g->unknowns[j]] = sum[j];
+    size_accelerations(m, s, w, g, q);
+    for (int j = 0; j < g->n_speeds; j++) size[g->unknowns[j]] = w->core.load_size[j];
+  }
+}
+
+/* Whether a group has no speed and accelerates. */
+static int leaves_rest(const frot_work *w, const frot_group *g, const double *v) {
+  int any = 0;
+  for (int j = 0; j < g->n_speeds; j++) {
+    if (v[g->unknowns[j]] != 0) return 0;
+    any |= w->core.a[g->unknowns[j]] != 0;
+  }
+  return any;
+}
+
+void frot_rest_in_rounding(const frot_model *m, frot_state *s, frot_work *w, double t,
+                           const double *q, const double *v, const double *d) {
+  for (int k = 0, known = 0; k < w->awake.now->n_groups && m->sizes.call; k++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
+    if (!leaves_rest(w, g, v)) continue;
+    if (!known) frot_call_sizes(m, s, w, t, q, v, d);
+    known = 1;
+    size_accelerations(m, s, w, g, q);
+    int rests = 1;
+    for (int j = 0; j < g->n_speeds; j++)
+      rests &= fabs(w->core.a[g->unknowns[j]]) <= FROT_ROUNDING * w->core.load_size[j];
+    for (int j = 0; j < g->n_speeds && rests; j++) w->core.a[g->unknowns[j]] = 0;
   }
 }
 

@@ -33,4 +33,9 @@ void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, 
 void frot_acceleration_sizes(const frot_model *m, frot_state *s, frot_work *w, double t,
                              const double *q, const double *v, const double *d, double *size);
 
+/* A group without speed whose accelerations w->core.a are no more than rounding of their terms is
+ * in equilibrium: they become zero. In frot_solution, after frot_accelerations. */
+void frot_rest_in_rounding(const frot_model *m, frot_state *s, frot_work *w, double t,
+                           const double *q, const double *v, const double *d);
+
 #endif
