@@ -6,19 +6,16 @@ import functools
 import hashlib
 import shutil
 import sys
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
 from frot.compiler.toolchain.cache import Kept, is_whole, seal, stored
-from frot.compiler.toolchain.chosen import KERNEL_FLAGS, MODEL_FLAGS, Toolchain, find_toolchain
-from frot.compiler.toolchain.compilers import compile_objects, join_objects, link_library
-from frot.compiler.toolchain.keeper import Keeper
+from frot.compiler.toolchain.chosen import KERNEL_FLAGS, Toolchain, find_toolchain
+from frot.compiler.toolchain.compilers import compile_objects, join_objects
 from frot.compiler.toolchain.storing import store
 from frot.dsl.data.classes import replace
 from frot.dsl.files.folders import room
 from frot.dsl.messages.errors import FrotError
-from frot.runtime.program import MODEL_SOURCE
 
 KERNELS = "kernels"
 # The kernel's objects as one, which a linker takes in half of the time.

@@ -76,7 +76,7 @@ def _zig() -> Path | None:
     return path if path.is_file() else None
 
 
-def _toolchain_for(target: Target, folder: Path) -> Toolchain:
+def toolchain_for(target: Target, folder: Path) -> Toolchain:
     """The compiler for a platform, which keeps what it needs meanwhile in a folder.
 
     FrotError (E0801) if it is not installed.
@@ -151,7 +151,7 @@ def _begin(
     own = platform == NATIVE or (platform == own_platform() and not _is_zig(toolchain))
     # A library for this Linux is to run on older ones too.
     target = None if own and not platform.endswith("linux") else TARGETS[platform]
-    linker = toolchain if target is None else _toolchain_for(target, room_for_all / "zig")
+    linker = toolchain if target is None else toolchain_for(target, room_for_all / "zig")
     compiler = toolchain if own else linker
     ready = [kept_objects(compiler, face, include, KERNEL_FLAGS)]
     if target is not None and target.besides:

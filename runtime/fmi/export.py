@@ -46,10 +46,11 @@ def export(
     """Write `program` as an FMU for co-simulation of version `fmi` ("2.0" or "3.0") to `path`.
 
     `compile_libraries(sources, include_folders, targets)` makes shared libraries like the
-    program's own, at the paths `targets` by platform, and raises if it cannot. The file at `path` is replaced once the new one is complete and
-    FMPy finds no fault in it; on failure nothing is left behind. ValueError for another version or
-    platform, another suffix than `.fmu` or a program that FMI cannot describe; OSError if the file cannot be
-    written; InvalidFmuError if FMPy finds problems.
+    program's own, at the paths `targets` by platform, and raises if it cannot. The file at `path`
+    is replaced once the new one is complete and FMPy finds no fault in it; on failure nothing is
+    left behind. ValueError for another version or platform, another suffix than `.fmu` or a program
+    that FMI cannot describe; OSError if the file cannot be written; InvalidFmuError if FMPy finds
+    problems.
     """
     check_version(fmi)
     if path.suffix != ".fmu":
@@ -71,7 +72,7 @@ def export(
 def _members(
     program: Program, fmi: str, compile_libraries: Compile, platforms: Sequence[str], folder: Path
 ) -> dict[str, bytes]:
-    """The files of the archive by name, in order; the libraries are built from the sources in it."""
+    """The files of the archive by name, in order; libraries are built from the sources in it."""
     identifier = model_identifier(program.name)
     sources = source_files(program, fmi)
     compiled = to_compile(sources)

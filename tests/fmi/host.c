@@ -1,6 +1,6 @@
 /* Runs an FMU of version 2.0 on a platform that Python does not run on, and writes the bits of its
- * real variables after every step, sixteen digits each, a line a step. Compiled with LIBRARY, TOKEN,
- * FIRST and COUNT (value references), STEPS and STEP (s). */
+ * real variables after every step, sixteen digits each, a line a step. Compiled with LIBRARY,
+ * TOKEN, FIRST and COUNT (value references), STEPS and STEP (s). */
 #include "fmi2Functions.h"
 
 #ifdef _WIN32
@@ -23,6 +23,7 @@ static void put(const char *text, unsigned size) {
 #include <dlfcn.h>
 #include <stdlib.h>
 #include <unistd.h>
+/* Begins at main, without the start-up code of the C library. */
 #define load(name) dlopen(name, RTLD_NOW)
 #define look_up(library, name) dlsym(library, name)
 #define end(status) exit(status)
