@@ -36,7 +36,7 @@ from frot.runtime.program import MODEL_SOURCE
 _QUAD, _WINDOWS = "binary128.c", "windows.c"
 _NO_BUILTIN = "-fno-builtin"
 # glibc of 2012, which every Linux in use has; macOS of 2020; Windows 10 with its C library.
-_OF_WINDOWS = ("heap", "math", "stdio", "string", "convert", "private")
+_OF_WINDOWS = ("heap", "math", "stdio", "string", "convert", "time", "environment", "private")
 
 
 @dataclass(frozen=True, slots=True)

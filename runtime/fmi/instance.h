@@ -7,6 +7,8 @@
 #ifndef FROT_FMU_INSTANCE_H
 #define FROT_FMU_INSTANCE_H
 
+#include <time.h>
+
 #include "frot.h"
 
 /* The numbers fmi2Status and fmi3Status have in common. */
@@ -85,6 +87,27 @@ typedef struct {
   double t; /* last successful time */
 } frot_fmu_life;
 
+/* What one step may take (limits.c). */
+typedef struct {
+  double evaluations; /* of the model */
+  double seconds;     /* 0: any time */
+} frot_fmu_limits;
+
+enum frot_fmu_spending {
+  FROT_FMU_LEFT = 0,
+  FROT_FMU_EVALUATIONS = 1,
+  FROT_FMU_PACE = 2, /* the end of the step is beyond reach */
+  FROT_FMU_SECONDS = 3
+};
+
+/* A step at work: evaluations before it, its times, when it was begun, what was spent. */
+typedef struct {
+  const frot_fmu *fmu;
+  double before, begin, end;
+  time_t started;
+  int spent; /* frot_fmu_spending */
+} frot_fmu_budget;
+
 struct frot_fmu {
   const frot_model *model;
   const char *name;
@@ -100,6 +123,7 @@ struct frot_fmu {
   frot_work *work;
   double *values; /* n_variables, at life.t where values_valid */
   frot_recorder recorder;
+  frot_fmu_limits limits;
   frot_fmu_life life;
   frot_fmu_snapshot *snapshots;
 };
@@ -145,6 +169,15 @@ void frot_fmu_note_change(frot_fmu *fmu);
 int frot_fmu_settle(frot_fmu *fmu, const char *function);
 /* Log the kernel's fault; the answer is the status. */
 int frot_fmu_say_fault(const frot_fmu *fmu, int status, const char *function);
+
+/* limits.c */
+
+/* From the environment of the process, else the model's own. */
+int frot_fmu_read_limits(const frot_fmu *fmu, const char *function, frot_fmu_limits *limits);
+frot_fmu_budget frot_fmu_begin_budget(const frot_fmu *fmu, double t);
+int frot_fmu_spent(void *budget, double t); /* the kernel's monitor */
+/* Log what was spent, once life.t is the time reached; the answer is the status. */
+int frot_fmu_say_spent(const frot_fmu *fmu, const char *function, const frot_fmu_budget *budget);
 
 /* access.c */
 int frot_fmu_arrays(const frot_fmu *fmu, const char *function, const unsigned *references,

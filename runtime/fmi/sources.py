@@ -16,7 +16,15 @@ TABLE_SOURCE = "fmu_table.c"
 # A step of 1e300 s, or one with a stiffness set to 1e30, would not end in a lifetime.
 MOST_WORK = 20_000_000
 
-_COMMON = ("instance.c", "lifecycle.c", "stepping.c", "access.c", "snapshot.c", "instance.h")
+_COMMON = (
+    "instance.c",
+    "lifecycle.c",
+    "stepping.c",
+    "limits.c",
+    "access.c",
+    "snapshot.c",
+    "instance.h",
+)
 _FACES = {
     "2.0": ("fmi2.c", "fmi2_refused.c", "fmi2_instance.h"),
     "3.0": ("fmi3.c", "fmi3_refused.c", "fmi3_refused_types.c", "fmi3_instance.h"),

@@ -8,6 +8,7 @@
 #define SENTENCE 1536
 /* Communication points are sums of steps made by the environment: they differ by rounding. */
 #define ROUNDING 1e-9
+
 int frot_fmu_say_fault(const frot_fmu *fmu, int status, const char *function) {
   char sentence[SENTENCE];
   frot_fault_text(fmu->model, fmu->state, sentence, sizeof sentence);
@@ -108,26 +109,14 @@ int frot_fmu_settle(frot_fmu *fmu, const char *function) {
   return refuse_change(fmu, function, status);
 }
 
-typedef struct {
-  const frot_fmu *fmu;
-  long long most; /* evaluations since the start */
-} budget;
-
-static int spent(void *context, double t) {
-  const budget *b = context;
-  (void)t;
-  return frot_run_statistics(b->fmu->state)->evaluations > b->most;
-}
-
 /* Runs the kernel to time t and logs the events on the way. */
-static int advance(frot_fmu *fmu, double t) {
+static int advance(frot_fmu *fmu, double t, frot_fmu_budget *budget) {
   frot_recorder *recorder = fmu->categories & FROT_FMU_LOG_EVENTS ? &fmu->recorder : NULL;
-  budget work = {fmu, frot_run_statistics(fmu->state)->evaluations + frot_fmu_most_work};
   char sentence[SENTENCE];
   int status;
   do {
     if (recorder != NULL) recorder->event_count = 0;
-    status = frot_advance(fmu->model, fmu->state, fmu->work, t, recorder, spent, &work);
+    status = frot_advance(fmu->model, fmu->state, fmu->work, t, recorder, frot_fmu_spent, budget);
     for (long long i = 0; recorder != NULL && i < recorder->event_count; i++) {
       frot_event_text(fmu->model, &recorder->events[i], sentence, sizeof sentence);
       frot_fmu_say_event(fmu, sentence);
@@ -138,23 +127,18 @@ static int advance(frot_fmu *fmu, double t) {
 
 /* Runs to time t; an instant of the text that differs from it by the rounding of communication
  * points belongs to it, so that a value sampled there is seen there. */
-static int advance_to_point(frot_fmu *fmu, double t, double scale) {
-  const int status = advance(fmu, fmax(t, frot_time(fmu->state)));
+static int advance_to_point(frot_fmu *fmu, double t, double scale, frot_fmu_budget *budget) {
+  const int status = advance(fmu, fmax(t, frot_time(fmu->state)), budget);
   const double next = frot_next_instant(fmu->state);
   if (status != FROT_OK || next > t + ROUNDING * scale) return status;
-  return advance(fmu, next);
+  return advance(fmu, next, budget);
 }
 
-static int stop_at_limit(frot_fmu *fmu, const char *function, double t) {
+static int stop_at_limit(frot_fmu *fmu, const char *function, const frot_fmu_budget *budget) {
   fmu->life.phase = FROT_FMU_DISCARDED;
   fmu->life.status = FROT_FMU_DISCARD;
   fmu->life.t = fmax(fmu->life.t, frot_time(fmu->state));
-  return frot_fmu_say(
-      fmu, FROT_FMU_DISCARD,
-      "%s: the step to %.15g s has taken %lld evaluations of the model, the most that "
-      "one step may take, and ends at %.15g s; make shorter steps, or look for "
-      "values that make the motion stiff.",
-      function, t, frot_fmu_most_work, fmu->life.t);
+  return frot_fmu_say_spent(fmu, function, budget);
 }
 
 /* The answer to a step after one that could not be done. */
@@ -196,8 +180,9 @@ int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step
   int status = frot_fmu_settle(fmu, function);
   if (status != FROT_FMU_OK) return status;
   fmu->values_valid = 0;
-  status = advance_to_point(fmu, t, scale);
-  if (status == FROT_STOPPED) return stop_at_limit(fmu, function, t);
+  frot_fmu_budget budget = frot_fmu_begin_budget(fmu, t);
+  status = advance_to_point(fmu, t, scale, &budget);
+  if (status == FROT_STOPPED) return stop_at_limit(fmu, function, &budget);
   if (status != FROT_OK) return stop_at_fault(fmu, function, status);
   life->t = t;
   return FROT_FMU_OK;
