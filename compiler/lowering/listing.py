@@ -23,7 +23,7 @@ from frot.dsl.checked import (
 from frot.dsl.checked.arrays import component_names
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.names.flanges import parameter_type
-from frot.dsl.quantities.dimensions import Dimension, dimension
+from frot.dsl.quantities.dimensions import Dimension, Enumeration, dimension
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -49,6 +49,7 @@ class Listed:
     base: str = "real"
     unit: str = ""
     bounds: tuple[tuple[str, Expression], ...] = ()
+    enumeration: Enumeration | None = None
 
 
 LENGTH, VELOCITY, ACCELERATION = (dimension(m=1, s=-k) for k in range(3))
@@ -113,6 +114,7 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
                 base=output.type.base,
                 unit=output.unit,
                 bounds=limits[k],
+                enumeration=output.type.enumeration,
             )
     for variable in mechanism.model.variables:
         yield from _of_text(reduced, variable)
@@ -164,6 +166,7 @@ def _of_text(reduced: Reduced, variable: Variable) -> Iterator[Listed]:
             base=variable.type.base,
             unit=variable.unit,
             bounds=bounds,
+            enumeration=variable.type.enumeration,
         )
 
 
