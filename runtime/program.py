@@ -62,7 +62,8 @@ class VariableInfo:
     """A variable a run gives. `type` is `real`, `integer`, `boolean` or `mode`.
 
     `causality` is `output` or `local`. `acting` are the inputs, and `time`, that act on an output
-    at once: not by way of states. `literals` are those of the type `enumeration`.
+    at once, not by way of states: any may where it is None. `literals` are those of the type
+    `enumeration`.
     """
 
     name: str
@@ -72,7 +73,7 @@ class VariableInfo:
     doc: str
     min: float | None = None
     max: float | None = None
-    acting: tuple[str, ...] = ()
+    acting: tuple[str, ...] | None = None
     literals: tuple[str, ...] = ()
     enumeration: str = ""
 

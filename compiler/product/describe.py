@@ -62,7 +62,7 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
                 "output" if v.output else "local",
                 v.doc,
                 **_limits(v.bounds, values),
-                acting=acting if v.output else (),
+                acting=acting if v.output else None,
                 **_of_enumeration(v.enumeration),
             )
             for v, acting in zip(lowered.variables, influence.inputs, strict=True)

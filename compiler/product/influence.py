@@ -92,6 +92,8 @@ class _Graph:
         numbered = enumerate(self._groups, self._first_group)
         self._of_contact = {k: number for number, group in numbered for k in group.contacts}
         self._reach = self._closed([*self._blocks(), *self._cores(), self._switches()])
+        (values,) = self._of(lowered.functions["variables"])
+        self._values = self._all(values)
 
     def _nodes_of_symbols(self) -> list[int]:
         system = self._lowered.system
@@ -172,8 +174,7 @@ class _Graph:
     def variables(self) -> list[int]:
         """Of each listed variable, the modes first."""
         modes = [self._reach[self._of_contact[k]] for k in self._contacts_with_mode()]
-        (values,) = self._of(self._lowered.functions["variables"])
-        return [*modes, *self._all(values)[len(modes) :]]
+        return [*modes, *self._values[len(modes) :]]
 
     def _contacts_with_mode(self) -> list[int]:
         """The contacts, in the order of the modes."""
@@ -185,8 +186,7 @@ class _Graph:
         """The knowns that act on anything once the motion has begun."""
         system = self._lowered.system
         others = [system.rates, system.power, system.invariants.values]
-        (values,) = self._of(self._lowered.functions["variables"])
-        return _union([*self._reach, *self._all(column(ca.vec(x) for x in [values, *others]))])
+        return _union([*self._reach, *self._values, *self._all(column(ca.vec(x) for x in others))])
 
 
 def _union(sets: Iterable[int]) -> int:

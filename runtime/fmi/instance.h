@@ -49,8 +49,10 @@ enum frot_fmu_category {
  * parameters, the inputs, the variables, each in the kernel's order. */
 typedef struct {
   const char *name;
-  int type; /* frot_type */
-  int role; /* frot_fmu_role */
+  int type;     /* frot_type */
+  int role;     /* frot_fmu_role */
+  int fixed;    /* 1: it acts at the start alone */
+  int literals; /* of an enumeration of the text, which are counted from 1, else 0 */
 } frot_fmu_variable;
 
 /* Written by the exporter (fmu_table.c) beside the model. */

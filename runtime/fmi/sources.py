@@ -7,8 +7,9 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import fmpy
-from frot.runtime.fmi.description import scalars, to_xml
+from frot.runtime.fmi.description import to_xml
 from frot.runtime.fmi.names import model_identifier
+from frot.runtime.fmi.scalars import MODE, Scalar, scalars
 from frot.runtime.program import MODEL_SOURCE, Program
 
 TABLE_SOURCE = "fmu_table.c"
@@ -37,7 +38,7 @@ _TYPES = {
     "real": "FROT_REAL",
     "integer": "FROT_INTEGER",
     "boolean": "FROT_BOOLEAN",
-    "mode": "FROT_MODE",
+    "enumeration": "FROT_MODE",
 }
 _ROLES = {
     "independent": "FROT_FMU_TIME",
@@ -58,11 +59,18 @@ def _string(value: str) -> str:
     )
 
 
+def _literals(variable: Scalar) -> int:
+    """The number of values an enumeration of the text has, counted from 1."""
+    return len(variable.declared.items) if variable.declared not in (None, MODE) else 0
+
+
 def variable_table(program: Program) -> str:
     """The C of the table of variables by value reference, see instance.h."""
     _, variables = scalars(program)
     rows = "\n".join(
-        f"    {{{_string(v.name)}, {_TYPES[v.type]}, {_ROLES[v.causality]}}}," for v in variables
+        f"    {{{_string(v.name)}, {_TYPES[v.type]}, {_ROLES[v.causality]}, "
+        f"{int(v.variability == 'fixed')}, {_literals(v)}}},"
+        for v in variables
     )
     choice = _ON_INDETERMINATE[program.experiment.on_indeterminate]
     return (

@@ -31,8 +31,8 @@ equation
 end Counter;
 """
 TYPES = {
-    "2.0": ("Integer", "Boolean", "Integer", "Real"),
-    "3.0": ("Int32", "Boolean", "Int32", "Float64"),
+    "2.0": ("Integer", "Boolean", "Enumeration", "Real"),
+    "3.0": ("Int32", "Boolean", "Enumeration", "Float64"),
 }
 
 
