@@ -147,7 +147,7 @@ def inputs_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
 
 def _limits(
     bounds: tuple[tuple[str, Expression], ...], values: Mapping[Parameter, object]
-) -> dict[str, float]:
+) -> dict[str, Any]:
     """`min` and `max`, as far as they are numbers at the default parameters."""
     return {name: as_number(evaluate(bound, values)) for name, bound in bounds}
 
