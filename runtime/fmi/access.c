@@ -68,6 +68,7 @@ int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned refere
     case FROT_FMU_INSTANTIATED:
     case FROT_FMU_INITIALIZATION:
     case FROT_FMU_STEPPING:
+    case FROT_FMU_EVENT:
       break;
     default:
       if (!fmu->life.refused) return frot_fmu_misplaced(fmu, function);

@@ -247,7 +247,7 @@ def _description_3(program: Program) -> ET.Element:
         maxOutputDerivativeOrder="0",
         providesIntermediateUpdate="false",
         mightReturnEarlyFromDoStep="true",
-        hasEventMode="false",
+        hasEventMode="true",
     )
     root.append(_units(variables))
     types = ET.SubElement(root, "TypeDefinitions")

@@ -127,6 +127,7 @@ void frot_fmu_close(frot_fmu *fmu) {
   free(fmu->name_memory);
   free(fmu->state);
   free(fmu->accepted);
+  free(fmu->before);
   free(fmu->work);
   free(fmu->values);
   free(fmu->recorder.events);

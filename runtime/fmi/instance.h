@@ -26,7 +26,8 @@ enum frot_fmu_phase {
   FROT_FMU_DISCARDED = 3, /* a step ended early: values are those of the last successful time */
   FROT_FMU_FAILED = 4,
   FROT_FMU_TERMINATED = 5,
-  FROT_FMU_ENDED = 6 /* the text has ended the run: values are those of its last instant */
+  FROT_FMU_ENDED = 6, /* the text has ended the run: values are those of its last instant */
+  FROT_FMU_EVENT = 7  /* in event mode */
 };
 
 enum frot_fmu_role {
@@ -84,7 +85,8 @@ typedef struct {
   int has_tolerance, has_stop;
   int started; /* in initialization mode: the start is solved with the values held */
   int status;  /* of the step that ended early */
-  int refused; /* what was set is refused, and the former values hold: others may be set */
+  int refused; /* what was set is refused, and the former values hold: others may be set in the
+                  phase of this number */
   double tolerance, start, stop;
   double t; /* last successful time */
 } frot_fmu_life;
@@ -102,11 +104,13 @@ enum frot_fmu_spending {
   FROT_FMU_SECONDS = 3
 };
 
-/* A step at work: evaluations before it, its times, when it was begun, what was spent. */
+/* A step at work: evaluations before it, its times, when it was begun, what was spent. It may be
+ * tried until an event only. */
 typedef struct {
   const frot_fmu *fmu;
   double before, begin, end;
   time_t started;
+  int until_event;
   int spent; /* frot_fmu_spending */
 } frot_fmu_budget;
 
@@ -126,6 +130,12 @@ struct frot_fmu {
   double *values; /* n_variables, at life.t where values_valid */
   frot_recorder recorder;
   frot_fmu_limits limits;
+  int watches_events; /* steps tell of events, and the environment handles them */
+  int returns_early;  /* and end at the first */
+  int seen;           /* the last step had events */
+  double first_event; /* its first one, or the next instant of time: INFINITY where there is none */
+  frot_state *before; /* the state at its beginning, where events are watched */
+  int event;          /* the last step ended at an event, or beyond one */
   frot_fmu_life life;
   frot_fmu_snapshot *snapshots;
 };
@@ -171,6 +181,18 @@ void frot_fmu_note_change(frot_fmu *fmu);
 int frot_fmu_settle(frot_fmu *fmu, const char *function);
 /* Log the kernel's fault; the answer is the status. */
 int frot_fmu_say_fault(const frot_fmu *fmu, int status, const char *function);
+
+/* events.c */
+
+/* Of an instance whose environment handles events; 0 where memory is short. */
+int frot_fmu_watch_events(frot_fmu *fmu, int returns_early);
+void frot_fmu_begin_watch(frot_fmu *fmu);
+int frot_fmu_has_event(const frot_fmu *fmu); /* the recorder does, beyond the step's beginning */
+void frot_fmu_see_event(frot_fmu *fmu, const frot_event *event);
+void frot_fmu_go_back(frot_fmu *fmu); /* to the beginning of the step */
+int frot_fmu_enter_event_mode(frot_fmu *fmu, const char *function);
+int frot_fmu_update_discrete(frot_fmu *fmu, const char *function);
+int frot_fmu_enter_step_mode(frot_fmu *fmu, const char *function);
 
 /* limits.c */
 

@@ -37,6 +37,7 @@ frot_fmu_budget frot_fmu_begin_budget(const frot_fmu *fmu, double t) {
                                   frot_time(fmu->state),
                                   t,
                                   time(NULL),
+                                  0,
                                   FROT_FMU_LEFT};
   return budget;
 }
@@ -44,6 +45,7 @@ frot_fmu_budget frot_fmu_begin_budget(const frot_fmu *fmu, double t) {
 int frot_fmu_spent(void *context, double t) {
   frot_fmu_budget *b = context;
   const frot_fmu_limits *limits = &b->fmu->limits;
+  if (b->until_event && frot_fmu_has_event(b->fmu)) return 1;
   const double taken = (double)frot_run_statistics(b->fmu->state)->evaluations - b->before;
   const double done = (t - b->begin) / (b->end - b->begin);
   if (taken > limits->evaluations)

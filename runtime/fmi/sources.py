@@ -22,13 +22,14 @@ _COMMON = (
     "lifecycle.c",
     "stepping.c",
     "limits.c",
+    "events.c",
     "access.c",
     "snapshot.c",
     "instance.h",
 )
 _FACES = {
     "2.0": ("fmi2.c", "fmi2_refused.c", "fmi2_instance.h"),
-    "3.0": ("fmi3.c", "fmi3_refused.c", "fmi3_refused_types.c", "fmi3_instance.h"),
+    "3.0": ("fmi3.c", "fmi3_events.c", "fmi3_refused.c", "fmi3_refused_types.c", "fmi3_instance.h"),
 }
 _FMI_HEADERS = {
     "2.0": ("fmi2TypesPlatform.h", "fmi2FunctionTypes.h", "fmi2Functions.h"),

@@ -74,9 +74,11 @@ static int stop_at_fault(frot_fmu *fmu, const char *function, int fault) {
 }
 
 void frot_fmu_note_change(frot_fmu *fmu) {
-  if (fmu->life.refused) fmu->life.phase = FROT_FMU_STEPPING;
-  fmu->life.refused = 0;
-  if (fmu->life.phase != FROT_FMU_STEPPING || fmu->unsettled != FROT_FMU_SETTLED) return;
+  frot_fmu_life *life = &fmu->life;
+  if (life->refused) life->phase = life->refused;
+  life->refused = 0;
+  if (life->phase != FROT_FMU_STEPPING && life->phase != FROT_FMU_EVENT) return;
+  if (fmu->unsettled != FROT_FMU_SETTLED) return;
   memcpy(fmu->accepted, fmu->state, fmu->state_size);
   fmu->unsettled = FROT_FMU_REVOCABLE;
 }
@@ -91,7 +93,7 @@ static int refuse_change(frot_fmu *fmu, const char *function, int fault) {
   frot_fmu_life *life = &fmu->life;
   frot_fault_text(fmu->model, fmu->state, sentence, sizeof sentence);
   if (!taken_back(fault)) memcpy(fmu->state, fmu->accepted, fmu->state_size);
-  life->refused = 1;
+  life->refused = life->phase;
   life->phase = ends_early(fault) ? FROT_FMU_DISCARDED : FROT_FMU_FAILED;
   life->status = ends_early(fault) ? FROT_FMU_DISCARD : FROT_FMU_ERROR;
   return frot_fmu_say(fmu, life->status,
@@ -111,13 +113,16 @@ int frot_fmu_settle(frot_fmu *fmu, const char *function) {
 
 /* Runs the kernel to time t and logs the events on the way. */
 static int advance(frot_fmu *fmu, double t, frot_fmu_budget *budget) {
-  frot_recorder *recorder = fmu->categories & FROT_FMU_LOG_EVENTS ? &fmu->recorder : NULL;
+  const int logs = (fmu->categories & FROT_FMU_LOG_EVENTS) != 0;
+  frot_recorder *recorder = logs || fmu->watches_events ? &fmu->recorder : NULL;
   char sentence[SENTENCE];
   int status;
   do {
     if (recorder != NULL) recorder->event_count = 0;
     status = frot_advance(fmu->model, fmu->state, fmu->work, t, recorder, frot_fmu_spent, budget);
     for (long long i = 0; recorder != NULL && i < recorder->event_count; i++) {
+      frot_fmu_see_event(fmu, &recorder->events[i]);
+      if (!logs) continue;
       frot_event_text(fmu->model, &recorder->events[i], sentence, sizeof sentence);
       frot_fmu_say_event(fmu, sentence);
     }
@@ -132,6 +137,31 @@ static int advance_to_point(frot_fmu *fmu, double t, double scale, frot_fmu_budg
   const double next = frot_next_instant(fmu->state);
   if (status != FROT_OK || next > t + ROUNDING * scale) return status;
   return advance(fmu, next, budget);
+}
+
+/* The same, or to the first event on the way where the environment wants to be there; *t is the
+ * time reached. What a step tries beyond an event is not logged. */
+static int advance_to_event(frot_fmu *fmu, double *t, double scale, frot_fmu_budget *budget) {
+  const unsigned categories = fmu->categories;
+  frot_fmu_begin_watch(fmu);
+  if (!fmu->watches_events || !fmu->returns_early) {
+    const int status = advance_to_point(fmu, *t, scale, budget);
+    fmu->event = fmu->watches_events && fmu->first_event <= *t + ROUNDING * scale;
+    return status;
+  }
+  fmu->categories &= ~(unsigned)FROT_FMU_LOG_EVENTS;
+  budget->until_event = 1;
+  const int status = advance_to_point(fmu, *t, scale, budget);
+  const double reached = status == FROT_OK ? *t : frot_time(fmu->state);
+  const double near = fmin(scale, fmax(fabs(fmu->life.t), fabs(fmu->first_event)));
+  fmu->categories = categories;
+  fmu->event = fmu->first_event <= reached + ROUNDING * near;
+  if (!fmu->seen && !fmu->event) return status;
+  const int early = fmu->event && fmu->first_event < *t - ROUNDING * near;
+  if (early) *t = fmu->first_event;
+  frot_fmu_go_back(fmu);
+  *budget = frot_fmu_begin_budget(fmu, *t);
+  return advance_to_point(fmu, *t, early ? near : scale, budget);
 }
 
 static int stop_at_limit(frot_fmu *fmu, const char *function, const frot_fmu_budget *budget) {
@@ -158,6 +188,7 @@ static int say_again(const frot_fmu *fmu, const char *function) {
 
 int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step) {
   frot_fmu_life *life = &fmu->life;
+  fmu->event = 0;
   if (life->phase == FROT_FMU_DISCARDED || life->phase == FROT_FMU_FAILED ||
       life->phase == FROT_FMU_ENDED)
     return say_again(fmu, function);
@@ -181,9 +212,10 @@ int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step
   if (status != FROT_FMU_OK) return status;
   fmu->values_valid = 0;
   frot_fmu_budget budget = frot_fmu_begin_budget(fmu, t);
-  status = advance_to_point(fmu, t, scale, &budget);
+  double reached = t;
+  status = advance_to_event(fmu, &reached, scale, &budget);
   if (status == FROT_STOPPED) return stop_at_limit(fmu, function, &budget);
   if (status != FROT_OK) return stop_at_fault(fmu, function, status);
-  life->t = t;
+  life->t = reached;
   return FROT_FMU_OK;
 }
