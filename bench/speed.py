@@ -298,7 +298,16 @@ def fmus(bench: Bench, folder: Path) -> None:
             def once(
                 name: str = name, fmi: str = fmi, target: Path = target, cache: Path = cache
             ) -> Sequence[float]:
-                export = ["fmu", MODELS / f"{name}.frot", "--fmi", fmi, "-o", target]
+                export = [
+                    "fmu",
+                    MODELS / f"{name}.frot",
+                    "--fmi",
+                    fmi,
+                    "-o",
+                    target,
+                    "--platforms",
+                    "native",
+                ]
                 done = bench.run(export, FROT_CACHE=cache)
                 size = target.stat().st_size / 1e3
                 target.unlink()

@@ -9,18 +9,19 @@ if TYPE_CHECKING:
     from frot.compiler.report.report import Report
     from frot.compiler.toolchain.cache import find_program, program_key
     from frot.compiler.toolchain.chosen import Toolchain, find_toolchain
-    from frot.compiler.toolchain.objects import compile_library
+    from frot.compiler.toolchain.targets import compile_libraries, possible_platforms
 
 _HOMES = {
     "Dae": "product.dae",
     "Report": "report.report",
     "Toolchain": "toolchain.chosen",
     "build": "driver",
-    "compile_library": "toolchain.objects",
+    "compile_libraries": "toolchain.targets",
     "find_program": "toolchain.cache",
     "find_toolchain": "toolchain.chosen",
     "make_dae": "driver",
     "make_report": "driver",
+    "possible_platforms": "toolchain.targets",
     "print_stage": "driver",
     "program_key": "toolchain.cache",
 }
@@ -29,11 +30,12 @@ __all__ = [
     "Report",
     "Toolchain",
     "build",
-    "compile_library",
+    "compile_libraries",
     "find_program",
     "find_toolchain",
     "make_dae",
     "make_report",
+    "possible_platforms",
     "print_stage",
     "program_key",
 ]

@@ -109,6 +109,12 @@ def _parser() -> argparse.ArgumentParser:
     _model(fmu)
     fmu.add_argument("-o", "--output", metavar="FILE", help="the .fmu (default: MODEL.fmu)")
     fmu.add_argument("--fmi", choices=("2.0", "3.0"), default="2.0", help="version (default: 2.0)")
+    fmu.add_argument(
+        "--platforms",
+        metavar="P,...",
+        type=lambda names: names.split(","),
+        help="as x86_64-windows,native, which is this machine's (default: all that can be made)",
+    )
 
     fmt = _command(commands, "fmt", "bring files into their usual form", _fmt)
     _files(fmt, "a .frot file, or - for standard input to standard output")
@@ -331,7 +337,7 @@ def _simulate(options: argparse.Namespace) -> int:
 def _fmu(options: argparse.Namespace) -> int:
     model = _compiled(options)
     target = options.output or f"{model.program().name}.fmu"
-    model.export_fmu(target, options.fmi)
+    model.export_fmu(target, options.fmi, options.platforms)
     print(f"{target}: FMI {options.fmi} co-simulation, checked by FMPy")
     return 0
 

@@ -129,34 +129,33 @@ class Model:
     def export_fmu(
         self, path: str | Path, fmi: str = "2.0", platforms: str | Sequence[str] | None = None
     ) -> None:
-        """Write a co-simulation FMU. `fmi`: "2.0" or "3.0"; `platforms`: this machine's only.
+        """Write a co-simulation FMU. `fmi`: "2.0" or "3.0".
+
+        `platforms` are those its libraries are for, as "x86_64-windows": all that can be made, if
+        none is given; "native" is this machine's, made in the shortest time.
 
         Raises:
             FrotError: The file cannot be written, or an option has a bad value.
         """
         from functools import partial
 
-        from frot.compiler import compile_library
+        from frot.compiler import compile_libraries, possible_platforms
         from frot.dsl.files.writing import remedy
-        from frot.runtime.fmi import InvalidFmuError, export, platform_folder
+        from frot.runtime.fmi import InvalidFmuError, check_platforms, export
 
-        own = platform_folder("3.0").removeprefix("binaries/")
-        asked = (platforms,) if isinstance(platforms, str) else platforms or (own,)
-        others = [p for p in asked if p != own]
-        if others:
-            raise fail(
-                "E0701",
-                f"an FMU for {', '.join(others)} is not supported yet",
-                help=f"this machine makes FMUs for {own}",
-            )
-
+        chosen = (platforms,) if isinstance(platforms, str) else platforms or possible_platforms()
         fmi = str(fmi)
         if fmi not in ("2.0", "3.0"):
             raise fail("E0806", f"FMI version '{fmi}' is not known", help="choose 2.0 or 3.0")
+        try:
+            check_platforms(chosen)
+        except ValueError as error:
+            raise fail("E0806", str(error)) from None
         target = Path(path)
         try:
             with Interrupts():
-                export(self.program(), target, fmi, partial(compile_library, self._toolchain))
+                make = partial(compile_libraries, self._toolchain)
+                export(self.program(), target, fmi, make, chosen)
         except OSError as error:
             raise fail(
                 "E0803",

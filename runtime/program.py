@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from frot.dsl.data.classes import dataclass, field
 
@@ -22,12 +22,14 @@ class Unit:
     """A unit of values: name and exponents of m, kg, s, A, K, mol, cd, rad; all values are in SI.
 
     `display` is the author's unit (`mm`), of `display_factor` SI units; empty if it is the same.
+    A number of it is `display_factor` times that and `display_offset` in SI (degC: 273.15).
     """
 
     name: str
     exponents: tuple[int, ...] = (0,) * 8
     display: str = ""
     display_factor: float = 1.0
+    display_offset: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +38,9 @@ class ParameterInfo:
 
     So are `min` and `max`, at the default parameters.
 
-    `dependent`: the value follows from other parameters unless it is set. `literals` are those of
-    an enumeration, which count from 1.
+    `dependent`: the value follows from other parameters unless it is set; `needed` are the
+    independent ones among these. `literals` are those of the type `enumeration`, which count from
+    1. `started`: it acts at the start of a run alone.
     """
 
     name: str
@@ -49,15 +52,20 @@ class ParameterInfo:
     min: float | None = None
     max: float | None = None
     literals: tuple[str, ...] = ()
+    enumeration: str = ""
+    needed: tuple[str, ...] = ()
+    started: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class VariableInfo:
     """A variable a run gives. `type` is `real`, `integer`, `boolean` or `mode`.
 
-    `causality` is `output` or `local`. `literals` are those of an enumeration, which count from 1.
-    `declared`: the text declares it, in the model or in a component; else it is one of a body, a
-    liaison or an energy. `changes`: false for the mode of a liaison that has one mode only.
+    `causality` is `output` or `local`. `acting` are the inputs, and `time`, that act on an output
+    at once, not by way of states: any may where it is None. `literals` are those of the type
+    `enumeration`, which count from 1. `declared`: the text declares it, in the model or in a
+    component; else it is one of a body, a liaison or an energy. `changes`: false for the mode of a
+    liaison that has one mode only.
     """
 
     name: str
@@ -67,12 +75,11 @@ class VariableInfo:
     doc: str
     min: float | None = None
     max: float | None = None
+    acting: tuple[str, ...] | None = None
     literals: tuple[str, ...] = ()
+    enumeration: str = ""
     declared: bool = False
     changes: bool = True
-
-
-_Info = TypeVar("_Info", ParameterInfo, VariableInfo)
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,9 +184,9 @@ def read_program(folder: Path) -> Program:
     return Program(
         **{
             **data,
-            "parameters": tuple(_info(ParameterInfo, entry) for entry in data["parameters"]),
-            "inputs": tuple(_info(ParameterInfo, entry) for entry in data["inputs"]),
-            "variables": tuple(_info(VariableInfo, entry) for entry in data["variables"]),
+            "parameters": tuple(_parameter(entry) for entry in data["parameters"]),
+            "inputs": tuple(_parameter(entry) for entry in data["inputs"]),
+            "variables": tuple(VariableInfo(**_entry(entry)) for entry in data["variables"]),
             "contacts": tuple(data["contacts"]),
             "conditions": tuple(data.get("conditions", ())),
             "experiment": ExperimentInfo(**data["experiment"]),
@@ -205,6 +212,11 @@ def _unit(entry: dict[str, Any]) -> Unit:
     return Unit(**{**entry, "exponents": tuple(entry["exponents"])})
 
 
-def _info(kind: type[_Info], entry: dict[str, Any]) -> _Info:
-    literals = tuple(entry.get("literals", ()))
-    return kind(**{**entry, "unit": _unit(entry["unit"]), "literals": literals})
+def _parameter(entry: dict[str, Any]) -> ParameterInfo:
+    return ParameterInfo(**_entry(entry))
+
+
+def _entry(entry: dict[str, Any]) -> dict[str, Any]:
+    """Lists, of names, are tuples."""
+    whole = {key: tuple(x) if isinstance(x, list) else x for key, x in entry.items()}
+    return {**whole, "unit": _unit(entry["unit"])}

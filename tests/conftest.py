@@ -39,3 +39,10 @@ def warm_cache(request: pytest.FixtureRequest) -> Path:
     if "PYTEST_XDIST_WORKER" in os.environ and compiled:
         made_once("kernel", lambda _: frot.compile(NOTHING).simulate())
     return Path(os.environ["FROT_CACHE"])
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Say which tests of FMUs had no emulator to run under."""
+    from emulators import told
+
+    terminalreporter.write_line(f"FMUs of {told()}")

@@ -134,7 +134,7 @@ def _join(scene: _Scene, sets: Sets) -> set[int]:
     for k, group in zip(nodes.of_groups, scene.grouping.groups, strict=True):
         for z in group.unknowns[: group.n_speeds]:
             sets.join(k, nodes.nq + z)
-        parts = [*_dynamics_of(system, (group,)), system.force_size[list(group.unknowns)]]
+        parts = [*dynamics_of(system, (group,)), system.force_size[list(group.unknowns)]]
         parts += pack_spread(system, (group,)) if group.general else ()
         own = [x for part in parts for x in _split(part)]
         values += own
@@ -175,7 +175,7 @@ def _make_island(scene: _Scene, items: list[int], groups: range, sleeps: bool) -
     located = [k for k in conditions if k < system.reduced.conditions.located]
     terms = [scene.terms[k - nodes.of_terms.start] for k in items if k in nodes.of_terms]
     own = [grouping.groups[k] for k in groups]
-    matrix, force, rows, bias, rate, gap, coefficients = _dynamics_of(system, own)
+    matrix, force, rows, bias, rate, gap, coefficients = dynamics_of(system, own)
     unknowns = [z for g in own for z in g.unknowns]
     results = {
         "kinematics": [gap, rows, rate, scene.conditions[conditions]],
@@ -214,7 +214,7 @@ def _make_island(scene: _Scene, items: list[int], groups: range, sleeps: bool) -
     )
 
 
-def _dynamics_of(system: Assembled, groups: Sequence[Group]) -> list[ca.SX]:
+def dynamics_of(system: Assembled, groups: Sequence[Group]) -> list[ca.SX]:
     """A, h, J, c, rate, gap, coefficients of groups, in the order of their tables."""
     unknowns = [z for g in groups for z in g.unknowns]
     rows = [r for g in groups for r in g.rows]

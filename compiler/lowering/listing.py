@@ -24,7 +24,7 @@ from frot.dsl.checked import (
 from frot.dsl.checked.arrays import component_names
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.names.flanges import parameter_type
-from frot.dsl.quantities.dimensions import Dimension, Type, dimension
+from frot.dsl.quantities.dimensions import Dimension, Enumeration, dimension
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class Listed:
     base: str = "real"
     unit: str = ""
     bounds: tuple[tuple[str, Expression], ...] = ()
-    literals: tuple[str, ...] = ()
+    enumeration: Enumeration | None = None
     declared: bool = False
     changes: bool = True
 
@@ -120,7 +120,7 @@ def _all(system: Assembled, looking: Lowering) -> Iterator[Listed]:
                 base=output.type.base,
                 unit=output.unit,
                 bounds=limits[k],
-                literals=literals_of(output.type),
+                enumeration=output.type.enumeration,
                 declared=True,
             )
     for variable in mechanism.model.variables:
@@ -173,14 +173,9 @@ def _of_text(reduced: Reduced, variable: Variable) -> Iterator[Listed]:
             base=variable.type.base,
             unit=variable.unit,
             bounds=bounds,
-            literals=literals_of(variable.type),
+            enumeration=variable.type.enumeration,
             declared=True,
         )
-
-
-def literals_of(of: Type) -> tuple[str, ...]:
-    """The literals of an enumeration; none of other types."""
-    return () if of.enumeration is None else of.enumeration.literals
 
 
 def _rates(system: Assembled) -> Iterator[Listed]:

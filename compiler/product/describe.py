@@ -5,18 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import Any
 
-from frot.compiler.lowering.listing import integral_name, listed_integrals, literals_of
+from frot.compiler.lowering.listing import integral_name, listed_integrals
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.walk import as_number
 from frot.compiler.mechanics.mechanism import is_unilateral, relations_of
+from frot.compiler.product.influence import influence_of
 from frot.compiler.product.units import unit_of
 from frot.compiler.report.first_integrals import FirstIntegral
 from frot.compiler.toolchain.chosen import MODEL_FLAGS, Toolchain
 from frot.dsl import default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
+from frot.dsl.data.classes import replace
 from frot.dsl.messages.source import escaped
-from frot.dsl.quantities.dimensions import dimension
+from frot.dsl.quantities.dimensions import Enumeration, dimension
 from frot.runtime.program import (
     ExperimentInfo,
     IntegralInfo,
@@ -38,13 +41,19 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
     reduced = lowered.reduced
     mechanism, model = reduced.mechanism, reduced.mechanism.model
     values = default_values(model, {})
+    influence = influence_of(lowered)
     return Program(
         name=model.name,
         doc=model.doc,
         key=key,
         version=VERSION,
         planar=model.planar,
-        parameters=parameters_of(lowered),
+        parameters=tuple(
+            replace(info, needed=needed if info.dependent else (), started=started)
+            for info, needed, started in zip(
+                parameters_of(lowered), influence.needed, influence.started, strict=True
+            )
+        ),
         inputs=inputs_of(lowered),
         variables=tuple(
             VariableInfo(
@@ -54,11 +63,12 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
                 "output" if v.output else "local",
                 v.doc,
                 **_limits(v.bounds, values),
-                literals=v.literals,
                 declared=v.declared,
                 changes=v.changes,
+                acting=acting if v.output else None,
+                **_of_enumeration(v.enumeration),
             )
-            for v in lowered.variables
+            for v, acting in zip(lowered.variables, influence.inputs, strict=True)
         ),
         contacts=(
             *(c.liaison.name for c in mechanism.contacts),
@@ -114,7 +124,7 @@ def parameters_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
             p.doc,
             dependent,
             **_limits(p.bounds, values),
-            literals=literals_of(p.type),
+            **_of_enumeration(p.type.enumeration),
         )
         for p, dependent in zip(lowered.reduced.symbols.parameters, lowered.dependent, strict=True)
     )
@@ -132,7 +142,7 @@ def inputs_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
             i.doc,
             dependent=False,
             **_limits(i.bounds, values),
-            literals=literals_of(i.type),
+            **_of_enumeration(i.type.enumeration),
         )
         for i in lowered.reduced.symbols.inputs
     )
@@ -140,9 +150,13 @@ def inputs_of(lowered: Lowered) -> tuple[ParameterInfo, ...]:
 
 def _limits(
     bounds: tuple[tuple[str, Expression], ...], values: Mapping[Parameter, object]
-) -> dict[str, float]:
+) -> dict[str, Any]:
     """`min` and `max`, as far as they are numbers at the default parameters."""
     return {name: as_number(evaluate(bound, values)) for name, bound in bounds}
+
+
+def _of_enumeration(of: Enumeration | None) -> dict[str, Any]:
+    return {} if of is None else {"literals": of.literals, "enumeration": of.name}
 
 
 def _unit(declared: Parameter | Input) -> Unit:

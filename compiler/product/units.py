@@ -40,4 +40,4 @@ def unit_of(of: Dimension, quantity: str = "", written: str = "") -> Unit:
     if parsed is None or parsed.dimension != of:
         return Unit(name, exponents)
     turn = factor_between(rate_of_unit(written, of), rate_of_kind(quantity, "", of))
-    return Unit(name, exponents, written, float(parsed.factor * turn))
+    return Unit(name, exponents, written, float(parsed.factor * turn), float(parsed.offset))

@@ -22,10 +22,16 @@ MODEL_FLAGS = (*_FLAGS, "-O1")
 
 @dataclass(frozen=True, slots=True)
 class Toolchain:
-    """A C compiler as the words of a command, and what identifies it: words, size and date."""
+    """A C compiler as the words of a command, and what identifies it: words, size and date.
+
+    `environment` are variables it is run with, besides those of this process; `joins`: it may be
+    able to make one object of several.
+    """
 
     command: tuple[str, ...]
     identity: str
+    environment: tuple[tuple[str, str], ...] = ()
+    joins: bool = True
 
 
 def find_toolchain() -> Toolchain:
@@ -49,12 +55,12 @@ def find_toolchain() -> Toolchain:
                 f"the C compiler of FROT_CC does not exist: {wanted}",
                 help="set FROT_CC to a C compiler's command, or unset it",
             )
-        return _toolchain(tuple(words))
+        return toolchain_of(tuple(words))
     for name in ("cc", "gcc", "clang"):
         if shutil.which(name) is not None:
-            return _toolchain((name,))
+            return toolchain_of((name,))
     if importlib.util.find_spec("ziglang") is not None:
-        return _toolchain((sys.executable, "-m", "ziglang", "cc"))
+        return toolchain_of((sys.executable, "-m", "ziglang", "cc"))
     raise fail(
         "E0801",
         "no C compiler was found",
@@ -62,7 +68,8 @@ def find_toolchain() -> Toolchain:
     )
 
 
-def _toolchain(command: tuple[str, ...]) -> Toolchain:
+def toolchain_of(command: tuple[str, ...]) -> Toolchain:
+    """A compiler by its command."""
     binary = Path(shutil.which(command[0]) or command[0]).resolve()
     try:
         stat = binary.stat()

@@ -15,15 +15,22 @@ from frot.compiler.toolchain.keeper import Keeper
 from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.errors import fail
 
-LINK_FLAGS = ("-shared", "-lm")
+LIBRARIES = ("-lm",)
 TIMEOUT = 600.0
 _MOMENT = 0.02
 _OTHER = "set FROT_CC to another compiler, or report this with the model"
 
 
-def run_compilers(
-    toolchain: Toolchain, jobs: Sequence[tuple[Sequence[str | Path], Path]], keeper: Keeper
-) -> None:
+@dataclass(frozen=True, slots=True)
+class Job:
+    """A compiler, its arguments and the file that it makes of them."""
+
+    toolchain: Toolchain
+    arguments: Sequence[str | Path]
+    target: Path
+
+
+def run_compilers(jobs: Sequence[Job], keeper: Keeper) -> None:
     """Make the target of each job from its arguments, as many at a time as there are cores.
 
     FrotError (E0802) with the first lines of the output if one fails. What a compiler keeps for
@@ -34,32 +41,31 @@ def run_compilers(
     line, running = list(reversed(jobs)), list[_Running]()
     while line or running:
         while line and len(running) < (os.cpu_count() or 1):
-            running.append(_start(toolchain, *line.pop(), keeper))
+            running.append(_start(line.pop(), keeper))
         for one, printed in _ended(running):
             running.remove(one)
-            _check(toolchain, one, printed)
+            _check(one, printed)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Running:
-    """A compiler at work, what it makes, and the instant (s) by which it must have made it."""
+    """A compiler at work, and the instant (s) by which it must have made its target."""
 
     process: subprocess.Popen[str]
-    target: Path
+    job: Job
     end: float
 
 
-def _start(
-    toolchain: Toolchain, arguments: Sequence[str | Path], target: Path, keeper: Keeper
-) -> _Running:
-    command = [*toolchain.command, *(str(a) for a in arguments), "-o", str(target)]
+def _start(job: Job, keeper: Keeper) -> _Running:
+    command = [*job.toolchain.command, *(str(a) for a in job.arguments), "-o", str(job.target)]
+    environment = {"TMPDIR": str(job.target.parent), **dict(job.toolchain.environment)}
     try:
-        process = keeper.start(command, {"TMPDIR": str(target.parent)})
+        process = keeper.start(command, environment)
     except FileNotFoundError:
         raise fail("E0801", f"no C compiler: {command[0]} does not exist") from None
     except OSError as error:
         raise fail("E0802", f"the C compiler could not be run: {error}", help=_OTHER) from None
-    return _Running(process, target, time.monotonic() + TIMEOUT)
+    return _Running(process, job, time.monotonic() + TIMEOUT)
 
 
 def _ended(running: Sequence[_Running]) -> list[tuple[_Running, str]]:
@@ -76,8 +82,8 @@ def _ended(running: Sequence[_Running]) -> list[tuple[_Running, str]]:
     return done
 
 
-def _check(toolchain: Toolchain, one: _Running, printed: str) -> None:
-    status = one.process.returncode
+def _check(one: _Running, printed: str) -> None:
+    status, command = one.process.returncode, shlex.join(one.job.toolchain.command)
     if status != 0:
         lines = printed.strip().splitlines()[:8]
         if any("No space left" in line for line in lines):
@@ -89,16 +95,28 @@ def _check(toolchain: Toolchain, one: _Running, printed: str) -> None:
             )
         raise fail(
             "E0802",
-            f"the C compiler failed with status {status}: {shlex.join(toolchain.command)}",
+            f"the C compiler failed with status {status}: {command}",
             notes=tuple(lines),
             help=_OTHER,
         )
-    if not one.target.is_file():
+    if not one.job.target.is_file():
         raise fail(
             "E0802",
-            f"the C compiler wrote nothing: {shlex.join(toolchain.command)}",
+            f"the C compiler wrote nothing: {command}",
             help=_OTHER,
         )
+
+
+def compile_jobs(
+    toolchain: Toolchain,
+    sources: Sequence[Path],
+    include: Sequence[Path],
+    folder: Path,
+    flags: Sequence[str],
+) -> list[Job]:
+    """What makes an object in `folder` of each source."""
+    options = [*flags, *(f"-I{path}" for path in include), "-c"]
+    return [Job(toolchain, [*options, one], folder / f"{one.stem}.o") for one in sources]
 
 
 def compile_objects(
@@ -109,25 +127,21 @@ def compile_objects(
     flags: Sequence[str],
 ) -> list[Path]:
     """Compile each source to an object in `folder`, as many at a time as there are cores."""
-    options = [*flags, *(f"-I{path}" for path in include), "-c"]
-    objects = [folder / f"{source.stem}.o" for source in sources]
-    jobs: list[tuple[list[str | Path], Path]] = [
-        ([*options, source], made) for source, made in zip(sources, objects, strict=True)
-    ]
+    jobs = compile_jobs(toolchain, sources, include, folder, flags)
     with Keeper() as keeper:
-        run_compilers(toolchain, jobs, keeper)
-    return objects
+        run_compilers(jobs, keeper)
+    return [job.target for job in jobs]
 
 
 def join_objects(toolchain: Toolchain, objects: Sequence[Path], target: Path) -> None:
     """Join objects to one."""
     with Keeper() as keeper:
-        run_compilers(toolchain, [(["-r", "-nostdlib", *objects], target)], keeper)
+        run_compilers([Job(toolchain, ["-r", "-nostdlib", *objects], target)], keeper)
 
 
 def link_library(
-    toolchain: Toolchain, objects: Sequence[Path], target: Path, words: Sequence[str] = ()
+    toolchain: Toolchain, objects: Sequence[Path], target: Path, words: Sequence[str] = LIBRARIES
 ) -> None:
     """Link objects to a shared library, with further words for the linker."""
     with Keeper() as keeper:
-        run_compilers(toolchain, [([*objects, *words, *LINK_FLAGS], target)], keeper)
+        run_compilers([Job(toolchain, ["-shared", *objects, *words], target)], keeper)

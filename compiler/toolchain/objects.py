@@ -6,22 +6,20 @@ import functools
 import hashlib
 import shutil
 import sys
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
 from frot.compiler.toolchain.cache import Kept, is_whole, seal, stored
-from frot.compiler.toolchain.chosen import KERNEL_FLAGS, MODEL_FLAGS, Toolchain, find_toolchain
-from frot.compiler.toolchain.compilers import compile_objects, join_objects, link_library
-from frot.compiler.toolchain.keeper import Keeper
+from frot.compiler.toolchain.chosen import KERNEL_FLAGS, Toolchain, find_toolchain
+from frot.compiler.toolchain.compilers import compile_objects, join_objects
 from frot.compiler.toolchain.storing import store
+from frot.dsl.data.classes import replace
 from frot.dsl.files.folders import room
 from frot.dsl.messages.errors import FrotError
-from frot.runtime.program import MODEL_SOURCE
 
 KERNELS = "kernels"
 # The kernel's objects as one, which a linker takes in half of the time.
-_JOINED = "kernel.joined"
+_JOINED = "kernel.joined.o"
 
 
 def kept_objects(
@@ -86,7 +84,7 @@ def kernel_sources(folder: Path) -> list[Path]:
 
 def kept_kernel(toolchain: Toolchain) -> Kept:
     """The folder of the kernel's objects: the same ones in every program and every FMU."""
-    key = _own_key(toolchain)
+    key = _own_key(replace(toolchain, environment=()))
 
     def fill(folder: Path) -> None:
         _compile_kernel(toolchain, kernel_folder(), folder)
@@ -103,6 +101,8 @@ def kernel_objects(kernel: Kept) -> list[Path]:
 def _compile_kernel(toolchain: Toolchain, folder: Path, made: Path) -> None:
     """From its sources in `folder`; left in single objects by a compiler that cannot join them."""
     objects = compile_objects(toolchain, kernel_sources(folder), [folder], made, KERNEL_FLAGS)
+    if not toolchain.joins:
+        return
     try:
         join_objects(toolchain, objects, made / _JOINED)
     except FrotError:
@@ -110,31 +110,14 @@ def _compile_kernel(toolchain: Toolchain, folder: Path, made: Path) -> None:
 
 
 def _key_of_kernel(toolchain: Toolchain, folder: Path) -> str:
-    return _key(toolchain, kernel_sources(folder), [folder], (*KERNEL_FLAGS, _JOINED))
+    joined = (_JOINED,) if toolchain.joins else ()
+    return _key(toolchain, kernel_sources(folder), [folder], (*KERNEL_FLAGS, *joined))
 
 
 @functools.cache
-def _own_key(toolchain: Toolchain) -> str:
+def _own_key(identity: Toolchain) -> str:
     """As for the key of a program, the kernel's sources are read once in a process."""
-    return _key_of_kernel(toolchain, kernel_folder())
-
-
-def compile_library(
-    toolchain: Toolchain, sources: Sequence[Path], include: Sequence[Path], target: Path
-) -> None:
-    """Compile the sources of an FMU to a shared library of which only FMI's functions are seen."""
-    from frot.runtime.fmi.sources import TABLE_SOURCE
-
-    kernel = {source.name for source in kernel_sources(kernel_folder())}
-    own = [source for source in sources if source.name in (MODEL_SOURCE, TABLE_SOURCE)]
-    face = [source for source in sources if source not in own and source.name not in kernel]
-    kernel_kept = kept_kernel(toolchain)
-    face_kept = kept_objects(toolchain, face, include, KERNEL_FLAGS)
-    with tempfile.TemporaryDirectory(prefix="frot-") as name, Keeper(Path(name)):
-        folder = Path(name)
-        objects = compile_objects(toolchain, own, include, folder, MODEL_FLAGS)
-        objects += [*kernel_objects(kernel_kept), *sorted(face_kept.folder.glob("*.o"))]
-        link_library(toolchain, objects, target, only_seen(folder))
+    return _key_of_kernel(identity, kernel_folder())
 
 
 def only_seen(folder: Path) -> list[str]:

@@ -1,5 +1,6 @@
 """Programs as functional mock-up units (FMI 2.0 and FMI 3.0, co-simulation)."""
 
-from frot.runtime.fmi.export import InvalidFmuError, export, platform_folder
+from frot.runtime.fmi.export import InvalidFmuError, export
+from frot.runtime.fmi.platforms import check_platforms, platform_folder
 
-__all__ = ["InvalidFmuError", "export", "platform_folder"]
+__all__ = ["InvalidFmuError", "check_platforms", "export", "platform_folder"]

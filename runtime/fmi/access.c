@@ -8,7 +8,7 @@ static const char *type_name(int types) {
   if (types & FROT_FMU_TYPE(FROT_REAL)) return "real number";
   if (types & FROT_FMU_TYPE(FROT_BOOLEAN)) return "boolean";
   if (types & FROT_FMU_TYPE(FROT_INTEGER)) return "integer";
-  if (types & FROT_FMU_TYPE(FROT_MODE)) return "mode";
+  if (types & FROT_FMU_TYPE(FROT_MODE)) return "value of an enumeration";
   return "value of this type";
 }
 
@@ -68,6 +68,7 @@ int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned refere
     case FROT_FMU_INSTANTIATED:
     case FROT_FMU_INITIALIZATION:
     case FROT_FMU_STEPPING:
+    case FROT_FMU_EVENT:
       break;
     default:
       if (!fmu->life.refused) return frot_fmu_misplaced(fmu, function);
@@ -78,6 +79,15 @@ int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned refere
     return frot_fmu_say(fmu, FROT_FMU_ERROR,
                         "%s: '%s' cannot be set: it is neither a parameter nor an input.", function,
                         variable->name);
+  if (variable->fixed && fmu->life.phase != FROT_FMU_INSTANTIATED &&
+      fmu->life.phase != FROT_FMU_INITIALIZATION)
+    return frot_fmu_say(fmu, FROT_FMU_ERROR,
+                        "%s: '%s' cannot be set now: it acts at the start alone.", function,
+                        variable->name);
+  if (variable->literals > 0 && !(value >= 1.0 && value <= variable->literals))
+    return frot_fmu_say(fmu, FROT_FMU_ERROR,
+                        "%s: '%s' has no value %.0f, only the whole numbers from 1 to %d.",
+                        function, variable->name, value, variable->literals);
   if (!isfinite(value))
     return frot_fmu_say(fmu, FROT_FMU_ERROR, "%s: the value for '%s' is not a finite number.",
                         function, variable->name);

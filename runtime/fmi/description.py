@@ -1,32 +1,23 @@
 """The model description (modelDescription.xml) of a program, for FMI 2.0 and FMI 3.0.
 
-Value references count time (0), the parameters, the inputs and the variables of a program in their
-order; instance.h relies on it. In FMI 2.0 the index of a variable is its value reference plus one.
+In FMI 2.0 the index of a variable is its value reference plus one.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from xml.etree import ElementTree as ET
 
-from frot.dsl.data.classes import dataclass
-from frot.runtime.fmi.names import model_identifier, variable_names
+from frot.runtime.fmi.names import model_identifier
+from frot.runtime.fmi.scalars import MODE, Declared, Scalar, scalars
 from frot.runtime.program import (
     DEFAULT_POINTS,
     DEFAULT_TOLERANCE,
-    ParameterInfo,
     Program,
     Unit,
-    VariableInfo,
 )
 
-MODE_TYPE = "FrotMode"
-MODES = (
-    ("open", 0, "the liaison is open"),
-    ("stick", 1, "closed, without slip"),
-    ("slip", 2, "closed, slipping"),
-)
 LOG_CATEGORIES = (
     ("logEvents", "changes of the modes of liaisons and of conditions"),
     ("logStatusDiscard", "why the motion ends before the end of a step"),
@@ -37,116 +28,15 @@ LOG_CATEGORIES = (
 BASE_UNITS = ("m", "kg", "s", "A", "K", "mol", "cd", "rad")
 
 
-@dataclass(frozen=True, slots=True)
-class Scalar:
-    """One entry of ModelVariables; `start` is None where a value is calculated."""
-
-    name: str
-    reference: int
-    type: str
-    causality: str
-    variability: str
-    initial: str
-    start: float | None
-    unit: Unit | None
-    doc: str
-    min: float | None = None
-    max: float | None = None
-
-
 def text(value: str) -> str:
     """`value` without the control characters that XML cannot hold."""
     return re.sub(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]", " ", value)
 
 
-def _from_parameter(name: str, reference: int, info: ParameterInfo, causality: str) -> Scalar:
-    unit = info.unit if info.type == "real" else None
-    if causality == "input":
-        variability = "continuous" if info.type == "real" else "discrete"
-        return Scalar(
-            name,
-            reference,
-            info.type,
-            "input",
-            variability=variability,
-            initial="",
-            start=info.default,
-            unit=unit,
-            doc=info.doc,
-            min=info.min,
-            max=info.max,
-        )
-    if info.dependent:
-        causality = "calculatedParameter"
-    initial, start = ("calculated", None) if info.dependent else ("exact", info.default)
-    return Scalar(
-        name,
-        reference,
-        info.type,
-        causality,
-        variability="tunable",
-        initial=initial,
-        start=start,
-        unit=unit,
-        doc=info.doc,
-        min=info.min,
-        max=info.max,
-    )
-
-
-def _from_variable(name: str, reference: int, info: VariableInfo) -> Scalar:
-    real = info.type == "real"
-    return Scalar(
-        name,
-        reference,
-        info.type,
-        info.causality,
-        variability="continuous" if real else "discrete",
-        initial="calculated",
-        start=None,
-        unit=info.unit if real else None,
-        doc=info.doc,
-        min=info.min,
-        max=info.max,
-    )
-
-
-def scalars(program: Program) -> tuple[str, tuple[Scalar, ...]]:
-    """The naming convention and all variables of an FMU of `program`, by value reference."""
-    infos: tuple[ParameterInfo | VariableInfo, ...] = (
-        *program.parameters,
-        *program.inputs,
-        *program.variables,
-    )
-    convention, names = variable_names(("time", *(info.name for info in infos)))
-    second = Unit("s", (0, 0, 1, 0, 0, 0, 0, 0))
-    found = [
-        Scalar(
-            "time",
-            0,
-            "real",
-            "independent",
-            variability="continuous",
-            initial="",
-            start=None,
-            unit=second,
-            doc="time",
-        )
-    ]
-    for info, name in zip(infos, names[1:], strict=True):
-        reference = len(found)
-        if isinstance(info, VariableInfo):
-            found.append(_from_variable(name, reference, info))
-        else:
-            causality = "parameter" if reference <= len(program.parameters) else "input"
-            found.append(_from_parameter(name, reference, info, causality))
-    return convention, tuple(found)
-
-
 def _units(variables: Sequence[Scalar]) -> ET.Element:
     definitions = ET.Element("UnitDefinitions")
     exponents: dict[str, tuple[int, ...]] = {}
-    displays: dict[str, dict[str, float]] = {}
+    displays: dict[str, dict[str, tuple[float, float]]] = {}
     for variable in variables:
         unit = variable.unit
         if unit is None or not unit.name:
@@ -154,17 +44,19 @@ def _units(variables: Sequence[Scalar]) -> ET.Element:
         if exponents.setdefault(unit.name, unit.exponents) != unit.exponents:
             raise ValueError(f"unit '{unit.name}' has two meanings")
         shown = displays.setdefault(unit.name, {})
-        if _display(unit) and shown.setdefault(unit.display, unit.display_factor) != (
-            unit.display_factor
-        ):
+        scale = unit.display_factor, unit.display_offset
+        if _display(unit) and shown.setdefault(unit.display, scale) != scale:
             raise ValueError(f"display unit '{unit.display}' has two meanings")
     for name, powers in exponents.items():
         element = ET.SubElement(definitions, "Unit", name=text(name))
         base = {key: str(power) for key, power in zip(BASE_UNITS, powers, strict=True) if power}
         ET.SubElement(element, "BaseUnit", base)
-        for display, factor in displays[name].items():
-            # FMI's factor leads from the unit to the display unit.
-            ET.SubElement(element, "DisplayUnit", name=text(display), factor=repr(1 / factor))
+        for display, (factor, offset) in displays[name].items():
+            # FMI's factor and offset lead from the unit to the display unit.
+            attributes = {"name": text(display), "factor": repr(1 / factor)}
+            if offset:
+                attributes["offset"] = repr(-offset / factor)
+            ET.SubElement(element, "DisplayUnit", attributes)
     return definitions
 
 
@@ -187,7 +79,7 @@ def _start(variable: Scalar) -> dict[str, str]:
         return {}
     if variable.type == "boolean":
         return {"start": "true" if variable.start else "false"}
-    if variable.type == "integer":
+    if variable.type in ("integer", "enumeration"):
         return {"start": str(int(variable.start))}
     return {"start": repr(float(variable.start))}
 
@@ -203,14 +95,44 @@ def _common(variable: Scalar) -> dict[str, str]:
 
 
 def _type_attributes(variable: Scalar) -> dict[str, str]:
-    if variable.type == "mode":
-        return {"declaredType": MODE_TYPE}
+    if variable.declared is not None:
+        items = variable.declared.items
+        bounds = {"min": str(items[0][1]), "max": str(items[-1][1])}
+        return {"declaredType": text(variable.declared.name), **bounds}
     bounds = {
         name: repr(float(limit)) if variable.type == "real" else str(int(limit))
         for name, limit in (("min", variable.min), ("max", variable.max))
         if limit is not None
     }
     return bounds | (_real_attributes(variable) if variable.type == "real" else {})
+
+
+def _types(variables: Sequence[Scalar]) -> list[Declared]:
+    """All that are declared; ValueError if two share a name."""
+    found = {MODE.name: MODE}
+    for variable in variables:
+        declared = variable.declared
+        if declared and found.setdefault(declared.name, declared) != declared:
+            raise ValueError(f"type '{declared.name}' has two meanings")
+    return list(found.values())
+
+
+def _items(parent: ET.Element, declared: Declared) -> None:
+    for name, value, meaning in declared.items:
+        described = {"description": meaning} if meaning else {}
+        ET.SubElement(parent, "Item", {"name": text(name), "value": str(value), **described})
+
+
+def _described(declared: Declared) -> dict[str, str]:
+    doc = {"description": declared.doc} if declared.doc else {}
+    return {"name": text(declared.name), **doc}
+
+
+def _dependencies(variable: Scalar, numbers: Mapping[str, int]) -> dict[str, str]:
+    """What an unknown depends on, by the numbers of the variables."""
+    if variable.knowns is None:
+        return {}
+    return {"dependencies": " ".join(str(numbers[name]) for name in variable.knowns)}
 
 
 def _default_experiment(program: Program) -> ET.Element:
@@ -240,6 +162,11 @@ def _outputs(variables: Sequence[Scalar]) -> Iterator[Scalar]:
 
 def _initial_unknowns(variables: Sequence[Scalar]) -> Iterator[Scalar]:
     return (v for v in variables if v.causality in ("output", "calculatedParameter"))
+
+
+def _shown(variable: Scalar) -> str:
+    """Where its dependencies are given: at the start an output may depend on any parameter."""
+    return "Outputs" if variable.causality == "output" else "InitialUnknowns"
 
 
 def _root(program: Program, fmi: str, token: str, convention: str) -> ET.Element:
@@ -273,19 +200,24 @@ def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
         ET.SubElement(files, "File", name=source)
     root.append(_units(variables))
     types = ET.SubElement(root, "TypeDefinitions")
-    mode = ET.SubElement(types, "SimpleType", name=MODE_TYPE, description="mode of a liaison")
-    items = ET.SubElement(mode, "Enumeration")
-    for name, value, meaning in MODES:
-        ET.SubElement(items, "Item", name=name, value=str(value), description=meaning)
+    for declared in _types(variables):
+        simple = ET.SubElement(types, "SimpleType", _described(declared))
+        _items(ET.SubElement(simple, "Enumeration"), declared)
     root.append(_log_categories())
     root.append(_default_experiment(program))
     listed = ET.SubElement(root, "ModelVariables")
-    tags = {"real": "Real", "integer": "Integer", "boolean": "Boolean", "mode": "Enumeration"}
+    tags = {
+        "real": "Real",
+        "integer": "Integer",
+        "boolean": "Boolean",
+        "enumeration": "Enumeration",
+    }
     for variable in variables:
         element = ET.SubElement(listed, "ScalarVariable", _common(variable))
         attributes = _type_attributes(variable) | _start(variable)
         ET.SubElement(element, tags[variable.type], attributes)
     structure = ET.SubElement(root, "ModelStructure")
+    indices = {v.plain: v.reference + 1 for v in variables}
     for tag, unknowns in (
         ("Outputs", tuple(_outputs(variables))),
         ("InitialUnknowns", tuple(_initial_unknowns(variables))),
@@ -293,7 +225,9 @@ def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
         if unknowns:
             group = ET.SubElement(structure, tag)
             for variable in unknowns:
-                ET.SubElement(group, "Unknown", index=str(variable.reference + 1))
+                named = {"index": str(variable.reference + 1)}
+                known = _dependencies(variable, indices) if tag in _shown(variable) else {}
+                ET.SubElement(group, "Unknown", named | known)
     return root
 
 
@@ -313,25 +247,34 @@ def _description_3(program: Program) -> ET.Element:
         maxOutputDerivativeOrder="0",
         providesIntermediateUpdate="false",
         mightReturnEarlyFromDoStep="true",
-        hasEventMode="false",
+        hasEventMode="true",
     )
     root.append(_units(variables))
     types = ET.SubElement(root, "TypeDefinitions")
-    mode = ET.SubElement(types, "EnumerationType", name=MODE_TYPE, description="mode of a liaison")
-    for name, value, meaning in MODES:
-        ET.SubElement(mode, "Item", name=name, value=str(value), description=meaning)
+    for declared in _types(variables):
+        _items(ET.SubElement(types, "EnumerationType", _described(declared)), declared)
     root.append(_log_categories())
     root.append(_default_experiment(program))
     listed = ET.SubElement(root, "ModelVariables")
-    tags = {"real": "Float64", "integer": "Int32", "boolean": "Boolean", "mode": "Enumeration"}
+    tags = {
+        "real": "Float64",
+        "integer": "Int32",
+        "boolean": "Boolean",
+        "enumeration": "Enumeration",
+    }
     for variable in variables:
         attributes = _common(variable) | _type_attributes(variable) | _start(variable)
         ET.SubElement(listed, tags[variable.type], attributes)
     structure = ET.SubElement(root, "ModelStructure")
-    for variable in _outputs(variables):
-        ET.SubElement(structure, "Output", valueReference=str(variable.reference))
-    for variable in _initial_unknowns(variables):
-        ET.SubElement(structure, "InitialUnknown", valueReference=str(variable.reference))
+    references = {v.plain: v.reference for v in variables}
+    for tag, unknowns in (
+        ("Output", _outputs(variables)),
+        ("InitialUnknown", _initial_unknowns(variables)),
+    ):
+        for variable in unknowns:
+            named = {"valueReference": str(variable.reference)}
+            known = _dependencies(variable, references) if f"{tag}s" in _shown(variable) else {}
+            ET.SubElement(structure, tag, named | known)
     return root
 
 

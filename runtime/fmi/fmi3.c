@@ -34,18 +34,17 @@ fmi3Instance fmi3InstantiateCoSimulation(
   (void)intermediateUpdate;
   frot_fmi3_draft(&draft, instanceName, instanceEnvironment, logMessage);
   draft.may_return_early = earlyReturnAllowed;
-  if (eventModeUsed) {
-    frot_fmu_refuse(&draft.fmu, __func__,
-                    "there is no event mode: hasEventMode is false, so must eventModeUsed be");
-    return NULL;
-  }
   if (nRequiredIntermediateVariables > 0) {
     frot_fmu_refuse(&draft.fmu, __func__,
                     "there is no intermediate update, so no variable can be required for it");
     return NULL;
   }
-  return frot_fmu_open(&draft.fmu, sizeof draft, __func__, instanceName, instantiationToken,
-                       loggingOn);
+  frot_fmu *fmu = frot_fmu_open(&draft.fmu, sizeof draft, __func__, instanceName,
+                                instantiationToken, loggingOn);
+  if (fmu == NULL || !eventModeUsed || frot_fmu_watch_events(fmu, earlyReturnAllowed)) return fmu;
+  frot_fmu_refuse(fmu, __func__, "there is not enough memory");
+  frot_fmu_close(fmu);
+  return NULL;
 }
 
 void fmi3FreeInstance(fmi3Instance instance) { frot_fmu_close(instance); }
@@ -178,6 +177,9 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
   /* The motion cannot go on, with any step. */
   *terminateSimulation = fmu->life.phase == FROT_FMU_DISCARDED;
   *lastSuccessfulTime = fmu->life.t;
+  *eventHandlingNeeded = fmu->event != 0;
+  if (status == FROT_FMU_OK && fmu->event)
+    *earlyReturn = fmu->life.t < currentCommunicationPoint + communicationStepSize;
   if (fmu->life.phase == FROT_FMU_ENDED) {
     /* The text has ended the run, which is no fault; the environment may not want to know where. */
     status = FROT_FMU_OK;

@@ -2,7 +2,6 @@
 #include "fmi3_instance.h"
 
 #define NOT_EXCHANGE "model exchange is not offered, only co-simulation"
-#define NO_EVENT_MODE "there is no event mode; events are handled inside a step"
 #define NO_STRUCTURE "there are no structural parameters"
 #define NO_DERIVATIVES "derivatives of variables are not offered"
 #define NO_DEPENDENCIES "dependencies of elements are not offered; all variables are scalars"
@@ -107,32 +106,6 @@ fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *nEventI
 fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *nContinuousStates) {
   (void)nContinuousStates;
   return refuse(instance, __func__, NOT_EXCHANGE);
-}
-
-fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
-  return refuse(instance, __func__, NO_EVENT_MODE);
-}
-
-fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
-  return refuse(instance, __func__, NO_EVENT_MODE);
-}
-
-fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance) {
-  return refuse(instance, __func__, NO_EVENT_MODE);
-}
-
-fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discreteStatesNeedUpdate,
-                                    fmi3Boolean *terminateSimulation,
-                                    fmi3Boolean *nominalsOfContinuousStatesChanged,
-                                    fmi3Boolean *valuesOfContinuousStatesChanged,
-                                    fmi3Boolean *nextEventTimeDefined, fmi3Float64 *nextEventTime) {
-  (void)discreteStatesNeedUpdate;
-  (void)terminateSimulation;
-  (void)nominalsOfContinuousStatesChanged;
-  (void)valuesOfContinuousStatesChanged;
-  (void)nextEventTimeDefined;
-  (void)nextEventTime;
-  return refuse(instance, __func__, NO_EVENT_MODE);
 }
 
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) {

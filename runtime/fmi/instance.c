@@ -91,12 +91,15 @@ static int make_recorder(frot_fmu *fmu) {
 frot_fmu *frot_fmu_open(const frot_fmu *draft, size_t size, const char *function, const char *name,
                         const char *token, int logging) {
   const frot_model *model = &frot_the_model;
+  frot_fmu_limits limits;
   if (!draft_acceptable(draft, function, name, token)) return NULL;
+  if (frot_fmu_read_limits(draft, function, &limits) != FROT_FMU_OK) return NULL;
   frot_fmu *fmu = frot_fmu_memory(size);
   if (fmu != NULL) {
     const size_t length = strlen(name) + 1;
     memcpy(fmu, draft, size);
     fmu->model = model;
+    fmu->limits = limits;
     fmu->state_size = frot_state_size(model);
     fmu->state = frot_fmu_memory(fmu->state_size);
     fmu->accepted = frot_fmu_memory(fmu->state_size);
@@ -124,6 +127,7 @@ void frot_fmu_close(frot_fmu *fmu) {
   free(fmu->name_memory);
   free(fmu->state);
   free(fmu->accepted);
+  free(fmu->before);
   free(fmu->work);
   free(fmu->values);
   free(fmu->recorder.events);

@@ -7,6 +7,8 @@
 #ifndef FROT_FMU_INSTANCE_H
 #define FROT_FMU_INSTANCE_H
 
+#include <time.h>
+
 #include "frot.h"
 
 /* The numbers fmi2Status and fmi3Status have in common. */
@@ -24,7 +26,8 @@ enum frot_fmu_phase {
   FROT_FMU_DISCARDED = 3, /* a step ended early: values are those of the last successful time */
   FROT_FMU_FAILED = 4,
   FROT_FMU_TERMINATED = 5,
-  FROT_FMU_ENDED = 6 /* the text has ended the run: values are those of its last instant */
+  FROT_FMU_ENDED = 6, /* the text has ended the run: values are those of its last instant */
+  FROT_FMU_EVENT = 7  /* in event mode */
 };
 
 enum frot_fmu_role {
@@ -47,8 +50,10 @@ enum frot_fmu_category {
  * parameters, the inputs, the variables, each in the kernel's order. */
 typedef struct {
   const char *name;
-  int type; /* frot_type */
-  int role; /* frot_fmu_role */
+  int type;     /* frot_type */
+  int role;     /* frot_fmu_role */
+  int fixed;    /* 1: it acts at the start alone */
+  int literals; /* of an enumeration of the text, which are counted from 1, else 0 */
 } frot_fmu_variable;
 
 /* Written by the exporter (fmu_table.c) beside the model. */
@@ -80,10 +85,34 @@ typedef struct {
   int has_tolerance, has_stop;
   int started; /* in initialization mode: the start is solved with the values held */
   int status;  /* of the step that ended early */
-  int refused; /* what was set is refused, and the former values hold: others may be set */
+  int refused; /* what was set is refused, and the former values hold: others may be set in the
+                  phase of this number */
   double tolerance, start, stop;
   double t; /* last successful time */
 } frot_fmu_life;
+
+/* What one step may take (limits.c). */
+typedef struct {
+  double evaluations; /* of the model */
+  double seconds;     /* 0: any time */
+} frot_fmu_limits;
+
+enum frot_fmu_spending {
+  FROT_FMU_LEFT = 0,
+  FROT_FMU_EVALUATIONS = 1,
+  FROT_FMU_PACE = 2, /* the end of the step is beyond reach */
+  FROT_FMU_SECONDS = 3
+};
+
+/* A step at work: evaluations before it, its times, when it was begun, what was spent. It may be
+ * tried until an event only. */
+typedef struct {
+  const frot_fmu *fmu;
+  double before, begin, end;
+  time_t started;
+  int until_event;
+  int spent; /* frot_fmu_spending */
+} frot_fmu_budget;
 
 struct frot_fmu {
   const frot_model *model;
@@ -100,6 +129,13 @@ struct frot_fmu {
   frot_work *work;
   double *values; /* n_variables, at life.t where values_valid */
   frot_recorder recorder;
+  frot_fmu_limits limits;
+  int watches_events; /* steps tell of events, and the environment handles them */
+  int returns_early;  /* and end at the first */
+  int seen;           /* the last step had events */
+  double first_event; /* its first one, or the next instant of time: INFINITY where there is none */
+  frot_state *before; /* the state at its beginning, where events are watched */
+  int event;          /* the last step ended at an event, or beyond one */
   frot_fmu_life life;
   frot_fmu_snapshot *snapshots;
 };
@@ -145,6 +181,27 @@ void frot_fmu_note_change(frot_fmu *fmu);
 int frot_fmu_settle(frot_fmu *fmu, const char *function);
 /* Log the kernel's fault; the answer is the status. */
 int frot_fmu_say_fault(const frot_fmu *fmu, int status, const char *function);
+
+/* events.c */
+
+/* Of an instance whose environment handles events; 0 where memory is short. */
+int frot_fmu_watch_events(frot_fmu *fmu, int returns_early);
+void frot_fmu_begin_watch(frot_fmu *fmu);
+int frot_fmu_has_event(const frot_fmu *fmu); /* the recorder does, beyond the step's beginning */
+void frot_fmu_see_event(frot_fmu *fmu, const frot_event *event);
+void frot_fmu_go_back(frot_fmu *fmu); /* to the beginning of the step */
+int frot_fmu_enter_event_mode(frot_fmu *fmu, const char *function);
+int frot_fmu_update_discrete(frot_fmu *fmu, const char *function);
+int frot_fmu_enter_step_mode(frot_fmu *fmu, const char *function);
+
+/* limits.c */
+
+/* From the environment of the process, else the model's own. */
+int frot_fmu_read_limits(const frot_fmu *fmu, const char *function, frot_fmu_limits *limits);
+frot_fmu_budget frot_fmu_begin_budget(const frot_fmu *fmu, double t);
+int frot_fmu_spent(void *budget, double t); /* the kernel's monitor */
+/* Log what was spent, once life.t is the time reached; the answer is the status. */
+int frot_fmu_say_spent(const frot_fmu *fmu, const char *function, const frot_fmu_budget *budget);
 
 /* access.c */
 int frot_fmu_arrays(const frot_fmu *fmu, const char *function, const unsigned *references,

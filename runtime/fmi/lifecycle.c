@@ -19,6 +19,8 @@ static const char *phase_name(int phase) {
       return "after a step that ended early";
     case FROT_FMU_FAILED:
       return "after an error";
+    case FROT_FMU_EVENT:
+      return "in event mode";
     case FROT_FMU_ENDED:
       return "after the model has ended the run";
     default:
@@ -81,7 +83,8 @@ static int solve_start(frot_fmu *fmu, const char *function) {
 int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function) {
   if (fmu->life.phase != FROT_FMU_INITIALIZATION) return frot_fmu_misplaced(fmu, function);
   const int status = solve_start(fmu, function);
-  if (status == FROT_FMU_OK) fmu->life.phase = FROT_FMU_STEPPING;
+  if (status == FROT_FMU_OK)
+    fmu->life.phase = fmu->watches_events ? FROT_FMU_EVENT : FROT_FMU_STEPPING;
   return status;
 }
 
@@ -92,7 +95,7 @@ int frot_fmu_ready(frot_fmu *fmu, const char *function, int role) {
   if (fmu->life.phase == FROT_FMU_INSTANTIATED) return frot_fmu_misplaced(fmu, function);
   if (fmu->life.phase == FROT_FMU_INITIALIZATION)
     status = solve_start(fmu, function);
-  else if (fmu->life.phase == FROT_FMU_STEPPING)
+  else if (fmu->life.phase == FROT_FMU_STEPPING || fmu->life.phase == FROT_FMU_EVENT)
     status = frot_fmu_settle(fmu, function);
   /* The call is an error even where the step it belongs to would be one that ends early. */
   if (status != FROT_FMU_OK) return FROT_FMU_ERROR;
@@ -106,6 +109,7 @@ int frot_fmu_ready(frot_fmu *fmu, const char *function, int role) {
 int frot_fmu_terminate(frot_fmu *fmu, const char *function) {
   switch (fmu->life.phase) {
     case FROT_FMU_STEPPING:
+    case FROT_FMU_EVENT:
     case FROT_FMU_DISCARDED:
     case FROT_FMU_FAILED:
     case FROT_FMU_ENDED:
@@ -114,7 +118,8 @@ int frot_fmu_terminate(frot_fmu *fmu, const char *function) {
       return frot_fmu_misplaced(fmu, function);
   }
   /* Values stay readable after the end, those set since the last step included. */
-  if (fmu->life.phase == FROT_FMU_STEPPING && !fmu->values_valid) {
+  const int settles = fmu->life.phase == FROT_FMU_STEPPING || fmu->life.phase == FROT_FMU_EVENT;
+  if (settles && !fmu->values_valid) {
     /* What is refused now no longer matters. */
     const int status = frot_fmu_settle(fmu, function);
     if (status == FROT_FMU_ERROR && !fmu->life.refused) return FROT_FMU_ERROR;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VERSION 2u
+#define VERSION 3u
 
 static const char MAGIC[8] = {'F', 'r', 'o', 't', 'F', 'M', 'U', '\0'};
 
@@ -101,6 +101,8 @@ int frot_fmu_restore(frot_fmu *fmu, const char *function, void *handle) {
   memcpy(&top, content(snapshot), sizeof top);
   memcpy(fmu->state, content(snapshot) + HEAD, fmu->state_size);
   fmu->life = top.life;
+  if (fmu->life.phase == FROT_FMU_EVENT && !fmu->watches_events)
+    fmu->life.phase = FROT_FMU_STEPPING;
   fmu->unsettled = top.unsettled ? FROT_FMU_RESTORED : FROT_FMU_SETTLED;
   fmu->values_valid = 0;
   return FROT_FMU_OK;
@@ -151,7 +153,7 @@ static const char *objection(const frot_fmu *fmu, const unsigned char *bytes) {
     return "the state was saved by another version of Frot";
   if (top.size != content_size(fmu)) return "the state is of another model";
   if (top.checksum != checksum(bytes, content_size(fmu))) return "the bytes are damaged";
-  if (top.life.phase < FROT_FMU_INSTANTIATED || top.life.phase > FROT_FMU_ENDED ||
+  if (top.life.phase < FROT_FMU_INSTANTIATED || top.life.phase > FROT_FMU_EVENT ||
       !frot_state_valid(fmu->model, bytes + HEAD, fmu->state_size))
     return "the state is of another model";
   return NULL;

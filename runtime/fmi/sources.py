@@ -7,8 +7,9 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import fmpy
-from frot.runtime.fmi.description import scalars, to_xml
+from frot.runtime.fmi.description import to_xml
 from frot.runtime.fmi.names import model_identifier
+from frot.runtime.fmi.scalars import MODE, Scalar, scalars
 from frot.runtime.program import MODEL_SOURCE, Program
 
 TABLE_SOURCE = "fmu_table.c"
@@ -16,10 +17,19 @@ TABLE_SOURCE = "fmu_table.c"
 # A step of 1e300 s, or one with a stiffness set to 1e30, would not end in a lifetime.
 MOST_WORK = 20_000_000
 
-_COMMON = ("instance.c", "lifecycle.c", "stepping.c", "access.c", "snapshot.c", "instance.h")
+_COMMON = (
+    "instance.c",
+    "lifecycle.c",
+    "stepping.c",
+    "limits.c",
+    "events.c",
+    "access.c",
+    "snapshot.c",
+    "instance.h",
+)
 _FACES = {
     "2.0": ("fmi2.c", "fmi2_refused.c", "fmi2_instance.h"),
-    "3.0": ("fmi3.c", "fmi3_refused.c", "fmi3_refused_types.c", "fmi3_instance.h"),
+    "3.0": ("fmi3.c", "fmi3_events.c", "fmi3_refused.c", "fmi3_refused_types.c", "fmi3_instance.h"),
 }
 _FMI_HEADERS = {
     "2.0": ("fmi2TypesPlatform.h", "fmi2FunctionTypes.h", "fmi2Functions.h"),
@@ -29,7 +39,7 @@ _TYPES = {
     "real": "FROT_REAL",
     "integer": "FROT_INTEGER",
     "boolean": "FROT_BOOLEAN",
-    "mode": "FROT_MODE",
+    "enumeration": "FROT_MODE",
 }
 _ROLES = {
     "independent": "FROT_FMU_TIME",
@@ -50,11 +60,18 @@ def _string(value: str) -> str:
     )
 
 
+def _literals(variable: Scalar) -> int:
+    """The number of values an enumeration of the text has, counted from 1."""
+    return len(variable.declared.items) if variable.declared not in (None, MODE) else 0
+
+
 def variable_table(program: Program) -> str:
     """The C of the table of variables by value reference, see instance.h."""
     _, variables = scalars(program)
     rows = "\n".join(
-        f"    {{{_string(v.name)}, {_TYPES[v.type]}, {_ROLES[v.causality]}}}," for v in variables
+        f"    {{{_string(v.name)}, {_TYPES[v.type]}, {_ROLES[v.causality]}, "
+        f"{int(v.variability == 'fixed')}, {_literals(v)}}},"
+        for v in variables
     )
     choice = _ON_INDETERMINATE[program.experiment.on_indeterminate]
     return (

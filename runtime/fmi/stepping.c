@@ -8,6 +8,7 @@
 #define SENTENCE 1536
 /* Communication points are sums of steps made by the environment: they differ by rounding. */
 #define ROUNDING 1e-9
+
 int frot_fmu_say_fault(const frot_fmu *fmu, int status, const char *function) {
   char sentence[SENTENCE];
   frot_fault_text(fmu->model, fmu->state, sentence, sizeof sentence);
@@ -73,9 +74,11 @@ static int stop_at_fault(frot_fmu *fmu, const char *function, int fault) {
 }
 
 void frot_fmu_note_change(frot_fmu *fmu) {
-  if (fmu->life.refused) fmu->life.phase = FROT_FMU_STEPPING;
-  fmu->life.refused = 0;
-  if (fmu->life.phase != FROT_FMU_STEPPING || fmu->unsettled != FROT_FMU_SETTLED) return;
+  frot_fmu_life *life = &fmu->life;
+  if (life->refused) life->phase = life->refused;
+  life->refused = 0;
+  if (life->phase != FROT_FMU_STEPPING && life->phase != FROT_FMU_EVENT) return;
+  if (fmu->unsettled != FROT_FMU_SETTLED) return;
   memcpy(fmu->accepted, fmu->state, fmu->state_size);
   fmu->unsettled = FROT_FMU_REVOCABLE;
 }
@@ -90,7 +93,7 @@ static int refuse_change(frot_fmu *fmu, const char *function, int fault) {
   frot_fmu_life *life = &fmu->life;
   frot_fault_text(fmu->model, fmu->state, sentence, sizeof sentence);
   if (!taken_back(fault)) memcpy(fmu->state, fmu->accepted, fmu->state_size);
-  life->refused = 1;
+  life->refused = life->phase;
   life->phase = ends_early(fault) ? FROT_FMU_DISCARDED : FROT_FMU_FAILED;
   life->status = ends_early(fault) ? FROT_FMU_DISCARD : FROT_FMU_ERROR;
   return frot_fmu_say(fmu, life->status,
@@ -108,22 +111,14 @@ int frot_fmu_settle(frot_fmu *fmu, const char *function) {
   return refuse_change(fmu, function, status);
 }
 
-typedef struct {
-  const frot_fmu *fmu;
-  long long most; /* evaluations since the start */
-} budget;
-
-static int spent(void *context, double t) {
-  const budget *b = context;
-  (void)t;
-  return frot_run_statistics(b->fmu->state)->evaluations > b->most;
-}
-
-/* Logs the events of a recorder whose context is the FMU, and empties it. */
-static void log_events(frot_recorder *recorder, void *context) {
-  const frot_fmu *fmu = context;
+/* Takes the events of a recorder whose context is the FMU, and empties it. */
+static void take_events(frot_recorder *recorder, void *context) {
+  frot_fmu *fmu = context;
+  const int logs = (fmu->categories & FROT_FMU_LOG_EVENTS) != 0;
   char sentence[SENTENCE];
   for (long long i = 0; i < recorder->event_count; i++) {
+    frot_fmu_see_event(fmu, &recorder->events[i]);
+    if (!logs) continue;
     frot_event_text(fmu->model, &recorder->events[i], sentence, sizeof sentence);
     frot_fmu_say_event(fmu, sentence);
   }
@@ -131,40 +126,60 @@ static void log_events(frot_recorder *recorder, void *context) {
 }
 
 /* Runs the kernel to time t and logs the events on the way. */
-static int advance(frot_fmu *fmu, double t) {
-  frot_recorder *recorder = fmu->categories & FROT_FMU_LOG_EVENTS ? &fmu->recorder : NULL;
-  budget work = {fmu, frot_run_statistics(fmu->state)->evaluations + frot_fmu_most_work};
+static int advance(frot_fmu *fmu, double t, frot_fmu_budget *budget) {
+  const int logs = (fmu->categories & FROT_FMU_LOG_EVENTS) != 0;
+  frot_recorder *recorder = logs || fmu->watches_events ? &fmu->recorder : NULL;
   if (recorder == NULL)
-    return frot_advance(fmu->model, fmu->state, fmu->work, t, NULL, spent, &work);
-  recorder->drain = log_events, recorder->context = fmu;
+    return frot_advance(fmu->model, fmu->state, fmu->work, t, NULL, frot_fmu_spent, budget);
+  recorder->drain = take_events, recorder->context = fmu;
   int status, drained;
   do {
-    status = frot_advance(fmu->model, fmu->state, fmu->work, t, recorder, spent, &work);
+    status = frot_advance(fmu->model, fmu->state, fmu->work, t, recorder, frot_fmu_spent, budget);
     drained = recorder->event_count > 0;
-    log_events(recorder, fmu);
+    take_events(recorder, fmu);
   } while (status == FROT_FULL && drained);
   return status;
 }
 
 /* Runs to time t; an instant of the text that differs from it by the rounding of communication
  * points belongs to it, so that a value sampled there is seen there. */
-static int advance_to_point(frot_fmu *fmu, double t, double scale) {
-  const int status = advance(fmu, fmax(t, frot_time(fmu->state)));
+static int advance_to_point(frot_fmu *fmu, double t, double scale, frot_fmu_budget *budget) {
+  const int status = advance(fmu, fmax(t, frot_time(fmu->state)), budget);
   const double next = frot_next_instant(fmu->state);
   if (status != FROT_OK || next > t + ROUNDING * scale) return status;
-  return advance(fmu, next);
+  return advance(fmu, next, budget);
 }
 
-static int stop_at_limit(frot_fmu *fmu, const char *function, double t) {
+/* The same, or to the first event on the way where the environment wants to be there; *t is the
+ * time reached. What a step tries beyond an event is not logged. */
+static int advance_to_event(frot_fmu *fmu, double *t, double scale, frot_fmu_budget *budget) {
+  const unsigned categories = fmu->categories;
+  frot_fmu_begin_watch(fmu);
+  if (!fmu->watches_events || !fmu->returns_early) {
+    const int status = advance_to_point(fmu, *t, scale, budget);
+    fmu->event = fmu->watches_events && fmu->first_event <= *t + ROUNDING * scale;
+    return status;
+  }
+  fmu->categories &= ~(unsigned)FROT_FMU_LOG_EVENTS;
+  budget->until_event = 1;
+  const int status = advance_to_point(fmu, *t, scale, budget);
+  const double reached = status == FROT_OK ? *t : frot_time(fmu->state);
+  const double near = fmin(scale, fmax(fabs(fmu->life.t), fabs(fmu->first_event)));
+  fmu->categories = categories;
+  fmu->event = fmu->first_event <= reached + ROUNDING * near;
+  if (!fmu->seen && !fmu->event) return status;
+  const int early = fmu->event && fmu->first_event < *t - ROUNDING * near;
+  if (early) *t = fmu->first_event;
+  frot_fmu_go_back(fmu);
+  *budget = frot_fmu_begin_budget(fmu, *t);
+  return advance_to_point(fmu, *t, early ? near : scale, budget);
+}
+
+static int stop_at_limit(frot_fmu *fmu, const char *function, const frot_fmu_budget *budget) {
   fmu->life.phase = FROT_FMU_DISCARDED;
   fmu->life.status = FROT_FMU_DISCARD;
   fmu->life.t = fmax(fmu->life.t, frot_time(fmu->state));
-  return frot_fmu_say(
-      fmu, FROT_FMU_DISCARD,
-      "%s: the step to %.15g s has taken %lld evaluations of the model, the most that "
-      "one step may take, and ends at %.15g s; make shorter steps, or look for "
-      "values that make the motion stiff.",
-      function, t, frot_fmu_most_work, fmu->life.t);
+  return frot_fmu_say_spent(fmu, function, budget);
 }
 
 /* The answer to a step after one that could not be done. */
@@ -184,6 +199,7 @@ static int say_again(const frot_fmu *fmu, const char *function) {
 
 int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step) {
   frot_fmu_life *life = &fmu->life;
+  fmu->event = 0;
   if (life->phase == FROT_FMU_DISCARDED || life->phase == FROT_FMU_FAILED ||
       life->phase == FROT_FMU_ENDED)
     return say_again(fmu, function);
@@ -206,9 +222,11 @@ int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step
   int status = frot_fmu_settle(fmu, function);
   if (status != FROT_FMU_OK) return status;
   fmu->values_valid = 0;
-  status = advance_to_point(fmu, t, scale);
-  if (status == FROT_STOPPED) return stop_at_limit(fmu, function, t);
+  frot_fmu_budget budget = frot_fmu_begin_budget(fmu, t);
+  double reached = t;
+  status = advance_to_event(fmu, &reached, scale, &budget);
+  if (status == FROT_STOPPED) return stop_at_limit(fmu, function, &budget);
   if (status != FROT_OK) return stop_at_fault(fmu, function, status);
-  life->t = t;
+  life->t = reached;
   return FROT_FMU_OK;
 }

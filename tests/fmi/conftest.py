@@ -13,7 +13,14 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from fmu_host import MOST_WORK, Host, compile_library, hand_program, unpack_library
+from fmu_host import (
+    MOST_WORK,
+    Host,
+    compile_libraries,
+    compile_library,
+    hand_program,
+    unpack_library,
+)
 from frot.runtime import fmi
 from frot.runtime.program import Program
 
@@ -29,7 +36,7 @@ def archives(program: Program, tmp_path_factory: pytest.TempPathFactory) -> dict
     paths = {}
     for version in ("2.0", "3.0"):
         paths[version] = folder / f"Hand{version[0]}.fmu"
-        fmi.export(program, paths[version], version, compile_library)
+        fmi.export(program, paths[version], version, compile_libraries)
     return paths
 
 

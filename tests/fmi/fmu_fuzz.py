@@ -49,13 +49,14 @@ class Fuzz:
 
     def __init__(self, library: Path, version: int, chance: random.Random) -> None:
         self.chance = chance
-        self.host = Host(library, version, logging=chance.random() < 0.5)
+        options = {name: chance.random() < 0.5 for name in ("logging", "event_mode", "early")}
+        self.host = Host(library, version, **options)
         self.states: list[ctypes.c_void_p] = []
         self.bytes: list[bytes] = [b""]
         self.calls: tuple[Callable[[], object], ...] = (
             self.plain, self.setup, self.setup, self.initialize, self.step, self.step, self.step,
             self.get, self.get, self.set, self.set, self.nulls, self.save, self.restore,
-            self.drop, self.serialize, self.deserialize, self.log,
+            self.drop, self.serialize, self.deserialize, self.log, self.events, self.events,
         )  # fmt: skip
 
     def number(self) -> float:
@@ -80,6 +81,16 @@ class Fuzz:
         assert status == OK
         h = self.chance.choice((0.1, 1.0, self.number()))
         self.host.step(self.chance.choice((t, t, t, self.number())), h)
+
+    def events(self) -> None:
+        """Into event mode and out of it, for the most part in order."""
+        if self.host.version == 2:
+            return
+        for name in self.chance.choice((("Event", "Step"), ("Step",), ("Event",))):
+            self.host.call(f"Enter{name}Mode")
+            flags = [ctypes.c_bool() for _ in range(5)]
+            self.host.call("UpdateDiscreteStates", *map(ctypes.byref, flags), ctypes.byref(
+                ctypes.c_double()))  # fmt: skip
 
     def get(self) -> None:
         self.host.try_get(self.reference(), self.chance.choice(KINDS[self.host.version][:3]))

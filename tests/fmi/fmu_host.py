@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import subprocess
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +34,14 @@ def compile_library(sources: Sequence[Path], include: Sequence[Path], target: Pa
     objects = c_objects(sources, include, KERNEL_FLAGS)
     seen = only_seen(target.parent)
     subprocess.run(["cc", "-shared", "-o", target, *objects, *seen, "-lm"], check=True)
+
+
+def compile_libraries(
+    sources: Sequence[Path], include: Sequence[Path], libraries: Mapping[str, Path]
+) -> None:
+    """For this machine alone."""
+    (target,) = libraries.values()
+    compile_library(sources, include, target)
 
 
 def hand_program(folder: Path) -> Program:

@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
-from fmu_host import METRE, ONE, RADIAN, Host, compile_library
+from fmu_host import METRE, ONE, RADIAN, Host, compile_libraries, compile_library
 from frot.compiler.toolchain.objects import kernel_folder, kernel_sources
 from frot.runtime import fmi
 from frot.runtime.fmi.names import model_identifier, structured_name, variable_names
@@ -116,7 +116,7 @@ def test_same_program_same_archive(
     archives: dict[str, Path], version: str, tmp_path: Path, program: Program
 ) -> None:
     again = tmp_path / "again.fmu"
-    fmi.export(program, again, version, compile_library)
+    fmi.export(program, again, version, compile_libraries)
     digests = {hashlib.sha256(p.read_bytes()).hexdigest() for p in (again, archives[version])}
     assert len(digests) == 1
 
@@ -223,7 +223,7 @@ def test_an_experiment_without_words_is_that_of_simulate(
 ) -> None:
     silent = dataclasses.replace(program, experiment=ExperimentInfo(None, None, None, None, "rest"))
     path = tmp_path / "silent.fmu"
-    fmi.export(silent, path, version, compile_library)
+    fmi.export(silent, path, version, compile_libraries)
     told = read_model_description(str(path)).defaultExperiment
     values = (told.startTime, told.stopTime, told.tolerance, told.stepSize)
     assert [float(x) for x in values] == [0.0, 1.0, 1e-8, 1.0 / 500]
@@ -248,7 +248,7 @@ def test_names_beyond_ascii_and_quotes(program: Program, version: str, tmp_path:
         ),
     )
     path = tmp_path / "échelle.fmu"
-    fmi.export(accented, path, version, compile_library)
+    fmi.export(accented, path, version, compile_libraries)
     result = simulate_fmu(str(path), stop_time=1.0, output=["x", "appui.état"])
     assert "appui.état" in (result.dtype.names or ())
 
@@ -264,7 +264,7 @@ def test_angles_and_plain_numbers(program: Program, tmp_path: Path) -> None:
     )
     for version in VERSIONS:
         path = tmp_path / f"angles{version[0]}.fmu"
-        fmi.export(shown, path, version, compile_library)
+        fmi.export(shown, path, version, compile_libraries)
         description = read_model_description(str(path))
         (rad,) = (unit for unit in description.unitDefinitions if unit.name == "rad")
         assert rad.baseUnit.rad == 1
@@ -281,7 +281,7 @@ def test_contradictory_descriptions_are_refused(program: Program, tmp_path: Path
     for variables, message in ((twice, "share a name"), (other, "unit 'm' has two meanings")):
         with pytest.raises(ValueError, match=message):
             fmi.export(
-                dataclasses.replace(program, variables=variables), path, "2.0", compile_library
+                dataclasses.replace(program, variables=variables), path, "2.0", compile_libraries
             )
     assert list(tmp_path.iterdir()) == []
     assert METRE.display == "mm"
@@ -298,9 +298,9 @@ def _no_compiler(*_: object) -> None:
 @pytest.mark.parametrize(
     ("broken", "compile_it", "error"),
     [
-        ("disk", compile_library, OSError),
+        ("disk", compile_libraries, OSError),
         ("compiler", _no_compiler, RuntimeError),
-        ("archive", compile_library, fmi.InvalidFmuError),
+        ("archive", compile_libraries, fmi.InvalidFmuError),
     ],
 )
 def test_nothing_is_left_behind_and_the_old_file_stays(
@@ -326,11 +326,11 @@ def test_nothing_is_left_behind_and_the_old_file_stays(
 
 def test_wrong_requests(program: Program, tmp_path: Path) -> None:
     with pytest.raises(OSError, match="No such file"):
-        fmi.export(program, tmp_path / "nowhere" / "a.fmu", "2.0", compile_library)
+        fmi.export(program, tmp_path / "nowhere" / "a.fmu", "2.0", compile_libraries)
     with pytest.raises(ValueError, match=r"no FMI 1\.0 here"):
-        fmi.export(program, tmp_path / "a.fmu", "1.0", compile_library)
+        fmi.export(program, tmp_path / "a.fmu", "1.0", compile_libraries)
     with pytest.raises(ValueError, match=r"suffix \.fmu"):
-        fmi.export(program, tmp_path / "a.zip", "2.0", compile_library)
+        fmi.export(program, tmp_path / "a.zip", "2.0", compile_libraries)
     with pytest.raises(ValueError, match=r"no FMI 4 here"):
         fmi.platform_folder("4")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from fmpy import simulate_fmu
-from fmu_host import DISCARD, OK, Host, compile_library, unpack_library
+from fmu_host import DISCARD, OK, Host, compile_libraries, unpack_library
 from frot.runtime import fmi
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "kernel"))
@@ -31,7 +31,7 @@ def archives_that_end(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Pat
     archives = {}
     for version in ("2.0", "3.0"):
         archives[version] = folder / f"Ending{version[0]}.fmu"
-        fmi.export(program, archives[version], version, compile_library)
+        fmi.export(program, archives[version], version, compile_libraries)
     return archives
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import math
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -80,3 +81,55 @@ def test_after_the_limit_a_saved_state_goes_on(one: Host) -> None:
     assert one.step(0.0, 1e12) == DISCARD
     assert one.restore(state) == OK
     assert one.step(0.0, 1.0) == OK
+
+
+@pytest.mark.parametrize("step", [1e12, 1e300])
+def test_a_step_whose_end_is_beyond_reach_ends_in_seconds(
+    host: Callable[..., Host], step: float
+) -> None:
+    """Without a smaller limit than the model's own, twenty million evaluations."""
+    one = host()
+    assert one.set(MU, 0.0) == OK
+    one.start()
+    begun = time.process_time()
+    assert one.step(0.0, step) == DISCARD
+    assert time.process_time() - begun < 20.0
+    assert "at its pace" in one.last and "20000000 evaluations" in one.last
+    t = reached(one)
+    assert 1e3 < t < 1e6 and one.get(TIME) == t
+
+
+def test_the_environment_sets_the_evaluations_of_a_step(
+    host: Callable[..., Host], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FROT_FMU_EVALUATIONS", "5e3")
+    one = host()
+    assert one.set(MU, 0.0) == OK
+    one.start()
+    assert one.step(0.0, 1e4) == DISCARD
+    assert "has taken 5000 evaluations of the model" in one.last
+    assert 1.0 < reached(one) < 1e3
+
+
+def test_the_environment_sets_the_seconds_of_a_step(
+    host: Callable[..., Host], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FROT_FMU_SECONDS", "1")
+    one = host()
+    assert one.set(MU, 0.0) == OK
+    one.start()
+    begun = time.monotonic()
+    assert one.step(0.0, 2e6) == DISCARD
+    assert time.monotonic() - begun < 20.0
+    assert "has taken 1 s, the most by FROT_FMU_SECONDS" in one.last
+    assert one.get(X) == pytest.approx(2.0 * math.cos(3.0 * reached(one)), abs=1e-2)
+
+
+@pytest.mark.parametrize("text", ["soon", "-1", "0", "nan", "3 s"])
+def test_a_limit_that_is_no_number_is_refused_by_name(
+    host: Callable[..., Host], monkeypatch: pytest.MonkeyPatch, text: str
+) -> None:
+    monkeypatch.setenv("FROT_FMU_SECONDS", text)
+    one = host()
+    assert one.instance is None
+    assert f"FROT_FMU_SECONDS is '{text}', which is not a positive number" in one.last

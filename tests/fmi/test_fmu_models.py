@@ -27,7 +27,7 @@ class Case:
         self.model = frot.load(MODELS / f"{name}.frot")
         self.program = self.model.program()
         self.archive = folder / f"{name}.fmu"
-        self.model.export_fmu(self.archive, version)
+        self.model.export_fmu(self.archive, version, "native")
         self.library = unpack_library(self.archive, version, folder)
         self.version = int(version[0])
         names = [

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from fmu_host import ERROR, OK, Host, compile_library, unpack_library
+from fmu_host import ERROR, OK, Host, compile_libraries, unpack_library
 from frot.runtime import fmi
 
 import frot
@@ -34,7 +34,7 @@ def floors(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[int, Path], b
     libraries = {}
     for number in (2, 3):
         archive, version = folder / f"Floor{number}.fmu", f"{number}.0"
-        fmi.export(program, archive, version, compile_library)
+        fmi.export(program, archive, version, compile_libraries)
         libraries[number] = unpack_library(archive, version, folder / version)
     return libraries, program.key.encode()
 

@@ -31,7 +31,7 @@ end Ticks;
 def instance(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory):
     model = frot.compile(TEXT)
     folder = tmp_path_factory.mktemp("ticks")
-    model.export_fmu(folder / "ticks.fmu", request.param)
+    model.export_fmu(folder / "ticks.fmu", request.param, "native")
     library = unpack_library(folder / "ticks.fmu", request.param, folder)
     names = [v.name for v in model.program().variables]
     first = 1 + len(model.program().parameters)

@@ -31,15 +31,15 @@ equation
 end Counter;
 """
 TYPES = {
-    "2.0": ("Integer", "Boolean", "Integer", "Real"),
-    "3.0": ("Int32", "Boolean", "Int32", "Float64"),
+    "2.0": ("Integer", "Boolean", "Enumeration", "Real"),
+    "3.0": ("Int32", "Boolean", "Enumeration", "Float64"),
 }
 
 
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_outputs_have_the_types_of_the_text(fmi: str, tmp_path: Path) -> None:
     model = frot.compile(TEXT)
-    model.export_fmu(tmp_path / "counter.fmu", fmi)
+    model.export_fmu(tmp_path / "counter.fmu", fmi, "native")
     assert validate_fmu(str(tmp_path / "counter.fmu")) == []
     found = {
         v.name: v for v in read_model_description(str(tmp_path / "counter.fmu")).modelVariables

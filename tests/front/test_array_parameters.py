@@ -107,7 +107,7 @@ def test_a_bad_array_is_told(model: frot.Model, given: dict[str, object], words:
 
 def test_an_fmu_has_the_items_as_parameters(model: frot.Model, tmp_path: Path) -> None:
     for fmi in ("2.0", "3.0"):
-        model.export_fmu(tmp_path / "a.fmu", fmi)
+        model.export_fmu(tmp_path / "a.fmu", fmi, "native")
         with ZipFile(tmp_path / "a.fmu") as archive:
             described = archive.read("modelDescription.xml").decode()
         assert 'variableNamingConvention="structured"' in described

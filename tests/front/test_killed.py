@@ -104,7 +104,7 @@ def test_the_compilers_of_an_fmu_end_too(
     sleeps = f'*fmu_table.c*) echo $$ >> "{notes}"; sleep 600'
     slow = f'case "$*" in {sleeps};; esac\nexec "{hasty_compiler(folder)}" "$@"'
     changes = {"FROT_CC": script(folder / "slow-cc", slow), "TMPDIR": temporary}
-    process = shell.start("fmu", HOOP, "-o", "hoop.fmu", changes=changes)
+    process = shell.start("fmu", HOOP, "-o", "hoop.fmu", "--platforms", "native", changes=changes)
     assert wait_until(notes.exists)
     pids = [int(word) for word in notes.read_text().split()]
     process.kill()

@@ -166,7 +166,7 @@ def test_results_of_one_model_do_not_disturb_each_other(model: frot.Model) -> No
 def test_an_fmu_for_another_platform_or_version_is_refused(
     model: frot.Model, folder: object
 ) -> None:
-    with pytest.raises(frot.FrotError, match="E0701"):
+    with pytest.raises(frot.FrotError, match=r"E0806.*no library is made for vax"):
         model.export_fmu("a.fmu", platforms=["vax"])
     with pytest.raises(frot.FrotError, match="E0806"):
         model.export_fmu("a.fmu", fmi="1.0")

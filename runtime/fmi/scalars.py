@@ -1,0 +1,157 @@
+"""The variables of an FMU by value reference, as both versions of FMI describe them.
+
+Value references count time (0), the parameters, the inputs and the variables of a program in their
+order; instance.h relies on it.
+"""
+
+from __future__ import annotations
+
+from frot.dsl.data.classes import dataclass, replace
+from frot.runtime.fmi.names import variable_names
+from frot.runtime.program import ParameterInfo, Program, Unit, VariableInfo
+
+MODE_TYPE = "FrotMode"
+MODES = (
+    ("open", 0, "the liaison is open"),
+    ("stick", 1, "closed, without slip"),
+    ("slip", 2, "closed, slipping"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Declared:
+    """A type of enumerations: items by name, value and meaning."""
+
+    name: str
+    items: tuple[tuple[str, int, str], ...]
+    doc: str = ""
+
+
+MODE = Declared(MODE_TYPE, MODES, "mode of a liaison")
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """One entry of ModelVariables; `start` is None where a value is calculated.
+
+    `declared` names the type of an enumeration. `knowns` are the variables that an output, or what
+    is calculated at the start, depends on at once: any may where it is None.
+    """
+
+    name: str
+    reference: int
+    type: str
+    causality: str
+    variability: str
+    initial: str
+    start: float | None
+    unit: Unit | None
+    doc: str
+    min: float | None = None
+    max: float | None = None
+    declared: Declared | None = None
+    knowns: tuple[str, ...] | None = None
+    plain: str = ""  # the name in the text
+
+
+def _declared(info: ParameterInfo | VariableInfo) -> Declared | None:
+    if info.type == "mode":
+        return MODE
+    if not info.literals:
+        return None
+    return Declared(info.enumeration, tuple((x, k, "") for k, x in enumerate(info.literals, 1)))
+
+
+def _type(info: ParameterInfo | VariableInfo) -> str:
+    return "enumeration" if _declared(info) else info.type
+
+
+def _from_parameter(name: str, reference: int, info: ParameterInfo, causality: str) -> Scalar:
+    unit = info.unit if info.type == "real" else None
+    if causality == "input":
+        variability = "continuous" if info.type == "real" else "discrete"
+        return Scalar(
+            name,
+            reference,
+            _type(info),
+            "input",
+            variability=variability,
+            initial="",
+            start=info.default,
+            unit=unit,
+            doc=info.doc,
+            min=info.min,
+            max=info.max,
+            declared=_declared(info),
+        )
+    if info.dependent:
+        causality = "calculatedParameter"
+    initial, start = ("calculated", None) if info.dependent else ("exact", info.default)
+    return Scalar(
+        name,
+        reference,
+        _type(info),
+        causality,
+        variability="fixed" if info.started else "tunable",
+        initial=initial,
+        start=start,
+        unit=unit,
+        doc=info.doc,
+        min=info.min,
+        max=info.max,
+        declared=_declared(info),
+        knowns=info.needed or None,
+    )
+
+
+def _from_variable(name: str, reference: int, info: VariableInfo) -> Scalar:
+    real = info.type == "real"
+    return Scalar(
+        name,
+        reference,
+        _type(info),
+        info.causality,
+        variability="continuous" if real else "discrete",
+        initial="calculated",
+        start=None,
+        unit=info.unit if real else None,
+        doc=info.doc,
+        min=info.min,
+        max=info.max,
+        declared=_declared(info),
+        knowns=info.acting,
+    )
+
+
+def scalars(program: Program) -> tuple[str, tuple[Scalar, ...]]:
+    """The naming convention and all variables of an FMU of `program`, by value reference."""
+    infos: tuple[ParameterInfo | VariableInfo, ...] = (
+        *program.parameters,
+        *program.inputs,
+        *program.variables,
+    )
+    convention, names = variable_names(("time", *(info.name for info in infos)))
+    second = Unit("s", (0, 0, 1, 0, 0, 0, 0, 0))
+    found = [
+        Scalar(
+            "time",
+            0,
+            "real",
+            "independent",
+            variability="continuous",
+            initial="",
+            start=None,
+            unit=second,
+            doc="time",
+            plain="time",
+        )
+    ]
+    for info, name in zip(infos, names[1:], strict=True):
+        reference = len(found)
+        if isinstance(info, VariableInfo):
+            one = _from_variable(name, reference, info)
+        else:
+            causality = "parameter" if reference <= len(program.parameters) else "input"
+            one = _from_parameter(name, reference, info, causality)
+        found.append(replace(one, plain=info.name))
+    return convention, tuple(found)
