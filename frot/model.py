@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from frot.compiler import find_program, find_toolchain, program_key
 from frot.dsl.data.classes import replace
@@ -15,6 +15,7 @@ from frot.dsl.messages.errors import FrotError, fail
 from frot.interrupts import Interrupts
 
 if TYPE_CHECKING:
+    from frot.compiler import Toolchain
     from frot.compiler.product.dae import Dae
     from frot.compiler.report.report import Report
     from frot.dsl import checked
@@ -34,7 +35,8 @@ class Model:
         self._checked: checked.Model | None = None
         self.warnings: tuple[Diagnostic, ...] = ()
         self._toolchain = find_toolchain()
-        self._key = program_key(_identity(text, name), model, self._toolchain)
+        self._identity = _identity(text, name)
+        self._key = program_key(self._identity, model, self._toolchain)
         self._program: Program | None = self._named(find_program(self._key))
 
     @property
@@ -75,6 +77,24 @@ class Model:
                 raise FrotError(log)
         return self._program
 
+    @property
+    def file(self) -> str:
+        """The file's name, as messages give it."""
+        return self._file
+
+    @property
+    def toolchain(self) -> Toolchain:
+        """The C compiler that makes its programs."""
+        return self._toolchain
+
+    def key_of(self, tag: str) -> str:
+        """The key of another program of the model, which `tag` tells from its own."""
+        return program_key(f"{self._identity}\n{tag}", self._chosen, self._toolchain)
+
+    def named(self, program: Program) -> Program:
+        """The program with places that read as this model's user names the file."""
+        return replace(program, shown=self._file)
+
     def _named(self, program: Program | None) -> Program | None:
         """The program with places that read as this model's user names the file."""
         return None if program is None else replace(program, shown=self._file)
@@ -91,9 +111,7 @@ class Model:
         watch: Callable[[float], bool] | None = None,
     ) -> Result:
         """Run the model; see `frot.runtime.run.simulate`."""
-        from frot.runtime import simulate
-
-        return simulate(
+        return self.run(
             self.program(),
             stop=stop,
             start=start,
@@ -103,6 +121,19 @@ class Model:
             inputs=inputs,
             watch=watch,
         )
+
+    def run(self, program: Program, **options: Any) -> Result:
+        """Run one of its programs with the options of `simulate`; the result knows its model."""
+        from frot.runtime import Interrupted, SimulationError, simulate
+
+        try:
+            result = simulate(program, **options)
+        except (SimulationError, Interrupted) as error:
+            if error.result is not None:
+                error.result.model, error.result.fault = self, _sentence(error)
+            raise
+        result.model = self
+        return result
 
     def report(self) -> Report:
         """Mobility, liaisons, first integrals; `str(report)` is what `frot check` prints."""
@@ -165,6 +196,13 @@ class Model:
             ) from None
         except (ValueError, RuntimeError, InvalidFmuError) as error:
             raise fail("E0807", f"no FMU can be made: {error}") from None
+
+
+def _sentence(error: BaseException) -> str:
+    """What ended a run, in one line."""
+    if isinstance(error, FrotError):
+        return "; ".join(one.message for one in error.diagnostics)
+    return str(error)
 
 
 def _identity(text: str, name: str) -> str:

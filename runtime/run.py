@@ -99,38 +99,8 @@ def simulate(
             the motion; it holds the result up to the fault.
         Interrupted: Ctrl-C; it holds the result up to there.
     """
-    stop, start, interval = (
-        read_option(name, value, "s")
-        for name, value in (("stop", stop), ("start", start), ("interval", interval))
-    )
-    tolerance = read_option("tolerance", tolerance, "1")
-    engine = Engine(program)
-    for name, value in read_settings(parameters, program.parameters, "parameter", program):
-        engine.set_parameter(name, value)
-    for name, value in read_settings(inputs, program.inputs, "input", program):
-        engine.set_input(name, value)
-    status, experiment = engine.settle_parameters()
-    if status != OK:
-        raise _fault(engine, None)
-    begin = _choose(start, experiment[0], 0.0)
-    end = _choose(stop, experiment[1], begin + DEFAULT_SPAN)
-    asked = _choose(tolerance, experiment[2], DEFAULT_TOLERANCE)
-    if not (math.isfinite(begin) and math.isfinite(end) and end > begin):
-        raise fail(
-            "E0806",
-            f"the run cannot go from {begin:g} s to {end:g} s",
-            help="choose a stop time after the start time",
-        )
-    if not TOLERANCES[0] <= asked <= TOLERANCES[1]:
-        raise fail(
-            "E0806",
-            f"the tolerance {asked:g} is out of range",
-            help=f"choose one from {TOLERANCES[0]:g} to {TOLERANCES[1]:g}",
-        )
-    times = _grid(begin, end, _choose(interval, experiment[3], (end - begin) / DEFAULT_POINTS))
-    begun = clock.perf_counter()
-    if engine.start(begin, asked, program.experiment.on_indeterminate) != OK:
-        raise _fault(engine, None)
+    engine, times, begun = _begin(program, (stop, start, interval, tolerance), parameters, inputs)
+    end = times[-1]
     run = engine.advance(end, watch)
     wall = clock.perf_counter() - begun
     if run.status == FULL:
@@ -176,6 +146,63 @@ def simulate(
     if run.status not in _GOOD or result is None:
         raise _fault(engine, result)
     return result
+
+
+def begin(
+    program: Program,
+    *,
+    start: float | str | None = None,
+    parameters: Mapping[str, object] | None = None,
+    inputs: Mapping[str, object] | None = None,
+) -> Engine:
+    """An instance at the start of its run, before the first step; raises as `simulate`."""
+    engine, _, _ = _begin(program, (None, start, None, None), parameters, inputs)
+    return engine
+
+
+def _begin(
+    program: Program,
+    options: tuple[float | str | None, ...],
+    parameters: Mapping[str, object] | None,
+    inputs: Mapping[str, object] | None,
+) -> tuple[Engine, array[float], float]:
+    """An instance at its start, the output times, and when the kernel's work began.
+
+    `options` are stop, start, interval and tolerance.
+    """
+    stop, start, interval = (
+        read_option(name, value, "s")
+        for name, value in zip(("stop", "start", "interval"), options[:3], strict=True)
+    )
+    tolerance = read_option("tolerance", options[3], "1")
+    engine = Engine(program)
+    for name, value in read_settings(parameters, program.parameters, "parameter", program):
+        engine.set_parameter(name, value)
+    for name, value in read_settings(inputs, program.inputs, "input", program):
+        engine.set_input(name, value)
+    status, experiment = engine.settle_parameters()
+    if status != OK:
+        raise _fault(engine, None)
+    begin = _choose(start, experiment[0], 0.0)
+    end = _choose(stop, experiment[1], begin + DEFAULT_SPAN)
+    asked = _choose(tolerance, experiment[2], DEFAULT_TOLERANCE)
+    if not (math.isfinite(begin) and math.isfinite(end) and end > begin):
+        raise fail(
+            "E0806",
+            f"the run cannot go from {begin:g} s to {end:g} s",
+            help="choose a stop time after the start time",
+        )
+    if not TOLERANCES[0] <= asked <= TOLERANCES[1]:
+        raise fail(
+            "E0806",
+            f"the tolerance {asked:g} is out of range",
+            help=f"choose one from {TOLERANCES[0]:g} to {TOLERANCES[1]:g}",
+        )
+    times = _grid(begin, end, _choose(interval, experiment[3], (end - begin) / DEFAULT_POINTS))
+    begun = clock.perf_counter()
+    if engine.start(begin, asked, program.experiment.on_indeterminate) != OK:
+        raise _fault(engine, None)
+    return engine, times, begun
 
 
 def _last_value(engine: Engine, record: array[float], there: float, lost: float) -> float:

@@ -119,12 +119,16 @@ def lower(
     grouping: Grouping,
     log: Log,
     integrals: tuple[FirstIntegral, ...] = (),
+    extra: tuple[Listed, ...] = (),
 ) -> Lowered | None:
-    """Build every function; what cannot be built is reported. `integrals` are listed too."""
+    """Build every function; what cannot be built is reported.
+
+    `integrals` are listed too, and `extra` after all other variables.
+    """
     reduced = system.reduced
     s, resolve, settled = reduced.symbols, system.resolve, reduced.variables.settled
     looking, explicit, initial = beginning.looking, beginning.explicit, beginning.initial
-    variables = list_variables(system, looking, integrals)
+    variables = (*list_variables(system, looking, integrals), *extra)
     located = explicit(system.resolve(column(reduced.conditions.values)))
     conditions, timers = sort_conditions(system, located)
     switching = tuple(_switching(k, b, system, conditions) for k, b in enumerate(system.blocks))

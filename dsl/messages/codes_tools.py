@@ -73,6 +73,13 @@ TOOLS: Mapping[str, Row] = {
         "Name a file that ends in .fmu; report the message if the fault is in the archive.",
         "",
     ),
+    "E0820": (
+        "nothing to draw, or nothing to draw it with",
+        "A page is drawn by the Python package k3d, a film .mp4 by ffmpeg; one of them is not "
+        "installed, or the model has no bodies.",
+        "Install what the message names, or write another format; 'frot plot' draws curves.",
+        "",
+    ),
     "E0901": (
         "fault in the run",
         "The motion could not be computed past the time named.",
