@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from frot.dsl import checked
     from frot.runtime.program import Program
     from frot.runtime.result import Result
+    from frot.runtime.tables import Table
 
 
 class Model:
@@ -110,29 +111,40 @@ class Model:
         inputs: Mapping[str, object] | None = None,
         watch: Callable[[float], bool] | None = None,
     ) -> Result:
-        """Run the model; see `frot.runtime.run.simulate`."""
+        """Run the model; see `frot.runtime.run.simulate`.
+
+        Of `inputs` a scalar one may be given over time: by (times, values), (times, values, way)
+        with way `held`, `linear` or `cubic`, an array of two columns, a pandas Series, a function
+        of time, or the text `FILE.csv:COLUMN`; see docs/inputs.md.
+        """
+        from frot.inputs_over_time import driven_program
+
+        program, constants, tables = driven_program(self, inputs, start, stop)
         return self.run(
-            self.program(),
+            program,
             stop=stop,
             start=start,
             tolerance=tolerance,
             interval=interval,
             parameters=parameters,
-            inputs=inputs,
+            inputs=constants,
             watch=watch,
+            tables=tables,
         )
 
-    def run(self, program: Program, **options: Any) -> Result:
+    def run(self, program: Program, tables: Sequence[Table] = (), **options: Any) -> Result:
         """Run one of its programs with the options of `simulate`; the result knows its model."""
+        from frot.inputs_over_time import moving_of
         from frot.runtime import Interrupted, SimulationError, simulate
 
         try:
-            result = simulate(program, **options)
+            result = simulate(program, tables=tables, **options)
         except (SimulationError, Interrupted) as error:
             if error.result is not None:
                 error.result.model, error.result.fault = self, _sentence(error)
+                error.result.moving = moving_of(tables)
             raise
-        result.model = self
+        result.model, result.moving = self, moving_of(tables)
         return result
 
     def report(self) -> Report:

@@ -31,7 +31,7 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
         default=[],
         type=assignment,
         metavar="NAME=VALUE",
-        help="hold an input at a value (repeatable)",
+        help="hold an input at a value, or let it follow a column: F=force.csv:push (repeatable)",
     )
 
 

@@ -23,16 +23,16 @@ def second_program(
     model: Model,
     tag: str,
     extra: Extra | None = None,
-    checked: Checked | None = None,
+    moving: frozenset[str] = frozenset(),
     tell: Callable[[str], None] | None = None,
 ) -> Program:
-    """The program of a model with `extra` variables, or of `checked` in its place, cached.
+    """The program of a model with `extra` variables, and with `moving` inputs over time, cached.
 
-    `tag` says in what it differs from the model's own. FrotError where it cannot be made.
+    `tag` says in what the variables differ from the model's own. FrotError where it cannot be made.
     """
     from frot.compiler import build, find_program
 
-    key = model.key_of(tag)
+    key = model.key_of(f"{tag}\ninputs over time: {', '.join(sorted(moving))}")
     found = find_program(key)
     if found is not None:
         return model.named(found)
@@ -40,7 +40,7 @@ def second_program(
     told = (lambda _: None) if tell is None else tell
     with Interrupts():
         built = build(
-            model.checked() if checked is None else checked,
+            checked_of(model, moving),
             model.file,
             key,
             model.toolchain,
@@ -53,15 +53,22 @@ def second_program(
     return model.named(built)
 
 
+def checked_of(model: Model, moving: frozenset[str]) -> Checked:
+    """The checked model, with these inputs as functions of time."""
+    if not moving:
+        return model.checked()
+    from frot.inputs_over_time import with_time
+
+    return with_time(model.checked(), moving)
+
+
 class Second:
     """Evaluates a second program over the recorded steps of a result."""
 
     def __init__(self, result: Result, program: Program) -> None:
         """ValueError where the two programs have other states, so that steps mean other things."""
-        from frot.runtime.engine import Engine
-
         self.program = program
-        self._engine: Engine = Engine(program)
+        self._engine: Engine = result.engine.like(program)
         self._record = result.record
         if not result.engine.is_like(self._engine):
             raise ValueError("the programs have other states")

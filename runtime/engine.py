@@ -137,6 +137,10 @@ class Engine:
         """Put a copy made by `save` back."""
         memoryview(self._state).cast("B")[:] = saved
 
+    def like(self, program: Program) -> Engine:
+        """An instance of another program of the model, for the same steps."""
+        return Engine(program)
+
     def is_like(self, other: Engine) -> bool:
         """Whether the states and recorded steps of both have the same places for the same things.
 

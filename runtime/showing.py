@@ -26,10 +26,15 @@ def nearest(name: str, names: Sequence[str]) -> str:
 
 
 class Showing(Mapping[str, "Floats"]):
-    """A part of `Result`. `model` is what was run, `fault` what ended the run, if it did."""
+    """A part of `Result`.
+
+    `model` is what was run, `fault` what ended the run, if it did, `moving` are the inputs that
+    were polynomials of time.
+    """
 
     model: Model | None = None
     fault = ""
+    moving: frozenset[str] = frozenset()
     program: Program
 
     @abstractmethod

@@ -389,7 +389,11 @@ def _beginnings_of_open(system: Assembled) -> list[ca.SX]:
 
 
 def _invariants(system: Assembled) -> list[ca.SX]:
+    """Values, slopes in the states, and the sizes of what they are the difference of."""
     values = system.invariants.values
-    states = ca.vertcat(system.q, system.v)
+    states, given = ca.vertcat(system.q, system.v), system.reduced.symbols.u
     slope = ca.jacobian(values, states)
-    return [values, slope.T, ca.fabs(slope) @ ca.fabs(states)]
+    size = ca.fabs(slope) @ ca.fabs(states)
+    if given.numel() and ca.depends_on(values, given):
+        size += ca.fabs(ca.jacobian(values, given)) @ ca.fabs(given)
+    return [values, slope.T, size]

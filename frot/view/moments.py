@@ -11,8 +11,6 @@ from frot.view.outline import Array
 from frot.view.seen import PREFIX, list_seen
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from frot.model import Model
     from frot.runtime.program import Program
     from frot.runtime.result import Event, Result
@@ -60,11 +58,11 @@ class Moments:
         return np.column_stack((parts[0], parts[1], third))
 
 
-def picture_program(model: Model, tell: Callable[[str], None] | None = None) -> Program:
+def picture_program(model: Model, moving: frozenset[str] = frozenset()) -> Program:
     """The program that gives what a picture reads."""
     from frot.second import second_program
 
-    return second_program(model, "picture", list_seen, tell=tell)
+    return second_program(model, "picture", list_seen, moving)
 
 
 def times_of(result: Result, rate: float | None = None) -> Array:
@@ -84,7 +82,7 @@ def moments_of(result: Result, model: Model, times: Array) -> Moments:
     """What a picture reads of a run at these times; ValueError as `Second`."""
     from frot.second import Second
 
-    program = picture_program(model)
+    program = picture_program(model, result.moving)
     values = Second(result, program).at(times)
     return Moments(program, np.asarray(times), values, result.parameters, result.events)
 
@@ -97,10 +95,18 @@ def start_of(
     inputs: Mapping[str, object] | None = None,
 ) -> Moments:
     """What a picture reads of the start, before any step; FrotError if there is none."""
+    from frot.inputs_over_time import driven_program, moving_of
     from frot.runtime.run import begin
 
-    program = picture_program(model)
-    engine = begin(program, start=start, parameters=parameters, inputs=inputs)
+    _, constants, tables = driven_program(model, inputs, start, None)
+    program = picture_program(model, moving_of(tables))
+    engine = begin(
+        program,
+        start=start,
+        parameters=parameters,
+        inputs=constants,
+        tables=tables,
+    )
     values = np.array([engine.now()])
     known = {p.name: engine.get_parameter(k) for k, p in enumerate(program.parameters)}
     return Moments(program, np.array([engine.time]), values, known)
