@@ -24,12 +24,16 @@ from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, read_program
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from frot.compiler.lowering.assembled import Assembled
+    from frot.compiler.lowering.listing import Listed
     from frot.compiler.lowering.lower import Lowered
     from frot.compiler.mechanics.reduce import Reduced
     from frot.compiler.product.dae import Dae
     from frot.compiler.report.first_integrals import FirstIntegral
     from frot.compiler.report.report import Report
     from frot.compiler.toolchain.chosen import Toolchain
+
+    # Variables of an assembled system that are listed after the others.
+    Extra = Callable[[Assembled], tuple[Listed, ...]]
 
 
 def _silent(_: str) -> None:
@@ -77,11 +81,17 @@ def assembled_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) 
 
 
 def lowered_of(
-    model: Model, log: Log, tell: Callable[[str], None] = _silent, *, search: bool = True
+    model: Model,
+    log: Log,
+    tell: Callable[[str], None] = _silent,
+    *,
+    search: bool = True,
+    extra: Extra | None = None,
 ) -> Lowered | None:
     """The functions of the kernel's contract and their tables.
 
-    `search`: also for the first integrals, whose drift the results of a program carry.
+    `search`: also for the first integrals, whose drift the results of a program carry. `extra`
+    gives variables that are listed after the others.
     """
     system = assembled_of(model, log, tell)
     if system is None:
@@ -97,7 +107,8 @@ def lowered_of(
         tell("the first integrals")
         integrals = first_integrals_of(system, beginning)
     tell("the functions")
-    return lower(system, beginning, make_groups(system), log, integrals)
+    listed = () if extra is None else extra(system)
+    return lower(system, beginning, make_groups(system), log, integrals, listed)
 
 
 def text_of(lowered: Lowered, key: str) -> str:
@@ -116,10 +127,12 @@ def build(
     toolchain: Toolchain,
     log: Log,
     tell: Callable[[str], None] = _silent,
+    extra: Extra | None = None,
 ) -> Program | None:
     """The compiled program, kept in the cache.
 
-    `file` is the name of the text in the places of its equations.
+    `file` is the name of the text in the places of its equations. `extra` gives variables of the
+    program that are listed after the others; its first integrals are then not searched for.
     """
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.chosen import MODEL_FLAGS
@@ -128,7 +141,7 @@ def build(
     from frot.compiler.toolchain.storing import store, write_manifest
 
     with without_collection():
-        lowered = lowered_of(model, log, tell)
+        lowered = lowered_of(model, log, tell, search=extra is None, extra=extra)
         if lowered is None:
             return None
         tell("its C text")

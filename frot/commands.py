@@ -7,6 +7,8 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from frot.options import add_file, add_model, add_run, add_settings, time
+
 if TYPE_CHECKING:
     from frot.dsl.messages.diagnostics import Diagnostic
     from frot.model import Model
@@ -63,6 +65,9 @@ def _discard_output() -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
+    from frot.plot_command import add_plot, plot
+    from frot.view.command import add_view, view
+
     parser = argparse.ArgumentParser(
         prog="frot",
         description="Models of rigid bodies with liaisons and dry friction: check them, run them "
@@ -75,7 +80,7 @@ def _parser() -> argparse.ArgumentParser:
 
     check = _command(commands, "check", "check models; print their mobility and liaisons", _check)
     _files(check)
-    _model(check)
+    add_model(check)
     instead = check.add_mutually_exclusive_group()
     instead.add_argument(
         "--json", action="store_true", help="print all messages and reports as one JSON document"
@@ -87,16 +92,12 @@ def _parser() -> argparse.ArgumentParser:
     )
 
     simulate = _command(commands, "simulate", "run a model", _simulate)
-    _file(simulate)
-    _model(simulate)
-    _settings(simulate)
-    simulate.add_argument("--start", type=_time, metavar="T", help="start time in s")
-    simulate.add_argument("--stop", type=_time, metavar="T", help="stop time in s")
+    add_file(simulate)
+    add_model(simulate)
+    add_settings(simulate)
+    add_run(simulate)
     simulate.add_argument(
-        "--tolerance", type=_number, metavar="X", help="local error, from 1e-14 to 0.1"
-    )
-    simulate.add_argument(
-        "--interval", type=_time, metavar="T", help="distance of the output times in s"
+        "--interval", type=time, metavar="T", help="distance of the output times in s"
     )
     simulate.add_argument(
         "-o", "--output", metavar="FILE", help="write all variables to .csv, .json or .npz"
@@ -105,8 +106,8 @@ def _parser() -> argparse.ArgumentParser:
     simulate.add_argument("--quiet", action="store_true", help="print no summary")
 
     fmu = _command(commands, "fmu", "export a model as a co-simulation FMU", _fmu)
-    _file(fmu)
-    _model(fmu)
+    add_file(fmu)
+    add_model(fmu)
     fmu.add_argument("-o", "--output", metavar="FILE", help="the .fmu (default: MODEL.fmu)")
     fmu.add_argument("--fmi", choices=("2.0", "3.0"), default="2.0", help="version (default: 2.0)")
     fmu.add_argument(
@@ -122,6 +123,9 @@ def _parser() -> argparse.ArgumentParser:
         "--check", action="store_true", help="write nothing; status 1 and the names of what changes"
     )
     fmt.add_argument("--diff", action="store_true", help="write nothing; print what would change")
+
+    add_plot(_command(commands, "plot", "draw chosen curves of runs", plot))
+    add_view(_command(commands, "view", "show a run as a page, a picture or a film", view))
 
     explain = _command(commands, "explain", "tell what a message's code means", _explain)
     explain.add_argument("code", metavar="CODE", nargs="?", help="as E0203; without: all codes")
@@ -145,35 +149,8 @@ def _command(
     return parser
 
 
-def _file(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", metavar="FILE", help="a .frot file")
-
-
 def _files(parser: argparse.ArgumentParser, text: str = "a .frot file") -> None:
     parser.add_argument("files", metavar="FILE", nargs="+", help=text)
-
-
-def _model(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--model", metavar="NAME", help="which model, if the file holds several")
-
-
-def _settings(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        type=_assignment,
-        metavar="NAME=VALUE",
-        help="set a parameter, in SI or with a unit: --set mu=0.2 --set 'r=120 mm' (repeatable)",
-    )
-    parser.add_argument(
-        "--input",
-        action="append",
-        default=[],
-        type=_assignment,
-        metavar="NAME=VALUE",
-        help="hold an input at a value (repeatable)",
-    )
 
 
 class _Version(argparse.Action):
@@ -186,39 +163,7 @@ class _Version(argparse.Action):
         parser.exit()
 
 
-def _assignment(text: str) -> tuple[str, str]:
-    name, equals, value = text.partition("=")
-    if not equals or not name.strip() or not value.strip():
-        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=VALUE")
-    return name.strip(), value.strip()
-
-
-def _number(text: str) -> float:
-    import math
-
-    try:
-        value = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a number") from None
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a finite number")
-    return value
-
-
-def _time(text: str) -> float:
-    """A time in s, or with its unit: `2`, `2 min`."""
-    if not (text[:1].isdigit() and text[-1:].isalpha()):
-        return _number(text)
-    from frot.dsl import parse_value
-    from frot.dsl.catalogue import TYPES
-
-    try:
-        return float(parse_value(text, TYPES["Time"]))  # type: ignore[arg-type]
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-
-
-def _compiled(options: argparse.Namespace) -> Model:
+def compiled(options: argparse.Namespace) -> Model:
     """The model with its program, which is compiled if the cache has none."""
     from frot.model import load
     from frot.progress import Busy
@@ -301,7 +246,7 @@ def _simulate(options: argparse.Namespace) -> int:
     for target, formats in ((options.output, DATA), (options.plot, PICTURES)):
         if target is not None:
             check_target(target, formats)
-    model = _compiled(options)
+    model = compiled(options)
     program = model.program()
     result: Result | None
     failure: SimulationError | Interrupted | None = None
@@ -335,7 +280,7 @@ def _simulate(options: argparse.Namespace) -> int:
 
 
 def _fmu(options: argparse.Namespace) -> int:
-    model = _compiled(options)
+    model = compiled(options)
     target = options.output or f"{model.program().name}.fmu"
     model.export_fmu(target, options.fmi, options.platforms)
     print(f"{target}: FMI {options.fmi} co-simulation, checked by FMPy")

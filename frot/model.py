@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from frot.compiler import find_program, find_toolchain, program_key
 from frot.dsl.data.classes import replace
@@ -15,11 +15,13 @@ from frot.dsl.messages.errors import FrotError, fail
 from frot.interrupts import Interrupts
 
 if TYPE_CHECKING:
+    from frot.compiler import Toolchain
     from frot.compiler.product.dae import Dae
     from frot.compiler.report.report import Report
     from frot.dsl import checked
     from frot.runtime.program import Program
     from frot.runtime.result import Result
+    from frot.runtime.tables import Table
 
 
 class Model:
@@ -34,7 +36,8 @@ class Model:
         self._checked: checked.Model | None = None
         self.warnings: tuple[Diagnostic, ...] = ()
         self._toolchain = find_toolchain()
-        self._key = program_key(_identity(text, name), model, self._toolchain)
+        self._identity = _identity(text, name)
+        self._key = program_key(self._identity, model, self._toolchain)
         self._program: Program | None = self._named(find_program(self._key))
 
     @property
@@ -75,6 +78,24 @@ class Model:
                 raise FrotError(log)
         return self._program
 
+    @property
+    def file(self) -> str:
+        """The file's name, as messages give it."""
+        return self._file
+
+    @property
+    def toolchain(self) -> Toolchain:
+        """The C compiler that makes its programs."""
+        return self._toolchain
+
+    def key_of(self, tag: str) -> str:
+        """The key of another program of the model, which `tag` tells from its own."""
+        return program_key(f"{self._identity}\n{tag}", self._chosen, self._toolchain)
+
+    def named(self, program: Program) -> Program:
+        """The program with places that read as this model's user names the file."""
+        return replace(program, shown=self._file)
+
     def _named(self, program: Program | None) -> Program | None:
         """The program with places that read as this model's user names the file."""
         return None if program is None else replace(program, shown=self._file)
@@ -90,19 +111,41 @@ class Model:
         inputs: Mapping[str, object] | None = None,
         watch: Callable[[float], bool] | None = None,
     ) -> Result:
-        """Run the model; see `frot.runtime.run.simulate`."""
-        from frot.runtime import simulate
+        """Run the model; see `frot.runtime.run.simulate`.
 
-        return simulate(
-            self.program(),
+        Of `inputs` a scalar one may be given over time: by (times, values), (times, values, way)
+        with way `held`, `linear` or `cubic`, an array of two columns, a pandas Series, a function
+        of time, or the text `FILE.csv:COLUMN`; see docs/inputs.md.
+        """
+        from frot.inputs_over_time import driven_program
+
+        program, constants, tables = driven_program(self, inputs, start, stop)
+        return self.run(
+            program,
             stop=stop,
             start=start,
             tolerance=tolerance,
             interval=interval,
             parameters=parameters,
-            inputs=inputs,
+            inputs=constants,
             watch=watch,
+            tables=tables,
         )
+
+    def run(self, program: Program, tables: Sequence[Table] = (), **options: Any) -> Result:
+        """Run one of its programs with the options of `simulate`; the result knows its model."""
+        from frot.inputs_over_time import moving_of
+        from frot.runtime import Interrupted, SimulationError, simulate
+
+        try:
+            result = simulate(program, tables=tables, **options)
+        except (SimulationError, Interrupted) as error:
+            if error.result is not None:
+                error.result.model, error.result.fault = self, _sentence(error)
+                error.result.moving = moving_of(tables)
+            raise
+        result.model, result.moving = self, moving_of(tables)
+        return result
 
     def report(self) -> Report:
         """Mobility, liaisons, first integrals; `str(report)` is what `frot check` prints."""
@@ -164,6 +207,13 @@ class Model:
             ) from None
         except (ValueError, RuntimeError, InvalidFmuError) as error:
             raise fail("E0807", f"no FMU can be made: {error}") from None
+
+
+def _sentence(error: BaseException) -> str:
+    """What ended a run, in one line."""
+    if isinstance(error, FrotError):
+        return "; ".join(one.message for one in error.diagnostics)
+    return str(error)
 
 
 def _identity(text: str, name: str) -> str:

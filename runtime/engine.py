@@ -149,6 +149,23 @@ class Engine:
         """Put a copy made by `save` back."""
         memoryview(self._state).cast("B")[:] = saved
 
+    def like(self, program: Program) -> Engine:
+        """An instance of another program of the model, for the same steps."""
+        return Engine(program)
+
+    def is_like(self, other: Engine) -> bool:
+        """Whether the states and recorded steps of both have the same places for the same things.
+
+        Their programs list other variables, and are of one model.
+        """
+        own, its = self.program, other.program
+        return (
+            len(self._state) == len(other._state)
+            and self.segment_size == other.segment_size
+            and own.contacts == its.contacts
+            and own.conditions == its.conditions
+        )
+
     def set_parameter(self, index: int, value: float) -> None:
         """Set a parameter, in SI; takes effect at the next start or settle."""
         self._library.frot_set_parameter(self._model, self._s, index, value)
@@ -316,6 +333,12 @@ class Engine:
         remedy = "look for a division by zero, a root or a logarithm of a negative value"
         log.report("E0904", what, None, help=remedy)
         return NoValues(log, times[row])
+
+    def now(self) -> array[float]:
+        """All variables at the time reached; NaN where they have no value."""
+        found = array("d", [math.nan]) * len(self.program.variables)
+        self._library.frot_values(self._model, self._s, self._w, _address(found))
+        return found
 
     def energy(self) -> array[float]:
         """Residual of the balance, energy scale, mechanical energy, dissipated, work."""

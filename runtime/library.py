@@ -103,6 +103,7 @@ _SIGNATURES: dict[str, tuple[object, tuple[object, ...]]] = {
         _INT,
         (_POINTER, _POINTER, _POINTER, _POINTER, _LONG, _POINTER, _LONG, _POINTER),
     ),
+    "frot_values": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER)),
     "frot_energy": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER)),
     "frot_time": (_DOUBLE, (_POINTER,)),
     "frot_last_fault": (ct.POINTER(Fault), (_POINTER,)),

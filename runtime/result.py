@@ -14,6 +14,7 @@ from frot.dsl.data.classes import dataclass
 from frot.dsl.files.writing import DATA, check_target, write_whole
 from frot.runtime.engine import Engine, as_floats
 from frot.runtime.program import IntegralInfo, Program
+from frot.runtime.showing import Showing, nearest
 
 # Loaded where values are asked for.
 if TYPE_CHECKING:
@@ -130,11 +131,8 @@ class Values(Mapping[str, "Floats"]):
     def __getitem__(self, name: str) -> Floats:
         """Values of the variable: an array, or a number for a single time."""
         if name not in self._columns:
-            from difflib import get_close_matches
-
-            near = get_close_matches(name, self._columns, 1)
-            hint = f"; did you mean '{near[0]}'?" if near else ""
-            raise KeyError(f"no variable '{name}'{hint}")
+            hint = nearest(name, list(self._columns))
+            raise KeyError(f"no variable '{name}'{'; ' if hint else ''}{hint}")
         return self._values[..., self._columns[name]]
 
     def __iter__(self) -> Iterator[str]:
@@ -144,7 +142,7 @@ class Values(Mapping[str, "Floats"]):
         return len(self._columns)
 
 
-class Result(Mapping[str, "Floats"]):
+class Result(Showing):
     """A run. `result["hoop.position.x"]` and `result.time` are arrays on the output grid, in SI.
 
     `at(t)[name]` gives values at any time of the run, from the dense output of the steps.
@@ -170,6 +168,16 @@ class Result(Mapping[str, "Floats"]):
         self._engine = engine
         self._grid, self._record = grid, record
         self._sampled = engine.values(record, grid)
+
+    @property
+    def engine(self) -> Engine:
+        """The instance of the kernel as the run left it."""
+        return self._engine
+
+    @property
+    def record(self) -> array[float]:
+        """The recorded steps, one after the other."""
+        return self._record
 
     @cached_property
     def time(self) -> Floats:

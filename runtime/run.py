@@ -6,7 +6,7 @@ import math
 import time as clock
 from array import array
 from bisect import bisect_left
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.errors import FrotError, fail
@@ -29,7 +29,9 @@ from frot.runtime.program import (
     Program,
 )
 from frot.runtime.result import KINDS, MODES, ROLLING, Event, Figures, Result
+from frot.runtime.scheduled import Refused, Scheduled
 from frot.runtime.settings import read_option, read_settings
+from frot.runtime.tables import Table
 
 # Output times, and the values of all variables at them: 1 GiB.
 MOST_POINTS, MOST_VALUES = 10_000_000, 2**27
@@ -82,6 +84,7 @@ def simulate(
     parameters: Mapping[str, object] | None = None,
     inputs: Mapping[str, object] | None = None,
     watch: Callable[[float], bool] | None = None,
+    tables: Sequence[Table] = (),
 ) -> Result:
     """Run from `start` to `stop` (s); what is None comes from the model's experiment.
 
@@ -95,6 +98,7 @@ def simulate(
             array all items, `"mu": [0.1, 0.2]`, or single ones, `"mu[2]": 0.2`.
         inputs: Constant values of the inputs, as for `parameters`.
         watch: Called now and then with the time reached; True ends the run there.
+        tables: Inputs over time, of a program that has the inputs for them.
 
     Raises:
         FrotError: Unknown names and bad values (E0805, E0806).
@@ -102,40 +106,15 @@ def simulate(
             the motion; it holds the result up to the fault.
         Interrupted: Ctrl-C; it holds the result up to there.
     """
-    stop, start, interval = (
-        read_option(name, value, "s")
-        for name, value in (("stop", stop), ("start", start), ("interval", interval))
+    engine, times, begun = _begin(
+        program, (stop, start, interval, tolerance), parameters, inputs, tables
     )
-    tolerance = read_option("tolerance", tolerance, "1")
-    engine = Engine(program)
-    for name, value in read_settings(parameters, program.parameters, "parameter", program):
-        engine.set_parameter(name, value)
-    for name, value in read_settings(inputs, program.inputs, "input", program):
-        engine.set_input(name, value)
-    status, experiment = engine.settle_parameters()
-    if status != OK:
-        raise _fault(engine, None)
-    begin = _choose(start, experiment[0], 0.0)
-    end = _choose(stop, experiment[1], begin + DEFAULT_SPAN)
-    asked = _choose(tolerance, experiment[2], DEFAULT_TOLERANCE)
-    if not (math.isfinite(begin) and math.isfinite(end) and end > begin):
-        raise fail(
-            "E0806",
-            f"the run cannot go from {begin:g} s to {end:g} s",
-            help="choose a stop time after the start time",
-        )
-    if not TOLERANCES[0] <= asked <= TOLERANCES[1]:
-        raise fail(
-            "E0806",
-            f"the tolerance {asked:g} is out of range",
-            help=f"choose one from {TOLERANCES[0]:g} to {TOLERANCES[1]:g}",
-        )
-    distance = _choose(interval, experiment[3], (end - begin) / DEFAULT_POINTS)
-    times = _grid(begin, end, distance, len(program.variables))
-    begun = clock.perf_counter()
-    if engine.start(begin, asked, program.experiment.on_indeterminate) != OK:
-        raise _fault(engine, None)
-    run = engine.advance(end, watch)
+    end = times[-1]
+    refused: Refused | None = None
+    try:
+        run = engine.advance(end, watch)
+    except Refused as error:
+        refused, run, end = error, error.run, engine.time
     wall = clock.perf_counter() - begun
     if run.status == FULL:
         end = run.last
@@ -145,7 +124,8 @@ def simulate(
         end = engine.time
     reached = end if run.status != OK else max(end, engine.time)
     kept = times[: bisect_left(times, end)]
-    grid = kept + array("d", [end]) if run.status != OK else times
+    whole = run.status == OK and refused is None
+    grid = times if whole else kept + array("d", [end])
     counts = engine.statistics
     figures = Figures(
         counts.steps,
@@ -175,11 +155,76 @@ def simulate(
                 raise SimulationError(Log(list(error.diagnostics)), result) from None
     if run.interrupted:
         raise Interrupted(end, result)
+    if refused is not None:
+        raise SimulationError(refused.log, result)
     if run.status == FULL:
         raise _too_long(result, end, len(run.events))
     if run.status not in _GOOD or result is None:
         raise _fault(engine, result)
     return result
+
+
+def begin(
+    program: Program,
+    *,
+    start: float | str | None = None,
+    parameters: Mapping[str, object] | None = None,
+    inputs: Mapping[str, object] | None = None,
+    tables: Sequence[Table] = (),
+) -> Engine:
+    """An instance at the start of its run, before the first step; raises as `simulate`."""
+    engine, _, _ = _begin(program, (None, start, None, None), parameters, inputs, tables, False)
+    return engine
+
+
+def _begin(
+    program: Program,
+    options: tuple[float | str | None, ...],
+    parameters: Mapping[str, object] | None,
+    inputs: Mapping[str, object] | None,
+    tables: Sequence[Table],
+    whole: bool = True,
+) -> tuple[Engine, array[float], float]:
+    """An instance at its start, the output times, and when the kernel's work began.
+
+    `options` are stop, start, interval and tolerance; `whole` where the tables are to last.
+    """
+    stop, start, interval = (
+        read_option(name, value, "s")
+        for name, value in zip(("stop", "start", "interval"), options[:3], strict=True)
+    )
+    tolerance = read_option("tolerance", options[3], "1")
+    engine = Scheduled(program, tables) if tables else Engine(program)
+    for name, value in read_settings(parameters, program.parameters, "parameter", program):
+        engine.set_parameter(name, value)
+    for name, value in read_settings(inputs, program.inputs, "input", program):
+        engine.set_input(name, value)
+    status, experiment = engine.settle_parameters()
+    if status != OK:
+        raise _fault(engine, None)
+    begin = _choose(start, experiment[0], 0.0)
+    end = _choose(stop, experiment[1], begin + DEFAULT_SPAN)
+    asked = _choose(tolerance, experiment[2], DEFAULT_TOLERANCE)
+    if not (math.isfinite(begin) and math.isfinite(end) and end > begin):
+        raise fail(
+            "E0806",
+            f"the run cannot go from {begin:g} s to {end:g} s",
+            help="choose a stop time after the start time",
+        )
+    if not TOLERANCES[0] <= asked <= TOLERANCES[1]:
+        raise fail(
+            "E0806",
+            f"the tolerance {asked:g} is out of range",
+            help=f"choose one from {TOLERANCES[0]:g} to {TOLERANCES[1]:g}",
+        )
+    for table in tables:
+        table.check(begin, end if whole else begin)
+    distance = _choose(interval, experiment[3], (end - begin) / DEFAULT_POINTS)
+    times = _grid(begin, end, distance, len(program.variables))
+    begun = clock.perf_counter()
+    if engine.start(begin, asked, program.experiment.on_indeterminate) != OK:
+        raise _fault(engine, None)
+    return engine, times, begun
 
 
 def _last_value(engine: Engine, record: array[float], there: float, lost: float) -> float:

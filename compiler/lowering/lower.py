@@ -119,12 +119,16 @@ def lower(
     grouping: Grouping,
     log: Log,
     integrals: tuple[FirstIntegral, ...] = (),
+    extra: tuple[Listed, ...] = (),
 ) -> Lowered | None:
-    """Build every function; what cannot be built is reported. `integrals` are listed too."""
+    """Build every function; what cannot be built is reported.
+
+    `integrals` are listed too, and `extra` after all other variables.
+    """
     reduced = system.reduced
     s, resolve, settled = reduced.symbols, system.resolve, reduced.variables.settled
     looking, explicit, initial = beginning.looking, beginning.explicit, beginning.initial
-    variables = list_variables(system, looking, integrals)
+    variables = (*list_variables(system, looking, integrals), *extra)
     located = explicit(system.resolve(column(reduced.conditions.values)))
     conditions, timers = sort_conditions(system, located)
     switching = tuple(_switching(k, b, system, conditions) for k, b in enumerate(system.blocks))
@@ -389,7 +393,11 @@ def _beginnings_of_open(system: Assembled) -> list[ca.SX]:
 
 
 def _invariants(system: Assembled) -> list[ca.SX]:
+    """Values, slopes in the states, and the sizes of what they are the difference of."""
     values = system.invariants.values
-    states = ca.vertcat(system.q, system.v)
+    states, given = ca.vertcat(system.q, system.v), system.reduced.symbols.u
     slope = ca.jacobian(values, states)
-    return [values, slope.T, ca.fabs(slope) @ ca.fabs(states)]
+    size = ca.fabs(slope) @ ca.fabs(states)
+    if given.numel() and ca.depends_on(values, given):
+        size += ca.fabs(ca.jacobian(values, given)) @ ca.fabs(given)
+    return [values, slope.T, size]

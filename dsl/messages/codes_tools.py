@@ -79,6 +79,20 @@ TOOLS: Mapping[str, Row] = {
         "Choose fewer output times, an earlier stop time or a smaller model.",
         "",
     ),
+    "E0820": (
+        "nothing to draw, or nothing to draw it with",
+        "A page is drawn by the Python package k3d, a film .mp4 by ffmpeg; one of them is not "
+        "installed, or the model has no bodies.",
+        "Install what the message names, or write another format; 'frot plot' draws curves.",
+        "",
+    ),
+    "E0821": (
+        "bad values of an input over time",
+        "The values of an input over time are no function of time with jumps: a column is missing, "
+        "times go back, a number is missing, a unit has another dimension, or the run is longer.",
+        "Write (times, values) with ascending times, or --input F=file.csv:column.",
+        "",
+    ),
     "E0901": (
         "fault in the run",
         "The motion could not be computed past the time named.",

@@ -139,7 +139,9 @@ static int fire_changed_conditions(const frot_model *m, frot_state *s, frot_work
 static int change_given(const frot_model *m, frot_state *s, frot_work *w, const double *x,
                         frot_recorder *recorder) {
   const double *q = x, *v = x + m->nq;
+  frot_swap_inputs(m, s);
   int status = frot_note_supports(m, s, w, s->t, q, v);
+  frot_swap_inputs(m, s);
   if (status == FROT_OK) status = frot_settle_parameters(m, s, w, NULL);
   if (status == FROT_OK) status = frot_check_supports(m, s, w, s->t, q, v, recorder);
   if (status == FROT_CHECK || status == FROT_REFUSED)
@@ -159,7 +161,9 @@ static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
   double *x = w->step.z1;
   frot_interpolate(m, &g, s->t, x);
   frot_guess_unknowns(m, w, &g, s->t);
+  frot_swap_inputs(m, s);
   double before = energy_now(m, s, w, x);
+  frot_swap_inputs(m, s);
   s->changed = 0;
   int status = change_given(m, s, w, x, recorder);
   if (status != FROT_OK) return status;

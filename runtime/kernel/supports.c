@@ -32,6 +32,15 @@ void frot_hold_given(const frot_model *m, frot_state *s) {
   memcpy(held + 2 * m->np, s->data + l.u, sizeof(double) * (size_t)m->nu);
 }
 
+void frot_swap_inputs(const frot_model *m, frot_state *s) {
+  frot_layout l = frot_layout_of(m);
+  double *u = s->data + l.u, *held = s->data + l.kept + 2 * m->np;
+  for (int i = 0; i < m->nu; i++) {
+    double given = u[i];
+    u[i] = held[i], held[i] = given;
+  }
+}
+
 void frot_take_back(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   const double *held = s->data + l.kept;

@@ -11,6 +11,9 @@
 
 /* Note what is given now: the values to which a refused change goes back. */
 void frot_hold_given(const frot_model *m, frot_state *s);
+/* Exchange the inputs given now with those held: what was before a change is evaluated with these.
+ * Parameters need none of it, for they take effect when they are settled. */
+void frot_swap_inputs(const frot_model *m, frot_state *s);
 /* Go back to the values noted last. */
 void frot_take_back(const frot_model *m, frot_state *s, frot_work *w);
 

@@ -1,0 +1,105 @@
+"""The command `frot plot`."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from frot.options import add_model, add_run, add_settings, names
+
+if TYPE_CHECKING:
+    from frot.runtime.result import Result
+
+
+def add_plot(parser: argparse.ArgumentParser) -> None:
+    """The options of the command."""
+    parser.add_argument("files", metavar="FILE", nargs="+", help="a .frot file; several: compared")
+    add_model(parser)
+    add_settings(parser)
+    add_run(parser)
+    parser.add_argument(
+        "--curves", type=names, metavar="NAME,...", help="variables over time, one unit an axis"
+    )
+    parser.add_argument(
+        "--xy", type=names, metavar="X,Y,...", help="variables against each other, in pairs"
+    )
+    parser.add_argument(
+        "--compare",
+        metavar="NAME=VALUE,...",
+        help="a run for each value of a parameter: --compare mu=0.1,0.2,0.3",
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="the .png, .svg or .pdf (default: MODEL.png)"
+    )
+
+
+def plot(options: argparse.Namespace) -> int:
+    """Run the models and draw the curves."""
+    from frot.dsl.files.writing import PICTURES, check_target
+    from frot.dsl.messages.errors import fail
+    from frot.runtime.curves import plot_curves
+    from frot.runtime.plotting import plot as plot_choice
+
+    if options.curves and options.xy:
+        raise fail("E0806", "--curves and --xy exclude each other", help="draw two pictures")
+    if options.output is not None:
+        check_target(options.output, PICTURES)
+    runs = _runs(options)
+    first = next(iter(runs.values()))
+    target = options.output or f"{first.program.name}.png"
+    chosen = options.xy or options.curves
+    if chosen:
+        plot_curves(runs if len(runs) > 1 else first, target, chosen, xy=bool(options.xy))
+    elif len(runs) > 1:
+        plot_curves(runs, target, outputs_of(first))
+    else:
+        plot_choice(first, target)
+    print(f"  written: {target}")
+    return 0
+
+
+def outputs_of(result: Result) -> list[str]:
+    """The outputs of a model, or the positions and angles of its bodies."""
+    variables = result.program.variables
+    found = [v.name for v in variables if v.causality == "output"]
+    if found:
+        return found
+    ends = (".position.x", ".position.y", ".position.z", ".angle")
+    return [v.name for v in variables if v.name.endswith(ends)][:6]
+
+
+def _runs(options: argparse.Namespace) -> dict[str, Result]:
+    """The runs by what tells them apart."""
+    from frot.commands import compiled
+
+    values = [("", "")]
+    name = ""
+    if options.compare:
+        name, _, listed = options.compare.partition("=")
+        values = [(f"{name} = {value}", value) for value in names(listed)]
+    runs = {}
+    for file in options.files:
+        options.file = file
+        model = compiled(options)
+        for label, value in values:
+            settings = dict(options.set) | ({name: value} if label else {})
+            many = len(options.files) > 1
+            shown = ", ".join(x for x in (file if many else "", label) if x)
+            runs[shown] = _run(model, options, settings)
+    return runs
+
+
+def _run(model: object, options: argparse.Namespace, settings: dict[str, str]) -> Result:
+    from frot.model import Model
+    from frot.progress import Progress
+
+    assert isinstance(model, Model)
+    with Progress(f"simulating {model.name}") as progress:
+        return model.simulate(
+            start=options.start,
+            stop=options.stop,
+            tolerance=options.tolerance,
+            parameters=settings,
+            inputs=dict(options.input),
+            watch=progress.watch(options.stop or model.program().experiment.stop),
+        )

@@ -1,0 +1,79 @@
+"""A second program of a model, with more variables, and its values over the steps of a run."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from frot.dsl.messages.diagnostics import Log
+from frot.dsl.messages.errors import FrotError
+from frot.interrupts import Interrupts
+
+if TYPE_CHECKING:
+    from frot.compiler.driver import Extra
+    from frot.dsl.checked import Model as Checked
+    from frot.model import Model
+    from frot.runtime.engine import Engine, Floats
+    from frot.runtime.program import Program
+    from frot.runtime.result import Result
+
+
+def second_program(
+    model: Model,
+    tag: str,
+    extra: Extra | None = None,
+    moving: frozenset[str] = frozenset(),
+    tell: Callable[[str], None] | None = None,
+) -> Program:
+    """The program of a model with `extra` variables, and with `moving` inputs over time, cached.
+
+    `tag` says in what the variables differ from the model's own. FrotError where it cannot be made.
+    """
+    from frot.compiler import build, find_program
+
+    key = model.key_of(f"{tag}\ninputs over time: {', '.join(sorted(moving))}")
+    found = find_program(key)
+    if found is not None:
+        return model.named(found)
+    log = Log()
+    told = (lambda _: None) if tell is None else tell
+    with Interrupts():
+        built = build(
+            checked_of(model, moving),
+            model.file,
+            key,
+            model.toolchain,
+            log,
+            tell=told,
+            extra=extra,
+        )
+    if built is None:
+        raise FrotError(log)
+    return model.named(built)
+
+
+def checked_of(model: Model, moving: frozenset[str]) -> Checked:
+    """The checked model, with these inputs as functions of time."""
+    if not moving:
+        return model.checked()
+    from frot.inputs_over_time import with_time
+
+    return with_time(model.checked(), moving)
+
+
+class Second:
+    """Evaluates a second program over the recorded steps of a result."""
+
+    def __init__(self, result: Result, program: Program) -> None:
+        """ValueError where the two programs have other states, so that steps mean other things."""
+        self.program = program
+        self._engine: Engine = result.engine.like(program)
+        self._record = result.record
+        if not result.engine.is_like(self._engine):
+            raise ValueError("the programs have other states")
+        self._engine.restore(result.engine.save())
+
+    def at(self, times: Floats) -> Floats:
+        """Values (times x variables) at times in ascending order."""
+        return self._engine.rows(self._record, array("d", times))

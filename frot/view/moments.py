@@ -1,0 +1,112 @@
+"""The values of a run at the moments of a picture, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frot.view.outline import Array
+from frot.view.seen import PREFIX, list_seen
+
+if TYPE_CHECKING:
+    from frot.model import Model
+    from frot.runtime.program import Program
+    from frot.runtime.result import Event, Result
+
+RATE = 30.0  # pictures a second of a run that is played as fast as it is
+MOST = 1500
+LEAST = 120
+
+
+class Moments:
+    """Values of the variables of a picture's program at `times` (s)."""
+
+    def __init__(
+        self,
+        program: Program,
+        times: Array,
+        values: Array,
+        parameters: Mapping[str, float],
+        events: tuple[Event, ...] = (),
+    ) -> None:
+        """`values`: times x variables."""
+        self.program, self.times, self.values = program, times, values
+        self.parameters, self.events = parameters, events
+        self._columns = {v.name: k for k, v in enumerate(program.variables)}
+
+    def has(self, name: str) -> bool:
+        """Whether the program gives this variable."""
+        return name in self._columns
+
+    def column(self, name: str) -> Array | None:
+        """The values of a variable, None where there is none."""
+        return self.values[:, self._columns[name]] if self.has(name) else None
+
+    def vector(self, name: str, size: int) -> Array:
+        """What the picture alone reads (times x size)."""
+        first = self._columns[f"{PREFIX}{name}[0]"]
+        return self.values[:, first : first + size]
+
+    def vector_of(self, name: str) -> Array | None:
+        """A vector of the program with three components, None where there is none."""
+        parts = [self.column(f"{name}.{axis}") for axis in "xyz"]
+        if parts[0] is None or parts[1] is None:
+            return None
+        third = np.zeros(len(self.times)) if parts[2] is None else parts[2]
+        return np.column_stack((parts[0], parts[1], third))
+
+
+def picture_program(model: Model, moving: frozenset[str] = frozenset()) -> Program:
+    """The program that gives what a picture reads."""
+    from frot.second import second_program
+
+    return second_program(model, "picture", list_seen, moving)
+
+
+def times_of(result: Result, rate: float | None = None) -> Array:
+    """The moments of a film: evenly, and both sides of each event.
+
+    `rate` is in pictures a second of the run's own time.
+    """
+    first, last = float(result.time[0]), float(result.time[-1])
+    count = int(np.clip((last - first) * (rate or RATE), LEAST, MOST)) + 1
+    if rate is not None:
+        return np.linspace(first, last, max(int((last - first) * rate), 1) + 1)
+    inner = [e.time for e in result.events if first < e.time < last][:MOST]
+    return np.unique([*np.linspace(first, last, count), *inner, *np.nextafter(inner, first)])
+
+
+def moments_of(result: Result, model: Model, times: Array) -> Moments:
+    """What a picture reads of a run at these times; ValueError as `Second`."""
+    from frot.second import Second
+
+    program = picture_program(model, result.moving)
+    values = Second(result, program).at(times)
+    return Moments(program, np.asarray(times), values, result.parameters, result.events)
+
+
+def start_of(
+    model: Model,
+    *,
+    start: float | str | None = None,
+    parameters: Mapping[str, object] | None = None,
+    inputs: Mapping[str, object] | None = None,
+) -> Moments:
+    """What a picture reads of the start, before any step; FrotError if there is none."""
+    from frot.inputs_over_time import driven_program, moving_of
+    from frot.runtime.run import begin
+
+    _, constants, tables = driven_program(model, inputs, start, None)
+    program = picture_program(model, moving_of(tables))
+    engine = begin(
+        program,
+        start=start,
+        parameters=parameters,
+        inputs=constants,
+        tables=tables,
+    )
+    values = np.array([engine.now()])
+    known = {p.name: engine.get_parameter(k) for k, p in enumerate(program.parameters)}
+    return Moments(program, np.array([engine.time]), values, known)

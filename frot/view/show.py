@@ -1,0 +1,155 @@
+"""What `frot view`, `model.view` and `result.view` do: a page, a picture or a film of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from frot.dsl.files.writing import check_target, write_whole
+from frot.dsl.messages.errors import fail
+from frot.view.film import FILM, PAGE, RATE, STILL, check_writer, write_film, write_still
+
+if TYPE_CHECKING:
+    from frot.model import Model
+    from frot.runtime.result import Result
+    from frot.view.scene import Scene
+
+MOST_PICTURES = 10_000  # of a film
+FORMATS = (*PAGE, *STILL, *FILM)
+
+
+def check_view(path: str | Path) -> Path:
+    """The path of a page, a picture or a film, before long work; FrotError as `check_target`.
+
+    E0820 where what draws it is not installed.
+    """
+    target = check_target(path, FORMATS)
+    check_writer(target)
+    if target.suffix.lower() in PAGE:
+        from frot.view.page import k3d_package
+
+        k3d_package()
+    return target
+
+
+def write_view(
+    result: Result,
+    path: str | Path,
+    *,
+    curves: Sequence[str] | None = None,
+    at: float | None = None,
+    speed: float = 1.0,
+    fault: str = "",
+    watch: Callable[[int, int], None] | None = None,
+) -> None:
+    """Write a run as `.html`, a moment of it as `.png`, `.svg` or `.pdf`, a film as `.gif`, `.mp4`.
+
+    Args:
+        result: The run, by its model.
+        path: The file.
+        curves: Variables drawn beside the picture of a page; by default as `plot` chooses.
+        at: The moment of a picture, in s; by default the start.
+        speed: Of a film, seconds of the run in one.
+        fault: Why the run ended, told on the page.
+        watch: Called with pictures drawn, and how many there are.
+
+    Raises:
+        FrotError: E0803, E0806 and E0820: the file cannot be written.
+    """
+    import numpy as np
+
+    target = check_view(path)
+    kind = target.suffix.lower()
+    if not (speed > 0 and np.isfinite(speed)):
+        raise fail("E0806", f"the speed {speed:g} is not positive", help="take 0.5, or leave it")
+    first, last = float(result.time[0]), float(result.time[-1])
+    if at is not None and not first <= at <= last:
+        raise fail(
+            "E0806",
+            f"there is no picture at t = {at:g} s",
+            help=f"the run goes from {first:g} s to {last:g} s",
+        )
+    if kind not in PAGE:
+        need_bodies(model_of(result))
+    if kind in PAGE:
+        write_whole(target, page(result, curves=curves, fault=fault).encode("utf-8"))
+    elif kind in STILL:
+        write_still(scene(result, np.array([first if at is None else at])), target)
+    else:
+        count = max(int((last - first) / speed * RATE), 1) + 1
+        if count > MOST_PICTURES:
+            raise fail(
+                "E0806",
+                f"a film of {count} pictures is too long",
+                help=f"give a speed from {speed * count / MOST_PICTURES:.2g} on",
+            )
+        write_film(scene(result, np.linspace(first, last, count)), target, watch)
+
+
+def need_bodies(model: Model) -> None:
+    """FrotError (E0820) for a model without bodies: a page alone shows its curves."""
+    if not model.checked().bodies:
+        raise fail(
+            "E0820",
+            f"the model '{model.name}' has no bodies: there is nothing to draw",
+            help="`frot plot` draws curves, and so does a page",
+        )
+
+
+def scene(result: Result, times: Any) -> Scene:
+    """The scene of a run at these moments."""
+    from frot.view.moments import moments_of
+    from frot.view.scene import scene_of
+
+    model = model_of(result)
+    return scene_of(model.checked(), moments_of(result, model, times))
+
+
+def page(result: Result, *, curves: Sequence[str] | None = None, fault: str = "") -> str:
+    """The page of a run as HTML."""
+    from frot.view.moments import times_of
+    from frot.view.page import page_of
+
+    return page_of(scene(result, times_of(result)), figure_of(result, curves), fault)
+
+
+def figure_of(result: Result, curves: Sequence[str] | None) -> Any:
+    """The curves beside the picture, as a figure of matplotlib."""
+    from frot.runtime.curves import draw_curves
+    from frot.runtime.plotting import draw
+
+    figure = draw_curves(result, curves) if curves else draw(result)
+    figure.set_size_inches(6.4, 0.85 * figure.get_size_inches()[1])
+    return figure
+
+
+def model_of(result: Result) -> Model:
+    """The model of a result; FrotError where its text is not known."""
+    if result.model is None:
+        raise fail(
+            "E0820",
+            f"the text of the model '{result.program.name}' is not known",
+            help="view results of `model.simulate(...)`",
+        )
+    return result.model
+
+
+def write_start(
+    model: Model,
+    path: Path,
+    *,
+    start: float | str | None = None,
+    parameters: Mapping[str, object] | None = None,
+    inputs: Mapping[str, object] | None = None,
+) -> None:
+    """A picture of the start, before any step; FrotError where there is no start."""
+    from frot.view.moments import start_of
+    from frot.view.scene import scene_of
+
+    need_bodies(model)
+    moments = start_of(model, start=start, parameters=parameters, inputs=inputs)
+    write_still(scene_of(model.checked(), moments), path)
+
+
+__all__ = ["check_view", "model_of", "page", "write_start", "write_view"]
