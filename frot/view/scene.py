@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frot.dsl import Log
+from frot.dsl import Log, default_values, evaluate
 from frot.dsl.checked import BodyGeometry, BodyPoint, Frame, Liaison, Model
 from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.errors import FrotError
@@ -407,4 +407,7 @@ def _up(model: Model) -> Array:
     if model.planar:
         return np.eye(3)[1]
     down = model.world.down
-    return np.eye(3)["xyz".index(down[-1])] * (1 if down[0] == "-" else -1)
+    if isinstance(down, str):
+        return np.eye(3)["xyz".index(down[-1])] * (1 if down[0] == "-" else -1)
+    fall = np.array(evaluate(down, default_values(model, {})), dtype=np.float64)
+    return -fall / np.linalg.norm(fall)
