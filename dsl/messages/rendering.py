@@ -9,7 +9,7 @@ from frot.dsl.messages.diagnostics import LIMIT, Diagnostic, Log
 from frot.dsl.messages.source import Span, escaped
 
 _TAB = 4
-_LONGEST = 160
+_LONGEST, _LONGEST_SENTENCE = 160, 2000
 _COLOURS = {"error": "\033[1;31m", "warning": "\033[1;33m", "rule": "\033[1;34m", "bold": "\033[1m"}
 _RESET = "\033[0m"
 
@@ -22,7 +22,7 @@ def render(diagnostic: Diagnostic, colour: bool = False) -> str:
         return f"{_COLOURS[style]}{text}{_RESET}" if colour and text else text
 
     head = paint(f"{severity}[{diagnostic.code}]", severity)
-    lines = [f"{head}: {paint(escaped(diagnostic.message), 'bold')}"]
+    lines = [f"{head}: {paint(_sentence(diagnostic.message), 'bold')}"]
     width = 1
     if diagnostic.span is not None:
         places = [diagnostic.span, *(label.span for label in diagnostic.labels)]
@@ -38,10 +38,10 @@ def render(diagnostic: Diagnostic, colour: bool = False) -> str:
                 lines.append(f"{side} {rule} {shown}".rstrip())
                 lines.append(f"{' ' * width} {rule} {paint(under.rstrip(), style)}")
     equals = f"{' ' * width} {paint('=', 'rule')}"
-    lines.extend(f"{equals} note: {escaped(note)}" for note in diagnostic.notes)
+    lines.extend(f"{equals} note: {_sentence(note)}" for note in diagnostic.notes)
     # Every message has a remedy: its own, or that of its code.
     remedy = diagnostic.help or CODES[diagnostic.code].remedy
-    lines.append(f"{equals} help: {escaped(remedy)}")
+    lines.append(f"{equals} help: {_sentence(remedy)}")
     return "\n".join(lines)
 
 
@@ -92,6 +92,9 @@ def _excerpt(span: Span, text: str, mark: str) -> list[tuple[int, str, str]]:
 
 def _underlined(line: str, start: int, end: int, mark: str, text: str) -> tuple[str, str]:
     """The line as it is shown, and the marks below its characters [start, end)."""
+    # Of a line of any length what lies around the marks is enough.
+    far = max(start - _LONGEST, 0)
+    line, start, end = line[far : far + 4 * _LONGEST], start - far, end - far
     cells = [_shown(c) for c in line]
     shift = 0
     if sum(map(_width, cells)) > _LONGEST and start > _LONGEST // 2:
@@ -109,6 +112,11 @@ def _shown(character: str) -> str:
     if unicodedata.combining(character) or character.isprintable():
         return character
     return escaped(character)
+
+
+def _sentence(text: str) -> str:
+    """A message on one line, cut where it repeats more of a text than anybody reads."""
+    return escaped(text if len(text) <= _LONGEST_SENTENCE else f"{text[:_LONGEST_SENTENCE]} ...")
 
 
 def columns(text: str) -> int:

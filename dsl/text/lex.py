@@ -22,8 +22,16 @@ _NOUNS = frozenset(
     partial kinematic geometric""".split()  # noqa: SIM905
 )
 _RELATIONS = ("kinematic", "geometric")
-_BLANK = re.compile(r"(?:\s|//[^\n]*|/\*.*?\*/)*", re.DOTALL)
+_BLANK = re.compile(r"(?:\s++|//[^\n]*|/\*.*?\*/)*+", re.DOTALL)
+_SPACES = frozenset(" \t\f\ufeff\u00a0\u2007\u2009\u202f")
 _REGEXPS = ("WS", "COMMENT", "QUANTITY", "NUMBER", "STRING", "IDENT")
+
+
+def begins_line(text: str, start: int) -> bool:
+    """Whether nothing but blanks stands before a place on its line."""
+    while start > 0 and text[start - 1] in _SPACES:
+        start -= 1
+    return start == 0 or text[start - 1] in "\r\n"
 
 
 class Lexer:
@@ -35,8 +43,12 @@ class Lexer:
         self.keywords: dict[str, str] = {w: n for w, n in literal.items() if w[0].isalpha()}
         self.symbols = {w: n for w, n in literal.items() if not w[0].isalpha()}
         symbols = "|".join(re.escape(s) for s in sorted(self.symbols, key=len, reverse=True))
-        groups = [f"(?P<{name}>{patterns[name].to_regexp()})" for name in _REGEXPS]
-        self._master = re.compile("|".join([*groups, f"(?P<SYMBOL>{symbols})"]))
+        groups = {name: f"(?P<{name}>{patterns[name].to_regexp()})" for name in _REGEXPS}
+        groups["SYMBOL"] = f"(?P<SYMBOL>{symbols})"
+        self._master = re.compile("|".join(groups.values()))
+        groups["COMMENT"] = r"(?P<COMMENT>//[^\n]*)"
+        self._behind = re.compile("|".join(groups.values()))
+        self._unclosed: tuple[str, int] = "", 0
         self._close_unit = re.compile(patterns["CLOSE_UNIT"].to_regexp())
 
     def next(self, text: str, offset: int, accepted: Container[str]) -> tuple[str, int, int]:
@@ -46,9 +58,12 @@ class Lexer:
         and whether a unit belongs to a closing parenthesis.
         """
         while True:
-            found = self._master.match(text, offset)
+            # Behind a comment that does not end none does: its end is not looked for again.
+            behind = self._unclosed[0] is text and offset >= self._unclosed[1]
+            found = (self._behind if behind else self._master).match(text, offset)
             if found is None:
                 if offset >= len(text):
+                    self._unclosed = "", 0
                     return END, offset, offset
                 return JUNK, offset, offset + 1
             kind = found.lastgroup
@@ -62,6 +77,8 @@ class Lexer:
                 name = self.symbols[found[0]]
                 if text.startswith("/*", start):
                     # A comment that ends is matched before: this one does not.
+                    if not behind:
+                        self._unclosed = text, start
                     return JUNK, start, start + 2
                 if name == "RPAR" and "CLOSE_UNIT" in accepted:
                     unit = self._close_unit.match(text, offset)
@@ -79,9 +96,7 @@ class Lexer:
             return "IDENT"
         if keyword not in accepted and "IDENT" in accepted:
             # What stands at the beginning of a line ends or opens a block: a ';' is missing.
-            ends = (
-                word == "end" and not text[text.rfind("\n", 0, end) + 1 : end - len(word)].strip()
-            )
+            ends = word == "end" and begins_line(text, end - len(word))
             return keyword if ends else "IDENT"
         if word in _NOUNS and "IDENT" in accepted:
             # `force = 2*k;` names a variable: a declaration goes on with a word, a relation also

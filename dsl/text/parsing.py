@@ -16,7 +16,7 @@ from frot.dsl.messages.diagnostics import LIMIT, Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text import syntax_messages as messages
 from frot.dsl.text.build_expressions import NESTED
-from frot.dsl.text.lex import END, JUNK
+from frot.dsl.text.lex import END, JUNK, begins_line
 from frot.dsl.text.tree import Tree
 from frot.dsl.text.unit_messages import broken_unit
 
@@ -30,6 +30,8 @@ STARTS = frozenset(
 )
 # Terminals that open something closed by `end`, and how `end` names it.
 _BLOCKS = {"WHEN": "WHEN", "IF": "IF", "FOR": "FOR"}
+# Levels of definitions, loops and branches in one another; states of the automaton for each.
+BLOCKS, _STATES = 100, 6
 _HEADERS = frozenset(["MODEL", "CONNECTOR", "RECORD", "FUNCTION", "PACKAGE", "SHAPE"])
 
 
@@ -90,6 +92,9 @@ class _Reader:
                 self.reported += 1
                 offset = self._resume(token)
                 continue
+            if len(self.state.state_stack) > _STATES * BLOCKS and self._at_start():
+                messages.blocks_too_deep(self.log, self._span(token), BLOCKS)
+                return None
             if self._ends_nothing(token):
                 if not self.reported:  # else its beginning was lost with a fault that was told
                     messages.closes_nothing(self.log, self.source, token)
@@ -127,6 +132,10 @@ class _Reader:
 
     # -------------------------------------------------------------- the automaton
 
+    def _at_start(self) -> bool:
+        """Whether a statement may begin here."""
+        return "EQUATION" in self.states[self.state.state_stack[-1]]
+
     def _shift(self, token: Lexeme) -> bool:
         """Feed a token; False, with the pending reductions made, where it does not fit."""
         from lark import Token
@@ -135,7 +144,7 @@ class _Reader:
         state = self.state
         if token.type == JUNK:
             return False
-        at_start = "EQUATION" in self.states[state.state_stack[-1]]
+        at_start = self._at_start()
         text = self.source.text[token.start : token.end]
         try:
             state.feed_token(Token(token.type, text, token.start, 0, 0, 0, 0, token.end))
@@ -316,8 +325,7 @@ class _Reader:
                 return end
             if kind == "IDENT":
                 word = text[start:end]
-                line = text.rfind("\n", 0, start) + 1
-                if word in STARTS and not text[line:start].strip():
+                if word in STARTS and begins_line(text, start):
                     return start
                 self.lost.add(word)
             offset = end

@@ -112,6 +112,16 @@ def too_deep(log: Log, span: Span, limit: int) -> None:
     )
 
 
+def blocks_too_deep(log: Log, span: Span, limit: int) -> None:
+    """Definitions, loops and branches are nested too deeply."""
+    log.report(
+        "E0108",
+        f"blocks are nested more than {limit} levels deep",
+        span,
+        help="put inner ones into models or functions beside this one",
+    )
+
+
 def missing_end(log: Log, source: Source, name: str, token: Lexeme) -> None:
     """The text ends inside a block."""
     end = len(source.text.rstrip())
