@@ -15,8 +15,8 @@ void frot_look_at_sides(const frot_opening *p);
 int frot_choose_sides(const frot_opening *p, double *side, int natural);
 
 /* Solve for the coordinates of the part, with the sides as they are, such that it is inside of no
- * contact: those that it would be inside of become equations. Leaves w->core.gap there. FROT_OK or
- * the status of the fault. */
+ * contact, by the least change: those that it would be inside of become equations, as few as will
+ * do. Leaves w->core.gap there. FROT_OK or the status of the fault. */
 int frot_keep_outside(frot_opening *p);
 
 #endif

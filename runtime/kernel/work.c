@@ -269,6 +269,7 @@ static void bind_opening(const frot_model *m, const extent *e, frot_opening_work
   TAKE(w->contact_of, most.n_contacts);
   TAKE(w->sides, 4 * most.n_contacts), TAKE(w->start, m->nv);
   TAKE(w->first, larger(m->nq, nx + ny + most.n_contacts)), TAKE(w->first_use, most.n_contacts);
+  TAKE(w->outside, 2 * (nx + ny));
   TAKE(w->descent, 6 * nx), TAKE(w->multiplier, e->equations);
 }
 

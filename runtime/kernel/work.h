@@ -182,6 +182,7 @@ typedef struct {
   double *start, *second;          /* branch.c: speeds */
   double *first; /* initial.c: q, y and the sides of the place found first, its `use` */
   unsigned char *first_use;
+  double *outside; /* sides.c: q, y twice */
 } frot_opening_work;
 
 /* nearer.h: where searches begin, the places found; gaps at the end of the step; flags of the

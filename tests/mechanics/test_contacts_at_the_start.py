@@ -224,3 +224,35 @@ def test_a_rod_that_is_guessed_beside_a_line_stays_there(turns: int, bead: float
     assert start["J2.gap"] == pytest.approx(0.385571272194, abs=1e-11)
     place = turned(1.77 + 9.81 / 2 * 0.09, -0.226 + 0.04 * 0.3)
     assert (end["b.position.x"], end["b.position.y"]) == pytest.approx(place, abs=1e-9)
+
+
+@pytest.mark.parametrize("order", [("J", "K"), ("K", "J")])
+@pytest.mark.parametrize("turns", range(4))
+@pytest.mark.parametrize("mass", [1.0, 1e6])
+def test_a_disc_guessed_inside_of_two_lines_is_moved_as_little_as_possible(
+    order: tuple[str, str], turns: int, mass: float
+) -> None:
+    """Out of the steeper line alone: outside of that it is outside of the other one too."""
+    lean = turns * math.pi / 2
+    lines = {"J": 0.0, "K": math.radians(20)}
+    curves = "".join(
+        f"  curve c{k} on ground: line(through = (0, 0) m,"
+        f" direction = (cos({lines[k] + lean!r}), sin({lines[k] + lean!r})));\n"
+        f"  liaison {k}: contact_ponctuel(b.rim, c{k});\n"
+        for k in order
+    )
+    c, s = math.cos(lean), math.sin(lean)
+    x, y = 0.5, 0.3
+    text = (
+        f"planar model Wedge\n  world(gravity = 0 m/s^2);\n"
+        f"  body b: disc(mass = {mass} kg, radius = 0.5 m);\n{curves}initial\n"
+        f"  guess(b.position = ({c * x - s * y!r}, {s * x + c * y!r}) m);\n"
+        "  experiment(stop = 1 ms);\nend Wedge;"
+    )
+    start = frot.compile(text).simulate().at(0)
+    normal = np.array((-math.sin(lines["K"]), math.cos(lines["K"])))
+    x, y = np.array((x, y)) + (0.5 - normal @ (x, y)) * normal
+    found = (start["b.position.x"], start["b.position.y"])
+    assert found == pytest.approx((c * x - s * y, s * x + c * y), abs=1e-14)
+    assert start["J.gap"] == pytest.approx(y - 0.5, abs=1e-14)
+    assert start["K.gap"] == pytest.approx(0, abs=1e-15)
