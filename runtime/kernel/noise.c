@@ -49,9 +49,10 @@ static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, doubl
   }
 }
 
-/* The same of the rates of states that are no coordinates, by their own terms at z. */
+/* The same of the rates of states that are no coordinates, by their own terms at z. What it makes
+ * of these states in a step h is part of their values: raises `size`. */
 static void add_rounding_of_rates(const frot_model *m, frot_state *s, frot_work *w, double t,
-                                  const double *z) {
+                                  double h, const double *z, double *size) {
   double *noise = s->data + w->layout.noise, *terms = w->step.f + MOVED * w->layout.nz;
   if (!m->terms.call) return;
   frot_inputs(s, w, &t, z, z + m->nq, s->data + w->layout.d);
@@ -61,6 +62,7 @@ static void add_rounding_of_rates(const frot_model *m, frot_state *s, frot_work 
     if (m->q_speed[j] >= 0 || !isfinite(terms[j])) continue;
     double rounding = USUAL * FROT_ROUNDING * terms[j];
     noise[j] = fmax(noise[j], level(s) * rounding);
+    size[j] = fmax(size[j], h * rounding / FROT_NUDGE);
   }
 }
 
@@ -187,14 +189,15 @@ static void note_neighbours(const frot_model *m, const frot_state *s, frot_work 
   note_rows(m, s, w, size);
 }
 
-/* What rounding of rates makes of speeds, and of states that are no coordinates, in the stages of a
- * step h: what leaves zero in it is no larger there at first, whatever moves by it. */
-static void add_rounding_of_stages(const frot_model *m, const frot_work *w, const double *noise,
+/* What rounding of rates makes of speeds, and of states that have always been zero, in the stages
+ * of a step h: what leaves zero in it is no larger there at first, whatever moves by it. */
+static void add_rounding_of_stages(const frot_model *m, const frot_state *s, const frot_work *w,
                                    double h, double *size) {
-  for (int j = 0; j < w->awake.n - FROT_QUADRATURES; j++) {
+  const double *noise = s->data + w->layout.noise, *most = s->data + w->layout.scale_x;
+  for (int j = 0; j < w->awake.n - FROT_QUADRATURES && m->nv > 0 && !s->implicit; j++) {
     int state = w->awake.now->states[j];
-    if (state < m->nq && m->q_speed[state] >= 0) continue;
-    size[state] = fmax(size[state], h * noise[state] / FROT_NUDGE);
+    int begins = state < m->nq && m->q_speed[state] < 0 && most[state] == 0;
+    if (state >= m->nq || begins) size[state] = fmax(size[state], h * noise[state] / FROT_NUDGE);
   }
 }
 
@@ -292,8 +295,8 @@ int frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double 
   for (int j = 0; j < n + w->layout.ng; j++)
     noise[j] *= j < m->nq && m->q_speed[j] < 0 ? plain : before;
   add_rounding(m, s, w, t, w->step.z0, NULL);
-  add_rounding_of_rates(m, s, w, t, w->step.z0);
-  add_rounding_of_stages(m, w, noise, fabs(t - now), size);
+  add_rounding_of_rates(m, s, w, t, fabs(t - now), w->step.z0, size);
+  add_rounding_of_stages(m, s, w, fabs(t - now), size);
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {
       double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
