@@ -74,7 +74,7 @@ class Lowered:
     n_guessed: int
     direct: tuple[bool, ...]
     n_followed: int
-    row_depends: tuple[tuple[int, ...], ...]
+    row_depends: tuple[tuple[bool, ...], ...]
     dependent: tuple[bool, ...]
     jacobian: Jacobian | None
     watched: tuple[Origin, ...]
