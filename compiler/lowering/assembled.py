@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Mapping
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains, Resolver, replace_known
@@ -15,9 +15,6 @@ from frot.compiler.symbolic.sums import sizes_of_terms
 from frot.compiler.symbolic.vanishing_sums import Zeros
 from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
-
-# On what the Jacobian of a row depends: always, or only beyond an end of a figure.
-ALWAYS, BEYOND_ENDS = 1, 2
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -165,77 +162,27 @@ def followed_blocks(reduced: Reduced) -> tuple[ca.SX, tuple[Block, ...]]:
     return column(y), tuple(blocks)
 
 
-def row_depends(system: Assembled) -> tuple[tuple[int, ...], ...]:
+def row_depends(system: Assembled) -> tuple[tuple[bool, ...], ...]:
     """For each row: on which coordinates, and last whether on anything else, its Jacobian depends.
 
-    ALWAYS, or BEYOND_ENDS where it does so only while the contact has passed an end of a figure.
     A row that is driven, were it at a constant rate, depends on what drives it.
 
     Of the coordinates those count whose rates are speeds; any other state counts as anything else.
     """
-    conditions = system.reduced.conditions
-    ends = [k for k, contact in enumerate(conditions.contacts) if contact >= 0]
-    values = ca.vertcat(ca.vec(system.rows.nz[:]), system.rate)
-    table = _row_table(system, values, range(system.rows.size1()))
-    flags = column(conditions.flags[k] for k in ends)
-    if not ends:
-        return tuple(tuple(ALWAYS if x else 0 for x in row) for row in table)
-    owners = [conditions.contacts[k] for k in ends]
-    passing = _rows_with_own_ends(system, values, flags, owners)
-    within = ca.substitute(values, flags, ca.SX.zeros(flags.shape))
-    inside = _row_table(system, within, passing, _slopes)
-    return tuple(
-        tuple(
-            0 if not x else BEYOND_ENDS if r in passing and not inside[r][k] else ALWAYS
-            for k, x in enumerate(row)
-        )
-        for r, row in enumerate(table)
-    )
-
-
-def _slopes(values: ca.SX, unknowns: ca.SX) -> ca.Sparsity:
-    """Where slopes are not zero: a lever `(x - r) - x` has none."""
-    return ca.sparsify(ca.jacobian(values, unknowns)).sparsity()
-
-
-def _row_table(
-    system: Assembled,
-    values: ca.SX,
-    wanted: Container[int],
-    sparsity: Callable[[ca.SX, ca.SX], ca.Sparsity] = ca.jacobian_sparsity,
-) -> list[list[bool]]:
-    """On which coordinates, and last whether on anything else, the wanted rows depend.
-
-    `values`: the entries of the rows' Jacobian, then their rates. `sparsity`: where these depend on
-    unknowns.
-    """
     s = system.reduced.symbols
     others = ca.vertcat(s.t, s.u, system.discrete, system.y)
+    driven = ca.substitute(system.rate, system.v, ca.SX.zeros(*system.v.shape))
     rows, coordinates = system.rows.size1(), system.q.numel()
-    entries = values.numel() - rows
-    driven = ca.substitute(values[entries:], system.v, ca.SX.zeros(*system.v.shape))
     table = [[False] * coordinates + [not driven[r].is_zero()] for r in range(rows)]
     places = [*system.rows.sparsity().get_triplet()[0], *range(rows)]
-    asked = [k for k, r in enumerate(places) if r in wanted]
-    depends = sparsity(values[asked], ca.vertcat(system.q, others))
-    # The rates of rows count for all else alone: on coordinates their entries depend.
+    # The rates of rows are asked for all else alone: on coordinates their entries depend.
+    values = ca.vertcat(ca.vec(system.rows.nz[:]), system.rate)
+    entries = len(places) - rows
+    depends = ca.jacobian_sparsity(values, ca.vertcat(system.q, others))
     for k, x in zip(*depends.get_triplet(), strict=True):
-        if x >= coordinates or asked[k] < entries:
-            table[places[asked[k]]][min(x, coordinates)] = True
-    return table
-
-
-def _rows_with_own_ends(
-    system: Assembled, values: ca.SX, flags: ca.SX, owners: Sequence[int]
-) -> set[int]:
-    """The rows that switch at ends of figures of their own contacts, and at no other."""
-    contacts = {r: k for k, rows in enumerate(system.reduced.contact_rows) for r in rows.all}
-    places = [*system.rows.sparsity().get_triplet()[0], *range(system.rows.size1())]
-    found: dict[int, bool] = {}
-    for k, x in zip(*ca.jacobian_sparsity(values, flags).get_triplet(), strict=True):
-        r = places[k]
-        found[r] = found.get(r, True) and contacts.get(r) == owners[x]
-    return {r for r, own in found.items() if own}
+        if x >= coordinates or k < entries:
+            table[places[k]][min(x, coordinates)] = True
+    return tuple(map(tuple, table))
 
 
 def terms_of_rates(system: Assembled) -> ca.SX:

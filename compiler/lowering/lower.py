@@ -74,7 +74,7 @@ class Lowered:
     direct: tuple[bool, ...]
     kinds_of_places: tuple[int, ...]
     n_followed: int
-    row_depends: tuple[tuple[int, ...], ...]
+    row_depends: tuple[tuple[bool, ...], ...]
     dependent: tuple[bool, ...]
     jacobian: Jacobian | None
     watched: tuple[Watched, ...]

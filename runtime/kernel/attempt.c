@@ -221,7 +221,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   int unfound = s->implicit && status == FROT_DIVERGE && frot_has_motion(m);
   if (status == FROT_OK && a->ratio > 1 && w->step.worst < 0 && a->rejections % PATIENCE == 0)
     frot_measure_end(m, s, w, t + h, w->step.z1); /* a guard: of what size its terms are now */
-  if ((a->ratio > 1 && (w->step.noisy > NOISY || s->noise_measured <= 0)) ||
+  if ((a->ratio > 1 && (w->step.noisy > NOISY || (!s->implicit && s->noise_measured <= 0))) ||
       ((a->ratio > 1 || unfound) && a->rejections % PATIENCE == 0))
     measure_noise(m, s, w, t + h);
   if (a->rejections % HOLD == 0) {

@@ -56,25 +56,17 @@ static int contact_of(const frot_model *m, int row) {
   return -1;
 }
 
-/* Whether the contact of a row has passed an end of a figure. */
-static int is_beyond_end(const frot_model *m, const frot_state *s, const frot_work *w, int row) {
-  const double *d = s->data + w->layout.d;
+/* Whether the contact of a row may part. */
+static int may_part(const frot_model *m, const frot_state *s, const frot_work *w, int row) {
   int contact = contact_of(m, row);
-  for (int k = 0; k < m->n_conditions && contact >= 0; k++)
-    if (m->conditions[k].contact == contact && d[k] != 0) return 1;
-  return 0;
-}
-
-/* On what the row depends here: values of row_depends up to which it does. */
-static int depends_up_to(const frot_model *m, const frot_state *s, const frot_work *w, int row) {
-  return is_beyond_end(m, s, w, row) ? FROT_BEYOND_ENDS : FROT_DEPENDS;
+  return contact < 0 || s->data[w->layout.unilateral + contact] != 0;
 }
 
 /* Whether a row depends on coordinates alone that stay. */
-static int is_constant(const frot_model *m, int row, int up_to, const double *known) {
+static int is_constant(const frot_model *m, int row, const double *known) {
   const unsigned char *depends = m->row_depends + row * (m->nq + 1);
   for (int k = 0; k < m->nq; k++)
-    if (depends[k] != 0 && depends[k] <= up_to && !stays(m, k, known)) return 0;
+    if (depends[k] && !stays(m, k, known)) return 0;
   return 1;
 }
 
@@ -89,9 +81,11 @@ static void note_moving_rows(const frot_group *g, frot_work *w, const double *kn
   }
 }
 
-/* Marks the speeds of a group that rows hold which are constant, or move nothing but such speeds:
- * the unit vector of such a speed lies in their span. A row of the second kind may turn with other
- * coordinates; its speed is zero all the same. Columns are taken in units of their largest entry,
+/* Marks the speeds of a group that rows hold which are constant, or which cannot part and move
+ * nothing but such speeds: the unit vector of such a speed lies in their span. A row of the second
+ * kind may turn with other coordinates; its speed is zero all the same. (Two that may part may come
+ * to be one inside a step, as where a corner passes an edge: then reactions are wrong, and the
+ * error of a speed that is not frozen shows it.) Columns are taken in units of their largest entry,
  * so that units do not matter: masses say nothing of what holds. */
 static int frozen_by_rows(const frot_model *m, const frot_state *s, frot_work *w,
                           const frot_group *g, int n, const double *known, double *frozen) {
@@ -104,10 +98,11 @@ static int frozen_by_rows(const frot_model *m, const frot_state *s, frot_work *w
   }
   note_moving_rows(g, w, known);
   for (int i = 0; i < n; i++) {
-    int row = w->relations.rows[i], up_to = depends_up_to(m, s, w, row);
-    int other = m->row_depends[row * (m->nq + 1) + m->nq];
-    if (other != 0 && other <= up_to) continue;
-    if (w->span.order[m->row_local[row]] != 0 && !is_constant(m, row, up_to, known)) continue;
+    int row = w->relations.rows[i];
+    if (m->row_depends[row * (m->nq + 1) + m->nq]) continue;
+    if (!is_constant(m, row, known) &&
+        (w->span.order[m->row_local[row]] != 0 || may_part(m, s, w, row)))
+      continue;
     double *x = w->span.basis + ns * columns;
     const double *entries = frot_entries(m, w->core.rows, row);
     for (int k = 0; k < ns; k++) x[k] = scale[k] > 0 ? entries[k] / scale[k] : 0;

@@ -10,9 +10,6 @@
 extern "C" {
 #endif
 
-/* On what the Jacobian of a row depends. */
-enum frot_depends { FROT_DEPENDS = 1, FROT_BEYOND_ENDS = 2 };
-
 /* One scalar variable. */
 enum frot_type { FROT_REAL = 0, FROT_INTEGER = 1, FROT_BOOLEAN = 2, FROT_MODE = 3 };
 
@@ -180,9 +177,8 @@ typedef struct {
   const unsigned char *position_kind; /* n_position: frot_statement_kind */
   const int *p_dependent; /* np: 1 where the value follows from other parameters unless set */
   const int *p_type;      /* np: frot_type */
-  /* n_rows x (nq + 1), by rows: FROT_DEPENDS where the row's Jacobian depends on that coordinate,
-   * FROT_BEYOND_ENDS where it does so only while a condition of its contact holds; last: on t, an
-   * input, a discrete variable or y */
+  /* n_rows x (nq + 1), by rows: 1 where the row's Jacobian depends on that coordinate; last: on t,
+   * an input, a discrete variable or y */
   const unsigned char *row_depends;
   const frot_condition *conditions;      /* n_conditions */
   const unsigned char *condition_strict; /* n_conditions: 1 for < and >, 0 for <= and >= */

