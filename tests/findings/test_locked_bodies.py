@@ -9,7 +9,7 @@ import pytest
 
 import frot
 
-TEXT = (Path(__file__).parent / "locked_bodies.frot").read_text(encoding="utf-8")
+TEXT = (Path(__file__).parent / "locked_bodies").with_suffix(".frot").read_text(encoding="utf-8")
 STATED = re.sub(r"  guess\(b\d\.\w+ = .*\n", "", TEXT).replace(
     "initial\n", "initial\n  J0.speed = 0.7 rad/s;\n"
 )
