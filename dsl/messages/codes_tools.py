@@ -73,6 +73,12 @@ TOOLS: Mapping[str, Row] = {
         "Name a file that ends in .fmu; report the message if the fault is in the archive.",
         "",
     ),
+    "E0808": (
+        "an FMU cannot be checked",
+        "The file is no FMU, or FMPy could not run it on this machine.",
+        "Look at what the message says; export the model anew.",
+        "",
+    ),
     "E0901": (
         "fault in the run",
         "The motion could not be computed past the time named.",
