@@ -116,6 +116,9 @@ def _parser() -> argparse.ArgumentParser:
         type=lambda names: names.split(","),
         help="as x86_64-windows,native, which is this machine's (default: all that can be made)",
     )
+    fmu.add_argument(
+        "--check", metavar="FMU", help="make none: hold this one against FMPy's rules and a run"
+    )
 
     fmt = _command(commands, "fmt", "bring files into their usual form", _fmt)
     _files(fmt, "a .frot file, or - for standard input to standard output")
@@ -281,10 +284,28 @@ def _simulate(options: argparse.Namespace) -> int:
 
 def _fmu(options: argparse.Namespace) -> int:
     model = compiled(options)
+    if options.check is not None:
+        return _check_fmu(model, options.check)
     target = options.output or f"{model.program().name}.fmu"
     model.export_fmu(target, options.fmi, options.platforms)
     print(f"{target}: FMI {options.fmi} co-simulation, checked by FMPy")
     return 0
+
+
+def _check_fmu(model: Model, path: str) -> int:
+    checked = model.check_fmu(path)
+    for problem in checked.problems:
+        print(f"{path}: {problem}")
+    if not checked.same:
+        print(f"{path}: made from another text, or by another version of Frot")
+    elif checked.apart == 0.0 and not checked.problems:
+        print(f"{path}: all values are those of simulate, to the last bit")
+    elif not checked.problems:
+        print(
+            f"{path}: values differ from those of simulate by up to {checked.apart:.2g} of the "
+            f"largest, '{checked.variable}' the most"
+        )
+    return 0 if checked.good else 1
 
 
 def _complain(error: Exception) -> None:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from frot.compiler.product.dae import Dae
     from frot.compiler.report.report import Report
     from frot.dsl import checked
+    from frot.runtime.fmi.check import Checked
     from frot.runtime.program import Program
     from frot.runtime.result import Result
     from frot.runtime.tables import Table
@@ -207,6 +208,22 @@ class Model:
             ) from None
         except (ValueError, RuntimeError, InvalidFmuError) as error:
             raise fail("E0807", f"no FMU can be made: {error}") from None
+
+    def check_fmu(self, path: str | Path) -> Checked:
+        """Hold an FMU of this model against FMPy's rules and against `simulate`.
+
+        Raises:
+            FrotError: The file cannot be read or run, or the model cannot be.
+        """
+        from frot.runtime.fmi.check import check
+
+        try:
+            with Interrupts():
+                return check(self.program(), Path(path), self.simulate)
+        except FrotError:
+            raise
+        except Exception as error:  # FMPy raises what it likes
+            raise fail("E0809", f"'{path}' cannot be checked: {error}") from None
 
 
 def _sentence(error: BaseException) -> str:

@@ -79,6 +79,12 @@ TOOLS: Mapping[str, Row] = {
         "Choose fewer output times, an earlier stop time or a smaller model.",
         "",
     ),
+    "E0809": (
+        "an FMU cannot be checked",
+        "The file is no FMU, or FMPy could not run it on this machine.",
+        "Look at what the message says; export the model anew.",
+        "",
+    ),
     "E0820": (
         "nothing to draw, or nothing to draw it with",
         "A page is drawn by the Python package k3d, a film .mp4 by ffmpeg; one of them is not "

@@ -330,7 +330,7 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
         snprintf(text, size,
                  "'%s' grows without limit: it is %.3g at t = %.17g, and farther it cannot be "
                  "followed",
-                 m->states[f->other].name, f->value, f->t);
+                 m->states ? m->states[f->other].name : "a state", f->value, f->t);
         return;
       }
       if (f->item >= 0) {

@@ -133,3 +133,15 @@ def test_a_limit_that_is_no_number_is_refused_by_name(
     one = host()
     assert one.instance is None
     assert f"FROT_FMU_SECONDS is '{text}', which is not a positive number" in one.last
+
+
+def test_a_state_without_a_name_that_grows_without_limit_ends_the_motion(
+    host: Callable[..., Host],
+) -> None:
+    """A spring that pushes away, x ~ e^(3 t); the hand-written model does not name its states."""
+    one = host()
+    assert one.set(MU, 0.0) == OK and one.set(STIFFNESS, -9.0) == OK
+    one.start()
+    assert one.step(0.0, 1e4) == DISCARD
+    assert "'a state' grows without limit" in one.last
+    assert 10.0 < reached(one) < 1e3

@@ -1,0 +1,74 @@
+"""An FMU against the program it was made from: FMPy's rules, and the values of `simulate`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from fmpy import read_model_description, simulate_fmu
+from fmpy.validation import validate_fmu
+from frot.dsl.data.classes import dataclass
+from frot.runtime.fmi.scalars import scalars
+from frot.runtime.program import Program
+from frot.runtime.result import Result
+
+POINTS = 100
+# Rounding of the functions of mathematics of another system, of a variable's largest value.
+ALIKE = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """What FMPy objects to, and how far the values lie apart, of each one's largest, and where.
+
+    `same`: the archive was made from this text, by this version of Frot.
+    """
+
+    problems: tuple[str, ...]
+    same: bool
+    apart: float = 0.0
+    variable: str = ""
+
+    @property
+    def good(self) -> bool:
+        """Whether nothing is wrong."""
+        return not self.problems and self.same and self.apart <= ALIKE
+
+
+def check(program: Program, path: Path, simulate: Callable[[], Result]) -> Checked:
+    """Run the FMU at `path` over its default experiment and compare all numbers with `simulate`.
+
+    An archive of another text, or one with faults, is not run. Exceptions are those of FMPy where
+    it cannot be read or run.
+    """
+    problems = tuple(validate_fmu(str(path)))
+    description = read_model_description(str(path), validate=False)
+    same = (description.guid or description.instantiationToken) == program.key
+    if problems or not same:
+        return Checked(problems, same)
+    begin, end = program.experiment.times()
+    _, variables = scalars(program)
+    names = {v.name: v.plain for v in variables if v.causality in ("output", "local")}
+    got: Any = simulate_fmu(
+        str(path),
+        start_time=begin,
+        stop_time=end,
+        output_interval=(end - begin) / POINTS,
+        output=list(names),
+        # Importers may set what is described.
+        start_values={v.name: v.start for v in description.modelVariables if v.start is not None},
+        fmi_type="CoSimulation",
+    )
+    # An instance adds each step to the point it began at, which rounds.
+    reached = np.append(got["time"][:1], got["time"][:-1] + np.diff(got["time"]))
+    expected = simulate().at(reached)
+    apart, variable = 0.0, ""
+    for name, plain in names.items():
+        own, other = got[name].astype(float), np.asarray(expected[plain], dtype=float)
+        size = float(np.abs(other).max()) or 1.0
+        distance = float(np.abs(own - other).max()) / size
+        if not distance <= apart:
+            apart, variable = distance, plain
+    return Checked(problems, same=True, apart=apart, variable=variable)
