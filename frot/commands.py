@@ -57,6 +57,7 @@ def _discard_output() -> None:
 
 def _parser() -> argparse.ArgumentParser:
     from frot.plot_command import add_plot, plot
+    from frot.sweep_command import add_sweep, sweep
     from frot.view.command import add_view, view
 
     parser = argparse.ArgumentParser(
@@ -93,6 +94,9 @@ def _parser() -> argparse.ArgumentParser:
     simulate.add_argument(
         "-o", "--output", metavar="FILE", help="write all variables to .csv, .json or .npz"
     )
+    simulate.add_argument(
+        "--units", action="store_true", help="name the columns of a .csv with their units"
+    )
     simulate.add_argument("--plot", metavar="FILE", help="draw the motion to .png, .svg or .pdf")
     simulate.add_argument("--quiet", action="store_true", help="print no summary")
 
@@ -110,6 +114,7 @@ def _parser() -> argparse.ArgumentParser:
     fmt.add_argument("--diff", action="store_true", help="write nothing; print what would change")
 
     add_plot(_command(commands, "plot", "draw chosen curves of runs", plot))
+    add_sweep(_command(commands, "sweep", "run all combinations of parameters", sweep))
     add_view(_command(commands, "view", "show a run as a page, a picture or a film", view))
 
     explain = _command(commands, "explain", "tell what a message's code means", _explain)
@@ -250,7 +255,7 @@ def _simulate(options: argparse.Namespace) -> int:
             result, failure = error.result, error
     if result is not None:
         if options.output is not None:
-            result.save(options.output)
+            result.save(options.output, units=options.units)
         if options.plot is not None:
             from frot.runtime import plot
 
