@@ -44,7 +44,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
         if not isinstance(error, FrotError):
             raise
-        _complain(error)
+        complain(error)
         return EXIT_ERROR
 
 
@@ -56,6 +56,7 @@ def _discard_output() -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
+    from frot.new_command import add_new, add_watch, new, watch
     from frot.plot_command import add_plot, plot
     from frot.sweep_command import add_sweep, sweep
     from frot.view.command import add_view, view
@@ -114,6 +115,8 @@ def _parser() -> argparse.ArgumentParser:
     fmt.add_argument("--diff", action="store_true", help="write nothing; print what would change")
 
     add_plot(_command(commands, "plot", "draw chosen curves of runs", plot))
+    add_new(_command(commands, "new", "write a small model to begin with", new))
+    add_watch(_command(commands, "watch", "check and run a model at each save", watch))
     add_sweep(_command(commands, "sweep", "run all combinations of parameters", sweep))
     add_view(_command(commands, "view", "show a run as a page, a picture or a film", view))
 
@@ -223,7 +226,7 @@ def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
         try:
             status = max(status, run(file))
         except FrotError as error:
-            _complain(error)
+            complain(error)
             status = EXIT_ERROR
     return status
 
@@ -277,7 +280,8 @@ def _fmu(options: argparse.Namespace) -> int:
     return 0
 
 
-def _complain(error: Exception) -> None:
+def complain(error: Exception) -> None:
+    """Print the messages of a FrotError."""
     from frot.dsl.messages.errors import FrotError
 
     assert isinstance(error, FrotError)
