@@ -39,10 +39,19 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    """What there is, loaded or not."""
+    return sorted({*globals(), *__all__, "__version__"})
+
+
 def __getattr__(name: str) -> object:
     """Load a name when it is asked for, so that `frot --help` loads nothing heavy."""
     import importlib
 
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("frot")
     if name not in _HOMES:
         raise AttributeError(f"module 'frot' has no attribute '{name}'")
     return getattr(importlib.import_module(_HOMES[name]), name)

@@ -40,14 +40,14 @@ def run(arguments: Sequence[str] | None = None) -> int:
         _discard_output()
         return EXIT_ERROR
     except MemoryError:
-        _complain(_out_of_memory())
+        complain(_out_of_memory())
         return EXIT_ERROR
     except Exception as error:
         from frot.dsl.messages.errors import FrotError
 
         if not isinstance(error, FrotError):
             raise
-        _complain(error)
+        complain(error)
         return EXIT_ERROR
 
 
@@ -65,7 +65,9 @@ def _discard_output() -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
+    from frot.new_command import add_new, add_watch, new, watch
     from frot.plot_command import add_plot, plot
+    from frot.sweep_command import add_sweep, sweep
     from frot.view.command import add_view, view
 
     parser = argparse.ArgumentParser(
@@ -102,6 +104,9 @@ def _parser() -> argparse.ArgumentParser:
     simulate.add_argument(
         "-o", "--output", metavar="FILE", help="write all variables to .csv, .json or .npz"
     )
+    simulate.add_argument(
+        "--units", action="store_true", help="name the columns of a .csv with their units"
+    )
     simulate.add_argument("--plot", metavar="FILE", help="draw the motion to .png, .svg or .pdf")
     simulate.add_argument("--quiet", action="store_true", help="print no summary")
 
@@ -128,6 +133,9 @@ def _parser() -> argparse.ArgumentParser:
     fmt.add_argument("--diff", action="store_true", help="write nothing; print what would change")
 
     add_plot(_command(commands, "plot", "draw chosen curves of runs", plot))
+    add_new(_command(commands, "new", "write a small model to begin with", new))
+    add_watch(_command(commands, "watch", "check and run a model at each save", watch))
+    add_sweep(_command(commands, "sweep", "run all combinations of parameters", sweep))
     add_view(_command(commands, "view", "show a run as a page, a picture or a film", view))
 
     explain = _command(commands, "explain", "tell what a message's code means", _explain)
@@ -236,7 +244,7 @@ def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
         try:
             status = max(status, run(file))
         except FrotError as error:
-            _complain(error)
+            complain(error)
             status = EXIT_ERROR
     return status
 
@@ -268,7 +276,7 @@ def _simulate(options: argparse.Namespace) -> int:
             result, failure = error.result, error
     if result is not None:
         if options.output is not None:
-            result.save(options.output)
+            result.save(options.output, units=options.units)
         if options.plot is not None:
             from frot.runtime import plot
 
@@ -308,7 +316,8 @@ def _check_fmu(model: Model, path: str) -> int:
     return 0 if checked.good else 1
 
 
-def _complain(error: Exception) -> None:
+def complain(error: Exception) -> None:
+    """Print the messages of a FrotError."""
     from frot.dsl.messages.errors import FrotError
 
     assert isinstance(error, FrotError)

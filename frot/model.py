@@ -41,6 +41,18 @@ class Model:
         self._key = program_key(self._identity, model, self._toolchain)
         self._program: Program | None = self._named(find_program(self._key))
 
+    def __reduce__(self) -> tuple[object, tuple[str, str, str | None]]:
+        return Model, (self._text, self._file, self._chosen)
+
+    def __repr__(self) -> str:
+        return f"<Model {self.name} of {self._file}>"
+
+    def _repr_html_(self) -> str:
+        """In a notebook: a picture of the start, and the documentation."""
+        from frot.view.show import start_html
+
+        return start_html(self)
+
     @property
     def name(self) -> str:
         """The model's name in the text."""
@@ -144,9 +156,28 @@ class Model:
             if error.result is not None:
                 error.result.model, error.result.fault = self, _sentence(error)
                 error.result.moving = moving_of(tables)
+                error.result.options = {**options, "tables": tables, "watch": None}
             raise
         result.model, result.moving = self, moving_of(tables)
+        result.options = {**options, "tables": tables, "watch": None}
         return result
+
+    def sweep(
+        self,
+        parameters: Mapping[str, Sequence[object]],
+        read: Sequence[str],
+        *,
+        dask: str = "",
+        **options: Any,
+    ) -> list[dict[str, object]]:
+        """Run all combinations of parameters: a row each, with what was read at the end.
+
+        `error` of a row is empty where its run was good. `dask` is the address of a scheduler; see
+        `frot.sweep.sweep`. `pandas.DataFrame(rows)` makes a table of it.
+        """
+        from frot.sweep import sweep
+
+        return list(sweep(self, parameters, read, dask=dask, **options))
 
     def report(self) -> Report:
         """Mobility, liaisons, first integrals; `str(report)` is what `frot check` prints."""

@@ -19,11 +19,11 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     """Parameters and inputs."""
     parser.add_argument(
         "--set",
-        action="append",
         default=[],
-        type=assignment,
+        action=Settings,
         metavar="NAME=VALUE",
-        help="set a parameter, in SI or with a unit: --set mu=0.2 --set 'r=120 mm' (repeatable)",
+        help="set a parameter, in SI or with a unit: --set mu=0.2 --set 'r=120 mm', or those of "
+        "a file: --set @run.toml (repeatable)",
     )
     parser.add_argument(
         "--input",
@@ -42,6 +42,48 @@ def add_run(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--tolerance", type=number, metavar="X", help="local error, from 1e-14 to 0.1"
     )
+
+
+class Settings(argparse.Action):
+    """`NAME=VALUE`, or `@FILE.toml` with a line for each parameter."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: object,
+        option_string: str | None = None,
+    ) -> None:
+        """Add the settings to those before them."""
+        text = str(values)
+        try:
+            found = read_toml(text[1:]) if text.startswith("@") else [assignment(text)]
+        except argparse.ArgumentTypeError as error:
+            raise argparse.ArgumentError(self, str(error)) from None
+        setattr(namespace, self.dest, [*getattr(namespace, self.dest), *found])
+
+
+def read_toml(path: str) -> list[tuple[str, object]]:
+    """The parameters of a file: numbers, texts with units, arrays; of tables the dotted names."""
+    import tomllib
+
+    try:
+        with open(path, "rb") as file:
+            content = tomllib.load(file)
+    except OSError as error:
+        raise argparse.ArgumentTypeError(f"'{path}' cannot be read: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise argparse.ArgumentTypeError(f"'{path}' is no TOML: {error}") from None
+    return _dotted("", content)
+
+
+def _dotted(head: str, table: dict[str, object]) -> list[tuple[str, object]]:
+    found: list[tuple[str, object]] = []
+    for name, value in table.items():
+        found += (
+            _dotted(f"{head}{name}.", value) if isinstance(value, dict) else [(head + name, value)]
+        )
+    return found
 
 
 def assignment(text: str) -> tuple[str, str]:

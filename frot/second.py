@@ -24,11 +24,13 @@ def second_program(
     tag: str,
     extra: Extra | None = None,
     moving: frozenset[str] = frozenset(),
+    change: Callable[[Checked], Checked] | None = None,
     tell: Callable[[str], None] | None = None,
 ) -> Program:
     """The program of a model with `extra` variables, and with `moving` inputs over time, cached.
 
-    `tag` says in what the variables differ from the model's own. FrotError where it cannot be made.
+    `change` makes another checked model of it. `tag` says in what the program differs from the
+    model's own. FrotError where it cannot be made.
     """
     from frot.compiler import build, find_program
 
@@ -40,7 +42,7 @@ def second_program(
     told = (lambda _: None) if tell is None else tell
     with Interrupts():
         built = build(
-            checked_of(model, moving),
+            checked_of(model, moving) if change is None else change(checked_of(model, moving)),
             model.file,
             key,
             model.toolchain,

@@ -279,6 +279,16 @@ class Engine:
             else:
                 capacity = min(2 * capacity, _LARGEST_CHUNK)
 
+    def finish(self, t: float) -> tuple[int, bool]:
+        """Run to time t and record nothing: the status, and whether Ctrl-C stopped it."""
+        interrupted: list[BaseException] = []
+        callback = Monitor(lambda _, __: int(bool(interrupted)))
+        with _interrupts_noted(interrupted):
+            status = self._library.frot_advance(
+                self._model, self._s, self._w, t, None, callback, None
+            )
+        return int(status), bool(interrupted)
+
     def values(self, record: array[float], times: array[float]) -> array[float]:
         """All variables at each of the times, over segments in order; times in ascending order.
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from frot.dsl.data.classes import dataclass
 from frot.dsl.files.writing import DATA, check_target, write_whole
+from frot.dsl.messages.errors import FrotError
 from frot.runtime.engine import Engine, as_floats
 from frot.runtime.program import IntegralInfo, Program
 from frot.runtime.showing import Showing, nearest
@@ -175,6 +176,11 @@ class Result(Showing):
         return self._engine
 
     @property
+    def grid(self) -> array[float]:
+        """The output times."""
+        return self._grid
+
+    @property
     def record(self) -> array[float]:
         """The recorded steps, one after the other."""
         return self._record
@@ -191,7 +197,21 @@ class Result(Showing):
         return Values(self.program, rows)
 
     def __getitem__(self, name: str) -> Floats:
-        return self.time if name == "time" else self._values[name]
+        if name == "time":
+            return self.time
+        if name in self._values or self.model is None:
+            return self._values[name]
+        try:
+            return self.ask([name])[name]
+        except FrotError as error:
+            one = error.diagnostics[0]
+            if one.code != "E0805":
+                raise
+            raise KeyError(f"{one.message}; {one.help}" if one.help else one.message) from None
+
+    def __contains__(self, name: object) -> bool:
+        """Whether the run lists the variable."""
+        return name == "time" or name in self._values
 
     def __iter__(self) -> Iterator[str]:
         yield "time"
@@ -235,15 +255,27 @@ class Result(Showing):
         sampled[order] = self._engine.rows(self._record, array("d", times[order]))
         return Values(self.program, sampled[0] if np.ndim(t) == 0 else sampled)
 
-    def save(self, path: str | Path) -> None:
-        """Write all variables on the grid to `.csv`, `.json` or `.npz`, whole or not at all."""
-        path = check_target(path, DATA)
-        writers = dict(zip(DATA, (self._csv, self._json, self._npz), strict=True))
-        write_whole(path, writers[path.suffix.lower()]())
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        from frot.runtime.kept import keep, revive
 
-    def _csv(self) -> Iterator[bytes]:
+        return revive, keep(self)
+
+    def save(self, path: str | Path, *, units: bool = False) -> None:
+        """Write all variables on the grid to `.csv`, `.json` or `.npz`, whole or not at all.
+
+        With `units` the columns of a `.csv` are named as `hoop.position.x (m)`.
+        """
+        path = check_target(path, DATA)
+        kind = path.suffix.lower()
+        content = (
+            self._csv(units) if kind == ".csv" else self._json() if kind == ".json" else self._npz()
+        )
+        write_whole(path, content)
+
+    def _csv(self, units: bool) -> Iterator[bytes]:
         modes = {v.name for v in self.program.variables if v.type == "mode"}
-        yield _csv_lines([list(self)])
+        named = {name: self.unit(name) if units and name not in modes else "1" for name in self}
+        yield _csv_lines([[x if unit == "1" else f"{x} ({unit})" for x, unit in named.items()]])
         for first in range(0, len(self._grid), _ROWS):
             rows = slice(first, first + _ROWS)
             columns = [

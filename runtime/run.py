@@ -164,6 +164,32 @@ def simulate(
     return result
 
 
+def last_values(
+    program: Program,
+    names: Sequence[str],
+    *,
+    stop: float | str | None = None,
+    start: float | str | None = None,
+    tolerance: float | str | None = None,
+    parameters: Mapping[str, object] | None = None,
+    inputs: Mapping[str, object] | None = None,
+) -> dict[str, float]:
+    """The values of variables at the end of a run, of which nothing else is kept.
+
+    Raises as `simulate`; its errors hold no result.
+    """
+    ends = (stop, start, math.inf, tolerance)
+    engine, times, _ = _begin(program, ends, parameters, inputs, ())
+    status, interrupted = engine.finish(times[-1])
+    if interrupted:
+        raise Interrupted(engine.time, None)
+    if status not in _GOOD:
+        raise _fault(engine, None)
+    values = engine.now()
+    places = {v.name: k for k, v in enumerate(program.variables)}
+    return {name: engine.time if name == "time" else values[places[name]] for name in names}
+
+
 def begin(
     program: Program,
     *,
@@ -187,12 +213,12 @@ def _begin(
 ) -> tuple[Engine, array[float], float]:
     """An instance at its start, the output times, and when the kernel's work began.
 
-    `options` are stop, start, interval and tolerance; `whole` where the tables are to last.
+    `options` are stop, start, interval (infinite for the end alone) and tolerance; `whole` where
+    the tables are to last.
     """
-    stop, start, interval = (
-        read_option(name, value, "s")
-        for name, value in zip(("stop", "start", "interval"), options[:3], strict=True)
-    )
+    stop, start = (read_option(name, options[k], "s") for k, name in enumerate(("stop", "start")))
+    ends_alone = options[2] == math.inf
+    interval = None if ends_alone else read_option("interval", options[2], "s")
     tolerance = read_option("tolerance", options[3], "1")
     engine = Scheduled(program, tables) if tables else Engine(program)
     for name, value in read_settings(parameters, program.parameters, "parameter", program):
@@ -219,6 +245,8 @@ def _begin(
         )
     for table in tables:
         table.check(begin, end if whole else begin)
+    if ends_alone:
+        interval = end - begin
     distance = _choose(interval, experiment[3], (end - begin) / DEFAULT_POINTS)
     times = _grid(begin, end, distance, len(program.variables))
     begun = clock.perf_counter()

@@ -62,10 +62,19 @@ class Scheduled(Engine):
         self._offsets: list[int] = []
         self._held: list[dict[int, float]] = []
 
+    @property
+    def taken(self) -> tuple[list[float], list[int], list[dict[int, float]]]:
+        """Where the parts of the record begin, in time and in the record, and their inputs."""
+        return self._begins, self._offsets, self._held
+
+    @taken.setter
+    def taken(self, parts: tuple[list[float], list[int], list[dict[int, float]]]) -> None:
+        self._begins, self._offsets, self._held = parts
+
     def like(self, program: Program) -> Engine:
         """An instance of another program of the model over the same steps."""
         other = Scheduled(program, ())
-        other._begins, other._offsets, other._held = self._begins, self._offsets, self._held
+        other.taken = self.taken
         return other
 
     def start(self, t: float, tolerance: float, on_indeterminate: str) -> int:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, cast
 
 from frot.dsl.messages.errors import fail
 
@@ -28,14 +29,20 @@ def nearest(name: str, names: Sequence[str]) -> str:
 class Showing(Mapping[str, "Floats"]):
     """A part of `Result`.
 
-    `model` is what was run, `fault` what ended the run, if it did, `moving` are the inputs that
-    were polynomials of time.
+    `model` is what was run with which `options`, `fault` what ended the run, if it did; `moving`
+    are the inputs that were polynomials of time.
     """
 
     model: Model | None = None
     fault = ""
     moving: frozenset[str] = frozenset()
+    options: Mapping[str, Any] = MappingProxyType({})
     program: Program
+
+    @property
+    @abstractmethod
+    def time(self) -> Floats:
+        """The output grid, in s."""
 
     @abstractmethod
     def at(self, t: float | Floats) -> Values:
@@ -47,23 +54,92 @@ class Showing(Mapping[str, "Floats"]):
 
     def take(self, names: Sequence[str], times: Floats) -> dict[str, Floats]:
         """Values of variables at times of the run; FrotError (E0805) for a name that none has."""
-        known = self.at(times)
-        return {name: times if name == "time" else known[self.known(name)] for name in names}
+        listed = self.at(times)
+        others = [name for name in names if name not in self]
+        asked = self.ask(others, times) if others else {}
+        return {
+            name: times if name == "time" else asked[name] if name in asked else listed[name]
+            for name in names
+        }
 
-    def known(self, name: str) -> str:
-        """The name, if a variable has it; FrotError (E0805) with the nearest else."""
-        if name not in self:
-            raise fail(
-                "E0805",
-                f"the model '{self.program.name}' has no variable '{name}'",
-                help=nearest(name, list(self)),
-            )
-        return name
+    def ask(self, names: Sequence[str], times: Floats | None = None) -> dict[str, Floats]:
+        """Values of any variables of the language, at `times` or on the output grid.
+
+        Those that the run did not list are evaluated by a second program over its steps, as
+        `stick.tip.velocity`; a reaction that it did not compute by a second run. A vector has a
+        column for each component.
+
+        Raises:
+            FrotError: E0805: there is no such variable; E0822: the second run went another way.
+        """
+        from frot.ask import ask
+
+        at = self.time if times is None else times
+        others = [name for name in names if name not in self]
+        found = ask(self._whole, others, at) if others else {}
+        if len(others) == len(names):
+            return found
+        listed = self.at(at)
+        own = {x: at if x == "time" else listed[x] for x in names if x not in others}
+        return {name: found[name] if name in found else own[name] for name in names}
 
     def unit(self, name: str) -> str:
         """The SI unit of a variable, `1` for a number."""
         found = {v.name: v.unit.name for v in self.program.variables}
-        return "s" if name == "time" else found[self.known(name)]
+        if name == "time" or name in found:
+            return "s" if name == "time" else found[name]
+        from frot.ask import find, unit_of_asked
+
+        one = None if self.model is None else find(self.model.checked(), name)
+        if one is None:
+            raise fail("E0805", f"the model '{self.program.name}' has no variable '{name}'")
+        return unit_of_asked(one)
+
+    def __repr__(self) -> str:
+        whole = self._whole
+        ended = f", ended: {self.fault}" if self.fault else ""
+        return (
+            f"<Result of {self.program.name}: {whole.time[0]:g} s to {whole.time[-1]:g} s, "
+            f"{len(whole.events)} events, {len(whole) - 1} variables{ended}>"
+        )
+
+    def _repr_html_(self) -> str:
+        """In a notebook: the page that plays the run, or its summary where there is none."""
+        from html import escape
+
+        from frot.dsl.messages.errors import FrotError
+
+        try:
+            from frot.view.show import page
+
+            text = escape(page(self._whole, fault=self.fault), quote=True)
+        except FrotError:
+            return f"<pre>{escape(self._whole.summary())}</pre>"
+        return f'<iframe srcdoc="{text}" style="width: 100%; height: 620px; border: 0"></iframe>'
+
+    def _ipython_key_completions_(self) -> list[str]:
+        """The names that a notebook offers after `result[`."""
+        from frot.ask import names_of
+
+        own = list(self)
+        more = [] if self.model is None else names_of(self.model.checked())
+        return list(dict.fromkeys((*own, *more)))
+
+    def to_frame(self) -> Any:
+        """The listed variables on the output grid as a pandas DataFrame, its index the time in s.
+
+        `frame.attrs["units"]` has the SI units. FrotError (E0820) where pandas is not installed.
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise fail(
+                "E0820", "a frame needs pandas, which is not installed", help="pip install pandas"
+            ) from None
+        columns = {name: self[name] for name in self if name != "time"}
+        frame = pandas.DataFrame(columns, index=pandas.Index(self.time, name="time"))
+        frame.attrs["units"] = {"time": "s", **{name: self.unit(name) for name in columns}}
+        return frame
 
     def plot(
         self,

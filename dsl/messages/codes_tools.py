@@ -99,6 +99,13 @@ TOOLS: Mapping[str, Row] = {
         "Write (times, values) with ascending times, or --input F=file.csv:column.",
         "",
     ),
+    "E0822": (
+        "a second run went another way",
+        "A reaction that a run did not compute is found by a second run with it. Small differences "
+        "grow in this motion, so that the two end at different places.",
+        "Declare the reaction as an output of the model, and run that.",
+        "",
+    ),
     "E0901": (
         "fault in the run",
         "The motion could not be computed past the time named.",

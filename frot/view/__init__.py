@@ -5,9 +5,10 @@ from __future__ import annotations
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from frot.view.page import page_of
-    from frot.view.scene import Scene, scene_of
+    from frot.view.parts import Scene
+    from frot.view.scene import scene_of
 
-_HOMES = {"Scene": "scene", "page_of": "page", "scene_of": "scene"}
+_HOMES = {"Scene": "parts", "page_of": "page", "scene_of": "scene"}
 __all__ = ["Scene", "page_of", "scene_of"]
 
 

@@ -13,7 +13,7 @@ from frot.dsl.messages.errors import fail
 from frot.view.picture import Picture
 
 if TYPE_CHECKING:
-    from frot.view.scene import Scene
+    from frot.view.parts import Scene
 
 STILL, FILM, PAGE = (".png", ".svg", ".pdf"), (".gif", ".mp4"), (".html",)
 RATE = 25  # pictures a second

@@ -19,7 +19,7 @@ from frot.view.colours import ALONG, BODIES, KINDS, MODES, NORMAL
 from frot.view.outline import Array, Outline, around, chain, cone, plate, together, tube
 
 if TYPE_CHECKING:
-    from frot.view.scene import Part, Scene
+    from frot.view.parts import Part, Scene
 
 HERE = Path(__file__).parent
 FIELD = 22.0  # degrees of the camera's field: nearly parallel rays

@@ -14,7 +14,7 @@ from frot.view.outline import Array, Outline, along
 from frot.view.scene import turn
 
 if TYPE_CHECKING:
-    from frot.view.scene import Part, Scene
+    from frot.view.parts import Part, Scene
 
 ARROW = 7.0  # length of a usual reaction, in sizes of symbols
 LIGHT = np.array((0.3, 0.5, 0.81))  # in the axes of the picture: right, up, to the eye

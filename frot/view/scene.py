@@ -1,7 +1,4 @@
-"""A scene: what a picture shows of a run, as plain arrays; what is drawn with it is not known here.
-
-Lengths in m, forces in N, ground axes, unless a name says otherwise.
-"""
+"""Makes the scene of a run: bodies, curves, surfaces, liaisons and reactions at its moments."""
 
 from __future__ import annotations
 
@@ -11,94 +8,21 @@ import numpy as np
 
 from frot.dsl import Log, default_values, evaluate
 from frot.dsl.checked import BodyGeometry, BodyPoint, Frame, Liaison, Model
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.errors import FrotError
 from frot.view.bodies import Look, outline_of
 from frot.view.figures import Scope, changes, curve_outline, surface_outline
 from frot.view.moments import Moments
 from frot.view.numbers import Numbers
 from frot.view.outline import Array, Outline, bar, chain, fan, together
+from frot.view.parts import Joining, Part, Scene, Touching
 from frot.view.seen import Owner, body_of, key_of, owners_of
 from frot.view.symbols import JOINING, LIAISONS
 
 if TYPE_CHECKING:
     from frot.compiler.lowering.assembled import Assembled
-    from frot.runtime.result import Event
 
 FAR = 6.0  # travel over size from which the camera follows
 SMALL = 0.035  # size of symbols and points, of that of the mechanism
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Part:
-    """Something drawn in the axes of `owner`, empty for the ground.
-
-    `kind` is body, curve, surface, frame or liaison. `shapes` has one outline, or one for each
-    moment where time changes it. `modes` names the liaison that colours it.
-    """
-
-    name: str
-    kind: str
-    owner: str
-    shapes: tuple[Outline, ...]
-    number: int = 0
-    modes: str = ""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Joining:
-    """Something drawn from one point to another: `ends` (moments x 2 x 3)."""
-
-    name: str
-    kind: str
-    shape: Outline
-    ends: Array
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Touching:
-    """A liaison with its reaction, moment by moment.
-
-    `places` (n x 3) where it acts; `normal` and `along` (n x 3), the parts of the force on the body
-    that moves along the normal and beside it, `modes` (n) of MODES or None, `cone` the angle of
-    friction, `direction` (n x 3) the normal or None.
-    """
-
-    name: str
-    kind: str
-    places: Array
-    normal: Array
-    along: Array
-    modes: Array | None
-    direction: Array | None
-    cone: float
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Scene:
-    """What is drawn: `poses` (n x 7) by owner at each of `times`.
-
-    `small` is the size of symbols, `size` that of the mechanism; `centre`, `half` (3) and `reach`
-    of all that moves; `follow`: it goes far for its size. `up` is the axis against gravity.
-    """
-
-    name: str
-    doc: str
-    planar: bool
-    times: Array
-    poses: dict[str, Array]
-    parts: tuple[Part, ...]
-    joinings: tuple[Joining, ...]
-    touching: tuple[Touching, ...]
-    events: tuple[Event, ...]
-    small: float
-    size: float
-    centre: Array
-    middles: Array
-    reach: float
-    half: Array
-    follow: bool
-    up: Array
 
 
 def scene_of(model: Model, moments: Moments) -> Scene:

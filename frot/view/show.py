@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from frot.dsl.files.writing import check_target, write_whole
-from frot.dsl.messages.errors import fail
+from frot.dsl.messages.errors import FrotError, fail
 from frot.view.film import FILM, PAGE, RATE, STILL, check_writer, write_film, write_still
 
 if TYPE_CHECKING:
     from frot.model import Model
     from frot.runtime.result import Result
-    from frot.view.scene import Scene
+    from frot.view.parts import Scene
 
 MOST_PICTURES = 10_000  # of a film
 FORMATS = (*PAGE, *STILL, *FILM)
@@ -150,6 +150,23 @@ def write_start(
     need_bodies(model)
     moments = start_of(model, start=start, parameters=parameters, inputs=inputs)
     write_still(scene_of(model.checked(), moments), path)
+
+
+def start_html(model: Model) -> str:
+    """A picture of the start of a model with its name, as HTML."""
+    import base64
+    import tempfile
+    from html import escape
+
+    head = f"<b>{escape(model.name)}</b> {escape(model.checked().doc)}"
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "start.png"
+        try:
+            write_start(model, path)
+        except FrotError as error:
+            return f"{head}<pre>{escape(str(error))}</pre>"
+        picture = base64.b64encode(path.read_bytes()).decode("ascii")
+    return f'{head}<br><img style="max-width: 640px" src="data:image/png;base64,{picture}">'
 
 
 __all__ = ["check_view", "model_of", "page", "write_start", "write_view"]

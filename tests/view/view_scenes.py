@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import frot
-from frot.view.scene import Scene
+from frot.view.parts import Scene
 from frot.view.show import scene
 
 MODELS = Path(__file__).parents[2] / "models"

@@ -1,0 +1,59 @@
+"""Results in a pickle: the text of the model, the state of the kernel and the recorded steps."""
+
+from __future__ import annotations
+
+from array import array
+from typing import TYPE_CHECKING, Any
+
+from frot.runtime.scheduled import Scheduled
+
+if TYPE_CHECKING:
+    from frot.runtime.result import Result
+
+    from frot.model import Model
+
+
+def keep(result: Result) -> tuple[Any, ...]:
+    """What a result is made from; TypeError where its model is not known.
+
+    Options of the run that Python cannot write, as functions of time, are left out.
+    """
+    if result.model is None:
+        raise TypeError("a result without its model has no pickle: take one of model.simulate(...)")
+    engine = result.engine
+    schedule = engine.taken if isinstance(engine, Scheduled) else None
+    options = {k: v for k, v in result.options.items() if k not in ("inputs", "watch")}
+    kept = {"moving": result.moving, "fault": result.fault, "options": options}
+    arrays = (bytes(result.grid), bytes(result.record))
+    return result.model, engine.save(), schedule, arrays, result.events, result.figures, kept
+
+
+def revive(
+    model: Model,
+    state: bytes,
+    schedule: Any,
+    arrays: tuple[bytes, bytes],
+    events: Any,
+    figures: Any,
+    kept: dict[str, Any],
+) -> Result:
+    """The result again; its program is compiled where the cache has none."""
+    from frot.runtime.engine import Engine
+    from frot.runtime.result import Result
+
+    from frot.second import second_program
+
+    moving = kept["moving"]
+    program = second_program(model, "", moving=moving) if moving else model.program()
+    engine: Engine = Engine(program)
+    if schedule is not None:
+        engine = Scheduled(program, ())
+        engine.taken = schedule
+    if len(engine.save()) != len(state):
+        raise ValueError("the result was kept by another version of Frot")
+    engine.restore(state)
+    grid, record = (array("d", one) for one in arrays)
+    result = Result(program, engine, grid, record, events, figures)
+    result.model, result.moving = model, moving
+    result.fault, result.options = kept["fault"], kept["options"]
+    return result
