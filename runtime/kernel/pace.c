@@ -9,8 +9,7 @@
 
 #define SAMPLES 20000 /* in a run */
 #define PART 0.1      /* longest step, in runs */
-#define GROWTH \
-  0.25 /* longest step, in the time already run: rest, no `stop`, or no time in loads */
+#define GROWTH 0.25   /* longest step, in the time already run: rest, no speeds, or no `stop` */
 #define FINEST 1e-15  /* s */
 #define BEYOND 2      /* rates are seen when those at the stages come up to this part of them */
 #define FAINT 1e-3    /* part of the largest rate in the step that nobody looks at */
@@ -41,7 +40,7 @@ double frot_longest_step(const frot_model *m, const frot_state *s, const frot_wo
     longest = fmax(fmax(PART * told, grown), finest_step(s));
   } else if (still || s->implicit) {
     longest *= LONG_REST; /* nothing can be passed over */
-  } else {
+  } else if (told == 0 || m->nv == 0) {
     longest = fmax(longest, GROWTH * been);
   }
   return most > 0 ? fmin(longest, most) : longest;
