@@ -213,6 +213,12 @@ const tell = () => {
   }
 };
 
+// Of a model without bodies the curves have the room.
+if (!frot.parts.some((x) => x.kind === "body")) {
+  legend.style.display = "none";
+  curves.style.width = "75vw";
+}
+
 // ---------------------------------------------------------------- what one can do
 const go = (t) => { now = Math.min(Math.max(t, first), last); move(); };
 const state = () => { play.textContent = playing ? "pause" : "play"; };
