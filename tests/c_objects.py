@@ -13,6 +13,7 @@ from pathlib import Path
 
 from frot.compiler.toolchain.chosen import KERNEL_FLAGS, find_toolchain
 from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_sources
+from frot.runtime.fmi.sources import flat
 from made_once import made_once
 
 # What tests under sanitizers compile with: all the same, so that the kernel is compiled once.
@@ -31,7 +32,7 @@ def c_objects(sources: Sequence[Path], include: Sequence[Path], flags: Sequence[
 
 def _object(source: Path, include: Sequence[Path], flags: Sequence[str]) -> Path:
     texts = _with_headers(source, [source.parent, *include])
-    if tuple(flags) == KERNEL_FLAGS and texts == _kernel_texts().get(source.name):
+    if tuple(flags) == KERNEL_FLAGS and _flat(texts) == _kernel_texts().get(source.name):
         return _kernel_objects() / f"{source.stem}.o"
     key = repr((source.name, sorted(texts.items()), *flags))
 
@@ -50,9 +51,16 @@ def _kernel_objects() -> Path:
 
 @functools.cache
 def _kernel_texts() -> dict[str, dict[str, bytes]]:
-    """Each source of the kernel with its headers."""
+    """Each source of the kernel with its headers, as in one flat folder."""
     folder = kernel_folder()
-    return {source.name: _with_headers(source, [folder]) for source in kernel_sources(folder)}
+    return {
+        source.name: _flat(_with_headers(source, [folder])) for source in kernel_sources(folder)
+    }
+
+
+def _flat(texts: dict[str, bytes]) -> dict[str, bytes]:
+    """The same without folders: sources of an FMU lie in one."""
+    return {Path(name).name: flat(text) for name, text in texts.items()}
 
 
 def _with_headers(source: Path, folders: Sequence[Path]) -> dict[str, bytes]:

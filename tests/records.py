@@ -1,4 +1,4 @@
-"""The recorded segments of a run, one by one, as `runtime/kernel/tape.h` says them."""
+"""The recorded segments of a run, one by one, as `segment_store.h` says them."""
 
 from __future__ import annotations
 

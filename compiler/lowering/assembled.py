@@ -1,4 +1,4 @@
-"""The equations as the kernel takes them (runtime/kernel/model.h), in CasADi expressions."""
+"""The equations as the kernel takes them (runtime/kernel/model/model.h), in CasADi expressions."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ MOST_OPERATIONS = 4_000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lines:
-    """Derivatives of what holds in a motion: runtime/kernel/records.h, frot_lines.
+    """Derivatives of what holds in a motion: runtime/kernel/model/tables.h, frot_lines.
 
     Entries in `rows` and `columns`, those of owner k from `first`[k] on; the direction of each
     column, the number of directions (0: entries are written out); the columns of each group.

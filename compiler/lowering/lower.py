@@ -1,4 +1,4 @@
-"""Assembled equations to the CasADi functions of the kernel's contract (runtime/kernel/model.h)."""
+"""Assembled equations to the CasADi functions of the kernel's contract (model.h)."""
 
 from __future__ import annotations
 

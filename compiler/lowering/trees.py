@@ -1,4 +1,4 @@
-"""The tables and the numbers of large trees, as the kernel goes along them (runtime/kernel/tree.h).
+"""The tables and the numbers of large trees, as the kernel goes along them (articulated.h).
 
 Of each step: the columns of its speeds, the vector from the step before, mass, moment and inertia
 of its own bodies, the force and couple that keep their motion. In the plane vectors have two
@@ -75,7 +75,7 @@ def make_tree(steps: Sequence[Step], unknowns: Sequence[int], nv: int, planar: b
         parts += [_inertia(step.inertia, planar), _twist(step.couple, step.force, planar)]
         data += parts
         at += sum(int(p.numel()) for p in parts)
-        kept = width + triangle  # of what an auxiliary step reads (tree.h)
+        kept = width + triangle  # of what an auxiliary step reads (articulated.h)
         factor += kept if table[-1].auxiliary else count * (width + 1) + count * count
     return TreeTable(width, tuple(table), factor, ca.vertcat(*map(ca.densify, data)))
 

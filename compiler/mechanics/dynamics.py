@@ -7,7 +7,7 @@ mass counts, at the place that carries it.
 
 A small tree has its mass matrix written out. Of a large one, whose matrix would cost the square of
 its speeds and its factor the cube, what each step adds by itself is given to the kernel, which goes
-from step to step (runtime/kernel/tree.h).
+from step to step (runtime/kernel/inertia/articulated.h).
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ _CALLED = {"sin": "sine", "cos": "cosine", "sqrt": "root"}
 WIDE = "wide"
 _HEAD = """
 /* In wide numbers. */
-#include "wide_numbers.h"
+#include "numerics/extended_precision.h"
 #define wide_real frot_wide
 #define wide_int long long int
 #define wide_nan NAN

@@ -49,7 +49,7 @@ def may_part(link: Link, values: object) -> bool:
 def find_start(system: Assembled, beginning: Beginning) -> Start:
     """The posture that the statements of `initial` and the relations leave nearest to the guesses.
 
-    As the kernel finds it (runtime/kernel/initial.c), with fewer ways out: where it is not found,
+    As the kernel finds it (initial_values.c), with fewer ways out: where it is not found,
     `found` is false.
     """
     reduced, symbols = system.reduced, system.reduced.symbols

@@ -27,7 +27,7 @@ def kept_objects(
 ) -> Kept:
     """The folder of the objects of these sources; compiled if nothing they are made from is kept.
 
-    Headers are all `.h` files beside the sources and in the folders of `include`.
+    Headers are all `.h` files beside the sources and in the folders of `include`, however deep.
     """
     key = _key(toolchain, sources, include, flags)
 
@@ -41,11 +41,12 @@ def _key(
     toolchain: Toolchain, sources: Sequence[Path], include: Sequence[Path], flags: Sequence[str]
 ) -> str:
     """What objects are made from, as a hexadecimal digest."""
-    folders = sorted({*include, *(source.parent for source in sources)})
-    headers = [path for folder in folders for path in sorted(folder.glob("*.h"))]
+    roots = sorted({*include, *(source.parent for source in sources)})
+    headers = {path: path.relative_to(root) for root in roots for path in root.rglob("*.h")}
+    named = {**{path: Path(path.name) for path in sources}, **headers}
     digest = hashlib.sha256("\0".join((toolchain.identity, *flags)).encode())
-    for path in (*sources, *headers):
-        digest.update(f"\0{path.name}\0".encode())
+    for path, name in sorted(named.items(), key=lambda item: item[1]):
+        digest.update(f"\0{name.as_posix()}\0".encode())
         digest.update(hashlib.sha256(path.read_bytes()).digest())
     return digest.hexdigest()
 
@@ -78,8 +79,8 @@ def kernel_folder() -> Path:
 
 
 def kernel_sources(folder: Path) -> list[Path]:
-    """The kernel's C files, in the folder they lie in."""
-    return sorted(folder.glob("*.c"))
+    """The kernel's C files, in the folders below the one given."""
+    return sorted(folder.rglob("*.c"))
 
 
 def kept_kernel(toolchain: Toolchain) -> Kept:

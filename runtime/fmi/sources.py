@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from importlib.resources import files
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import fmpy
+from frot.dsl.files.folders import room
 from frot.runtime.fmi.description import to_xml
 from frot.runtime.fmi.names import model_identifier
 from frot.runtime.fmi.scalars import MODE, Scalar, scalars
@@ -17,6 +19,8 @@ TABLE_SOURCE = "fmu_table.c"
 # A step of 1e300 s, or one with a stiffness set to 1e30, would not end in a lifetime.
 MOST_WORK = 20_000_000
 
+# An include of the kernel is written from its root: folder and name.
+_INCLUDE = re.compile(rb'^(#include ")[a-z_/]+/', re.MULTILINE)
 _COMMON = (
     "instance.c",
     "lifecycle.c",
@@ -84,19 +88,24 @@ def variable_table(program: Program) -> str:
     )
 
 
+def flat(content: bytes) -> bytes:
+    """A C source whose includes name files of its own folder alone."""
+    return _INCLUDE.sub(rb"\1", content)
+
+
 def source_files(program: Program, fmi: str) -> dict[str, bytes]:
     """All sources by name, in order, for one flat folder.
 
     OSError if a file cannot be read; RuntimeError if two files have the same name.
     """
-    found: dict[str, bytes] = {MODEL_SOURCE: program.source.read_bytes()}
-    kernel = files("frot.runtime.kernel")
+    found: dict[str, bytes] = {MODEL_SOURCE: flat(program.source.read_bytes())}
+    kernel = room("frot.runtime.kernel")
     headers = Path(fmpy.__file__).parent / "c-code"
     parts = [
         *sorted(
-            (entry.name, entry.read_bytes())
-            for entry in kernel.iterdir()
-            if entry.name.endswith((".c", ".h"))
+            (entry.name, flat(entry.read_bytes()))
+            for entry in kernel.rglob("*")
+            if entry.suffix in (".c", ".h")
         ),
         *(
             (name, files("frot.runtime.fmi").joinpath(name).read_bytes())

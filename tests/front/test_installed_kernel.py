@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from front_door import HOOP, Door, hasty_compiler, script
 from frot.compiler.toolchain import cache
-from frot.compiler.toolchain.objects import install_kernel, kernel_folder
+from frot.compiler.toolchain.objects import install_kernel, kernel_folder, kernel_sources
 from frot.dsl.messages.errors import FrotError
 
 
@@ -55,7 +55,7 @@ def test_it_is_copied_where_it_is_whole_and_made_anew_where_not(
     first, second, third = (tmp_path / name for name in ("first", "second", "third"))
     install_kernel(kernel_folder(), [made], first)  # `made` is another compiler's
     calls = notes.read_text().count("\n")
-    assert calls == len(list(kernel_folder().glob("*.c"))) + 1  # they are joined
+    assert calls == len(kernel_sources(kernel_folder())) + 1  # they are joined
     install_kernel(kernel_folder(), [made, first], second)
     install_kernel(kernel_folder(), [made, first], first)
     assert notes.read_text().count("\n") == calls

@@ -1,0 +1,88 @@
+/* Friction that follows readings.
+ *
+ * The size of a pin's reaction is not linear: it is replaced by its part along the direction
+ * w->reactions.along of the last pass, which is Newton's method. */
+#include <float.h>
+#include <math.h>
+
+#include "evaluation/evaluate.h"
+#include "reactions/force_problem.h"
+
+/* What rounding leaves of a pin's reaction whose terms cancel, in these: no pass mends it. */
+#define TERMS (8 * DBL_EPSILON)
+
+void frot_read_bounds(const frot_problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int n = p->unknowns;
+  double *known = w->reactions.known, *effects = w->reactions.effects;
+  for (int f = p->held; f < n; f++)
+    for (int k = 0; k < 2; k++, known++, effects += n) {
+      int reading = m->elements[w->reactions.owner[f]].bounded_by[k];
+      if (reading < 0) continue;
+      *known = frot_known_part(p, reading);
+      for (int c = 0; c < p->held; c++)
+        effects[c] = w->reactions.unit_of[c] * frot_unknown_effect(p, reading, c);
+      const double *all = frot_effect_on(m, w, reading); /* nothing goes with what follows */
+      for (int c = p->held; c < n; c++)
+        effects[c] = w->reactions.unit_of[c] * all[m->row_local[w->reactions.unknown[c]]];
+    }
+}
+
+void frot_follow_readings(frot_problem *p) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int n = p->unknowns;
+  const double *known = w->reactions.known, *effects = w->reactions.effects;
+  p->equations = p->holding;
+  for (int f = p->held; f < n; f++, known += 2, effects += 2 * n) {
+    int e = w->reactions.owner[f], line = p->equations++, pin = m->elements[e].bound == FROT_BY_PIN;
+    double ratio = w->reactions.ratio[e] / w->reactions.unit_of[f];
+    double first = pin ? w->reactions.along[2 * e] : 1;
+    double second = pin ? w->reactions.along[2 * e + 1] : 0;
+    double *entry = w->linear.matrix + line;
+    for (int c = 0; c < n; c++, entry += n) {
+      double effect = first * effects[c];
+      if (pin) effect += second * effects[n + c];
+      *entry = (c == f) - ratio * effect;
+    }
+    w->linear.right[line] = ratio * (first * known[0] + (pin ? second * known[1] : 0));
+  }
+}
+
+/* A pin's reaction from the unknowns: a reading with what is known of it, and the size of its
+ * terms, which may cancel. */
+static double read_pin(const frot_problem *p, double known, const double *effects, double *size) {
+  double sum = known;
+  *size += fabs(known);
+  for (int c = 0; c < p->unknowns; c++) {
+    double term = effects[c] * p->w->reactions.solution[c];
+    sum += term, *size += fabs(term);
+  }
+  return sum;
+}
+
+double frot_turn_pins(const frot_problem *p, double *rest) {
+  const frot_model *m = p->m;
+  frot_work *w = p->w;
+  int n = p->unknowns;
+  double missed = 0;
+  const double *known = w->reactions.known, *effects = w->reactions.effects;
+  for (int r = 0; r < p->holding; r++) rest[r] = 0;
+  for (int f = p->held; f < n; f++, known += 2, effects += 2 * n) {
+    int e = w->reactions.owner[f], line = p->holding + f - p->held;
+    rest[line] = 0;
+    if (m->elements[e].bound != FROT_BY_PIN) continue;
+    double *along = w->reactions.along + 2 * e, terms = 0;
+    double first = read_pin(p, known[0], effects, &terms);
+    double second = read_pin(p, known[1], effects + n, &terms);
+    double size = sqrt(first * first + second * second);
+    double ratio = w->reactions.ratio[e] / w->reactions.unit_of[f], friction = ratio * size;
+    if (!(size > 0) || !(fabs(friction) > 0)) continue;
+    rest[line] = friction - w->reactions.solution[f];
+    double beyond = fabs(rest[line]) - TERMS * fabs(ratio) * terms;
+    missed = fmax(missed, beyond / fabs(friction));
+    along[0] = first / size, along[1] = second / size;
+  }
+  return missed;
+}

@@ -1,0 +1,138 @@
+#include "starts/sequential_guesses.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "assembly/levenberg_marquardt.h"
+#include "starts/multistart.h"
+#include "assembly/gauss_newton.h"
+#include "assembly/start_parts.h"
+
+#define AROUND 8 /* beginnings of the unknowns of one vector beside the given one, */
+#define ROUNDS 4 /* each round twice as far off as the one before */
+#define WHOLE_TURN 6.283185307179586
+#define LEAST_ADVANCE 1e-9 /* of a turn, beside what angles do to what is missed */
+
+/* How many unknowns that are not taken the guesses of a vector follow from; those with `mark` are
+ * marked, of an orientation all. */
+static int count_new(const frot_opening *p, int vector, int mark) {
+  const frot_part *part = p->part;
+  unsigned char *state = p->w->opening.state;
+  int first = p->n - part->n_guessed, nx = p->n_own, count = 0;
+  for (int j = 0; j < part->n_guessed; j++) {
+    const double *row = p->w->relations.jacobian + nx * (first + j);
+    for (int k = 0; k < nx && part->vectors[j] == vector; k++)
+      if (row[k] != 0 && state[k] == 0) state[k] = FROT_MOVES_NOW, count++;
+  }
+  for (int i = 0; i < part->n_turns && mark; i++) {
+    unsigned char *four = state + p->w->opening.turns[i].at;
+    for (int k = 0; k < 4; k++)
+      if (memchr(four, FROT_MOVES_NOW, 4) && four[k] == 0) four[k] = FROT_MOVES_NOW;
+  }
+  for (int k = 0; k < nx && !mark; k++)
+    if (state[k] == FROT_MOVES_NOW) state[k] = 0;
+  return count;
+}
+
+/* Mark the unknowns of the vector that follows from the fewest; returns 0 where all are taken. */
+static int mark_next(const frot_opening *p) {
+  int fewest = 0, next = -1;
+  for (int j = 0; j < p->part->n_guessed; j++) {
+    int count = p->part->vectors[j] == j ? count_new(p, j, 0) : 0;
+    if (count > 0 && (next < 0 || count < fewest)) fewest = count, next = j;
+  }
+  return next >= 0 && count_new(p, next, 1) > 0;
+}
+
+/* Whether an unknown that is to come moves row i or, of a guess, any item of its vector. */
+static int is_open(const frot_opening *p, int i) {
+  const frot_part *part = p->part;
+  int first = p->n - part->n_guessed;
+  for (int j = i < first ? i : first; j < (i < first ? i + 1 : p->n); j++) {
+    const double *row = p->w->relations.jacobian + p->n_own * j;
+    if (i >= first && part->vectors[j - first] != part->vectors[i - first]) continue;
+    for (int k = 0; k < p->n_own; k++)
+      if (row[k] != 0 && p->w->opening.state[k] == 0) return 1;
+  }
+  return 0;
+}
+
+/* Leave of the equations those that the unknowns marked move, and none that are to come. */
+static void choose_rows(const frot_opening *p) {
+  const unsigned char *state = p->w->opening.state;
+  for (int i = 0; i < p->n; i++) {
+    const double *row = p->w->relations.jacobian + p->n_own * i;
+    int moved = 0;
+    for (int k = 0; k < p->n_own; k++) moved |= row[k] != 0 && state[k] == FROT_MOVES_NOW;
+    p->w->opening.chosen[i] = (unsigned char)(moved && !is_open(p, i));
+  }
+}
+
+/* What moves on as it turns, as on a screw, may be whole turns away from where the rest holds: turn
+ * each angle marked by as many as leave least of what is missed. Returns whether any turns. */
+static int turn_wholly(frot_opening *p) {
+  const double *residual = p->w->relations.residual, *weight = p->w->opening.row_weight;
+  double *missed = p->w->linear.scratch;
+  int turned = 0;
+  for (int k = 0; k < p->n_own; k++) {
+    if (p->w->opening.state[k] != FROT_MOVES_NOW || !frot_is_angle(p, k)) continue;
+    if (frot_evaluate_statements(p) != FROT_OK) return 0;
+    for (int i = 0; i < p->n; i++) missed[i] = residual[i];
+    double start = p->x[k], along = 0, square = 0;
+    p->x[k] = start + 2 * WHOLE_TURN; /* an orientation is the same after two */
+    int status = frot_evaluate_statements(p);
+    for (int i = 0; i < p->n && status == FROT_OK; i++) {
+      double change = 0.5 * (residual[i] - missed[i]) * weight[i];
+      along -= change * missed[i] * weight[i], square += change * change;
+    }
+    double turns = square > LEAST_ADVANCE * LEAST_ADVANCE ? round(along / square) : 0;
+    p->x[k] = start + WHOLE_TURN * turns, turned |= turns != 0;
+  }
+  return turned && frot_evaluate_statements(p) == FROT_OK;
+}
+
+/* Whether the unknowns marked are where the equations chosen hold, or come there from here. */
+static int come_there(frot_opening *p) {
+  if (!frot_follow_damped(p)) return 0;
+  if (frot_missed_square(p) <= FROT_NOTHING_MISSED) return 1;
+  return turn_wholly(p) && frot_follow_damped(p) && frot_missed_square(p) <= FROT_NOTHING_MISSED;
+}
+
+/* Move the unknowns marked to where the equations chosen hold, from several beginnings; returns
+ * whether they do. */
+static int meet_next(frot_opening *p) {
+  frot_opening_work *w = &p->w->opening;
+  size_t bytes = sizeof(double) * (size_t)p->n_own;
+  double *before = w->nearest;
+  memcpy(before, p->x, bytes);
+  for (int k = 0; k <= AROUND * ROUNDS; k++) {
+    double farther = k > AROUND ? 1 << ((k - 1) / AROUND) : 1;
+    memcpy(p->x, before, bytes);
+    frot_begin_units(p);
+    if (k > 0 && frot_opening_metric(p) != FROT_OK) continue;
+    if (k > 0) frot_begin_elsewhere(p, (k - 1) % AROUND, k % 3 == 0);
+    for (int i = 0; i < p->n_own; i++)
+      if (w->state[i] != FROT_MOVES_NOW)
+        p->x[i] = before[i];
+      else if (p->m->q_speed[p->part->reads.q[i]] >= 0) /* of no orientation */
+        p->x[i] = before[i] + farther * (p->x[i] - before[i]);
+    if (come_there(p)) return 1;
+  }
+  return 0;
+}
+
+int frot_meet_in_turn(frot_opening *p) {
+  unsigned char *state = p->w->opening.state;
+  int met = 1;
+  memset(state, 0, (size_t)p->n_own);
+  p->guessed = p->alike = 1;
+  while (met && frot_evaluate_statements(p) == FROT_OK && mark_next(p)) {
+    choose_rows(p);
+    p->some = 1;
+    met = meet_next(p);
+    p->some = 0;
+    for (int k = 0; k < p->n_own; k++) state[k] = state[k] != 0 ? FROT_TAKEN : 0;
+  }
+  p->guessed = p->alike = 0;
+  return met;
+}
