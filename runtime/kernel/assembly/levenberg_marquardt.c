@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "starts/sequential_guesses.h"
+#include "assembly/unknowns.h"
 #include "numerics/dense.h"
 #include "assembly/start_parts.h"
 

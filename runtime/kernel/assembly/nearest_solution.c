@@ -7,7 +7,6 @@
 #include "assembly/unknowns.h"
 #include "assembly/levenberg_marquardt.h"
 #include "assembly/tangent_newton.h"
-#include "starts/guesses.h"
 #include "numerics/dense.h"
 #include "assembly/gauss_newton.h"
 #include "assembly/start_parts.h"
@@ -24,8 +23,8 @@
 #define WHOLE_TURN 6.283185307179586
 #define UNNOTICED (1 + 1e-9)
 
-/* On from values that hold along the relations (tangent_newton.h), put back onto them; what has not come
- * nearer is taken back. */
+/* On from values that hold along the relations (tangent_newton.h), put back onto them; what has not
+ * come nearer is taken back. */
 
 void frot_measure_by_beginning(frot_opening *p) {
   p->factor = p->w->opening.first_factor, p->order = p->attached;
@@ -82,9 +81,7 @@ void frot_unwind(frot_opening *p) {
 }
 
 /* How far the values are from what is aimed at. */
-static double far_off(frot_opening *p) {
-  return p->aim ? frot_guesses_missed(p) : frot_change_size(p);
-}
+static double far_off(frot_opening *p) { return p->aim ? p->missed(p) : frot_change_size(p); }
 
 /* The longest part of a way that no angle turns too far on. */
 static double first_part(const frot_opening *p, const double *d) {

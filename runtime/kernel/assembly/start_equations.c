@@ -116,7 +116,7 @@ static int append_ways(const frot_opening *p, int n) {
   if (frot_dynamics(m, p->s, w, p->t, p->q, p->v, p->d, modes, FROT_INERTIA) != FROT_OK) return n;
   for (int k = 0; k < p->part->n_groups; k++) {
     const frot_group *g = &m->groups[p->part->groups[k]];
-    int count = frot_find_ways(m, p->s, w, g, p->t, p->q, p->v, p->d);
+    int count = frot_find_branches(m, p->s, w, g, p->t, p->q, p->v, p->d);
     for (int i = 0; i < count; i++, n++) {
       double *row = w->linear.scratch + g->n_speeds * i, *whole = w->core.column;
       double *equation = w->relations.jacobian + p->n_own * n;

@@ -8,7 +8,8 @@
 #include "model/workspace.h"
 
 /* One system to solve: for coordinates, or for speeds, of a part of the scene (start_parts.h). */
-typedef struct {
+typedef struct frot_opening frot_opening;
+struct frot_opening {
   const frot_model *m;
   frot_state *s;
   frot_work *w;
@@ -26,16 +27,19 @@ typedef struct {
   double scene;      /* largest value, term and residual where the search begins */
   int wide;          /* the search may begin elsewhere too */
   int guessed;       /* the guesses of places are equations too, after the others */
-  int alike;      /* what holds by one liaison counts alike, by the arms of the angles (levenberg_marquardt.h) */
-  int aim;        /* they are no equations, but what is to be missed least (tangent_newton.h) */
-  int some;       /* of unknowns and equations those alone that sequential_guesses.c says (levenberg_marquardt.h) */
+  int alike;         /* what holds by one liaison counts alike, by the arms of the angles
+                        (levenberg_marquardt.h) */
+  int aim;           /* they are no equations, but what is to be missed least (tangent_newton.h) */
+  double (*missed)(frot_opening *p); /* by how much they are missed: guesses.c */
+  int some;       /* of unknowns and equations those alone that sequential_guesses.c says
+                     (levenberg_marquardt.h) */
   int fewest;     /* of the statements those alone that are not optional */
   int unbalanced; /* of the statements those alone that are not on accelerations */
   int direct;     /* of the statements those alone that hold where the search begins */
   int timeless;   /* of the statements those alone that hold at any time */
   double left;    /* the part of w->opening.left that may still be missed (homotopy.h) */
   int ways;       /* speeds are to begin a motion in singular postures too (tangent_cone.h) */
-} frot_opening;
+};
 
 /* The speed of the scene that moves change k, -1 where there is none. */
 static inline int frot_speed_behind(const frot_opening *p, int k) {

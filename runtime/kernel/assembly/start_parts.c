@@ -48,13 +48,13 @@ void frot_take_part(frot_opening *p, const frot_part *part) {
   name_changes(p);
   put_in_order(p);
   p->w->blocks.some = part->blocks, p->w->blocks.n_some = part->n_blocks;
-  frot_look_at_some(p->w, part->islands, part->n_islands, part->groups, part->n_groups);
+  frot_restrict_to_islands(p->w, part->islands, part->n_islands, part->groups, part->n_groups);
 }
 
 void frot_leave_parts(frot_opening *p) {
   p->part = &nothing, p->x = p->w->opening.x, p->n = p->n_rows = p->n_own = p->attached = 0;
   p->w->blocks.some = NULL;
-  frot_wake(p->w);
+  frot_leave_sleep(p->w);
 }
 
 void frot_put(const frot_opening *p) {

@@ -11,4 +11,8 @@ void frot_over_changes(const frot_opening *p, const double *row, double *out);
 void frot_from_changes(const frot_opening *p, const double *changes, double *x);
 void frot_into_changes(const frot_opening *p, const double *apart, double *changes);
 
+/* States of the unknowns in w->opening.state while guesses are met in turn: free (0), taken, and
+ * moved now. */
+enum { FROT_TAKEN = 1, FROT_MOVES_NOW = 2 };
+
 #endif

@@ -76,7 +76,7 @@ static int list_equations(const frot_model *m, frot_state *s, frot_work *w, doub
   for (int i = 0; i < m->n_contacts; i++) {
     const frot_contact *contact = &m->contacts[i];
     if (!modes[i].closed || contact->reduced || contact->row_n < 0 || contact->kinematic) continue;
-    if (frot_is_spare(w, contact->row_n)) continue;
+    if (frot_is_redundant(w, contact->row_n)) continue;
     double *row = w->relations.jacobian + nx * *n;
     memset(row, 0, sizeof(double) * (size_t)nx);
     const frot_group *group = frot_group_of(m, contact->row_n);
@@ -86,7 +86,7 @@ static int list_equations(const frot_model *m, frot_state *s, frot_work *w, doub
   }
   int held = frot_holding_rows(m, w, modes, stuck, 0);
   for (int i = 0; i < held; i++) {
-    if (frot_is_spare(w, w->relations.rows[i])) continue;
+    if (frot_is_redundant(w, w->relations.rows[i])) continue;
     double *row = w->relations.jacobian + nx * *n;
     memset(row, 0, sizeof(double) * (size_t)nx);
     const frot_group *group = frot_group_of(m, w->relations.rows[i]);

@@ -122,8 +122,8 @@ static int frozen_by_rows(const frot_model *m, const frot_state *s, frot_work *w
   return count;
 }
 
-void frot_find_frozen(const frot_model *m, const frot_state *s, frot_work *w,
-                      const frot_contact_mode *modes, double *frozen) {
+void frot_find_locked_speeds(const frot_model *m, const frot_state *s, frot_work *w,
+                             const frot_contact_mode *modes, double *frozen) {
   double *known = w->core.load;
   drop_cancelled(m, s, w);
   for (int k = 0; k < m->nv; k++) frozen[k] = known[k] = 0;

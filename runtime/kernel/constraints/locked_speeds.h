@@ -7,7 +7,7 @@
 /* Speeds that the relations of `modes` hold at zero for as long as the mode lasts: frozen (nv).
  * A relation counts when it depends on frozen coordinates alone. After frot_kinematics; drops from
  * w->core.rows what is rounding of lengths that cancel. */
-void frot_find_frozen(const frot_model *m, const frot_state *s, frot_work *w,
-                      const frot_contact_mode *modes, double *frozen);
+void frot_find_locked_speeds(const frot_model *m, const frot_state *s, frot_work *w,
+                             const frot_contact_mode *modes, double *frozen);
 
 #endif

@@ -98,7 +98,7 @@ void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *
     int i = order[at], row = w->relations.rows[i];
     double *x = w->span.basis + ns * rank, *parts = w->linear.matrix + n * i;
     w->linear.pivot[i] = -1;
-    if (frot_is_spare(w, row)) continue;
+    if (frot_is_redundant(w, row)) continue;
     memcpy(x, frot_entries(m, w->core.rows, row), sizeof(double) * (size_t)ns);
     frot_inwards(w, g, x);
     double length = sqrt(frot_dot(x, x, ns));
@@ -106,8 +106,8 @@ void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *
     int certain = i < kept || (frozen && is_frozen(m, w, g, row, frozen));
     double least = certain ? frot_least_length(m, w, row, length) : FREE * length;
     if (!(rest > least)) continue;
-    if (at < last - 1 && frot_may_wait(m, w, row, rest, length)) {
-      frot_let_wait(order, at--, --last);
+    if (at < last - 1 && frot_row_is_deferred(m, w, row, rest, length)) {
+      frot_defer_row(order, at--, --last);
       continue;
     }
     for (int k = 0; k < ns; k++) x[k] /= rest;
@@ -223,7 +223,7 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   }
   if (m->n_rows == 0 || frot_holding_rows(m, w, modes, stuck, 0) == 0) return FROT_OK;
   frame f = {NULL, 0, 0, INFINITY};
-  frot_note_parting(s, w);
+  frot_note_unilateral_rows(s, w);
   int status = frot_metric(m, w);
   if (status == FROT_OK) status = project_positions(m, s, w, t, q, v, d, modes, frozen, &f, moved);
   if (status == FROT_OK)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "evaluation/evaluate.h"
-#include "singular/singular_posture.h"
+#include "model/held_modes.h"
 #include "model/indexing.h"
 #include "numerics/dense.h"
 #include "numerics/basis.h"
@@ -164,7 +164,7 @@ static void note_others(const frot_model *m, frot_state *s, const frot_work *w,
   }
 }
 
-int frot_note_spare(const frot_model *m, frot_state *s, frot_work *w) {
+int frot_find_redundant_rows(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   double *spare = s->data + w->layout.spare;
   int others = 0;
@@ -183,7 +183,7 @@ int frot_note_spare(const frot_model *m, frot_state *s, frot_work *w) {
   return others;
 }
 
-int frot_sort_spare(const frot_model *m, frot_state *s, frot_work *w) {
+int frot_update_redundant_contacts(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   double *spare = s->data + w->layout.spare;
   int changed = 0;
@@ -199,7 +199,7 @@ int frot_sort_spare(const frot_model *m, frot_state *s, frot_work *w) {
   return changed;
 }
 
-void frot_follow_spare(const frot_model *m, frot_work *w, const double *spare) {
+void frot_use_redundant_rows(const frot_model *m, frot_work *w, const double *spare) {
   w->span.follow = 0;
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_groups; k++) {
@@ -212,11 +212,12 @@ void frot_follow_spare(const frot_model *m, frot_work *w, const double *spare) {
   }
 }
 
-void frot_see_anew(frot_work *w) { w->span.follow = 0; }
+void frot_forget_redundant_rows(frot_work *w) { w->span.follow = 0; }
 
-int frot_is_spare(const frot_work *w, int row) { return w->span.follow && w->span.spare[row]; }
+int frot_is_redundant(const frot_work *w, int row) { return w->span.follow && w->span.spare[row]; }
 
-int frot_spare_rows_hold(const frot_model *m, frot_state *s, frot_work *w, double t, double *z) {
+int frot_redundant_rows_hold(const frot_model *m, frot_state *s, frot_work *w, double t,
+                             double *z) {
   if (!w->span.follow) return 1;
   const double *d = s->data + w->layout.d;
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
@@ -226,7 +227,7 @@ int frot_spare_rows_hold(const frot_model *m, frot_state *s, frot_work *w, doubl
   const frot_awake_lists *now = w->awake.now;
   for (int i = 0; i < now->n_contacts; i++) {
     int c = now->contacts[i], row = m->contacts[c].row_n;
-    if (row < 0 || m->contacts[c].reduced || !frot_is_spare(w, row)) continue;
+    if (row < 0 || m->contacts[c].reduced || !frot_is_redundant(w, row)) continue;
     /* one that nothing moves is made of lengths all the same */
     double size = frot_gap_size(m, w, row, z) + s->data[w->layout.reach + c];
     if (fabs(w->core.gap[c]) > FROT_DEPENDENT * size) return 0;
@@ -234,12 +235,12 @@ int frot_spare_rows_hold(const frot_model *m, frot_state *s, frot_work *w, doubl
   return 1;
 }
 
-void frot_spare_nothing(const frot_model *m, frot_state *s, frot_work *w) {
+void frot_restore_redundant_rows(const frot_model *m, frot_state *s, frot_work *w) {
   memset(s->data + w->layout.spare, 0, sizeof(double) * (size_t)m->n_rows);
-  frot_see_anew(w);
+  frot_forget_redundant_rows(w);
 }
 
-long long frot_free_speeds(const frot_model *m, const frot_state *s, const frot_work *w) {
+long long frot_count_free_speeds(const frot_model *m, const frot_state *s, const frot_work *w) {
   long long held = 0;
   for (int i = 0; i < m->n_contacts; i++) {
     int row = m->contacts[i].row_n;

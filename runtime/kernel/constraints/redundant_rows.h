@@ -12,30 +12,30 @@
 /* Decide: of the rows that the evaluation at the start of a step found to depend on each other
  * those that are best left out, as many as it found too many. Returns whether the sign of a
  * determinant is that of other rows. */
-int frot_note_spare(const frot_model *m, frot_state *s, frot_work *w);
+int frot_find_redundant_rows(const frot_model *m, frot_state *s, frot_work *w);
 
 /* After a step that followed them: of the contacts those that are best left out now, as many.
  * Returns whether these are others. */
-int frot_sort_spare(const frot_model *m, frot_state *s, frot_work *w);
+int frot_update_redundant_contacts(const frot_model *m, frot_state *s, frot_work *w);
 
-/* Follow what was decided, spare (n_rows), until frot_see_anew. */
-void frot_follow_spare(const frot_model *m, frot_work *w, const double *spare);
+/* Follow what was decided, spare (n_rows), until frot_forget_redundant_rows. */
+void frot_use_redundant_rows(const frot_model *m, frot_work *w, const double *spare);
 
 /* Let every evaluation see for itself what depends on what. */
-void frot_see_anew(frot_work *w);
+void frot_forget_redundant_rows(frot_work *w);
 
 /* Whether a row is left to others by what is followed. */
-int frot_is_spare(const frot_work *w, int row);
+int frot_is_redundant(const frot_work *w, int row);
 
 /* Whether the rows that were left out hold at the end z (nq + nv, put onto the others) of a step;
  * else they depended on others for an instant only, in a singular posture. */
-int frot_spare_rows_hold(const frot_model *m, frot_state *s, frot_work *w, double t, double *z);
+int frot_redundant_rows_hold(const frot_model *m, frot_state *s, frot_work *w, double t, double *z);
 
 /* Take every row for one of its own, in the step that runs. */
-void frot_spare_nothing(const frot_model *m, frot_state *s, frot_work *w);
+void frot_restore_redundant_rows(const frot_model *m, frot_state *s, frot_work *w);
 
 /* The speeds that no permanent row holds, after an evaluation: those that depend on others are
  * none. */
-long long frot_free_speeds(const frot_model *m, const frot_state *s, const frot_work *w);
+long long frot_count_free_speeds(const frot_model *m, const frot_state *s, const frot_work *w);
 
 #endif

@@ -1,11 +1,12 @@
 #include "evaluation/algebraic_loops.h"
 
+#include "model/calls.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "numerics/dense.h"
-#include "methods/right_hand_side.h"
 #include "numerics/basis.h"
 #include "numerics/tolerances.h"
 

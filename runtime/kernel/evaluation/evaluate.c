@@ -17,17 +17,10 @@
 #include "numerics/dense.h"
 #include "evaluation/row_order.h"
 #include "numerics/basis.h"
-#include "reactions/force_problem.h"
+#include "model/held_modes.h"
 #include "evaluation/row_rounding.h"
 #include "numerics/tolerances.h"
 #include "inertia/extended_inertia.h"
-
-void frot_inputs(frot_state *s, frot_work *w, const double *t, const double *q, const double *v,
-                 const double *d) {
-  w->call.arg[0] = t, w->call.arg[1] = q, w->call.arg[2] = v;
-  w->call.arg[3] = s->data + w->layout.u, w->call.arg[4] = s->data + w->layout.p;
-  w->call.arg[5] = d, w->call.arg[6] = w->blocks.y;
-}
 
 /* Note the rows of a group to look at in w->core.wanted. */
 static void want_rows(const frot_model *m, frot_work *w, const frot_group *g,
@@ -116,8 +109,8 @@ static void effects_of_four(const frot_model *m, frot_work *w, const frot_group 
   }
 }
 
-/* Whether nothing of a group can part or slip: its rows hold by themselves (held_rows.c), and what they
- * do to each other is asked for where they depend on each other alone. */
+/* Whether nothing of a group can part or slip: its rows hold by themselves (held_rows.c), and what
+ * they do to each other is asked for where they depend on each other alone. */
 static int holds_for_good(const frot_state *s, const frot_work *w, const frot_group *g) {
   const double *unilateral = s->data + w->layout.unilateral;
   if (g->n_elements > 0) return 0;
@@ -251,7 +244,7 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   if (!frot_call_dynamics(m, s, w, t, q, v, d, wanted)) return FROT_NAN;
   frot_size_drives(m, s, w, t, q, v, d);
   frot_begin_wide(m, w);
-  frot_note_parting(s, w);
+  frot_note_unilateral_rows(s, w);
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_groups && status == FROT_OK; k++) {
     const frot_group *g = &m->groups[now->groups[k]];
@@ -322,7 +315,8 @@ void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen)
     const frot_group *g = &m->groups[w->awake.now->groups[k]];
     int n = g->n, ns = g->n_speeds, active = g->general ? n : ns;
     double *z = w->core.rest;
-    if (!g->general && w->core.formed[g - m->groups] == FROT_FACTOR) { /* there already: friction_fixed_point.c */
+    if (!g->general &&
+        w->core.formed[g - m->groups] == FROT_FACTOR) { /* there already: friction_fixed_point.c */
       for (int j = 0; j < n; j++) {
         int at = g->unknowns[j];
         if (j >= ns || frozen[at] != 0) w->core.a[at] = 0;

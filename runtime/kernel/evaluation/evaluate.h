@@ -4,31 +4,19 @@
 
 #include "model/indexing.h"
 #include "inertia/mass_matrix.h"
-#include "model/workspace.h"
+#include "model/calls.h"
 
 /* Kinetic and potential energy at (t, q, v, d), and the size of the terms that they are made of;
  * zero where the model has none. */
 int frot_energies(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, double energy[3]);
 
-/* Point w->call.arg at the arguments that all functions of the state begin with. */
-void frot_inputs(frot_state *s, frot_work *w, const double *t, const double *q, const double *v,
-                 const double *d);
-
-/* Which rows frot_dynamics looks at. */
-enum frot_wanted {
-  FROT_MOTION,  /* those that act in the modes, and the readings that bound them */
-  FROT_INERTIA, /* the same, of which the inertia alone is wanted: loads may be no numbers */
-  FROT_READING, /* the same and all readings */
-  FROT_LAWS     /* every row of a closed contact, and all readings */
-};
-
 /* Solve the blocks, evaluate the generated `dynamics` at (t, q, v, d), factor A and form for the
  * rows wanted of the contacts that are closed in `modes`: w->core.free, the acceleration (of a
  * reading: the reaction) without reactions of other rows, and w->core.delassus, what these do to
  * it; where nothing can part or slip, and no reading is wanted, or friction follows readings alone
- * (friction_fixed_point.c), only when it is asked for by frot_effects. FROT_OK or a status that is not recorded as
- * a fault. */
+ * (friction_fixed_point.c), only when it is asked for by frot_effects. FROT_OK or a status that is
+ * not recorded as a fault. */
 int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes, int wanted);
 
@@ -69,17 +57,5 @@ void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen)
 
 /* Half the square of the speeds in the metric, after frot_dynamics. */
 double frot_kinetic(const frot_model *m, const frot_work *w, const double *v);
-
-/* Whether all numbers are finite. */
-static inline int frot_all_finite(const double *x, int n) {
-  double a = 0, b = 0, c = 0, d = 0; /* so that no addition waits for the one before */
-  int i = 0;
-  for (; i + 4 <= n; i += 4) {
-    a += x[i] - x[i], b += x[i + 1] - x[i + 1];
-    c += x[i + 2] - x[i + 2], d += x[i + 3] - x[i + 3];
-  }
-  for (; i < n; i++) a += x[i] - x[i];
-  return a + b + c + d == 0;
-}
 
 #endif

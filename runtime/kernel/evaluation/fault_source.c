@@ -89,8 +89,8 @@ static int is_unmoved(const frot_model *m, const frot_state *s, const frot_work 
   return 1;
 }
 
-int frot_taken_apart(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                     const double *v) {
+int frot_contact_opened_by_time(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                const double *q, const double *v) {
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   int apart = -1;
   for (double later = s->h_max; apart < 0 && later <= 100 * s->h_max; later *= 10) {
@@ -138,7 +138,7 @@ int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status,
     if (load >= 0) return frot_fail(s, FROT_NAN, t, -1, load, -1, h);
   }
   int apart = -1;
-  if (status == FROT_DIVERGE) apart = frot_taken_apart(m, s, w, t, q, v);
+  if (status == FROT_DIVERGE) apart = frot_contact_opened_by_time(m, s, w, t, q, v);
   if (apart >= 0) return frot_fail(s, status, t, apart, 0, -1, h);
   if (status == FROT_DIVERGE && w->step.worst >= 0 && w->step.worst < m->nq + m->nv) {
     int own = w->step.worst < m->nq && m->q_speed[w->step.worst] < 0;
@@ -163,8 +163,8 @@ static int lost_at(const frot_model *m, frot_state *s, frot_work *w, double t, c
   return lost;
 }
 
-int frot_name_vanished(const frot_model *m, frot_state *s, frot_work *w, int status,
-                       const double *z) {
+int frot_name_singular_figure(const frot_model *m, frot_state *s, frot_work *w, int status,
+                              const double *z) {
   int unnamed = status == FROT_NAN && s->fault.item < 0 && s->fault.contact < 0;
   int lost = -1;
   if (m->n_vanishing == 0) return status;
@@ -182,12 +182,12 @@ int frot_name_vanished(const frot_model *m, frot_state *s, frot_work *w, int sta
   return FROT_VANISHED;
 }
 
-int frot_name_vanished_there(const frot_model *m, frot_state *s, frot_work *w, int status,
-                             double t) {
+int frot_name_singular_figure_at(const frot_model *m, frot_state *s, frot_work *w, int status,
+                                 double t) {
   int phase = s->phase;
   frot_fault fault = s->fault;
   s->fault = frot_no_fault(t), s->fault.status = status;
-  int found = frot_name_vanished(m, s, w, status, w->step.z1);
+  int found = frot_name_singular_figure(m, s, w, status, w->step.z1);
   int named = found == FROT_NAN || found == FROT_ALGEBRAIC;
   if (named && phase != FROT_FAULTED) frot_fail_evaluation(m, s, w, found, t);
   s->phase = phase;

@@ -17,18 +17,18 @@ int frot_fail_evaluation(const frot_model *m, frot_state *s, frot_work *w, int s
 
 /* The closed contact whose bodies time takes apart most in the run after t, where the values q and
  * v stay and no speed moves them along it; -1 if none. */
-int frot_taken_apart(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                     const double *v);
+int frot_contact_opened_by_time(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                const double *q, const double *v);
 
 /* Say instead which figure has lost its tangent or normal, where that is what a failed start or
  * step comes from: so it is at the states x of the instance, or at `z`, the last that were
  * evaluated. Returns the status. */
-int frot_name_vanished(const frot_model *m, frot_state *s, frot_work *w, int status,
-                       const double *z);
+int frot_name_singular_figure(const frot_model *m, frot_state *s, frot_work *w, int status,
+                              const double *z);
 
 /* The same where values that were asked for at t are no numbers, at the states w->step.z1 of a
  * recorded segment: the run goes on or has ended as it did. */
-int frot_name_vanished_there(const frot_model *m, frot_state *s, frot_work *w, int status,
-                             double t);
+int frot_name_singular_figure_at(const frot_model *m, frot_state *s, frot_work *w, int status,
+                                 double t);
 
 #endif

@@ -6,11 +6,12 @@
 
 #define LITTLE 0.1 /* part of its length that is little to be left of a row */
 
-void frot_note_parting(const frot_state *s, frot_work *w) {
+void frot_note_unilateral_rows(const frot_state *s, frot_work *w) {
   w->span.unilateral = s->data + w->layout.unilateral;
 }
 
-int frot_may_wait(const frot_model *m, const frot_work *w, int row, double rest, double length) {
+int frot_row_is_deferred(const frot_model *m, const frot_work *w, int row, double rest,
+                         double length) {
   if (!(rest < LITTLE * length)) return 0;
   const frot_group *g = frot_group_of(m, row);
   for (int i = 0; i < g->n_contacts; i++)
@@ -18,7 +19,7 @@ int frot_may_wait(const frot_model *m, const frot_work *w, int row, double rest,
   return 0;
 }
 
-void frot_let_wait(int *order, int i, int last) {
+void frot_defer_row(int *order, int i, int last) {
   int waits = order[i];
   memmove(order + i, order + i + 1, sizeof *order * (size_t)(last - i));
   order[last] = waits;

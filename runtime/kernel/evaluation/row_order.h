@@ -11,12 +11,13 @@
 #include "model/workspace.h"
 
 /* Note which contacts may part: their normals may wait. */
-void frot_note_parting(const frot_state *s, frot_work *w);
+void frot_note_unilateral_rows(const frot_state *s, frot_work *w);
 
 /* Whether a row, of whose length those before it leave so much, waits for those that come. */
-int frot_may_wait(const frot_model *m, const frot_work *w, int row, double rest, double length);
+int frot_row_is_deferred(const frot_model *m, const frot_work *w, int row, double rest,
+                         double length);
 
 /* Let what stands in place i of an order come in place `last`, and those between one earlier. */
-void frot_let_wait(int *order, int i, int last);
+void frot_defer_row(int *order, int i, int last);
 
 #endif

@@ -89,8 +89,8 @@ static int release_contacts(const instant *in) {
                        apart ? gap : rate);
     if (meets && !apart) return frot_fail(in->s, FROT_IMPACT, in->t, i, -1, -1, rate);
     if (!apart && !leaves) continue;
-    frot_note(in->recorder, in->s, in->t, FROT_EVENT_SEPARATION, i, frot_mode_value(m, modes, i),
-              FROT_MODE_OPEN, 1);
+    frot_record_event(in->recorder, in->s, in->t, FROT_EVENT_SEPARATION, i,
+                      frot_mode_value(m, modes, i), FROT_MODE_OPEN, 1);
     frot_open(m, modes, i);
   }
   return FROT_OK;
@@ -121,7 +121,7 @@ static void tell_conditions(const instant *in) {
   const double *d = in->s->data + in->l.d;
   for (int j = 0; j < m->n_conditions; j++) {
     int holds = d[j] != 0, held = w->events.before[j] != 0;
-    if (holds != held) frot_note_condition(m, in->recorder, in->s, in->t, j, holds);
+    if (holds != held) frot_record_condition(m, in->recorder, in->s, in->t, j, holds);
   }
 }
 
@@ -311,7 +311,7 @@ static int change_conditions(const instant *in, int first) {
   int status = frot_note_conditions(m, s, in->w, in->t, in->q, in->v);
   if (status != FROT_OK) return status;
   int kept = !first && m->n_invariants > 0;
-  if (kept) status = frot_note_supports(m, s, in->w, in->t, in->q, in->v);
+  if (kept) status = frot_note_contacts_before_change(m, s, in->w, in->t, in->q, in->v);
   if (status != FROT_OK) return status;
   memcpy(in->w->events.before, d, sizeof(double) * (size_t)m->n_conditions);
   int edges = !first && frot_has_edges(m);
@@ -375,8 +375,8 @@ static int follow_modes(const instant *in, int first) {
   }
 }
 
-int frot_happen(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
-                int first, frot_recorder *recorder) {
+int frot_process_events(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
+                        double *v, int first, frot_recorder *recorder) {
   instant in = {m, s, w, w->layout, t, q, v, recorder};
   int happened = 0, status = FROT_OK;
   if (first) status = frot_resolve(m, s, w, t, q, v, 1, recorder);
@@ -389,6 +389,6 @@ int frot_happen(const frot_model *m, frot_state *s, frot_work *w, double t, doub
     status = frot_resolve(m, s, w, t, q, v, first, recorder);
   if (status == FROT_OK) status = follow_modes(&in, 0);
   if (status == FROT_TERMINATED) return end_run(&in);
-  if (status == FROT_OK) frot_find_due(m, s, w);
+  if (status == FROT_OK) frot_find_time_event(m, s, w);
   return status;
 }

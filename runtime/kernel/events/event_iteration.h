@@ -10,7 +10,7 @@
  *
  * `first`: nothing was known before (start). FROT_OK, FROT_TERMINATED (recorded in s->phase) or the
  * status of the fault recorded. */
-int frot_happen(const frot_model *m, frot_state *s, frot_work *w, double t, double *q, double *v,
-                int first, frot_recorder *recorder);
+int frot_process_events(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
+                        double *v, int first, frot_recorder *recorder);
 
 #endif

@@ -77,8 +77,8 @@ int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, 
     if (!modes[i].closed && is_flush(m, s, w, i, q)) s->data[l->fired + i] = 1;
     if (!modes[i].closed) continue;
     if (!(w->core.rate[row] > FROT_TOUCH * frot_row_speed(m, w, row, v))) continue;
-    frot_note(recorder, s, t, FROT_EVENT_SEPARATION, i, frot_mode_value(m, modes, i),
-              FROT_MODE_OPEN, 1);
+    frot_record_event(recorder, s, t, FROT_EVENT_SEPARATION, i, frot_mode_value(m, modes, i),
+                      FROT_MODE_OPEN, 1);
     frot_open(m, modes, i);
   }
   return status == FROT_OK ? status : frot_fail_evaluation(m, s, w, status, t);
@@ -100,11 +100,11 @@ int frot_fire_ends(const frot_model *m, frot_state *s, frot_work *w, double *t, 
   int any = 0;
   for (int j = 0; j < m->n_located; j++) any |= may_pass(m, s, w, j);
   if (!any) return FROT_OK;
-  int status = frot_look(m, s, w, *t, q, v);
+  int status = frot_evaluate_conditions(m, s, w, *t, q, v);
   memcpy(now, value, sizeof(double) * (size_t)m->n_conditions);
   for (int k = 0; k < m->nq; k++) there[k] = q[k] + far * slope[k];
   for (int k = 0; k < m->nv; k++) there[m->nq + k] = v[k] + far * slope[m->nq + k];
-  if (status == FROT_OK) status = frot_look(m, s, w, *t + far, there, there + m->nq);
+  if (status == FROT_OK) status = frot_evaluate_conditions(m, s, w, *t + far, there, there + m->nq);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, *t);
   double later = 0;
   for (int j = 0; j < m->n_located; j++) {

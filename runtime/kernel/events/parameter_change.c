@@ -24,7 +24,7 @@ static noted noted_in(const frot_model *m, double *held) {
   return n;
 }
 
-void frot_hold_given(const frot_model *m, frot_state *s) {
+void frot_accept_parameters(const frot_model *m, frot_state *s) {
   frot_layout l = frot_layout_of(m);
   double *held = s->data + l.kept;
   memcpy(held, s->data + l.set, sizeof(double) * (size_t)m->np);
@@ -41,7 +41,7 @@ void frot_swap_inputs(const frot_model *m, frot_state *s) {
   }
 }
 
-void frot_take_back(const frot_model *m, frot_state *s, frot_work *w) {
+void frot_restore_parameters(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   const double *held = s->data + l.kept;
   memcpy(s->data + l.set, held, sizeof(double) * (size_t)m->np);
@@ -74,8 +74,8 @@ static int look(const frot_model *m, frot_state *s, frot_work *w, double t, cons
   return FROT_OK;
 }
 
-int frot_note_supports(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                       const double *v) {
+int frot_note_contacts_before_change(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                     const double *q, const double *v) {
   noted n = noted_in(m, w->stood);
   int status = look(m, s, w, t, q, v, n.place, n.invariant);
   memcpy(n.gap, w->core.gap, sizeof(double) * (size_t)m->n_contacts);
@@ -122,8 +122,8 @@ typedef struct {
 
 static void open_contact(const change *c, int i) {
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(c->s->data + c->l.modes);
-  frot_note(c->recorder, c->s, c->t, FROT_EVENT_SEPARATION, i, frot_mode_value(c->m, modes, i),
-            FROT_MODE_OPEN, 1);
+  frot_record_event(c->recorder, c->s, c->t, FROT_EVENT_SEPARATION, i,
+                    frot_mode_value(c->m, modes, i), FROT_MODE_OPEN, 1);
   frot_open(c->m, modes, i);
   frot_forget_guards(c->m, c->s, i, 1);
 }
@@ -186,8 +186,8 @@ int frot_check_switch(const frot_model *m, frot_state *s, frot_work *w, double t
                    now[i] - before.invariant[i]);
 }
 
-int frot_check_supports(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                        const double *v, frot_recorder *recorder) {
+int frot_check_contacts_after_change(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                     const double *q, const double *v, frot_recorder *recorder) {
   change c = {m, s, w, frot_layout_of(m), t, q, v, noted_in(m, w->stood), recorder};
   double *place = c.before.invariant + m->n_invariants;
   double *invariant = place + FROT_PLACE * m->n_carried;

@@ -10,20 +10,20 @@
 #include "model/workspace.h"
 
 /* Note what is given now: the values to which a refused change goes back. */
-void frot_hold_given(const frot_model *m, frot_state *s);
+void frot_accept_parameters(const frot_model *m, frot_state *s);
 /* Exchange the inputs given now with those held: what was before a change is evaluated with these.
  * Parameters need none of it, for they take effect when they are settled. */
 void frot_swap_inputs(const frot_model *m, frot_state *s);
 /* Go back to the values noted last. */
-void frot_take_back(const frot_model *m, frot_state *s, frot_work *w);
+void frot_restore_parameters(const frot_model *m, frot_state *s, frot_work *w);
 
 /* Note where the relations stand at (t, q, v), before the values change. */
-int frot_note_supports(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                       const double *v);
+int frot_note_contacts_before_change(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                     const double *q, const double *v);
 /* After the change, at the same values of the states: open what has opened, and note in `fired`
  * what touches. FROT_REFUSED, with the fault recorded, where the change cannot be. */
-int frot_check_supports(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                        const double *v, frot_recorder *recorder);
+int frot_check_contacts_after_change(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                     const double *q, const double *v, frot_recorder *recorder);
 
 /* After conditions have changed, at the same states: FROT_JUMP, with the fault recorded, where a
  * relation of the text between states no longer holds. */

@@ -28,7 +28,7 @@ typedef struct {
 static int first_off_zero(const rest *r, const double *z) {
   const frot_model *m = r->m;
   const double *fired = r->s->data + r->w->layout.fired + frot_condition_guard(m);
-  if (frot_look(m, r->s, r->w, r->t, z, z + m->nq) != FROT_OK) return -2;
+  if (frot_evaluate_conditions(m, r->s, r->w, r->t, z, z + m->nq) != FROT_OK) return -2;
   for (int j = 0; j < m->n_located; j++)
     if (fired[j] != 0 && r->w->core.condition[j] != 0) return j;
   return -1;
@@ -60,7 +60,7 @@ static int go_to_zero(const rest *r) {
 static int stays(const rest *r) {
   double *rates = r->w->step.z;
   if (frot_slope(r->m, r->s, r->w, r->t, r->place, frot_stage(r->w, 0)) != FROT_OK) return 0;
-  frot_unpack(r->w, frot_stage(r->w, 0), rates);
+  frot_unpack_awake(r->w, frot_stage(r->w, 0), rates);
   return first_off_zero(r, further(r, rates)) == -1;
 }
 
@@ -90,7 +90,8 @@ static int stays_on_both(const rest *r) {
   return both;
 }
 
-int frot_stay(const frot_model *m, frot_state *s, frot_work *w, double t, double *x) {
+int frot_find_sliding_equilibrium(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                  double *x) {
   double moved = DBL_EPSILON * frot_size_of_time(t, s->h_max);
   rest r = {m, s, w, t, moved, w->step.z1};
   size_t size = sizeof(double) * (size_t)w->layout.nx;

@@ -9,6 +9,7 @@
  * by no more than a few roundings of time along the slope there, or with all other states that come
  * to zero within them. 1 if they stay zero from there on, what they switch being on or off; 0 if
  * they do not, and then x stays what it was. */
-int frot_stay(const frot_model *m, frot_state *s, frot_work *w, double t, double *x);
+int frot_find_sliding_equilibrium(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                  double *x);
 
 #endif

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "evaluation/evaluate.h"
-#include "events/feature_edges.h"
 #include "methods/dormand_prince.h"
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
@@ -143,8 +142,8 @@ static double first_nearer(const frot_model *m, frot_state *s, frot_work *w, dou
   return first > AT_END ? 1 : first;
 }
 
-int frot_look_nearer(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
-                     double *part) {
+int frot_find_closer_features(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
+                              double *part) {
   const double *unilateral = s->data + w->layout.unilateral, end = t + h;
   const frot_awake_lists *now = w->awake.now;
   int listed = 0, status = FROT_OK;
@@ -167,7 +166,7 @@ int frot_look_nearer(const frot_model *m, frot_state *s, frot_work *w, double t,
   return status == FROT_OK ? back : status;
 }
 
-void frot_take_nearer(const frot_model *m, frot_state *s, frot_work *w) {
+void frot_take_closer_features(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   double *d = s->data + w->layout.d, *side = d + m->n_conditions;
   for (int i = 0; i < m->n_contacts && w->nearer.count > 0; i++) {

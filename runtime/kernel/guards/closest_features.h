@@ -16,11 +16,11 @@
  * the first is nearer, or touches beside a closed one (1 where none does before its end). Those
  * that are at the end stand in w->nearer, `count` of them; kinematics are those of the end. FROT_OK
  * or the status of what failed. */
-int frot_look_nearer(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
-                     double *part);
+int frot_find_closer_features(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
+                              double *part);
 
 /* Take the places found, with the sides on which they are and the ends beyond which they lie. One
  * beside a closed contact is a fault, s->second, told at the end of the step. */
-void frot_take_nearer(const frot_model *m, frot_state *s, frot_work *w);
+void frot_take_closer_features(const frot_model *m, frot_state *s, frot_work *w);
 
 #endif

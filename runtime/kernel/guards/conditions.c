@@ -27,8 +27,8 @@ static int holds(const frot_model *m, const frot_work *w, int j) {
   return m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;
 }
 
-int frot_look(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-              const double *v) {
+int frot_evaluate_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
+                             const double *q, const double *v) {
   const frot_layout *l = &w->layout;
   const double *d = s->data + l->d;
   int status = frot_kinematics(m, s, w, t, q, v, d);
@@ -40,7 +40,7 @@ int frot_look(const frot_model *m, frot_state *s, frot_work *w, double t, const 
 int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
                          const double *q, const double *v) {
   if (m->n_conditions == 0) return FROT_OK;
-  int status = frot_look(m, s, w, t, q, v);
+  int status = frot_evaluate_conditions(m, s, w, t, q, v);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   memcpy(w->events.known, w->core.condition, sizeof(double) * (size_t)m->n_conditions);
   return FROT_OK;
@@ -66,7 +66,7 @@ static int look_later(const frot_model *m, frot_state *s, frot_work *w, const la
   double *there = w->step.z;
   for (int j = 0; j < m->nq; j++) there[j] = i->q[j] + i->moved * slope[j];
   for (int j = 0; j < m->nv; j++) there[m->nq + j] = i->v[j] + i->moved * slope[m->nq + j];
-  return frot_look(m, s, w, time_of(i), there, there + m->nq);
+  return frot_evaluate_conditions(m, s, w, time_of(i), there, there + m->nq);
 }
 
 /* Change the flags of the located conditions that fire, or change them back. */
@@ -126,7 +126,8 @@ static void fire_what_passes(const frot_model *m, frot_state *s, frot_work *w, c
   }
 }
 
-int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q, double *v) {
+int frot_pass_conditions(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q,
+                         double *v) {
   const double *fired = s->data + w->layout.fired + frot_condition_guard(m);
   int located = 0, timed = 0;
   for (int j = 0; j < m->n_located + m->n_timed; j++) {
@@ -176,7 +177,7 @@ int frot_change_conditions(const frot_model *m, frot_state *s, frot_work *w, dou
     if (fired[j] != 0) d[j] = 1 - d[j];
     located |= j < m->n_located && fired[j] != 0;
   }
-  int status = located ? frot_look(m, s, w, t, q, v) : FROT_OK;
+  int status = located ? frot_evaluate_conditions(m, s, w, t, q, v) : FROT_OK;
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   for (int j = 0; j < m->n_located; j++) {
     double value = w->core.condition[j];
@@ -210,7 +211,7 @@ int frot_settle_conditions(const frot_model *m, frot_state *s, frot_work *w, dou
   int together = m->n_conditions + ALL_AT_ONCE, most = together + ONE_BY_ONE * (together + 1);
   int changed = -1, other = -1;
   for (int pass = 0; pass < most; pass++) {
-    int status = frot_look(m, s, w, t, q, v);
+    int status = frot_evaluate_conditions(m, s, w, t, q, v);
     if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
     int last = decide(m, s, w, d, pass >= together);
     if (last < 0) return FROT_OK;
@@ -219,7 +220,7 @@ int frot_settle_conditions(const frot_model *m, frot_state *s, frot_work *w, dou
   return frot_fail(s, FROT_CHATTER, t, -1, changed, other, FROT_NO_TRUTH);
 }
 
-void frot_find_due(const frot_model *m, frot_state *s, frot_work *w) {
+void frot_find_time_event(const frot_model *m, frot_state *s, frot_work *w) {
   s->due = INFINITY;
   if (m->n_timed == 0) return;
   const double *d = s->data + w->layout.d;
@@ -241,7 +242,7 @@ void frot_find_due(const frot_model *m, frot_state *s, frot_work *w) {
   s->due = last;
 }
 
-void frot_fire_due(const frot_model *m, frot_state *s) {
+void frot_fire_time_event(const frot_model *m, frot_state *s) {
   frot_layout l = frot_layout_of(m);
   const double *due = s->data + l.due;
   double *fired = s->data + l.fired + frot_condition_guard(m) + m->n_located;

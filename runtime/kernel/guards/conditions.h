@@ -15,8 +15,8 @@
 
 /* The values of all conditions at (t, q, v), into w->core.condition; those that read the solution
  * in the present modes. FROT_OK or a status that is not recorded as a fault. */
-int frot_look(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-              const double *v);
+int frot_evaluate_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
+                             const double *q, const double *v);
 
 /* Note the values of the conditions at (t, q, v), before anything happens at this instant: as long
  * as a value stays, so does what is known of its condition. */
@@ -27,7 +27,8 @@ int frot_note_conditions(const frot_model *m, frot_state *s, frot_work *w, doubl
  * through zero: so they hold truly after it, and no root or logarithm is left on the wrong side of
  * its switch. What the switch itself changes in their values may need a little more: as long as
  * before it they are zero to rounding, the instant is not known better. */
-int frot_cross(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q, double *v);
+int frot_pass_conditions(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q,
+                         double *v);
 
 /* Change the conditions that fire. One that is still as near to zero as events are located stays
  * what it has become until its value changes. */
@@ -35,15 +36,15 @@ int frot_change_conditions(const frot_model *m, frot_state *s, frot_work *w, dou
                            const double *q, const double *v);
 
 /* Look at every condition anew with the values at (t, q, v), until none changes. Leaves what
- * `frot_look` gives there in w. FROT_OK or the status of the fault recorded: conditions that
- * change each other without end are FROT_CHATTER. */
+ * `frot_evaluate_conditions` gives there in w. FROT_OK or the status of the fault recorded:
+ * conditions that change each other without end are FROT_CHATTER. */
 int frot_settle_conditions(const frot_model *m, frot_state *s, frot_work *w, double t,
                            const double *q, const double *v);
 
 /* Find the instant at which time next changes a condition, into s->due. */
-void frot_find_due(const frot_model *m, frot_state *s, frot_work *w);
+void frot_find_time_event(const frot_model *m, frot_state *s, frot_work *w);
 
 /* Fire the conditions that time changes at s->due. */
-void frot_fire_due(const frot_model *m, frot_state *s);
+void frot_fire_time_event(const frot_model *m, frot_state *s);
 
 #endif

@@ -7,7 +7,6 @@
 #include "model/sleeping.h"
 #include "guards/conditions.h"
 #include "evaluation/evaluate.h"
-#include "stepping/error_estimate.h"
 #include "model/indexing.h"
 #include "reactions/switching_functions.h"
 #include "methods/right_hand_side.h"
@@ -54,8 +53,8 @@ static double fallen(const frot_model *m, const frot_state *s, const frot_work *
 /* The slope of a guard at the end of its polynomial over h. */
 static double slope_at_end(const double g[7], double h) { return 6 * (g[6] - g[5]) / h; }
 
-double frot_close_to_fall(const frot_model *m, const frot_state *s, const frot_work *w, int k,
-                          double t, double slope) {
+double frot_crossing_level(const frot_model *m, const frot_state *s, const frot_work *w, int k,
+                           double t, double slope) {
   double size = s->data[w->layout.scale_g + w->guards.list[k]];
   if (w->guards.list[k] < frot_condition_guard(m)) return FROT_LOCATED * size;
   return FROT_GUARD_FLOOR * size + 8 * DBL_EPSILON * fabs(t) * fabs(slope);
@@ -79,13 +78,13 @@ static int is_reaction_or_slip(const frot_model *m, const frot_state *s, const f
   return j < m->n_contacts ? modes[j].closed : j < frot_condition_guard(m);
 }
 
-double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int k,
-                           double h, const double g[7]) {
+double frot_crossing_tolerance(const frot_model *m, const frot_state *s, const frot_work *w, int k,
+                               double h, const double g[7]) {
   int j = w->guards.list[k];
   double size = s->data[w->layout.scale_g + j], most = s->data[w->layout.most_g + j];
   double inside = 0, floor = FROT_GUARD_FLOOR * size;
   for (int i = 0; i < 7; i++) inside = fmax(inside, fabs(g[i]));
-  floor += FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
+  floor += FROT_NOISE_MARGIN * frot_guard_rounding(m, s, w, j, h);
   if (size > 0 && size < FADED * most) floor = fmin(floor, FROT_DROWNED * size);
   double slack = fmax(FROT_LOCATED * inside, floor);
   if (!frot_guard_is_force(m, s, w, k) || !(fabs(g[0]) <= slack)) slack = 0;
@@ -93,7 +92,7 @@ double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_
                                                            : slack;
 }
 
-int frot_may_fall(const frot_state *s, const frot_work *w, int rests) {
+int frot_guard_may_cross(const frot_state *s, const frot_work *w, int rests) {
   for (int k = 0; k < w->guards.count; k++) {
     const double *value = w->step.k + w->awake.n + k;
     double least = *value, most = *value;
@@ -108,7 +107,7 @@ int frot_may_fall(const frot_state *s, const frot_work *w, int rests) {
   return 0;
 }
 
-int frot_meets_stages(const frot_state *s, const frot_work *w, double h) {
+int frot_guards_fit_stages(const frot_state *s, const frot_work *w, double h) {
   for (int k = 0; k < w->guards.count; k++) {
     double g[7], largest = s->data[w->layout.most_g + w->guards.list[k]], off = 0;
     frot_guard_polynomial(s, w, k, h, g);
@@ -137,8 +136,8 @@ static int falls_between_stages(const frot_state *s, const frot_work *w, int k, 
   return below <= off;
 }
 
-int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work *w, double t,
-                       double h, double *theta) {
+int frot_first_crossing(const frot_model *m, const frot_state *s, const frot_work *w, double t,
+                        double h, double *theta) {
   int found = -1, conditions = frot_condition_guard(m);
   *theta = FROT_NO_ROOT;
   for (int k = 0; k < w->guards.count; k++) {
@@ -154,9 +153,9 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
          j < conditions && i < 6 && g[i] < 0 && g[i] >= -FROT_LOCATED * size && g[i + 1] > g[i];
          i++)
       g[i] = 0;
-    double slack = frot_slack_of_guard(m, s, w, k, h, g);
+    double slack = frot_crossing_tolerance(m, s, w, k, h, g);
     for (int i = 0; i < 7; i++) g[i] += slack;
-    double floor = FROT_GUARD_FLOOR * size + FROT_NOISE_MARGIN * frot_guard_noise(m, s, w, j, h);
+    double floor = FROT_GUARD_FLOOR * size + FROT_NOISE_MARGIN * frot_guard_rounding(m, s, w, j, h);
     /* next to a jam noise would hide any reversal, but what has no size yet may be all noise */
     if (s->data[w->layout.scale_g + j] > 0) floor = fmin(floor, FROT_DROWNED * size);
     double at = frot_first_fall(g, floor + 8 * DBL_EPSILON * fabs(t) * slope);
@@ -184,14 +183,14 @@ static double *lead(const frot_model *m, const frot_state *s, frot_work *w, doub
 /* Whether a located condition, zero at the start of the step, rises there by the slope. */
 static int rises(const frot_model *m, frot_state *s, frot_work *w, int k, double t, double h) {
   double part = AT_ONCE * h, first = frot_stage(w, 0)[w->awake.n + k], *z = lead(m, s, w, part);
-  if (frot_look(m, s, w, t + part, z, z + m->nq) != FROT_OK) return 0;
+  if (frot_evaluate_conditions(m, s, w, t + part, z, z + m->nq) != FROT_OK) return 0;
   double value =
       frot_condition_value(w, s->data + w->layout.d, w->guards.list[k] - frot_condition_guard(m));
   return value - first > FROT_CONDITION_ZERO * s->data[w->layout.scale_g + w->guards.list[k]];
 }
 
-int frot_seems_to_dip(const frot_model *m, frot_state *s, frot_work *w, int k, double theta,
-                      double t, double h) {
+int frot_may_be_dip(const frot_model *m, frot_state *s, frot_work *w, int k, double theta, double t,
+                    double h) {
   double g[7];
   if (k < 0 || theta > FROT_EARLY) return 0;
   int condition = w->guards.list[k] - frot_condition_guard(m);
@@ -207,7 +206,7 @@ int frot_seems_to_dip(const frot_model *m, frot_state *s, frot_work *w, int k, d
 void frot_fire_at_start(frot_state *s, const frot_work *w, int guard) {
   const frot_layout *l = &w->layout;
   s->data[l->fired + w->guards.list[guard]] = FROT_AT_START;
-  frot_unpack(w, w->step.k, s->data + l->slope);
+  frot_unpack_awake(w, w->step.k, s->data + l->slope);
   s->pending = 1;
 }
 

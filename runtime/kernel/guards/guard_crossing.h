@@ -12,18 +12,18 @@ void frot_guard_polynomial(const frot_state *s, const frot_work *w, int k, doubl
  * moves. There these are what time makes of the loads, exactly, and nothing else shows whether the
  * step has followed them: an estimate of its error is none where it passes over most of a load that
  * is much shorter. */
-int frot_meets_stages(const frot_state *s, const frot_work *w, double h);
+int frot_guards_fit_stages(const frot_state *s, const frot_work *w, double h);
 
 /* Whether a listed guard may fall inside the step whose stages have run: not one that is far from
  * zero in all of them, beside what it changes there; where nothing moves in it (`rests`), not one
  * that time leaves alone. */
-int frot_may_fall(const frot_state *s, const frot_work *w, int rests);
+int frot_guard_may_cross(const frot_state *s, const frot_work *w, int rests);
 
 /* The first listed guard to fall inside the step h from t, the part of the step after which it does
  * in *theta; -1 when none does. A guard that was zero at an event is known no better than its slope
  * times the resolution of time. */
-int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work *w, double t,
-                       double h, double *theta);
+int frot_first_crossing(const frot_model *m, const frot_state *s, const frot_work *w, double t,
+                        double h, double *theta);
 
 /* How far below zero the listed guard k, with these coefficients over h, goes before it has fallen.
  * A force that is zero at the start of the step, to rounding or beside what it is inside as near as
@@ -31,12 +31,12 @@ int frot_falling_guard(const frot_model *m, const frot_state *s, const frot_work
  * it, only that it is clearly below says that it has come to be negative. So it is with what fell
  * to no effect: no instant is known better, and where loads follow a slip within moments (a damper
  * on a light body) it is only beyond it that rest can hold. */
-double frot_slack_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int k,
-                           double h, const double g[7]);
+double frot_crossing_tolerance(const frot_model *m, const frot_state *s, const frot_work *w, int k,
+                               double h, const double g[7]);
 
 /* The value below which the listed guard k, known with that slope in time, has fallen at t. */
-double frot_close_to_fall(const frot_model *m, const frot_state *s, const frot_work *w, int k,
-                          double t, double slope);
+double frot_crossing_level(const frot_model *m, const frot_state *s, const frot_work *w, int k,
+                           double t, double slope);
 
 /* Fire the listed guards that have come to zero together with the first one at the end of the step.
  */
@@ -61,7 +61,7 @@ int frot_condition_at_zero(const frot_model *m, frot_state *s, frot_work *w, int
  * rise again or, of a condition, to rise by the slope at the start. What departs with no
  * acceleration of its own grows so slowly at first that the polynomial of a long step, exact to a
  * part of its largest value, may seem to fall: a shorter step tells. */
-int frot_seems_to_dip(const frot_model *m, frot_state *s, frot_work *w, int k, double theta,
-                      double t, double h);
+int frot_may_be_dip(const frot_model *m, frot_state *s, frot_work *w, int k, double theta, double t,
+                    double h);
 
 #endif

@@ -1,5 +1,5 @@
-/* The passes along the steps of a large tree (articulated.h) in wide numbers: data, factor and scratch are
- * laid out alike. */
+/* The passes along the steps of a large tree (articulated.h) in wide numbers: data, factor and
+ * scratch are laid out alike. */
 #ifndef FROT_ARTICULATED_EXTENDED_H
 #define FROT_ARTICULATED_EXTENDED_H
 

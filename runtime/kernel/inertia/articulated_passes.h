@@ -1,5 +1,5 @@
-/* Passes along the steps of a large tree (articulated.h) that are made in ordinary and in wide numbers:
- * `real` of articulated_step.h. */
+/* Passes along the steps of a large tree (articulated.h) that are made in ordinary and in wide
+ * numbers: `real` of articulated_step.h. */
 #ifndef FROT_ARTICULATED_PASSES_H
 #define FROT_ARTICULATED_PASSES_H
 

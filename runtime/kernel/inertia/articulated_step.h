@@ -1,5 +1,5 @@
-/* One step of a large tree (articulated.h): its data, inertias and wrenches carried towards the ground,
- * motions away from it, and what the freedom of its speeds lets go.
+/* One step of a large tree (articulated.h): its data, inertias and wrenches carried towards the
+ * ground, motions away from it, and what the freedom of its speeds lets go.
  *
  * Written for a width that the compiler knows where they are used, and for numbers `real`: ordinary
  * ones, or where FROT_IN_WIDE is defined wide ones. */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "evaluation/evaluate.h"
+#include "model/calls.h"
 #include "model/island_calls.h"
 #include "numerics/tolerances.h"
 #include "inertia/articulated.h"

@@ -11,28 +11,6 @@
 #include "model/segment.h"
 #include "constraints/redundant_rows.h"
 
-void frot_weigh_stages(const frot_work *w, const double *coefficient, int count, int from, int size,
-                       double sum[FROT_CHUNK]) {
-  const double *slopes = w->step.k + from;
-  int nz = w->layout.nz;
-  if (size == FROT_CHUNK) {
-    double a = 0, b = 0, c = 0, d = 0;
-    for (int k = 0; k < count; k++, slopes += nz) {
-      const double factor = coefficient[k];
-      if (factor == 0) continue;
-      a += factor * slopes[0], b += factor * slopes[1];
-      c += factor * slopes[2], d += factor * slopes[3];
-    }
-    sum[0] = a, sum[1] = b, sum[2] = c, sum[3] = d;
-    return;
-  }
-  for (int j = 0; j < size; j++) {
-    double total = 0;
-    for (int k = 0; k < count; k++) total += coefficient[k] * slopes[k * nz + j];
-    sum[j] = total;
-  }
-}
-
 /* z <- z0 + h * (sum of coefficient[k] times stage k < count), for the awake states. */
 static void move(const frot_work *w, const double *coefficient, int count, double h, double *z) {
   const int *states = w->awake.now->states;
@@ -117,7 +95,7 @@ static void follow_from(frot_work *w, double t, const double *along, const doubl
     memcpy(w->reactions.along + at, along + at, 2 * sizeof(double));
   }
   w->reactions.follow = 1, w->reactions.warm = 0;
-  frot_begin_friction(w, t, friction);
+  frot_begin_friction_history(w, t, friction);
 }
 
 int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
@@ -131,7 +109,7 @@ int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, 
     int measured = s->measured;
     w->step.little = 0;
     status = run_once(m, s, w, t, h, loops, &reached);
-    if (!loops || !frot_find_crossings(m, s, w, t, h, reached, pass)) return status;
+    if (!loops || !frot_find_singular_postures(m, s, w, t, h, reached, pass)) return status;
     if (s->measured != measured) pass = -1;
     memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)frot_width(w));
   }
@@ -188,16 +166,17 @@ static int run_last(const frot_model *m, frot_state *s, frot_work *w, const frot
   return FROT_OK;
 }
 
-void frot_look_inside(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g) {
+void frot_complete_dense_output(const frot_model *m, frot_state *s, frot_work *w,
+                                const frot_segment *g) {
   int implicit = s->implicit, guards = w->guards.count;
   long long evaluations = s->statistics.evaluations;
   s->implicit = w->guards.count = 0;
   follow_from(w, *g->t0, g->along, g->friction);
-  frot_follow_spare(m, w, g->spare);
+  frot_use_redundant_rows(m, w, g->spare);
   frot_make_cubic(w, *g->h);
   if (run_last(m, s, w, g) == FROT_OK) make_vectors(w, *g->h);
   frot_keep_dense(w, g);
-  frot_see_anew(w);
+  frot_forget_redundant_rows(w);
   w->reactions.follow = 0;
   s->implicit = implicit, w->guards.count = guards, s->statistics.evaluations = evaluations;
 }

@@ -7,21 +7,7 @@
 #ifndef FROT_DORMAND_PRINCE_H
 #define FROT_DORMAND_PRINCE_H
 
-#include "model/workspace.h"
-
-#define FROT_CHUNK 4 /* values summed together, in registers */
-
-/* The slope (nz) of stage i. */
-static inline double *frot_stage(const frot_work *w, int i) { return w->step.k + i * w->layout.nz; }
-
-/* Values integrated together: the awake states (sleeping.h) and, from w->awake.n on, the guards
- * listed. Slopes and vectors of the dense output hold these, packed. */
-static inline int frot_width(const frot_work *w) { return w->awake.n + w->guards.count; }
-
-/* sum[j] <- sum of coefficient[k] times stage k < count of the value from + j, j < size <=
- * FROT_CHUNK. */
-void frot_weigh_stages(const frot_work *w, const double *coefficient, int count, int from, int size,
-                       double sum[FROT_CHUNK]);
+#include "model/stage_slopes.h"
 
 /* Stages 1 .. DP_STAGES of the step h, stage 0 being there; w->step.y_end becomes the unknowns of
  * the blocks at the end. Where a stage fails, w->step.z1 is its argument. FROT_OK or a status that
@@ -47,6 +33,7 @@ int frot_needs_inside(const frot_model *m, const frot_state *s);
  * of the run: neither these evaluations are counted nor does the motion depend on them. Next to a
  * place beyond which there is no motion they may lie beyond that: then the cubic has to do, which
  * is as short there as its ends are near. */
-void frot_look_inside(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g);
+void frot_complete_dense_output(const frot_model *m, frot_state *s, frot_work *w,
+                                const frot_segment *g);
 
 #endif

@@ -6,6 +6,10 @@
 
 #include "methods/jacobian.h"
 
+/* What noise of slopes makes of speeds in the stages, and these of the error of a coordinate, over
+ * what it makes of that of a speed: |e' A| / |e| of the method of order eight. */
+#define BY_STAGES 4
+
 /* Size of a small state at most, in units of the largest of its dimension. */
 #define SMALL_PART 1e-2
 /* Part of what a state had at most that it is always worth. */
@@ -141,7 +145,7 @@ void frot_raise_small(const frot_model *m, const frot_state *s, frot_work *w, do
       w->sizes.own[j] = SMALL_PART * w->sizes.alike[m->q_alike[j]];
 }
 
-void frot_note_worth(frot_state *s, const frot_work *w, const double *z) {
+void frot_update_state_sizes(frot_state *s, const frot_work *w, const double *z) {
   double *worth = s->data + w->layout.worth;
   for (int i = 0; i < w->sizes.count; i++) {
     int j = w->sizes.states[i];
@@ -151,10 +155,17 @@ void frot_note_worth(frot_state *s, const frot_work *w, const double *z) {
   }
 }
 
-void frot_hold_worth(frot_state *s, const frot_work *w) {
+void frot_keep_state_sizes(frot_state *s, const frot_work *w) {
   double *worth = s->data + w->layout.worth;
   for (int i = 0; i < w->sizes.count; i++) {
     int j = w->sizes.states[i];
     if (isfinite(w->sizes.change[j])) worth[j] = larger(worth[j], w->sizes.change[j]);
   }
+}
+
+double frot_rate_rounding(const frot_model *m, const frot_state *s, const frot_work *w, int state,
+                          double h) {
+  const double *noise = s->data + w->layout.noise;
+  if (state >= m->nq || m->q_speed[state] < 0) return noise[state];
+  return noise[state] + BY_STAGES * fabs(h) * noise[m->nq + m->q_speed[state]];
 }

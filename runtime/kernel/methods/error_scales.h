@@ -38,10 +38,14 @@ void frot_raise_small(const frot_model *m, const frot_state *s, frot_work *w, do
                       int by_slopes);
 
 /* What the states are worth after a step to z (nq). */
-void frot_note_worth(frot_state *s, const frot_work *w, const double *z);
+void frot_update_state_sizes(frot_state *s, const frot_work *w, const double *z);
 
 /* A step that failed again and again shows by w->sizes.change what its states will soon be: they
  * are worth that, however much shorter it becomes. */
-void frot_hold_worth(frot_state *s, const frot_work *w);
+void frot_keep_state_sizes(frot_state *s, const frot_work *w);
+
+/* What rounding does to a state's rate in a step h: a coordinate is no better than its speed. */
+double frot_rate_rounding(const frot_model *m, const frot_state *s, const frot_work *w, int state,
+                          double h);
 
 #endif

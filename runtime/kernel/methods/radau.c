@@ -5,7 +5,6 @@
 
 #include "numerics/dense_complex.h"
 #include "singular/singular_posture.h"
-#include "stepping/error_estimate.h"
 #include "methods/jacobian.h"
 #include "methods/right_hand_side.h"
 #include "numerics/radau_table.h"
@@ -160,7 +159,7 @@ static double size_of_change(const frot_model *m, const frot_state *s, const fro
       size = fmax(size, fabs(row(w, FROT_RADAU_MOVED + i)[k]));
       change = fmax(change, fabs(sum));
     }
-    change -= FROT_NOISE_MARGIN * h * frot_noise_of_rate(m, s, w, k, h);
+    change -= FROT_NOISE_MARGIN * h * frot_rate_rounding(m, s, w, k, h);
     if (change <= 0) continue;
     if (!(change <= largest * fmax(size, change))) largest = change / fmax(size, change);
     if (isnan(largest)) break;

@@ -21,8 +21,8 @@ size_t frot_radau_doubles(const frot_model *m);
 size_t frot_radau_integers(const frot_model *m);
 
 /* The step h with the Jacobian in place. FROT_OK, FROT_POSTURE where rows of a loop become
- * dependent in it or soon after, so that the explicit method has to pass (singular_posture.h), or a status
- * for which a shorter step is the remedy. */
+ * dependent in it or soon after, so that the explicit method has to pass (singular_posture.h), or a
+ * status for which a shorter step is the remedy. */
 int frot_radau_stages(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 
 /* Vectors of the dense output of states and energies into w->step.f.

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "singular/singular_posture.h"
-#include "stepping/error_estimate.h"
 #include "methods/jacobian.h"
 #include "methods/right_hand_side.h"
 #include "methods/radau.h"
@@ -136,7 +135,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
   for (int k = 0; k < frot_order(m); k++) {
     if (error[k] == 0) continue;
     double bound = fmax(tolerance * w->sizes.own[k], DBL_MIN);
-    double noise = frot_noise_of_rate(m, s, w, k, h);
+    double noise = frot_rate_rounding(m, s, w, k, h);
     double rounding = noise > 0 ? FROT_NOISE_OF_RATES * h * noise / damping[k] : 0;
     int plain = k < m->nq && m->q_speed[k] < 0;
     w->step.pardoned |= plain && fabs(error[k]) > bound && fabs(error[k]) <= rounding;

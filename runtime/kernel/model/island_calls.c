@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "evaluation/evaluate.h"
+#include "model/calls.h"
 
 /* Where the results of an island lie in w->awake.values, in the order of its tables. */
 typedef struct {

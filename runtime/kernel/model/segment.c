@@ -36,7 +36,7 @@ void frot_make_instant(const frot_model *m, frot_state *s, frot_work *w, double 
                        const double *x) {
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
-  frot_wake_state(m, s, w);
+  frot_wake_all_islands(m, s, w);
   s->last_ratio = s->failed_h = 0, s->noise_shown = 0, s->noise_level = 1;
   *g.t0 = *g.t1 = t;
   *g.h = 0;
@@ -83,5 +83,5 @@ void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, doub
 
 void frot_keep_dense(const frot_work *w, const frot_segment *g) {
   for (int i = 0; i < DP_DENSE; i++)
-    frot_unpack(w, w->step.f + i * w->layout.nz, g->f + i * w->layout.nx);
+    frot_unpack_awake(w, w->step.f + i * w->layout.nz, g->f + i * w->layout.nx);
 }

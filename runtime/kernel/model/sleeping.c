@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#include "evaluation/evaluate.h"
+#include "model/calls.h"
 #include "model/indexing.h"
-#include "methods/dormand_prince.h"
+#include "model/stage_slopes.h"
 
 /* Fill the lists; `asleep` may be NULL. */
 static void fill(const frot_model *m, frot_work *w, frot_awake_lists *a, const double *asleep) {
@@ -37,10 +37,10 @@ static void fill(const frot_model *m, frot_work *w, frot_awake_lists *a, const d
     if (condition[j]) a->located[a->n_located++] = j;
 }
 
-void frot_list_all(const frot_model *m, frot_work *w) {
+void frot_list_all_islands(const frot_model *m, frot_work *w) {
   fill(m, w, &w->awake.all, NULL);
   w->awake.known = 0;
-  frot_wake(w);
+  frot_leave_sleep(w);
 }
 
 /* The lists in use: all, or those of a step. */
@@ -50,16 +50,16 @@ static void use(frot_work *w, const frot_awake_lists *a) {
   if (a == &w->awake.all) w->awake.filled = 1;
 }
 
-void frot_wake(frot_work *w) { use(w, &w->awake.all); }
+void frot_leave_sleep(frot_work *w) { use(w, &w->awake.all); }
 
-void frot_sleep_as(const frot_model *m, frot_work *w, const double *asleep) {
+void frot_restore_sleep(const frot_model *m, frot_work *w, const double *asleep) {
   fill(m, w, &w->awake.some, m->n_islands > 0 ? asleep : NULL);
   w->awake.known = 0;
   use(w, &w->awake.some);
 }
 
-void frot_look_at_some(frot_work *w, const int *islands, int n_islands, const int *groups,
-                       int n_groups) {
+void frot_restrict_to_islands(frot_work *w, const int *islands, int n_islands, const int *groups,
+                              int n_groups) {
   frot_awake_lists *a = &w->awake.some;
   memcpy(a->islands, islands, sizeof *islands * (size_t)n_islands);
   memcpy(a->groups, groups, sizeof *groups * (size_t)n_groups);
@@ -69,7 +69,7 @@ void frot_look_at_some(frot_work *w, const int *islands, int n_islands, const in
   use(w, a);
 }
 
-void frot_let_sleep(const frot_model *m, const frot_state *s, frot_work *w) {
+void frot_enter_sleep(const frot_model *m, const frot_state *s, frot_work *w) {
   if (s->asleep == 0) return;
   w->awake.filled = w->awake.known != s->asleep;
   if (w->awake.filled) fill(m, w, &w->awake.some, s->data + w->layout.asleep);
@@ -77,7 +77,7 @@ void frot_let_sleep(const frot_model *m, const frot_state *s, frot_work *w) {
   use(w, &w->awake.some);
 }
 
-void frot_wake_state(const frot_model *m, frot_state *s, frot_work *w) {
+void frot_wake_all_islands(const frot_model *m, frot_state *s, frot_work *w) {
   w->awake.known = 0;
   if (s->asleep == 0) return;
   memset(s->data + frot_layout_of(m).asleep, 0, sizeof(double) * (size_t)m->n_islands);
@@ -87,8 +87,8 @@ void frot_wake_state(const frot_model *m, frot_state *s, frot_work *w) {
 
 void frot_wake_within_step(const frot_model *m, frot_state *s, frot_work *w) {
   if (s->asleep == 0) return;
-  frot_wake_state(m, s, w);
-  frot_wake(w);
+  frot_wake_all_islands(m, s, w);
+  frot_leave_sleep(w);
   s->has_slope = 0; /* other guards are listed */
 }
 
@@ -127,7 +127,7 @@ static void mark_falling(const frot_model *m, const frot_work *w, unsigned char 
   }
 }
 
-int frot_note_still_at_start(const frot_model *m, frot_state *s, frot_work *w) {
+int frot_note_resting_islands_at_start(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   const double *slope = frot_stage(w, 0);
   unsigned char *falls = w->awake.group;
@@ -151,7 +151,7 @@ int frot_note_still_at_start(const frot_model *m, frot_state *s, frot_work *w) {
   return let_sleep(s, found);
 }
 
-int frot_note_still(const frot_model *m, frot_state *s, frot_work *w, const double *x) {
+int frot_note_resting_islands(const frot_model *m, frot_state *s, frot_work *w, const double *x) {
   const frot_awake_lists *now = w->awake.now;
   const double *start = frot_stage(w, 0), *end = frot_stage(w, DP_STAGES);
   double *asleep = s->data + w->layout.asleep;
@@ -175,7 +175,7 @@ int frot_note_still(const frot_model *m, frot_state *s, frot_work *w, const doub
   return let_sleep(s, found);
 }
 
-void frot_unpack(const frot_work *w, const double *packed, double *all) {
+void frot_unpack_awake(const frot_work *w, const double *packed, double *all) {
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n; k++) all[now->states[k]] = packed[k];
 }
@@ -185,7 +185,7 @@ void frot_copy_awake(const frot_work *w, const double *from, double *to) {
   for (int k = 0; k < now->n; k++) to[now->states[k]] = from[now->states[k]];
 }
 
-void frot_pack(const frot_work *w, const double *all, double *packed) {
+void frot_pack_awake(const frot_work *w, const double *all, double *packed) {
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n; k++) packed[k] = all[now->states[k]];
 }

@@ -41,13 +41,13 @@ struct frot_state {
   unsigned long long size; /* bytes of the block */
   char key[FROT_KEY];
   int phase;
-  int pending;     /* an event waits at the end of the current segment */
-  int has_slope;   /* slope holds the derivatives at the end of the current segment */
-  int changed;     /* parameters or inputs were set since the last frot_settle */
-  int crowded;     /* events since the time last moved on */
-  int idle;        /* the last of them that changed nothing, in a row: guard_crossing.h */
-  int fleeting;    /* the contact at which no motion lasts at the last event, or -1 */
-  int second;      /* the contact whose figures meet at another place too, or -1: closest_features.h */
+  int pending;   /* an event waits at the end of the current segment */
+  int has_slope; /* slope holds the derivatives at the end of the current segment */
+  int changed;   /* parameters or inputs were set since the last frot_settle */
+  int crowded;   /* events since the time last moved on */
+  int idle;      /* the last of them that changed nothing, in a row: guard_crossing.h */
+  int fleeting;  /* the contact at which no motion lasts at the last event, or -1 */
+  int second; /* the contact whose figures meet at another place too, or -1: closest_features.h */
   long long told;  /* events that changed something before that */
   int jammed;      /* the group without reactions beyond jammed_at, -1 once it has other modes */
   int jumped;      /* the last event of the text moved coordinates or speeds */
@@ -56,10 +56,12 @@ struct frot_state {
   int naps;        /* times that this has changed */
   int kept_naps;   /* the same when the whole segment was kept, and not what is awake alone */
   double foreseen; /* the nearest singular posture, as the last step shows it, or INFINITY */
-  int spare_loops; /* rows of loops are left out, others may be at the next start: redundant_rows.h */
+  int spare_loops; /* rows of loops are left out, others may be at the next start: redundant_rows.h
+                    */
   int measured;    /* rows of loops are measured beside all others: singular_posture.c */
   int weak;        /* rows of loops are weak: singular_posture.h */
-  int tied; /* stages are put onto the relations of loops: singular_posture.h; < 0: not for some steps */
+  int tied; /* stages are put onto the relations of loops: singular_posture.h; < 0: not for some
+               steps */
   int from_posture; /* the first step begins in one, on a way that its speeds say: tangent_cone.h */
   double across;    /* error, to its bound, of the last step that tried to pass a posture ahead */
   int no_better;    /* times in a row that the next was none, posture_passage.c */
@@ -118,7 +120,8 @@ typedef struct {
 } frot_segment;
 
 /* A recorded segment begins with its length, how far before it, in doubles, one stands by itself
- * that holds what it lacks: 0 where it does so itself, and what it tells of its inside: segment_store.h. */
+ * that holds what it lacks: 0 where it does so itself, and what it tells of its inside:
+ * segment_store.h. */
 #define FROT_RECORD_HEAD 3
 
 /* Times that differ by less are one instant: both are sums, rounded in different ways. */

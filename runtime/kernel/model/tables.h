@@ -4,6 +4,9 @@
 #ifndef FROT_TABLES_H
 #define FROT_TABLES_H
 
+#include "numerics/extended_precision.h"
+#include "numerics/sparse_pattern.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -16,13 +19,7 @@ typedef struct {
   int n_arg, n_res, n_iw, n_w;
 } frot_callable;
 
-/* Numbers of twice the digits, for what is lost beside large ones; where a compiler has none, the
- * widest it has. A generated function in them: its arguments are of ordinary width. */
-#ifdef __SIZEOF_FLOAT128__
-typedef __float128 frot_wide;
-#else
-typedef long double frot_wide;
-#endif
+/* A generated function in extended precision: its arguments are of ordinary width. */
 typedef int (*frot_wide_function)(const double **arg, frot_wide **res, long long *iw, frot_wide *w,
                                   int mem);
 typedef struct {
@@ -80,8 +77,8 @@ typedef struct {
 
 /* A step of a large tree of bodies: the step before it or -1, its speeds among the unknowns of its
  * group. `auxiliary`: they are zero in the motion. `faces_ground`: what is beyond keeps its
- * orientation whatever carries it. Its parts of the group's matrix, which are what articulated.h says, and
- * of its factor begin at `data` and `factor`. Steps stand after those before them. */
+ * orientation whatever carries it. Its parts of the group's matrix, which are what articulated.h
+ * says, and of its factor begin at `data` and `factor`. Steps stand after those before them. */
 typedef struct {
   int above, first, count, auxiliary, faces_ground, data, factor;
 } frot_link;
@@ -213,8 +210,8 @@ typedef struct {
  * these unknowns are as they are and not as d says, none where there are none. `linear`: r is
  * linear in its own unknowns. `late`: it reads z, the accelerations, or the reactions, and is
  * solved after them; it then takes the two arguments more. `followed`: the unknowns say where
- * figures touch; which of several places counts is decided by closest_features.c. Blocks are solved in order,
- * the late ones last in the list; their unknowns lie in y in the same order. */
+ * figures touch; which of several places counts is decided by closest_features.c. Blocks are solved
+ * in order, the late ones last in the list; their unknowns lie in y in the same order. */
 typedef struct {
   frot_callable residual, switching;
   int first, count, linear, late, followed;
@@ -246,16 +243,6 @@ typedef struct {
 
 /* Which integrator a run takes; FROT_AUTO changes between the two. */
 enum frot_method { FROT_AUTO = 0, FROT_EXPLICIT = 1, FROT_IMPLICIT = 2 };
-
-/* Pattern of a Jacobian J (n x n) and of the factors L + U of shift I - J, whose row and column k
- * are those of state order[k]. Row k of the factors has the columns column[start[k]] .. up to
- * start[k + 1], ascending; its diagonal stands at diagonal[k]. Entry e of J is in row entry_row[e]
- * and column entry_column[e], and goes to place[e] of the factors. n = 0: the matrix is dense. */
-typedef struct {
-  int n, entries;
-  const int *order, *start, *column, *diagonal;
-  const int *entry_row, *entry_column, *place;
-} frot_pattern;
 
 /* What the function `jacobian` of a motion gives: derivatives of lines, in q, v and the unknowns y
  * of the early blocks. The lines are those of owners in order: q' (nq), then of each group A z - E

@@ -23,8 +23,8 @@ typedef struct {
   int *states, *islands, *groups, *contacts, *elements, *located;
 } frot_awake_lists;
 
-/* island_calls.h: what an island's groups have together, where their parts of packed arrays begin, and
- * the items of these. */
+/* island_calls.h: what an island's groups have together, where their parts of packed arrays begin,
+ * and the items of these. */
 typedef struct {
   int unknowns, rows, contacts, elements, given;
   int matrix, entries, metric;
@@ -44,10 +44,10 @@ typedef struct {
   double *values;
 } frot_awake_work;
 
-/* algebraic_loops.h: y is the guess before, the solution after; the block that failed last, or -1, and
- * whether it was singular. Solutions are `shaken` by that part of themselves, up or down by bit
- * `pattern` of their index: error_estimate.h. If `some` is not NULL, of those that are not late only these
- * are solved; `within` a step. The rest is the system of one block. */
+/* algebraic_loops.h: y is the guess before, the solution after; the block that failed last, or -1,
+ * and whether it was singular. Solutions are `shaken` by that part of themselves, up or down by bit
+ * `pattern` of their index: error_estimate.h. If `some` is not NULL, of those that are not late
+ * only these are solved; `within` a step. The rest is the system of one block. */
 typedef struct {
   double *y, shaken;
   int failed, singular, pattern, unwanted, within, n_some;
@@ -56,9 +56,9 @@ typedef struct {
   int *pivot;
 } frot_block_work;
 
-/* evaluate.h: results of `dynamics`, `kinematics` and `spread` at t and at what was given last as q, v,
- * d (NULL before); the inertia, packed by groups (of a mass matrix the Cholesky factor L of the
- * metric, L^-1 h, L^-1 J'; of a general core LU of A, A^-1 h, A^-1 E); what it does to the rows
+/* evaluate.h: results of `dynamics`, `kinematics` and `spread` at t and at what was given last as
+ * q, v, d (NULL before); the inertia, packed by groups (of a mass matrix the Cholesky factor L of
+ * the metric, L^-1 h, L^-1 J'; of a general core LU of A, A^-1 h, A^-1 E); what it does to the rows
  * wanted, and of which groups what these do to each other is there (formed, n_groups); sizes of all
  * loads and of what they do, and of the terms of c (bias_size, n_rows); reactions lam (n_rows) and
  * the solution a (nw). Of each row where it is not zero in every posture (reach, 2 n_rows: from,
@@ -81,9 +81,9 @@ typedef struct {
   double *inertia, *twist, *motion, *momenta;
 } frot_core_work;
 
-/* extended_inertia.h: results of `wide`, the inertia as in evaluate.h, and the island that they are of; which
- * groups were found so in the last evaluation (of, n_groups). Scratch: loads and rows as the
- * function gives them, its own scratch, of large trees inertia and twist. All absent where no
+/* extended_inertia.h: results of `wide`, the inertia as in evaluate.h, and the island that they are
+ * of; which groups were found so in the last evaluation (of, n_groups). Scratch: loads and rows as
+ * the function gives them, its own scratch, of large trees inertia and twist. All absent where no
  * function is. */
 typedef struct {
   int island;
@@ -95,10 +95,11 @@ typedef struct {
 /* No island, nor the whole (-1). */
 enum { FROT_NO_ISLAND = -2 };
 
-/* friction_fixed_point.c: a friction, the entries of its row and where these are not zero (from, to), its ratio to
- * what bounds it. Of one that follows readings, where these stand among the unknowns of the group
- * (at: a pin's two, else one and -1) and what loads make of them; what a pass makes of them, of the
- * size of the reaction and of the friction; one over the size of its terms. */
+/* friction_fixed_point.c: a friction, the entries of its row and where these are not zero (from,
+ * to), its ratio to what bounds it. Of one that follows readings, where these stand among the
+ * unknowns of the group (at: a pin's two, else one and -1) and what loads make of them; what a pass
+ * makes of them, of the size of the reaction and of the friction; one over the size of its terms.
+ */
 typedef struct {
   double *friction;
   const double *entries;
@@ -120,7 +121,8 @@ typedef struct {
   double *fold_ratio, *ratio, *along, *unit_of, *weight, *solution;
   double *known, *effects;
   frot_follower *followers;
-  double *rate;            /* n_groups: what a pass of friction_fixed_point.c leaves of a change, in the step */
+  double
+      *rate; /* n_groups: what a pass of friction_fixed_point.c leaves of a change, in the step */
   double *noted, *instant; /* friction_predictor.c: n_elements and n_groups times FROT_INSTANTS */
   int *instants;           /* of each group, how many of them */
   int dependent, *sign;    /* sign (n_groups): of the determinant, 0 where there is none */
@@ -176,47 +178,47 @@ typedef struct {
   int *own, *rows, *number;        /* own: in order, start_parts.c; number: frot_number_here */
   frot_turn *turns;                /* of the part, among its unknowns */
   unsigned char *state, *chosen;   /* of unknowns, of equations: sequential_guesses.c */
-  unsigned char *left_out, *kept;  /* left_out: equations, start_equations.c; kept: gauss_newton.c */
-  double *descent, *multiplier;    /* tangent_newton.c */
-  int *contact_of;                 /* of each equation that is a relation of a contact: which */
-  double *start, *second;          /* start_branch.c: speeds */
+  unsigned char *left_out, *kept; /* left_out: equations, start_equations.c; kept: gauss_newton.c */
+  double *descent, *multiplier;   /* tangent_newton.c */
+  int *contact_of;                /* of each equation that is a relation of a contact: which */
+  double *start, *second;         /* start_branch.c: speeds */
   double *first; /* initial_values.c: q, y and the sides of the place found first, its `use` */
   unsigned char *first_use;
   double *outside; /* contact_sides.c: q, y twice */
 } frot_opening_work;
 
-/* closest_features.h: where searches begin, the places found; gaps at the end of the step; flags of the
- * conditions with the places found, and as they were; which contacts are nearer elsewhere (-1: on
- * the other side), how many. */
+/* closest_features.h: where searches begin, the places found; gaps at the end of the step; flags of
+ * the conditions with the places found, and as they were; which contacts are nearer elsewhere (-1:
+ * on the other side), how many. */
 typedef struct {
   double *begin, *y, *far, *flags, *kept;
   signed char *changed;
   int count;
 } frot_nearer_work;
 
-/* switching_functions.h: those that can fall in the modes, the sizes of their terms, what a step that failed
- * again and again showed them to be (error_estimate.h), the size of all that moves each group; pins'
- * reactions (2 n_elements), friction (n_elements) and the kinetic energy at the end of a step
- * (step_ends.h). */
+/* switching_functions.h: those that can fall in the modes, the sizes of their terms, what a step
+ * that failed again and again showed them to be (error_estimate.h), the size of all that moves each
+ * group; pins' reactions (2 n_elements), friction (n_elements) and the kinetic energy at the end of
+ * a step (step_ends.h). */
 typedef struct {
   int *list, count;
   double *size, *shown, *motion, *end_reaction, *end_friction, end_kinetic;
 } frot_guard_work;
 
-/* dormand_prince.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones at the
- * stage that runs, unknowns of the blocks at the end, dense output f (DP_DENSE x nz); the state
- * whose error is the worst, or -1, and what part of that rounding may be, whether one passes for
- * rounding alone (error_estimate.h); posture_rounding.h. Between
- * steps z1 and z are scratch. singular_posture.h: what is left of each row in each stage ((DP_STAGES + 1) x
- * n_rows) and its first direction; the slope at the start, what is doubtful in slopes near
- * postures, and excused in errors; errors of speeds that are beyond their bounds, else 0 (nv), and
- * whether one is; the parameters while rounding_noise.c moves them. */
+/* dormand_prince.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones
+ * at the stage that runs, unknowns of the blocks at the end, dense output f (DP_DENSE x nz); the
+ * state whose error is the worst, or -1, and what part of that rounding may be, whether one passes
+ * for rounding alone (error_estimate.h); posture_rounding.h. Between steps z1 and z are scratch.
+ * singular_posture.h: what is left of each row in each stage ((DP_STAGES + 1) x n_rows) and its
+ * first direction; the slope at the start, what is doubtful in slopes near postures, and excused in
+ * errors; errors of speeds that are beyond their bounds, else 0 (nv), and whether one is; the
+ * parameters while rounding_noise.c moves them. */
 typedef struct {
   double *left, *direction, *first, *doubt, *excused, *beyond, *motion, *parameters;
   unsigned char *near;
-  int little; /* little is left of one in a stage, singular_posture.c */
-  int *order,
-      *ordered; /* singular_posture.h: rows of loops as they are measured, and how many a group has */
+  int little;           /* little is left of one in a stage, singular_posture.c */
+  int *order, *ordered; /* singular_posture.h: rows of loops as they are measured, and how many a
+                           group has */
   double *k, *z0, *z1, *z, *y_end, *f;
   int worst, rounded, pardoned;
   double noisy, turning;
@@ -242,12 +244,12 @@ typedef struct {
   double *discrete, *discrete_before, *held, *normals;
 } frot_event_work;
 
-/* The search for modes (enumeration.h, admissible.c, slip_lookahead.c, box_qp.c, resolve.c): modes tried, found
- * and before, those that may be closed at the instant; of contacts: which are decided; of elements:
- * whose motion is zero or at rest, where it would go, and which slips no acceleration starts; of
- * both: what is left of their inequalities where that is little, the rates of coordinates, and
- * accelerations of a little later (persistence.c); of both twice: by how much they do not hold
- * (load_sharing_vertices.c); the states before they were settled. */
+/* The search for modes (enumeration.h, admissible.c, slip_lookahead.c, box_qp.c, resolve.c): modes
+ * tried, found and before, those that may be closed at the instant; of contacts: which are decided;
+ * of elements: whose motion is zero or at rest, where it would go, and which slips no acceleration
+ * starts; of both: what is left of their inequalities where that is little, the rates of
+ * coordinates, and accelerations of a little later (persistence.c); of both twice: by how much they
+ * do not hold (load_sharing_vertices.c); the states before they were settled. */
 typedef struct {
   frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner, *idle, *found, *slack,
       *closable;
@@ -263,13 +265,14 @@ typedef struct {
   int falls;      /* 1 + what falls later by no more than slack admits, or what begins and does not
                      grow, in the motion looked at last, 0: persistence.c */
   int fades;      /* the same of `best` */
-  int against;    /* elements that a little later go against what was last found good: slip_lookahead.c */
-  int corners;    /* that may still be looked at in this search: load_sharing_vertices.c */
+  int against; /* elements that a little later go against what was last found good: slip_lookahead.c
+                */
+  int corners; /* that may still be looked at in this search: load_sharing_vertices.c */
 } frot_search_work;
 
-/* load_sharing_lp.c: the tableau and its basic columns; the columns as they were, whose they are; of contacts
- * whether they are read; growth of the loads where all rests (nw); a normal reaction with the
- * friction that goes with it; the modes before. */
+/* load_sharing_lp.c: the tableau and its basic columns; the columns as they were, whose they are;
+ * of contacts whether they are read; growth of the loads where all rests (nw); a normal reaction
+ * with the friction that goes with it; the modes before. */
 typedef struct {
   double *tableau, *columns, *growth, *normal;
   int *basic, *contact;

@@ -193,7 +193,7 @@ int frot_must_press(const frot_instant *in, int i) {
   return frot_sign_matters(in->m, in->w->search.trial, i) && !frot_all_held(in, i);
 }
 
-void frot_turn_side(const frot_instant *in, int i) {
+void frot_flip_normal_sign(const frot_instant *in, int i) {
   const frot_model *m = in->m;
   frot_contact_mode *trial = in->w->search.trial;
   trial[i].side = (signed char)-trial[i].side;
@@ -217,7 +217,7 @@ static int contact_is_admissible(const frot_instant *in, int i) {
   if (mode->unloaded) return is_still(in, row) && is_carried(in, row);
   /* held all round, the side follows from the reaction */
   if (in->unilateral[i] == 0 && frot_all_held(in, i) && mode->side * in->w->core.lam[row] < 0)
-    frot_turn_side(in, i);
+    frot_flip_normal_sign(in, i);
   if (in->unilateral[i] == 0 && !frot_sign_matters(in->m, in->w->search.trial, i)) return 1;
   return frot_pressure(in, i) >= -FROT_BOUND_SLACK;
 }

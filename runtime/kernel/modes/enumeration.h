@@ -70,7 +70,7 @@ int frot_must_press(const frot_instant *in, int contact);
 
 /* The side of a contact that its reaction presses on is the other: friction at its bound, whose
  * line goes through zero with the reaction, turns with it. */
-void frot_turn_side(const frot_instant *in, int contact);
+void frot_flip_normal_sign(const frot_instant *in, int contact);
 
 /* What is left of an inequality of w->search.trial, over the size of its terms, negative where it
  * does not hold: of a contact that presses or parts, of an element that rests or starts to slip; 1
@@ -79,8 +79,8 @@ double frot_margin_of_contact(const frot_instant *in, int contact);
 double frot_margin_of_element(const frot_instant *in, int element);
 
 /* Whether the motion of w->search.trial, which frot_is_admissible has found good, lasts: what is
- * zero in it at the instant is not past its bound a little later (persistence.c). Gives a reaction that
- * may have either sign the one it has then. */
+ * zero in it at the instant is not past its bound a little later (persistence.c). Gives a reaction
+ * that may have either sign the one it has then. */
 int frot_lasts(const frot_instant *in, const int *chosen, int count);
 
 /* Whether the group is at rest, but for what loads bring in a rounding of time, and the
@@ -88,7 +88,8 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count);
 int frot_group_rests(const frot_instant *in, const frot_group *g);
 
 /* Whether the group, which rests at the instant, starts to move in w->search.trial as loads grow;
- * then w->core.a are its accelerations a little later, all else is at the instant (persistence.c). */
+ * then w->core.a are its accelerations a little later, all else is at the instant (persistence.c).
+ */
 int frot_sets_out(const frot_instant *in, const frot_group *g);
 
 /* Share the load of w->search.trial among the contacts `chosen` and their stuck elements, so that
@@ -98,7 +99,8 @@ int frot_sets_out(const frot_instant *in, const frot_group *g);
 enum frot_share { FROT_SHARE_UNKNOWN, FROT_NO_SHARE, FROT_SHARED };
 enum frot_share frot_share_load(const frot_instant *in, const int *chosen, int count);
 /* The same for the load and the place a little later, as the modes move on there: a share that
- * holds now may have an edge that is zero and falls. Returns whether it is shared (persistence.c). */
+ * holds now may have an edge that is zero and falls. Returns whether it is shared (persistence.c).
+ */
 int frot_share_later(const frot_instant *in, const int *chosen, int count);
 /* Whether the contacts, all at rest before the instant, stay so with their load shared in another
  * way; then these modes are in w->search.best. */

@@ -1,10 +1,11 @@
 /* Reactions that are not unique: which elements are at their bounds and which contacts carry
  * nothing, so that the others carry the load.
  *
- * Where friction is bounded by cones of reactions that press, a linear program says it (load_sharing_lp.c).
- * Else the worst is put at its bound until none is left, and where that leads nowhere each is
- * tried: the reactions that hold a load are a body with edges, and where it is not empty it has a
- * corner, at which as many inequalities are equalities as reactions are not unique. */
+ * Where friction is bounded by cones of reactions that press, a linear program says it
+ * (load_sharing_lp.c). Else the worst is put at its bound until none is left, and where that leads
+ * nowhere each is tried: the reactions that hold a load are a body with edges, and where it is not
+ * empty it has a corner, at which as many inequalities are equalities as reactions are not unique.
+ */
 #include <math.h>
 #include <string.h>
 

@@ -173,7 +173,7 @@ static int still_holds(const frot_instant *in, const int *chosen, int count, int
     if (margin[i] < 1) {
       double now = frot_margin_of_contact(in, i);
       if (now < 0 && mode->closed && in->unilateral[i] == 0 && frot_all_held(in, i)) {
-        if (margin[i] <= FROT_ZERO && !has_turned(in, i)) frot_turn_side(in, i);
+        if (margin[i] <= FROT_ZERO && !has_turned(in, i)) frot_flip_normal_sign(in, i);
       } else if (now < 0 && now < margin[i] - CLEARLY) {
         return 0;
       } else if (now < least) {

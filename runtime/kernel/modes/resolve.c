@@ -150,7 +150,8 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
       int fault = unsearched                  ? FROT_TOO_LARGE
                   : only_loops(in, chosen[0]) ? FROT_POSTURE
                                               : FROT_IMPASSE;
-      int apart = fault == FROT_POSTURE ? frot_taken_apart(m, in->s, w, t, in->q, in->v) : -1;
+      int apart =
+          fault == FROT_POSTURE ? frot_contact_opened_by_time(m, in->s, w, t, in->q, in->v) : -1;
       if (apart >= 0) return frot_fail(in->s, FROT_DIVERGE, t, apart, 0, -1, 0);
       int begins = fault == FROT_POSTURE && in->s->statistics.steps == 0; /* messages.c */
       return frot_fail(in->s, fault, t, chosen[0], -1, -1, begins ? 0 : count);
@@ -158,9 +159,9 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
     if (motions < 2) continue;
     if (!several) several = motions, several_at = chosen[0];
     if (!first)
-      frot_note(recorder, in->s, t, FROT_EVENT_SEVERAL, chosen[0],
-                frot_mode_value(m, w->search.before, chosen[0]),
-                frot_mode_value(m, w->search.best, chosen[0]), motions);
+      frot_record_event(recorder, in->s, t, FROT_EVENT_SEVERAL, chosen[0],
+                        frot_mode_value(m, w->search.before, chosen[0]),
+                        frot_mode_value(m, w->search.best, chosen[0]), motions);
     else
       in->s->several = 1, in->s->data[in->l.several + chosen[0]] = motions; /* told at once after */
   }
@@ -318,11 +319,11 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   if (memcmp(modes, w->search.best, sizeof *modes * count) != 0) s->idle = 0;
   memcpy(modes, w->search.best, sizeof *modes * count);
   pass_directions(&in);
-  if (!first) frot_note_changes(m, s, t, w->search.before, modes, recorder);
-  frot_find_frozen(m, s, w, modes, frozen);
+  if (!first) frot_record_mode_changes(m, s, t, w->search.before, modes, recorder);
+  frot_find_locked_speeds(m, s, w, modes, frozen);
   for (int k = 0; k < m->nv; k++)
     if (frozen[k] != 0) v[k] = 0;
-  frot_pass_references(m, s, w, modes);
+  frot_flip_pin_references(m, s, w, modes);
   memset(fired, 0, sizeof(double) * (size_t)l.nf);
   /* a reaction that has turned is the same: it was located by what it was */
   for (int i = 0; i < m->n_contacts; i++)

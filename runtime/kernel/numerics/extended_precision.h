@@ -1,11 +1,17 @@
-/* What is asked of wide numbers (tables.h) beside their arithmetic. */
+/* Numbers of twice the digits, and their functions. */
 #ifndef FROT_EXTENDED_PRECISION_H
 #define FROT_EXTENDED_PRECISION_H
 
 #include <float.h>
 #include <math.h>
 
-#include "model/tables.h"
+/* Numbers of twice the digits, for what is lost beside large ones; where a compiler has none, the
+ * widest it has. */
+#ifdef __SIZEOF_FLOAT128__
+typedef __float128 frot_wide;
+#else
+typedef long double frot_wide;
+#endif
 
 #ifdef __SIZEOF_FLOAT128__
 #define FROT_WIDE_EPSILON ((frot_wide)0x1p-112)

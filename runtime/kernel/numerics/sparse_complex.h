@@ -3,7 +3,7 @@
 #ifndef FROT_SPARSE_COMPLEX_H
 #define FROT_SPARSE_COMPLEX_H
 
-#include "frot.h"
+#include "numerics/sparse_pattern.h"
 
 /* Factor W into `lu`: real and imaginary part of each item of the pattern; the diagonal holds
  * reciprocal pivots. `x` (2 n) is scratch. Returns 0, or 1 when a pivot is lost by cancellation or

@@ -2,7 +2,7 @@
 #ifndef FROT_SPARSE_REAL_H
 #define FROT_SPARSE_REAL_H
 
-#include "frot.h"
+#include "numerics/sparse_pattern.h"
 
 /* Factor W into `lu` (as many doubles as the pattern has columns); the diagonal holds reciprocal
  * pivots. `jacobian`: the entries of J in the order of the pattern's tables. `x` (n) is scratch.

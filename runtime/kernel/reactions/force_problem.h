@@ -2,6 +2,7 @@
 #ifndef FROT_FORCE_PROBLEM_H
 #define FROT_FORCE_PROBLEM_H
 
+#include "model/held_modes.h"
 #include "model/indexing.h"
 #include "model/workspace.h"
 
@@ -32,12 +33,12 @@ double frot_known_part(const frot_problem *p, int row);
 void frot_unknown_column(const frot_problem *p, int c, double *x);
 
 /* The conditions that hold the held rows into the first lines of w->linear.matrix and
- * w->linear.right, the columns in units w->reactions.unit_of (held_rows.c). The leading dimension is the
- * number of unknowns. Returns 1 when they contradict each other. */
+ * w->linear.right, the columns in units w->reactions.unit_of (held_rows.c). The leading dimension
+ * is the number of unknowns. Returns 1 when they contradict each other. */
 int frot_hold_rows(frot_problem *p);
 
-/* Friction that follows readings (friction_rows.c). What is known of the readings that bound it, and what
- * each unknown does to them, once for all directions of pins' reactions. */
+/* Friction that follows readings (friction_rows.c). What is known of the readings that bound it,
+ * and what each unknown does to them, once for all directions of pins' reactions. */
 void frot_read_bounds(const frot_problem *p);
 
 /* The conditions lam - ratio (its reading) = 0 in the directions w->reactions.along, after those of
@@ -46,15 +47,11 @@ void frot_follow_readings(frot_problem *p);
 
 /* Turn the directions of the pins whose friction follows to their reactions. Into `rest` what is
  * missing in each equation; returns the largest part of a friction that is, beyond rounding. */
-double frot_turn_pins(const frot_problem *p, double *rest);
-
-/* Whether the friction of several elements follows readings and nothing else acts in a group, that
- * is no general one, so that frot_follow_in_turn is tried first (friction_fixed_point.c). */
-int frot_only_follows(const frot_model *m, const frot_group *g, const frot_contact_mode *modes);
+double frot_update_pin_directions(const frot_problem *p, double *rest);
 
 /* Its reactions w->core.lam by the inertia alone, after frot_list_unknowns. Returns 0 where they do
  * much to each other: they are to be found from what frot_effects forms. */
-int frot_follow_in_turn(const frot_problem *p);
+int frot_iterate_friction(const frot_problem *p);
 
 /* Least reactions, in units w->reactions.unit_of, of the system that w->linear.matrix holds
  * (minimum_norm.c). */

@@ -14,8 +14,6 @@
 #include "reactions/force_problem.h"
 #include "reactions/reactions.h"
 
-/* Followers from which on it costs less than a system for all of them. */
-#define MANY 3
 /* What so many passes must leave at most of what the first of them changed, and how many there may
  * be: else Newton's method, which depends on no such thing, is sooner there. */
 #define SOME 10
@@ -27,25 +25,6 @@
  * what shows that: of a change it leaves nearly as much. */
 #define ROUNDED 1e-12
 #define STAYS 0.9
-
-int frot_only_follows(const frot_model *m, const frot_group *g, const frot_contact_mode *modes) {
-  int followers = 0;
-  for (int i = 0; i < g->n_contacts; i++) {
-    int c = g->contacts[i];
-    if (modes[c].unloaded || frot_is_loaded(m, modes, c)) return 0;
-  }
-  for (int i = 0; i < g->n_elements; i++) {
-    int e = g->elements[i];
-    const frot_element *element = &m->elements[e];
-    const frot_contact_mode *mode = frot_element_mode(m, modes, e);
-    if (!modes[element->contact].closed || mode->friction == FROT_NONE) continue;
-    if (mode->friction == FROT_STICK || mode->at_bound != 0) return 0;
-    if (element->bound == FROT_BY_VALUE) continue;
-    if (!frot_is_reading(m, element->bounded_by[0])) return 0;
-    followers++;
-  }
-  return followers >= MANY;
-}
 
 /* load (n) <- what the friction of `acting` elements does to the unknowns of the group. */
 static void load_by_friction(const frot_problem *p, int acting, double *load) {
@@ -173,7 +152,7 @@ static int begin(const frot_problem *p) {
 /* What a pass leaves of a change is only seen by one more: a first pass that changes little, from
  * the friction that stages before foretell, may leave it nearly whole (near a jam). So the rate is
  * that of the last two passes, and where there is but one, what it was in the stage before. */
-int frot_follow_in_turn(const frot_problem *p) {
+int frot_iterate_friction(const frot_problem *p) {
   const frot_group *g = p->g;
   frot_work *w = p->w;
   double *load = w->core.column, *whole = w->core.rest, before = 0, some = INFINITY;
@@ -181,7 +160,7 @@ int frot_follow_in_turn(const frot_problem *p) {
   int known = begin(p);
   if (*rate >= 1) return 0; /* they have not settled in a stage before */
   int acting = list_followers(p);
-  frot_foretell_friction(p);
+  frot_extrapolate_friction(p);
   frot_begin_responses(w, g);
   for (int pass = 0; pass < PASSES; pass++) {
     load_by_friction(p, acting, load);

@@ -17,7 +17,7 @@ static int place_of(const double *at, int count, double t) {
   return count;
 }
 
-void frot_begin_friction(frot_work *w, double t, const double *friction) {
+void frot_begin_friction_history(frot_work *w, double t, const double *friction) {
   frot_reaction_work *r = &w->reactions;
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_groups; k++) {
@@ -56,7 +56,7 @@ static int list_nearest(const double *at, int count, double t, int near[POINTS])
   return n;
 }
 
-void frot_foretell_friction(const frot_problem *p) {
+void frot_extrapolate_friction(const frot_problem *p) {
   frot_reaction_work *r = &p->w->reactions;
   int g = (int)(p->g - p->m->groups), near[POINTS];
   const double *at = r->instant + FROT_INSTANTS * g, t = p->w->core.t;

@@ -62,7 +62,7 @@ static double read_pin(const frot_problem *p, double known, const double *effect
   return sum;
 }
 
-double frot_turn_pins(const frot_problem *p, double *rest) {
+double frot_update_pin_directions(const frot_problem *p, double *rest) {
   const frot_model *m = p->m;
   frot_work *w = p->w;
   int n = p->unknowns;

@@ -77,7 +77,7 @@ static int take_row(const frot_problem *p, int k, int may) {
   frot_work *w = p->w;
   int ns = p->g->n_speeds, rank = w->span.rank, row = w->reactions.unknown[k];
   w->span.along[k] = p->g->n_rows;
-  if (frot_is_spare(w, row)) {
+  if (frot_is_redundant(w, row)) {
     w->reactions.dependent = w->reactions.carried[row] = 1;
     w->span.left[row] = 0;
     return TAKEN;
@@ -101,7 +101,7 @@ static int take_row(const frot_problem *p, int k, int may) {
     int agree = fabs(bias) <= agrees + frot_free_rounding(w, p->g, measure);
     return agree ? TAKEN : CONTRADICTS;
   }
-  if (may && frot_may_wait(m, w, row, rest, measure)) return WAITS;
+  if (may && frot_row_is_deferred(m, w, row, rest, measure)) return WAITS;
   w->span.left[row] = rest;
   for (int i = 0; i < ns; i++) x[i] /= rest;
   if (w->reactions.friction[k] == 0)
@@ -124,7 +124,7 @@ static int orthonormalize(frot_problem *p) {
     int found = take_row(p, order[i], i < last - 1);
     if (found == CONTRADICTS) return 1;
     if (found == WAITS)
-      frot_let_wait(order, i, --last);
+      frot_defer_row(order, i, --last);
     else
       i++;
   }
@@ -144,7 +144,7 @@ static void hold_general(frot_problem *p) {
   }
   for (int r = 0; r < p->held; r++) {
     double scale = w->reactions.unit_of[r];
-    if (frot_is_spare(w, w->reactions.unknown[r])) continue;
+    if (frot_is_redundant(w, w->reactions.unknown[r])) continue;
     for (int c = 0; c < n; c++)
       w->linear.matrix[c * n + at] =
           scale * w->reactions.unit_of[c] * frot_unknown_effect(p, w->reactions.unknown[r], c);

@@ -58,7 +58,8 @@ static void weigh_sparingly(const frot_problem *p) {
   }
 }
 
-/* Other weights, all alike but so that no two reactions are weighed in a simple ratio: load_sharing_vertices.c. */
+/* Other weights, all alike but so that no two reactions are weighed in a simple ratio:
+ * load_sharing_vertices.c. */
 static void weigh_evenly(const frot_problem *p) {
   for (int c = 0; c < p->unknowns; c++)
     p->w->reactions.weight[c] = (1 + fmod(GOLDEN * (c + 1), 1)) * p->w->reactions.unit_of[c];

@@ -1,8 +1,8 @@
 /* Reactions of the active rows of a group.
  *
- * Held rows do not accelerate (held_rows.c). What slips follows the reaction that bounds it, lam_t =
- * ratio * bounding. Where that is the reaction of a held row, its column takes the friction along;
- * where it is a reading, which depends on all reactions, the friction is an unknown with an
+ * Held rows do not accelerate (held_rows.c). What slips follows the reaction that bounds it, lam_t
+ * = ratio * bounding. Where that is the reaction of a held row, its column takes the friction
+ * along; where it is a reading, which depends on all reactions, the friction is an unknown with an
  * equation of its own (friction_rows.c). */
 #include "reactions/reactions.h"
 
@@ -96,7 +96,7 @@ double frot_free_rounding(const frot_work *w, const frot_group *g, double length
 
 /* Whether a held row follows from others, with which it was found to agree. */
 static int is_left_to_others(const frot_problem *p, int row) {
-  return frot_is_spare(p->w, row) || (!p->g->general && p->w->reactions.carried[row]);
+  return frot_is_redundant(p->w, row) || (!p->g->general && p->w->reactions.carried[row]);
 }
 
 /* Whether the held rows do not accelerate and friction follows its reaction. */
@@ -208,14 +208,15 @@ static double mend(const frot_problem *p, double *rest, double missed) {
     frot_lu_again(w->linear.scratch, rest, p->unknowns, w->linear.pivot);
     for (int c = 0; c < p->unknowns; c++) w->reactions.solution[c] += rest[c];
     if (rate * missed <= 0.5 * DBL_EPSILON && rate > 0) return 0;
-    double left = frot_turn_pins(p, rest);
+    double left = frot_update_pin_directions(p, rest);
     rate = left / missed, missed = left;
     if (!(rate < FASTER)) return missed > PIN_ROUNDING ? missed : 0;
   }
   return 0;
 }
 
-/* What is missing in the equations of the friction that follows, `rest` of frot_turn_pins. */
+/* What is missing in the equations of the friction that follows, `rest` of
+ * frot_update_pin_directions. */
 static double missing(const frot_problem *p, const double *rest) {
   double sum = 0;
   for (int k = p->holding; k < p->unknowns; k++) sum += fabs(rest[k]);
@@ -235,18 +236,19 @@ static double damp(const frot_problem *p, double *before, double *least, double 
   if (now >= *least && change <= PIN_ROUNDING * size) return 0;
   for (int k = 0; k < HALVES && now > *least; k++) {
     for (int c = 0; c < p->unknowns; c++) x[c] = 0.5 * (x[c] + before[c]);
-    missed = frot_turn_pins(p, rest), now = missing(p, rest);
+    missed = frot_update_pin_directions(p, rest), now = missing(p, rest);
   }
   memcpy(before, x, sizeof(double) * (size_t)p->unknowns);
   *least = now;
   return missed;
 }
 
-/* Find what frot_dynamics has left to friction_fixed_point.c; else see that what the rest asks for is there. */
+/* Find what frot_dynamics has left to friction_fixed_point.c; else see that what the rest asks for
+ * is there. */
 static int left_to_pins(const frot_problem *p) {
   frot_work *w = p->w;
   if (w->core.formed[p->g - p->m->groups] != FROT_FACTOR || p->g->general) return 0;
-  int found = frot_follow_in_turn(p);
+  int found = frot_iterate_friction(p);
   if (found)
     w->reactions.sign[p->g - p->m->groups] = 1;
   else
@@ -273,7 +275,7 @@ int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
   double *rest = w->linear.scratch + p.unknowns * p.unknowns, least = INFINITY;
   for (int pass = 0, last = 0; pass < FROT_PIN_PASSES; pass++) {
     if (solve(&p, &regular)) return 1;
-    double missed = pins ? frot_turn_pins(&p, rest) : 0;
+    double missed = pins ? frot_update_pin_directions(&p, rest) : 0;
     if (!regular)
       least = INFINITY;
     else if (pass >= EAGER)

@@ -166,8 +166,8 @@ void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w
   }
 }
 
-void frot_pass_references(const frot_model *m, frot_state *s, frot_work *w,
-                          const frot_contact_mode *modes) {
+void frot_flip_pin_references(const frot_model *m, frot_state *s, frot_work *w,
+                              const frot_contact_mode *modes) {
   for (int e = 0; e < m->n_elements; e++) {
     const frot_element *element = &m->elements[e];
     const double *fired = s->data + w->layout.fired + frot_element_guard(m, e);
@@ -203,4 +203,19 @@ int frot_guard_is_force(const frot_model *m, const frot_state *s, const frot_wor
 
 double frot_condition_value(const frot_work *w, const double *d, int j) {
   return d[j] != 0 ? w->core.condition[j] : -w->core.condition[j];
+}
+
+double frot_guard_rounding(const frot_model *m, const frot_state *s, const frot_work *w, int j,
+                           double h) {
+  const double *noise = s->data + w->layout.noise;
+  double own = noise[m->nq + m->nv + j];
+  int e = frot_slip_of_guard(m, s, w, j), condition = j - frot_condition_guard(m);
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  /* a gap is made of lengths that are no coordinates too: those of the body beyond its G */
+  if (j < m->n_contacts && !modes[j].closed)
+    return fmax(own, FROT_ROUNDING * s->data[w->layout.reach + j]);
+  /* how far a place is beyond an end is told in parts of the length between the ends */
+  if (condition >= 0 && condition < m->n_conditions && m->conditions[condition].contact >= 0)
+    return fmax(own, FROT_ROUNDING);
+  return e < 0 ? own : own + h * frot_row_size(m, w, m->elements[e].row, noise + m->nq);
 }

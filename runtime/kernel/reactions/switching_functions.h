@@ -39,8 +39,8 @@ int frot_has_direction(const frot_model *m, const frot_state *s, const frot_work
 void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w);
 /* Turn those round that have fired and whose reaction passes through zero in `modes`, after
  * frot_dynamics at the event. Of one that is as small for long it is not known to pass. */
-void frot_pass_references(const frot_model *m, frot_state *s, frot_work *w,
-                          const frot_contact_mode *modes);
+void frot_flip_pin_references(const frot_model *m, frot_state *s, frot_work *w,
+                              const frot_contact_mode *modes);
 
 /* Whether the sign of a bilateral reaction matters: friction follows it. */
 int frot_sign_matters(const frot_model *m, const frot_contact_mode *modes, int contact);
@@ -54,5 +54,10 @@ int frot_slip_of_guard(const frot_model *m, const frot_state *s, const frot_work
 
 /* The guard of condition j as d says it holds, by its value at the last evaluation. */
 double frot_condition_value(const frot_work *w, const double *d, int j);
+
+/* What rounding does to guard j during a step h: to its value, and to a slip by the speeds it is
+ * made of. */
+double frot_guard_rounding(const frot_model *m, const frot_state *s, const frot_work *w, int j,
+                           double h);
 
 #endif

@@ -8,8 +8,8 @@ long long frot_events_at_once(const frot_model *m) {
   return 8 * m->n_contacts + 8 * m->n_conditions + m->n_outcomes + 8;
 }
 
-void frot_note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact, int before,
-               int after, int solutions) {
+void frot_record_event(frot_recorder *recorder, frot_state *s, double t, int kind, int contact,
+                       int before, int after, int solutions) {
   s->statistics.events++;
   if (!recorder) return;
   if (recorder->event_count >= recorder->event_capacity && recorder->drain)
@@ -22,11 +22,11 @@ void frot_note(frot_recorder *recorder, frot_state *s, double t, int kind, int c
       (frot_event){t, kind, contact, before, after, solutions, 0};
 }
 
-void frot_note_condition(const frot_model *m, frot_recorder *recorder, frot_state *s, double t,
-                         int condition, int holds) {
+void frot_record_condition(const frot_model *m, frot_recorder *recorder, frot_state *s, double t,
+                           int condition, int holds) {
   int told = m->conditions[condition].told;
   if (told == FROT_TOLD_ALWAYS || (told == FROT_TOLD_RISING && holds))
-    frot_note(recorder, s, t, FROT_EVENT_CONDITION, condition, !holds, holds, 1);
+    frot_record_event(recorder, s, t, FROT_EVENT_CONDITION, condition, !holds, holds, 1);
 }
 
 /* A change of an element's motion that its liaison's mode does not tell. */
@@ -38,15 +38,15 @@ static void note_element(const frot_model *m, frot_state *s, double t, int e, in
     int kind = after == FROT_STICK    ? FROT_EVENT_ROLL_STOP
                : before == FROT_STICK ? FROT_EVENT_ROLL_START
                                       : FROT_EVENT_ROLL_REVERSAL;
-    frot_note(recorder, s, t, kind, i, before, after, 1);
+    frot_record_event(recorder, s, t, kind, i, before, after, 1);
   } else if (before > FROT_STICK && after > FROT_STICK) {
-    frot_note(recorder, s, t, FROT_EVENT_REVERSAL, i, FROT_MODE_SLIP, FROT_MODE_SLIP, 1);
+    frot_record_event(recorder, s, t, FROT_EVENT_REVERSAL, i, FROT_MODE_SLIP, FROT_MODE_SLIP, 1);
   }
 }
 
-void frot_note_changes(const frot_model *m, frot_state *s, double t,
-                       const frot_contact_mode *before, const frot_contact_mode *after,
-                       frot_recorder *recorder) {
+void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
+                              const frot_contact_mode *before, const frot_contact_mode *after,
+                              frot_recorder *recorder) {
   const double *unilateral = s->data + frot_layout_of(m).unilateral;
   for (int i = 0; i < m->n_contacts; i++) {
     int from = frot_mode_value(m, before, i), to = frot_mode_value(m, after, i);
@@ -55,7 +55,7 @@ void frot_note_changes(const frot_model *m, frot_state *s, double t,
                  : from == FROT_MODE_OPEN ? FROT_EVENT_CONTACT
                  : to == FROT_MODE_STICK  ? FROT_EVENT_STICK
                                           : FROT_EVENT_SLIP;
-      frot_note(recorder, s, t, kind, i, from, to, 1);
+      frot_record_event(recorder, s, t, kind, i, from, to, 1);
     }
     if (!before[i].closed || !after[i].closed) continue;
     int bounds = 0; /* a side that bounds nothing makes no difference, and is not followed */
@@ -68,17 +68,18 @@ void frot_note_changes(const frot_model *m, frot_state *s, double t,
                    frot_element_mode(m, after, e)->friction, recorder);
     }
     if (bounds && before[i].side != after[i].side && unilateral[i] == 0)
-      frot_note(recorder, s, t, FROT_EVENT_REACTION, i, from, to, 1);
+      frot_record_event(recorder, s, t, FROT_EVENT_REACTION, i, from, to, 1);
   }
 }
 
-void frot_tell(const frot_model *m, frot_state *s, frot_recorder *recorder) {
+void frot_record_pending_events(const frot_model *m, frot_state *s, frot_recorder *recorder) {
   if (!s->several && (!s->untold || !recorder)) return;
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   for (int i = 0; i < m->n_contacts && s->several; i++) {
     int mode = frot_mode_value(m, g.modes, i), motions = (int)s->data[l.several + i];
-    if (motions > 0) frot_note(recorder, s, *g.t0, FROT_EVENT_SEVERAL, i, mode, mode, motions);
+    if (motions > 0)
+      frot_record_event(recorder, s, *g.t0, FROT_EVENT_SEVERAL, i, mode, mode, motions);
   }
   s->several = 0;
   if (!s->untold || !recorder) return;
@@ -86,7 +87,8 @@ void frot_tell(const frot_model *m, frot_state *s, frot_recorder *recorder) {
   for (int i = 0; i < m->n_outcomes; i++) {
     if (isnan(asked[i])) continue;
     int ends = m->outcomes[i].kind == FROT_OUTCOME_TERMINATE;
-    frot_note(recorder, s, asked[i], ends ? FROT_EVENT_TERMINATE : FROT_EVENT_WARNING, i, 0, 0, 1);
+    frot_record_event(recorder, s, asked[i], ends ? FROT_EVENT_TERMINATE : FROT_EVENT_WARNING, i, 0,
+                      0, 1);
     asked[i] = NAN;
   }
   s->untold = 0;

@@ -6,19 +6,19 @@
 
 /* Count an event and record it, if there is a recorder. A full one is drained first; what finds no
  * room is counted as lost. */
-void frot_note(frot_recorder *recorder, frot_state *s, double t, int kind, int contact, int before,
-               int after, int solutions);
+void frot_record_event(frot_recorder *recorder, frot_state *s, double t, int kind, int contact,
+                       int before, int after, int solutions);
 
 /* Note that a condition of the text changes, if that is an event to the author. */
-void frot_note_condition(const frot_model *m, frot_recorder *recorder, frot_state *s, double t,
-                         int condition, int holds);
+void frot_record_condition(const frot_model *m, frot_recorder *recorder, frot_state *s, double t,
+                           int condition, int holds);
 
 /* Note what differs between the modes before and after an instant. */
-void frot_note_changes(const frot_model *m, frot_state *s, double t,
-                       const frot_contact_mode *before, const frot_contact_mode *after,
-                       frot_recorder *recorder);
+void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
+                              const frot_contact_mode *before, const frot_contact_mode *after,
+                              frot_recorder *recorder);
 
 /* Record what is still untold: several admissible motions at the start, outcomes of the text. */
-void frot_tell(const frot_model *m, frot_state *s, frot_recorder *recorder);
+void frot_record_pending_events(const frot_model *m, frot_state *s, frot_recorder *recorder);
 
 #endif

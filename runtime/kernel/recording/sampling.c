@@ -45,20 +45,20 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   frot_normalise(m, q);
   /* relations between the states hold at every instant looked at, not only at the ends of steps */
   if (m->n_invariants > 0) {
-    frot_follow_spare(m, w, g->spare);
+    frot_use_redundant_rows(m, w, g->spare);
     status =
         frot_project_jointly(m, s, w, t, q, v, g->d, g->modes, NULL, g->sizes, g->frozen, &moved);
   } else if (holds_anything(m, w, g->modes)) {
     status = frot_dynamics(m, s, w, t, q, v, g->d, g->modes, FROT_MOTION);
-    frot_follow_spare(m, w, g->spare);
+    frot_use_redundant_rows(m, w, g->spare);
     if (status == FROT_OK)
       status = frot_project(m, s, w, t, q, v, g->d, g->modes, NULL, g->frozen, &moved);
   }
   if (status == FROT_OK)
     status = frot_solution(m, s, w, t, q, v, g->d, g->modes, g->frozen, g->along, 1);
   if (status == FROT_OK && w->reactions.dependent)
-    status = frot_follow_ways(m, s, w, t, q, v, g->d, g->modes, g->spare);
-  frot_see_anew(w);
+    status = frot_accelerations_on_branch(m, s, w, t, q, v, g->d, g->modes, g->spare);
+  frot_forget_redundant_rows(w);
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
   if (status != FROT_OK) return status;
   frot_inputs(s, w, &t, q, v, g->d);
@@ -102,7 +102,7 @@ int frot_sample(const frot_model *m, frot_state *s, frot_work *w, const double *
     double t = fmax(times[i], frot_record_begin(at));
     if (at != held) g = frot_read_record(m, s, w, at), held = at;
     int status = values_in(m, s, w, &g, t, values + i * m->n_variables);
-    if (status != FROT_OK) return frot_name_vanished_there(m, s, w, status, t);
+    if (status != FROT_OK) return frot_name_singular_figure_at(m, s, w, status, t);
   }
   return FROT_OK;
 }

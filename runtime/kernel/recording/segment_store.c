@@ -37,7 +37,7 @@ static void write_states(const frot_work *w, tape *to, const double *all, int wh
   if (whole) {
     write(to, all, w->layout.nx);
   } else {
-    frot_pack(w, all, to->at);
+    frot_pack_awake(w, all, to->at);
     to->at += w->awake.n;
   }
 }
@@ -46,7 +46,7 @@ static void read_states(const frot_work *w, tape *from, double *all, int whole) 
   if (whole) {
     read(from, all, w->layout.nx);
   } else {
-    frot_unpack(w, from->at, all);
+    frot_unpack_awake(w, from->at, all);
     from->at += w->awake.n;
   }
 }
@@ -58,13 +58,13 @@ static void write_stage(const frot_work *w, tape *to, const double *packed, int 
     return;
   }
   memset(to->at, 0, sizeof(double) * (size_t)w->layout.nx);
-  frot_unpack(w, packed, to->at);
+  frot_unpack_awake(w, packed, to->at);
   to->at += w->layout.nx;
 }
 
 static void read_stage(const frot_work *w, tape *from, double *packed, int whole) {
   if (whole) {
-    frot_pack(w, from->at, packed);
+    frot_pack_awake(w, from->at, packed);
     from->at += w->layout.nx;
   } else {
     read(from, packed, w->awake.n);
@@ -151,7 +151,7 @@ static void read_stages(const frot_model *m, frot_state *s, frot_work *w, const 
     else
       memset(frot_stage(w, i), 0, size);
   }
-  frot_look_inside(m, s, w, g);
+  frot_complete_dense_output(m, s, w, g);
 }
 
 frot_segment frot_read_record(const frot_model *m, frot_state *s, frot_work *w,
@@ -162,7 +162,7 @@ frot_segment frot_read_record(const frot_model *m, frot_state *s, frot_work *w,
   tape from = {(double *)record + FROT_RECORD_HEAD};
   memcpy(w->tape, base, sizeof(double) * (size_t)head_of(w));
   memset(g.f, 0, sizeof(double) * DP_DENSE * (size_t)w->layout.nx);
-  frot_sleep_as(m, w, base + head_of(w));
+  frot_restore_sleep(m, w, base + head_of(w));
   if (whole)
     from.at += head_of(w) + m->n_islands;
   else
@@ -171,6 +171,6 @@ frot_segment frot_read_record(const frot_model *m, frot_state *s, frot_work *w,
     read_stages(m, s, w, &g, &from, whole);
   else
     for (int i = 0; i < (int)record[2]; i++) read_states(w, &from, g.f + i * w->layout.nx, whole);
-  frot_wake(w);
+  frot_leave_sleep(w);
   return g;
 }

@@ -29,7 +29,8 @@
 /* And after which it is asked whether what they switch comes to rest. */
 #define RESTLESS 1
 #define MONITOR_EVERY 64
-/* First steps and scales of time where forces depend on it, in runs; the longest step: time_resolution.c. */
+/* First steps and scales of time where forces depend on it, in runs; the longest step:
+ * time_resolution.c. */
 #define PART_OF_RUN 0.01
 
 int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, double experiment[4]) {
@@ -92,7 +93,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   frot_choose_first(m, s);
   int status = frot_settle_parameters(m, s, w, NULL);
   if (status != FROT_OK) return status;
-  frot_hold_given(m, s);
+  frot_accept_parameters(m, s);
   const double *experiment = s->data + l.experiment;
   double start = isnan(experiment[0]) ? 0 : experiment[0];
   s->tolerance = s->options.tolerance > 0 ? s->options.tolerance
@@ -103,7 +104,7 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   double *x = s->data + l.x;
   status = frot_initial_values(m, s, w, t, x, x + m->nq);
   if (status != FROT_OK) return status;
-  status = frot_happen(m, s, w, t, x, x + m->nq, 1, NULL);
+  status = frot_process_events(m, s, w, t, x, x + m->nq, 1, NULL);
   if (status != FROT_OK && status != FROT_TERMINATED) return status;
   frot_make_instant(m, s, w, t, x);
   s->energy = energy_now(m, s, w, x);
@@ -118,14 +119,14 @@ int frot_start(const frot_model *m, frot_state *s, frot_work *w, double t,
                const frot_options *options) {
   frot_bind_work(m, w);
   int status = start(m, s, w, t, options);
-  return frot_name_vanished(m, s, w, status, s->data + w->layout.x);
+  return frot_name_singular_figure(m, s, w, status, s->data + w->layout.x);
 }
 
 /* Conditions whose value has changed sign without the motion passing through it. */
 static int fire_changed_conditions(const frot_model *m, frot_state *s, frot_work *w) {
   frot_layout l = frot_layout_of(m);
   const double *x = s->data + l.x, *d = s->data + l.d;
-  int status = frot_look(m, s, w, s->t, x, x + m->nq);
+  int status = frot_evaluate_conditions(m, s, w, s->t, x, x + m->nq);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, s->t);
   for (int j = 0; j < m->n_conditions; j++) {
     int holds = m->condition_strict[j] ? w->core.condition[j] > 0 : w->core.condition[j] >= 0;
@@ -140,14 +141,14 @@ static int change_given(const frot_model *m, frot_state *s, frot_work *w, const 
                         frot_recorder *recorder) {
   const double *q = x, *v = x + m->nq;
   frot_swap_inputs(m, s);
-  int status = frot_note_supports(m, s, w, s->t, q, v);
+  int status = frot_note_contacts_before_change(m, s, w, s->t, q, v);
   frot_swap_inputs(m, s);
   if (status == FROT_OK) status = frot_settle_parameters(m, s, w, NULL);
-  if (status == FROT_OK) status = frot_check_supports(m, s, w, s->t, q, v, recorder);
+  if (status == FROT_OK) status = frot_check_contacts_after_change(m, s, w, s->t, q, v, recorder);
   if (status == FROT_CHECK || status == FROT_REFUSED)
-    frot_take_back(m, s, w);
+    frot_restore_parameters(m, s, w);
   else if (status == FROT_OK)
-    frot_hold_given(m, s);
+    frot_accept_parameters(m, s);
   return status;
 }
 
@@ -172,7 +173,7 @@ static int settle(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
   status = fire_changed_conditions(m, s, w);
   if (status != FROT_OK) return status;
   double events = s->energy; /* what the text's events change is added there */
-  status = frot_happen(m, s, w, s->t, x, x + m->nq, 0, recorder);
+  status = frot_process_events(m, s, w, s->t, x, x + m->nq, 0, recorder);
   if (status != FROT_OK && status != FROT_TERMINATED) return status;
   frot_make_instant(m, s, w, s->t, x);
   s->energy = events + energy_now(m, s, w, x) - before;
@@ -206,15 +207,15 @@ static int happen_at_end(const frot_model *m, frot_state *s, frot_work *w,
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   double *x = s->data + l.x;
   memcpy(w->blocks.y, s->data + l.y, sizeof(double) * (size_t)m->ny);
-  int stays = s->crowded > RESTLESS && frot_stay(m, s, w, *g.t1, x);
+  int stays = s->crowded > RESTLESS && frot_find_sliding_equilibrium(m, s, w, *g.t1, x);
   int status = frot_fire_ends(m, s, w, g.t1, x, x + m->nq);
-  if (status == FROT_OK && !stays) status = frot_cross(m, s, w, g.t1, x, x + m->nq);
+  if (status == FROT_OK && !stays) status = frot_pass_conditions(m, s, w, g.t1, x, x + m->nq);
   double t = *g.t1;
-  if (status == FROT_OK) status = frot_happen(m, s, w, t, x, x + m->nq, 0, recorder);
+  if (status == FROT_OK) status = frot_process_events(m, s, w, t, x, x + m->nq, 0, recorder);
   memcpy(s->data + l.y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   frot_see_other_system(s);
   if (s->noise_measured > 0) s->noise_measured = -1;
-  frot_tell(m, s, recorder);
+  frot_record_pending_events(m, s, recorder);
   if (status != FROT_TERMINATED) return status;
   s->t = t;
   frot_make_instant(m, s, w, t, x);
@@ -228,7 +229,7 @@ static int end_of_run(const frot_model *m, frot_state *s, frot_work *w, frot_rec
     frot_record(m, s, w, recorder, 0);
     s->ended_recorded = 1;
   }
-  frot_tell(m, s, recorder);
+  frot_record_pending_events(m, s, recorder);
   return FROT_TERMINATED;
 }
 
@@ -253,11 +254,11 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
     if (recorder && (recorder->event_count + frot_events_at_once(m) > recorder->event_capacity ||
                      !frot_has_room(m, recorder)))
       return FROT_FULL;
-    frot_tell(m, s, recorder);
+    frot_record_pending_events(m, s, recorder);
     int status = FROT_OK;
     long long events = s->statistics.events;
     if (s->pending) {
-      frot_wake_state(m, s, w);
+      frot_wake_all_islands(m, s, w);
       if (s->second >= 0)
         status = frot_fail(s, FROT_IMPACT, *g.t1, s->second, 0, -1, 0);
       else if (++s->crowded > CROWD && s->statistics.events == s->told &&
@@ -279,8 +280,8 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
     if (status == FROT_OK) status = frot_step(m, s, w, recorder);
     if (status != FROT_OK) {
       s->t = *g.t1;
-      status = frot_name_vanished(m, s, w, status, place);
-      return frot_name_reach(m, s, w, status);
+      status = frot_name_singular_figure(m, s, w, status, place);
+      return frot_report_unreachable(m, s, w, status);
     }
     if (s->statistics.steps == steps) continue;
     if (monitor && s->statistics.steps % MONITOR_EVERY == 0 && monitor(context, fmin(*g.t1, t))) {

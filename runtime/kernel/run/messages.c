@@ -166,7 +166,8 @@ static const char *rated(const frot_model *m, int speed) {
   return m->states[of >= 0 ? of : m->nq + speed].name;
 }
 
-/* A loop that begins in a singular posture with speeds that do not say how it goes on (start_branch.h).
+/* A loop that begins in a singular posture with speeds that do not say how it goes on
+ * (start_branch.h).
  */
 static void posture_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
   const char *name = contact_name(m, f->contact);

@@ -10,7 +10,7 @@
 #include "model/indexing.h"
 #include "inertia/mass_matrix.h"
 #include "numerics/dense.h"
-#include "methods/dormand_prince.h"
+#include "model/stage_slopes.h"
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
 
@@ -95,7 +95,7 @@ static void excuse(const frot_model *m, const frot_state *s, frot_work *w, const
   for (int k = 0; k < ns; k++) excused[g->unknowns[k]] = error[k];
 }
 
-void frot_excuse_noise(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+void frot_excuse_rounding(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   const frot_awake_lists *now = w->awake.now;
   w->step.turning = 0;
   for (int k = 0; k < now->n - FROT_QUADRATURES; k++) {

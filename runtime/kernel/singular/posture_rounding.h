@@ -1,5 +1,5 @@
-/* What rounding does to a step: near singular postures (singular_posture.h) an error along weak rows, which
- * is none of the motion, elsewhere one of the motion. */
+/* What rounding does to a step: near singular postures (singular_posture.h) an error along weak
+ * rows, which is none of the motion, elsewhere one of the motion. */
 #ifndef FROT_POSTURE_ROUNDING_H
 #define FROT_POSTURE_ROUNDING_H
 
@@ -10,7 +10,7 @@
  * dp_e5 and dp_e3. w->step.turning <- how much the directions of weak rows turn, over what they
  * may: a motion that leaves its way, or one that the step is too long for, is more than 1. After
  * frot_run_stages. */
-void frot_excuse_noise(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
+void frot_excuse_rounding(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 
 /* The errors beyond their bounds of the explicit step h that ran, over what moves in a group and
  * what its loads bring in the step, both in the metric of its mass: of the group where that is

@@ -11,7 +11,7 @@
 #include "reactions/reactions.h"
 #include "numerics/bernstein.h"
 #include "constraints/redundant_rows.h"
-#include "methods/dormand_prince.h"
+#include "model/stage_slopes.h"
 
 /* Stages at different instants, in their order. */
 enum { COUNT = 11 };
@@ -53,12 +53,6 @@ static const int in_order[COUNT] = {1, 2, 3, 6, 4, 7, 5, 9, 8, 10, 12};
 /* Slopes that a polynomial goes through. */
 #define POINTS 6
 
-int frot_is_loop(const frot_model *m, const frot_state *s, const frot_work *w, int contact) {
-  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-  return s->data[w->layout.unilateral + contact] == 0 && frot_is_loaded(m, modes, contact) &&
-         !frot_group_of(m, m->contacts[contact].row_n)->general;
-}
-
 int frot_has_loops(const frot_model *m, const frot_state *s, const frot_work *w) {
   for (int k = 0; k < w->awake.now->n_contacts; k++)
     if (frot_is_loop(m, s, w, w->awake.now->contacts[k])) return 1;
@@ -87,7 +81,7 @@ static void order_rows(const frot_model *m, const frot_state *s, frot_work *w, c
   for (int i = 0; i < g->n_contacts; i++) {
     if (!frot_is_loop(m, s, w, g->contacts[i])) continue;
     int row = m->contacts[g->contacts[i]].row_n;
-    if (frot_is_spare(w, row)) continue;
+    if (frot_is_redundant(w, row)) continue;
     const double *half = frot_entries(m, w->core.half, row);
     double unit = m->contacts[g->contacts[i]].turns ? arm : 1;
     for (int j = 0; j < ns; j++) rest[ns * n + j] = unit * half[j];
@@ -129,7 +123,7 @@ static int shows_little(const frot_model *m, const frot_state *s, const frot_wor
   double least = INFINITY, longest = 0;
   for (int k = 0; k < w->awake.now->n_contacts; k++) {
     int i = w->awake.now->contacts[k];
-    if (!frot_is_loop(m, s, w, i) || frot_is_spare(w, m->contacts[i].row_n)) continue;
+    if (!frot_is_loop(m, s, w, i) || frot_is_redundant(w, m->contacts[i].row_n)) continue;
     double left = w->span.left[m->contacts[i].row_n];
     least = fmin(least, left), longest = fmax(longest, left);
   }
@@ -248,8 +242,8 @@ static double locate(const frot_model *m, frot_state *s, const frot_work *w, int
   return at;
 }
 
-int frot_find_crossings(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
-                        int reached, int pass) {
+int frot_find_singular_postures(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                double h, int reached, int pass) {
   int weak = 0, again = 0, any = 0;
   s->foreseen = INFINITY;
   unsigned char near[DP_STAGES + 1] = {0};
@@ -277,7 +271,7 @@ int frot_foresees_posture(const frot_model *m, const frot_state *s, const frot_w
   return !s->tied && !s->implicit && frot_has_loops(m, s, w) && fabs(s->foreseen - t) < FAR * h;
 }
 
-void frot_judge_tie(frot_state *s, double tied, double loose) {
+void frot_judge_projected_stages(frot_state *s, double tied, double loose) {
   if (!s->weak && !(tied <= HELPS * loose)) s->tied = -PAUSE;
 }
 
@@ -300,13 +294,13 @@ static int all_fit(const frot_model *m, const frot_state *s, const frot_work *w,
   return 1;
 }
 
-int frot_is_laid(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h,
-                 double wanted) {
+int frot_length_avoids_posture(const frot_model *m, const frot_state *s, const frot_work *w,
+                               double t, double h, double wanted) {
   return all_fit(m, s, w, t, h, wanted, LEAST_ROOM);
 }
 
-double frot_lay_step(const frot_model *m, const frot_state *s, const frot_work *w, double t,
-                     double h, double longest) {
+double frot_place_between_postures(const frot_model *m, const frot_state *s, const frot_work *w,
+                                   double t, double h, double longest) {
   if (all_fit(m, s, w, t, fmin(h, longest), h, GAP)) return fmin(h, longest);
   for (double length = fmin(LONGER * h, longest); length > SHORTEST * h; length *= SHORTER)
     if (all_fit(m, s, w, t, length, h, GAP)) return length;

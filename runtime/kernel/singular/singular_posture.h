@@ -13,13 +13,10 @@
 #ifndef FROT_SINGULAR_POSTURE_H
 #define FROT_SINGULAR_POSTURE_H
 
-#include "model/workspace.h"
+#include "model/held_modes.h"
 
 /* In steps, how far before and beyond its stages a posture makes rows weak. */
 #define FROT_AROUND 0.6
-
-/* Whether a contact keeps a relation of a loop: it cannot open, and no coordinate keeps it. */
-int frot_is_loop(const frot_model *m, const frot_state *s, const frot_work *w, int contact);
 
 /* Whether relations of loops hold: rows of liaisons that cannot open. */
 int frot_has_loops(const frot_model *m, const frot_state *s, const frot_work *w);
@@ -36,8 +33,8 @@ int frot_meets_posture(const frot_model *m, const frot_state *s, const frot_work
 /* Find when a row becomes dependent near the step that ran up to stage `reached`, into the state's
  * `posture`, and mark the stages that are too near in w->step.near. Returns whether the stages are
  * to be run again for it. */
-int frot_find_crossings(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
-                        int reached, int pass);
+int frot_find_singular_postures(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                double h, int reached, int pass);
 
 /* Whether stages off the relations may be what makes the error of the step h from t too large: they
  * are, and a posture is foreseen, by the order of the method from further off than it makes rows
@@ -47,7 +44,7 @@ int frot_foresees_posture(const frot_model *m, const frot_state *s, const frot_w
 
 /* The step has run with its stages put onto the relations, and loose: they stay so if that makes
  * its error much smaller. */
-void frot_judge_tie(frot_state *s, double tied, double loose);
+void frot_judge_projected_stages(frot_state *s, double tied, double loose);
 
 /* The slope of a stage that is too near, from those of the others up to `reached`. */
 void frot_interpolate_stage(const frot_model *m, frot_work *w, int stage, int reached);
@@ -55,13 +52,13 @@ void frot_interpolate_stage(const frot_model *m, frot_work *w, int stage, int re
 /* Whether the step h is good for them, where one of the length `wanted` could be taken but for
  * them.
  */
-int frot_is_laid(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h,
-                 double wanted);
+int frot_length_avoids_posture(const frot_model *m, const frot_state *s, const frot_work *w,
+                               double t, double h, double wanted);
 
 /* The length of a step from t, about h and no longer than `longest`, in which no stage is too
  * near the postures known. */
-double frot_lay_step(const frot_model *m, const frot_state *s, const frot_work *w, double t,
-                     double h, double longest);
+double frot_place_between_postures(const frot_model *m, const frot_state *s, const frot_work *w,
+                                   double t, double h, double longest);
 
 /* Whether a posture lies in the step h from t. */
 int frot_passes(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h);

@@ -207,8 +207,8 @@ int frot_has_loops_alone(const frot_model *m, const frot_state *s, const frot_wo
   return list_rows(m, s, w, g) > 0;
 }
 
-int frot_find_ways(const frot_model *m, frot_state *s, frot_work *w, const frot_group *g, double t,
-                   const double *q, const double *v, const double *d) {
+int frot_find_branches(const frot_model *m, frot_state *s, frot_work *w, const frot_group *g,
+                       double t, const double *q, const double *v, const double *d) {
   if (list_rows(m, s, w, g) > 0) frot_note_reaches(m, s, w, t, q, v, d);
   int n, count = turning(m, s, w, g, t, q, v, d, &n);
   if (count == 0) return 0;
@@ -256,14 +256,14 @@ static int is_in_posture(const frot_model *m, const frot_state *s, const frot_wo
   return 0;
 }
 
-int frot_follow_ways(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                     const double *v, const double *d, const frot_contact_mode *modes,
-                     const double *spare) {
+int frot_accelerations_on_branch(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                 const double *q, const double *v, const double *d,
+                                 const frot_contact_mode *modes, const double *spare) {
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_groups; k++) {
     const frot_group *g = &m->groups[now->groups[k]];
     if (!is_in_posture(m, s, w, g, spare)) continue;
-    frot_see_anew(w);
+    frot_forget_redundant_rows(w);
     int n, count = turning(m, s, w, g, t, q, v, d, &n);
     if (count == 0) continue;
     int status = change_rows(m, s, w, g, t, q, v, w->core.a, d, modes, n, w->reactions.solution);
@@ -294,13 +294,13 @@ static void size_speeds(const frot_model *m, frot_state *s, const frot_work *w, 
   }
 }
 
-int frot_begins_on_way(const frot_model *m, frot_state *s, frot_work *w, double t, int contact) {
+int frot_begins_on_branch(const frot_model *m, frot_state *s, frot_work *w, double t, int contact) {
   const frot_group *g = frot_group_of(m, m->contacts[contact].row_n);
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   const double *q = w->step.z0, *v = q + m->nq, *d = s->data + w->layout.d;
-  frot_note_spare(m, s, w);
+  frot_find_redundant_rows(m, s, w);
   if (frot_dynamics(m, s, w, t, q, v, d, modes, FROT_INERTIA) != FROT_OK) return 0;
-  int count = frot_find_ways(m, s, w, g, t, q, v, d);
+  int count = frot_find_branches(m, s, w, g, t, q, v, d);
   for (int i = 0; i < count; i++) s->data[w->layout.posture + w->span.way[i]] = t;
   if (count == 0) return 0;
   size_speeds(m, s, w, g, v);

@@ -19,19 +19,19 @@ int frot_has_loops_alone(const frot_model *m, const frot_state *s, const frot_wo
  * for a change of v: their number. Of each an orthonormal row, times L^-1, in w->linear.scratch
  * (n_speeds each), what it is missed by in w->linear.right, one of its rows in w->span.way. After
  * frot_dynamics at the same place; leaves the rows there. 0 where nothing moves. */
-int frot_find_ways(const frot_model *m, frot_state *s, frot_work *w, const frot_group *g, double t,
-                   const double *q, const double *v, const double *d);
+int frot_find_branches(const frot_model *m, frot_state *s, frot_work *w, const frot_group *g,
+                       double t, const double *q, const double *v, const double *d);
 
 /* Accelerations w->core.a, solved for in a singular posture: add to them what the way on says.
  * Rows that depend on others for good are those that `spare` (n_rows) marks. */
-int frot_follow_ways(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                     const double *v, const double *d, const frot_contact_mode *modes,
-                     const double *spare);
+int frot_accelerations_on_branch(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                 const double *q, const double *v, const double *d,
+                                 const frot_contact_mode *modes, const double *spare);
 
 /* The run begins in a posture in which the row of a liaison depends on others, and a little later,
  * where the rows were evaluated last, does not: returns whether its speeds say how it goes on, and
  * then notes the posture. */
-int frot_begins_on_way(const frot_model *m, frot_state *s, frot_work *w, double t, int contact);
+int frot_begins_on_branch(const frot_model *m, frot_state *s, frot_work *w, double t, int contact);
 
 /* Time in which a group, at speeds v, turns by an angle of 1; INFINITY at rest. */
 double frot_time_of_turn(const frot_model *m, const frot_state *s, const frot_group *g,

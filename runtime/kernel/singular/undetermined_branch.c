@@ -8,9 +8,8 @@
 #include "numerics/dormand_prince_table.h"
 #include "model/indexing.h"
 #include "inertia/mass_matrix.h"
-#include "methods/right_hand_side.h"
 #include "constraints/projection.h"
-#include "methods/dormand_prince.h"
+#include "model/stage_slopes.h"
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
 #include "evaluation/quaternions.h"
@@ -49,8 +48,8 @@ static double fastest(const frot_model *m, const frot_work *w, const frot_group 
       fmax(frot_square_of(w, g, w->step.z0 + m->nq), frot_square_of(w, g, w->step.z1 + m->nq)));
 }
 
-int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, double t,
-                  double h) {
+int frot_undetermined_row(const frot_model *m, const frot_state *s, const frot_work *w, double t,
+                          double h) {
   for (int k = 0; k < w->awake.now->n_contacts && s->weak; k++) {
     int i = w->awake.now->contacts[k];
     if (!frot_is_loop(m, s, w, i)) continue;

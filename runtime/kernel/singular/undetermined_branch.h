@@ -1,5 +1,5 @@
-/* Where relations of a loop do not tell how it goes on: a start in a singular posture (singular_posture.h),
- * or so near one that rounding decides. */
+/* Where relations of a loop do not tell how it goes on: a start in a singular posture
+ * (singular_posture.h), or so near one that rounding decides. */
 #ifndef FROT_UNDETERMINED_BRANCH_H
 #define FROT_UNDETERMINED_BRANCH_H
 
@@ -7,7 +7,8 @@
 
 /* The liaison of whose weak row the start or a stage of the step that ran is so near a posture that
  * rounding turns it away from its motion, -1 if none: what follows may be another motion. */
-int frot_lost_row(const frot_model *m, const frot_state *s, const frot_work *w, double t, double h);
+int frot_undetermined_row(const frot_model *m, const frot_state *s, const frot_work *w, double t,
+                          double h);
 
 /* Mark in `lost` (n_contacts) each liaison of a row that depends, or nearly, on others at the start
  * of a run, where the slope has just been evaluated, and much less a little later: where it goes

@@ -69,7 +69,7 @@ void frot_tell_apart(frot_opening *p) {
     frot_clear_opening(p);
     memcpy(p->x, start, bytes);
     frot_begin_units(p);
-    if (k > 0 && frot_opening_metric(p) == FROT_OK) frot_begin_elsewhere(p, k - 1, 1);
+    if (k > 0 && frot_opening_metric(p) == FROT_OK) frot_begin_multistart(p, k - 1, 1);
     left_open found = close_best(p);
     /* what closes after all tells nothing */
     if (found.contact >= 0 && found.part > FROT_TOUCH && found.part < (1 - FROT_NEARER) * best.part)
@@ -112,7 +112,7 @@ static void look_at_part(frot_opening *p, kept_apart *most) {
   if (by > most->missed) most->statement = frot_statement_of(p, missed), most->missed = by;
 }
 
-int frot_name_reach(const frot_model *m, frot_state *s, frot_work *w, int status) {
+int frot_report_unreachable(const frot_model *m, frot_state *s, frot_work *w, int status) {
   frot_fault fault = s->fault;
   int phase = s->phase;
   double *q = w->opening.first, later = SOON * s->h_max;

@@ -88,7 +88,7 @@ static void aim(frot_opening *p) {
   for (int k = 0; k < ROUNDS; k++) {
     double changed = weigh_guesses(p);
     if (!isfinite(changed) || (k > 0 && changed < SETTLED)) break;
-    p->aim = 1;
+    p->aim = 1, p->missed = frot_guesses_missed;
     if (frot_come_closest(p) != FROT_OK) frot_clear_opening(p);
     p->aim = 0;
   }
@@ -120,8 +120,8 @@ static int compromise_widely(frot_opening *p) {
     frot_begin_blocks(p);
     frot_begin_units(p);
     if (frot_opening_metric(p) != FROT_OK) continue;
-    if (k == 1 && !frot_meet_in_turn(p)) continue;
-    if (k > 1) frot_begin_elsewhere(p, k - 2, (k - 1) % 3 == 0);
+    if (k == 1 && !frot_meet_guesses_in_sequence(p)) continue;
+    if (k > 1) frot_begin_multistart(p, k - 2, (k - 1) % 3 == 0);
     if (!compromise(p)) continue;
     double missed = frot_guesses_missed(p);
     met = frot_are_guesses_met(p);

@@ -15,7 +15,7 @@ static int only_angle(const frot_opening *p, int i) {
   return only >= 0 && frot_is_angle(p, only) ? only : -1;
 }
 
-int frot_solve_gradually(frot_opening *p) {
+int frot_solve_by_homotopy(frot_opening *p) {
   double largest = 0;
   size_t bytes = sizeof(double) * (size_t)p->n_own;
   if (frot_evaluate_statements(p) != FROT_OK) return FROT_INITIAL;

@@ -8,6 +8,6 @@
  * taken away part by part, and every part is solved for. A mechanism that its bodies lie in as they
  * are modelled is turned from there to what is stated, and stays in that way to be assembled.
  * FROT_INITIAL where no angle is stated. */
-int frot_solve_gradually(frot_opening *p);
+int frot_solve_by_homotopy(frot_opening *p);
 
 #endif

@@ -286,7 +286,7 @@ static int solve_speeds(frot_opening *p, frot_contact_mode *modes) {
     if (part->n_stated + part->n_contacts + part->n_guessed == 0) continue;
     frot_take_part(p, part);
     status = move_part(p, modes);
-    if (status == FROT_OK) status = frot_choose_ways(p);
+    if (status == FROT_OK) status = frot_choose_branch(p);
     frot_put(p);
   }
   frot_leave_parts(p);

@@ -48,7 +48,7 @@ static double unit_of(const frot_opening *p, int i, const double *span, int alik
   return span[alike ? 0 : 1] / moved_by(p, i);
 }
 
-void frot_begin_elsewhere(frot_opening *p, int k, int alike) {
+void frot_begin_multistart(frot_opening *p, int k, int alike) {
   double span[2], *changes = p->w->opening.scratch;
   span_turns(p, span);
   memset(changes, 0, sizeof(double) * (size_t)p->n_own);
@@ -106,13 +106,14 @@ int frot_solve_widely(frot_opening *p) {
   if (found == FROT_OK && most_turned(p) < BEND) return found;
   if (found == FROT_OK) keep_nearer(p, &best);
   begin_again(p);
-  if (frot_solve_gradually(p) == FROT_OK && frot_come_closest(p) == FROT_OK) keep_nearer(p, &best);
+  if (frot_solve_by_homotopy(p) == FROT_OK && frot_come_closest(p) == FROT_OK)
+    keep_nearer(p, &best);
   begin_again(p);
   if (frot_follow_damped(p) && frot_solve_nearest(p) == FROT_OK && frot_come_closest(p) == FROT_OK)
     keep_nearer(p, &best);
   for (int k = 0; k < 4 * TRIES && best.turned > WHOLE_TURN; k++) {
     frot_clear_opening(p);
-    frot_begin_elsewhere(p, k % (2 * TRIES), k >= 2 * TRIES);
+    frot_begin_multistart(p, k % (2 * TRIES), k >= 2 * TRIES);
     if (frot_solve_nearest(p) == FROT_OK && frot_come_closest(p) == FROT_OK) keep_nearer(p, &best);
   }
   frot_clear_opening(p);

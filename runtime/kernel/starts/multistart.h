@@ -11,6 +11,6 @@ int frot_solve_widely(frot_opening *p);
 
 /* p->q <- beginning k away from w->opening.begin, the same in every run: turns of up to half a
  * revolution. `alike`: of lengths that move as much mass, else in SI. The metric is known. */
-void frot_begin_elsewhere(frot_opening *p, int k, int alike);
+void frot_begin_multistart(frot_opening *p, int k, int alike);
 
 #endif

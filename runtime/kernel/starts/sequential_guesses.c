@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "assembly/unknowns.h"
 #include "assembly/levenberg_marquardt.h"
 #include "starts/multistart.h"
 #include "assembly/gauss_newton.h"
@@ -110,7 +111,7 @@ static int meet_next(frot_opening *p) {
     memcpy(p->x, before, bytes);
     frot_begin_units(p);
     if (k > 0 && frot_opening_metric(p) != FROT_OK) continue;
-    if (k > 0) frot_begin_elsewhere(p, (k - 1) % AROUND, k % 3 == 0);
+    if (k > 0) frot_begin_multistart(p, (k - 1) % AROUND, k % 3 == 0);
     for (int i = 0; i < p->n_own; i++)
       if (w->state[i] != FROT_MOVES_NOW)
         p->x[i] = before[i];
@@ -121,7 +122,7 @@ static int meet_next(frot_opening *p) {
   return 0;
 }
 
-int frot_meet_in_turn(frot_opening *p) {
+int frot_meet_guesses_in_sequence(frot_opening *p) {
   unsigned char *state = p->w->opening.state;
   int met = 1;
   memset(state, 0, (size_t)p->n_own);

@@ -42,7 +42,7 @@ static int look(frot_opening *p, const frot_group *g) {
   if (!frot_has_loops_alone(p->m, p->s, p->w, g)) return 0;
   frot_put(p);
   int status = frot_dynamics(p->m, p->s, p->w, p->t, p->q, p->v, p->d, modes, FROT_INERTIA);
-  return status == FROT_OK ? frot_find_ways(p->m, p->s, p->w, g, p->t, p->q, p->v, p->d) : 0;
+  return status == FROT_OK ? frot_find_branches(p->m, p->s, p->w, g, p->t, p->q, p->v, p->d) : 0;
 }
 
 /* Distance of speeds, by the kinetic energy of their difference. */
@@ -142,7 +142,7 @@ static int tell(frot_opening *p, int contact, const two_ways *found) {
   return status;
 }
 
-int frot_choose_ways(frot_opening *p) {
+int frot_choose_branch(frot_opening *p) {
   frot_opening_work *w = &p->w->opening;
   const frot_part *part = p->part;
   const frot_group *groups = p->m->groups;

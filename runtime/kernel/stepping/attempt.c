@@ -63,11 +63,11 @@ static int rests(const frot_work *w) { return is_still(w, 0) && is_still(w, DP_S
 int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   a->longest = frot_longest_step(m, s, w, a->t, 0);
   a->h = fmin(s->h, a->longest);
-  frot_see_anew(w);
+  frot_forget_redundant_rows(w);
   memset(w->guards.shown, 0, sizeof(double) * (size_t)w->layout.ng);
   int known = s->has_slope, status = frot_start_slope(m, s, w, a->t);
-  if (status == FROT_OK && !known && frot_note_still_at_start(m, s, w)) {
-    frot_let_sleep(m, s, w);
+  if (status == FROT_OK && !known && frot_note_resting_islands_at_start(m, s, w)) {
+    frot_enter_sleep(m, s, w);
     status = frot_start_slope(m, s, w, a->t);
   }
   if (status == FROT_OK && is_still(w, 0)) {
@@ -78,11 +78,11 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   frot_copy_awake(w, w->step.z0, w->step.z1);
   if (status == FROT_OK && s->implicit) status = frot_implicit_begin(m, s, w, a->t);
   a->want = a->h, a->most = a->longest;
-  if (s->weak) a->h = frot_lay_step(m, s, w, a->t, a->h, a->most);
+  if (s->weak) a->h = frot_place_between_postures(m, s, w, a->t, a->h, a->most);
   a->to_due = a->h >= s->due - a->t;
   if (a->to_due) a->h = s->due - a->t;
   a->first = a->h;
-  if (status == FROT_OK) frot_follow_spare(m, w, s->data + w->layout.spare);
+  if (status == FROT_OK) frot_use_redundant_rows(m, w, s->data + w->layout.spare);
   return status;
 }
 
@@ -90,7 +90,7 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
 static int measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
   if (s->from_posture) return 0;
   s->heard = s->h;
-  return frot_measure_noise(m, s, w, t);
+  return frot_measure_rounding(m, s, w, t);
 }
 
 /* Whether a guard has made the steps ever shorter, each with an error that was within its bound,
@@ -141,7 +141,7 @@ static void see_noise(frot_state *s, frot_attempt *a) {
 
 /* Whether the step is followed inside, though nobody looks: where a guard may fall too. */
 static int needs_dense(const frot_model *m, const frot_state *s, const frot_work *w) {
-  return frot_needs_inside(m, s) || frot_may_fall(s, w, rests(w));
+  return frot_needs_inside(m, s) || frot_guard_may_cross(s, w, rests(w));
 }
 
 /* Whether the step that ran is none for what rounding, beyond the bound, brings to it: too much of
@@ -177,11 +177,11 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   if (a->ratio <= 1 && (shrinks_unheard(s, w, a) || (w->step.pardoned && s->heard_at != t) ||
                         (!s->implicit && s->noise_measured < 0)))
     a->tried_ratio = a->ratio = hear(m, s, w, t, h);
-  if (a->loose > 0) frot_judge_tie(s, a->ratio, a->loose), a->loose = 0;
+  if (a->loose > 0) frot_judge_projected_stages(s, a->ratio, a->loose), a->loose = 0;
   a->forced = a->blurred;
   if (a->forced) frot_take_forced(s, a);
   if (s->weak && a->ratio <= 1) a->ratio = fmax(a->ratio, pow(w->step.turning, 8));
-  if (status == FROT_OK && !frot_passage_is_laid(m, s, w, a)) {
+  if (status == FROT_OK && !frot_step_avoids_posture(m, s, w, a)) {
     s->statistics.rejected++;
     return FROT_DIVERGE;
   }
@@ -191,8 +191,8 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
     a->stiff = frot_is_stiff(m, s, w, h);
     a->stable = frot_stable_step(m, s, w, h);
     frot_copy_awake(w, w->step.z1, w->step.z);
-    if (!frot_spare_rows_hold(m, s, w, t + h, w->step.z)) {
-      frot_spare_nothing(m, s, w);
+    if (!frot_redundant_rows_hold(m, s, w, t + h, w->step.z)) {
+      frot_restore_redundant_rows(m, s, w);
       s->statistics.rejected++;
       return FROT_DIVERGE;
     }
@@ -201,11 +201,11 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
     if (!a->dense) return frot_make_cubic(w, h), a->guard = -1, FROT_OK;
     status = frot_make_dense(m, s, w, t, h);
     int followed = s->implicit ? frot_implicit_follows_guards(m, s, w)
-                               : !rests(w) || frot_meets_stages(s, w, h);
+                               : !rests(w) || frot_guards_fit_stages(s, w, h);
     if (status == FROT_OK && !followed) status = FROT_DIVERGE;
     if (status == FROT_OK) {
-      a->guard = frot_falling_guard(m, s, w, t, h, &a->theta);
-      int closer = falls_unheard(s, a) || frot_seems_to_dip(m, s, w, a->guard, a->theta, t, h);
+      a->guard = frot_first_crossing(m, s, w, t, h, &a->theta);
+      int closer = falls_unheard(s, a) || frot_may_be_dip(m, s, w, a->guard, a->theta, t, h);
       if (a->looks == LOOKS || !closer) return FROT_OK;
       return look_closer(m, s, w, a);
     }
@@ -225,7 +225,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
       ((a->ratio > 1 || unfound) && a->rejections % PATIENCE == 0))
     measure_noise(m, s, w, t + h);
   if (a->rejections % HOLD == 0) {
-    if (a->ratio > HARDLY * a->stubborn) frot_hold_worth(s, w), frot_hold_guards(s, w);
+    if (a->ratio > HARDLY * a->stubborn) frot_keep_state_sizes(s, w), frot_keep_guard_sizes(s, w);
     a->stubborn = isfinite(a->ratio) ? a->ratio : INFINITY;
   }
   frot_shorten(m, s, w, a);
@@ -241,7 +241,7 @@ static int ends_modes(const frot_model *m, frot_state *s, const frot_work *w,
   if (!isnan(a->ratio) || a->passed >= 0 || group < 0) return 0;
   if (m->groups[group].n_elements == 0 || s->jammed_at == a->t) return 0;
   s->jammed_at = a->t, s->jammed = group;
-  frot_unpack(w, frot_stage(w, 0), s->data + w->layout.slope);
+  frot_unpack_awake(w, frot_stage(w, 0), s->data + w->layout.slope);
   s->pending = 1;
   return 1;
 }
@@ -271,7 +271,7 @@ static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attemp
 static int find_length(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   double planned = s->h;
   for (int status = FROT_OK;;) {
-    double paced = frot_pace_step(m, s, w, a->t, a->h);
+    double paced = frot_resolve_time(m, s, w, a->t, a->h);
     if (paced < a->h) a->h = paced, a->to_due = 0;
     if (!a->to_due && frot_is_too_short(s, a)) {
       int over = give_up(m, s, w, a, status);

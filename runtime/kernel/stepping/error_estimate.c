@@ -89,7 +89,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
         third -= w->step.excused[m->nv + state - m->nq];
       }
       noise = (plain ? FROT_NOISE_OF_RATES : FROT_NOISE_MARGIN) * h *
-              frot_noise_of_rate(m, s, w, state, h);
+              frot_rate_rounding(m, s, w, state, h);
       bound = tolerance * size_at_start(m, s, w, state, h);
       if (plain) rounding = noise, noise = 0; /* no inertia smooths it */
     } else {
@@ -100,7 +100,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
         if (value > largest) largest = value;
       }
       bound = guard_tolerance * h * largest;
-      double measured = frot_guard_noise(m, s, w, w->guards.list[j - n], h);
+      double measured = frot_guard_rounding(m, s, w, w->guards.list[j - n], h);
       measured = fmax(measured, dropped(m, s, w, w->guards.list[j - n]));
       noise = FROT_NOISE_MARGIN * h * fmax(measured, FROT_GUARD_FLOOR * w->guards.size[j - n]);
     }
@@ -124,7 +124,7 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
   w->step.turning = 0;
   if (s->implicit) return frot_implicit_error(m, s, w, h);
   size_own_states(m, s, w, h);
-  frot_excuse_noise(m, s, w, t, h);
+  frot_excuse_rounding(m, s, w, t, h);
   double worst = worst_error(m, s, w, h);
   if (!(worst > FROT_LIMITING) || w->step.worst < 0 || w->step.worst >= m->nq ||
       !frot_is_small(m, s, w, w->step.worst))
@@ -136,7 +136,7 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
   return worst_error(m, s, w, h);
 }
 
-void frot_hold_guards(const frot_state *s, const frot_work *w) {
+void frot_keep_guard_sizes(const frot_state *s, const frot_work *w) {
   int first = w->awake.n;
   for (int k = 0; k < w->guards.count; k++)
     /* of an implicit step only the slopes at its ends are there */

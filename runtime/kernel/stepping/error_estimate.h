@@ -11,23 +11,14 @@ double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double
 
 /* A step that failed again and again shows by its stages what its guards will soon be: they are
  * followed to that, however much shorter it becomes. */
-void frot_hold_guards(const frot_state *s, const frot_work *w);
+void frot_keep_guard_sizes(const frot_state *s, const frot_work *w);
 
 /* What rounding does to the derivatives at time t, into the state: that of the values and of the
  * time, by their influence, and that of the evaluation, by what a second difference leaves where
  * nothing bends so fast. A value whose derivative is nothing but rounding would shrink the step
  * without end. The stages of an explicit step stay, those of its dense output are lost. Returns
  * whether the last evaluation was at the end of the step, as its own was. */
-int frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t);
-
-/* The same of a state's rate in a step h, where a coordinate is no better than its speed. */
-double frot_noise_of_rate(const frot_model *m, const frot_state *s, const frot_work *w, int state,
-                          double h);
-
-/* What rounding does to guard j during a step h: to its value, and to a slip by the speeds it is
- * made of. */
-double frot_guard_noise(const frot_model *m, const frot_state *s, const frot_work *w, int j,
-                        double h);
+int frot_measure_rounding(const frot_model *m, frot_state *s, frot_work *w, double t);
 
 /* Bound of the relative error of an explicit step. */
 double frot_step_tolerance(const frot_state *s);

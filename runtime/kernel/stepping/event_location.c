@@ -43,7 +43,8 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, double t) {
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
   int moved;
-  if (s->weak && w->step.near[DP_STAGES]) return FROT_OK; /* no place there is better: singular_posture.h */
+  if (s->weak && w->step.near[DP_STAGES])
+    return FROT_OK; /* no place there is better: singular_posture.h */
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
   int status = frot_project(m, s, w, t, w->step.z1, w->step.z1 + m->nq, s->data + l->d, modes, NULL,
                             s->data + l->frozen, &moved);
@@ -122,7 +123,7 @@ static int refine(const frot_model *m, frot_state *s, frot_work *w, double t, in
                   double next) {
   double stages = a->at;
   int known = 0; /* whether the rate is */
-  frot_pack(w, w->step.z1, frot_stage(w, END));
+  frot_pack_awake(w, w->step.z1, frot_stage(w, END));
   memcpy(frot_stage(w, AT_END), frot_stage(w, DP_STAGES), sizeof(double) * (size_t)frot_width(w));
   memset(frot_stage(w, RATE_AT_END), 0, sizeof(double) * (size_t)w->awake.n);
   do {
@@ -141,7 +142,7 @@ static int refine(const frot_model *m, frot_state *s, frot_work *w, double t, in
 
 void frot_return_to_stages(const frot_work *w, const frot_attempt *a) {
   if (!a->refined) return;
-  frot_unpack(w, frot_stage(w, END), w->step.z1);
+  frot_unpack_awake(w, frot_stage(w, END), w->step.z1);
   memcpy(frot_stage(w, DP_STAGES), frot_stage(w, AT_END), sizeof(double) * (size_t)w->awake.n);
 }
 
@@ -169,10 +170,10 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
   double slope = (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * h);
   /* what reactions decide is read no better than this: nothing is gained by the steps beyond */
   int j = w->guards.list[guard];
-  double slack = frot_slack_of_guard(m, s, w, guard, h, g);
+  double slack = frot_crossing_tolerance(m, s, w, guard, h, g);
   double resolved = j < frot_condition_guard(m) ? RESOLVED * s->data[w->layout.scale_g + j] : 0;
   search a = {.longest = h, .resolved = resolved, .slack = slack, .at = theta * h, .slope = slope};
-  a.zero = frot_close_to_fall(m, s, w, guard, t, slope);
+  a.zero = frot_crossing_level(m, s, w, guard, t, slope);
   a.above = w->step.first[w->awake.n + guard] + slack, a.width = INFINITY;
   step->dense = frot_needs_inside(m, s);
   for (;;) {
@@ -194,7 +195,7 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
     if (!there && status == FROT_OK) status = refine(m, s, w, t, guard, &a, next);
     if (!there) frot_measure_end(m, s, w, t + a.at, w->step.z1);
     step->beyond = a.at - step->h;
-    double close = slack > 0 ? 0.5 * slack : frot_close_to_fall(m, s, w, guard, t, a.slope);
+    double close = slack > 0 ? 0.5 * slack : frot_crossing_level(m, s, w, guard, t, a.slope);
     *falls = a.value <= fmax(close, slip_of_rounding(m, s, w, j));
     return status;
   }

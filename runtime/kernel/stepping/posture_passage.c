@@ -22,12 +22,12 @@
 #define PATIENCE 4
 #define LAYS 8 /* times that a step is laid anew */
 
-int frot_passage_is_laid(const frot_model *m, const frot_state *s, const frot_work *w,
-                         frot_attempt *a) {
+int frot_step_avoids_posture(const frot_model *m, const frot_state *s, const frot_work *w,
+                             frot_attempt *a) {
   if (!s->weak || a->laid == LAYS || a->to_due) return 1;
-  if (frot_is_laid(m, s, w, a->t, a->h, a->want)) return 1;
+  if (frot_length_avoids_posture(m, s, w, a->t, a->h, a->want)) return 1;
   double h = a->h;
-  a->h = frot_lay_step(m, s, w, a->t, a->want, a->most), a->laid++;
+  a->h = frot_place_between_postures(m, s, w, a->t, a->want, a->most), a->laid++;
   return a->h == h; /* no other is better laid */
 }
 
@@ -36,7 +36,7 @@ void frot_shorten_passage(const frot_model *m, frot_state *s, const frot_work *w
   int better = !(a->ratio >= a->best_ratio * pow(h / a->best, LEAST_ORDER));
   a->want = a->h, a->most = LESS * h;
   if (a->ratio > 1 && a->ratio < a->best_ratio) a->best = h, a->best_ratio = a->ratio;
-  a->h = frot_lay_step(m, s, w, a->t, a->h, a->most);
+  a->h = frot_place_between_postures(m, s, w, a->t, a->h, a->most);
   if (better || a->forced || a->best_ratio * frot_step_tolerance(s) > MOST_BLUR) return;
   a->h = a->want = a->best, a->blurred = 1, a->laid = LAYS;
 }
@@ -78,7 +78,8 @@ static double energy_of_rounding(const frot_model *m, frot_work *w, double h) {
   return sum;
 }
 
-int frot_speed_lost(const frot_model *m, const frot_state *s, frot_work *w, double t, double h) {
+int frot_projection_loses_energy(const frot_model *m, const frot_state *s, frot_work *w, double t,
+                                 double h) {
   if (!frot_has_loops(m, s, w)) return -1;
   double before = frot_kinetic(m, w, w->step.z1 + m->nq);
   double after = frot_kinetic(m, w, s->data + w->layout.x + m->nq);

@@ -10,8 +10,8 @@
 #include "model/workspace.h"
 
 /* Whether no stage of the step that ran is too near a singular posture; else it is laid anew. */
-int frot_passage_is_laid(const frot_model *m, const frot_state *s, const frot_work *w,
-                         frot_attempt *a);
+int frot_step_avoids_posture(const frot_model *m, const frot_state *s, const frot_work *w,
+                             frot_attempt *a);
 
 /* Shorten the step h, in which rows are weak, to about a->h. Where a shorter one is no better than
  * the best so far, rounding is all that is left of its error: the best is taken, if that leaves
@@ -31,6 +31,7 @@ void frot_judge_passage(const frot_model *m, frot_state *s, const frot_work *w, 
  * relations has taken more of the kinetic energy than errors within the tolerance make, -1 if not:
  * the projection is orthogonal in the metric of the mass, so that it takes what they amount to
  * squared. What rounding alone moves in a step of length h is none (an equilibrium). */
-int frot_speed_lost(const frot_model *m, const frot_state *s, frot_work *w, double t, double h);
+int frot_projection_loses_energy(const frot_model *m, const frot_state *s, frot_work *w, double t,
+                                 double h);
 
 #endif

@@ -21,9 +21,6 @@
  * terms fade as fast as what it is worth (error_scales.c). */
 #define BEFORE 0.5
 #define FADED 0.2
-/* What noise of slopes makes of speeds in the stages, and these of the error of a coordinate, over
- * what it makes of that of a speed: |e' A| / |e| of the method of order eight. */
-#define BY_STAGES 4
 /* Rows of the dense output's stages, which are made later, and vectors of that output: scratch. */
 enum { BASE = DP_STAGES + 1, FORTH, BACK };
 enum { LARGEST, SIZE, MOVED };
@@ -208,28 +205,6 @@ static int slope_from_start(const frot_model *m, frot_state *s, frot_work *w, do
   return frot_slope(m, s, w, t, z, slope);
 }
 
-double frot_guard_noise(const frot_model *m, const frot_state *s, const frot_work *w, int j,
-                        double h) {
-  const double *noise = s->data + w->layout.noise;
-  double own = noise[m->nq + m->nv + j];
-  int e = frot_slip_of_guard(m, s, w, j), condition = j - frot_condition_guard(m);
-  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-  /* a gap is made of lengths that are no coordinates too: those of the body beyond its G */
-  if (j < m->n_contacts && !modes[j].closed)
-    return fmax(own, FROT_ROUNDING * s->data[w->layout.reach + j]);
-  /* how far a place is beyond an end is told in parts of the length between the ends */
-  if (condition >= 0 && condition < m->n_conditions && m->conditions[condition].contact >= 0)
-    return fmax(own, FROT_ROUNDING);
-  return e < 0 ? own : own + h * frot_row_size(m, w, m->elements[e].row, noise + m->nq);
-}
-
-double frot_noise_of_rate(const frot_model *m, const frot_state *s, const frot_work *w, int state,
-                          double h) {
-  const double *noise = s->data + w->layout.noise;
-  if (state >= m->nq || m->q_speed[state] < 0) return noise[state];
-  return noise[state] + BY_STAGES * fabs(h) * noise[m->nq + m->q_speed[state]];
-}
-
 /* Whether the step that ran ends where its first slopes do not lead: one that is far too long may
  * end anywhere, and what terms are made of there says nothing. */
 static int strays(const frot_model *m, frot_state *s, const frot_work *w, double t) {
@@ -273,7 +248,7 @@ static void add_rounding_of_constants(const frot_model *m, frot_state *s, frot_w
   }
 }
 
-int frot_measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
+int frot_measure_rounding(const frot_model *m, frot_state *s, frot_work *w, double t) {
   double *base = frot_stage(w, BASE), *forth = frot_stage(w, FORTH), *back = frot_stage(w, BACK);
   double *largest = w->step.f + LARGEST * w->layout.nz, *size = w->step.f + SIZE * w->layout.nz;
   double *z = w->step.f + MOVED * w->layout.nz, *noise = s->data + w->layout.noise;

@@ -25,7 +25,7 @@ static double change_of_slopes(const frot_model *m, frot_work *w, const double *
   return change;
 }
 
-double frot_probe_step(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+double frot_probe_slopes(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   frot_layout l = frot_layout_of(m);
   if (m->nv > 0 || m->nq == 0) return h;
   const double *start = w->step.k;

@@ -7,6 +7,6 @@
 /* A step h at most, in which the slopes at (t, w->step.z0), which are in stage 0 of w->step.k,
  * change by a part only. For models whose states are all q and no coordinates; h itself for others.
  */
-double frot_probe_step(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
+double frot_probe_slopes(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 
 #endif

@@ -75,13 +75,13 @@ static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_a
     }
     if (status == FROT_OK) status = run_again(m, s, w, a, part * longest);
     if (status != FROT_OK) return status;
-    a->guard = frot_falling_guard(m, s, w, a->t, a->h, &a->theta);
+    a->guard = frot_first_crossing(m, s, w, a->t, a->h, &a->theta);
   }
   return FROT_OK;
 }
 
-/* What a `when` waits for is no longer near where it was when it fired: event_iteration.c. Implicit steps
- * evaluate no guard at their stages, so that its polynomial is read. */
+/* What a `when` waits for is no longer near where it was when it fired: event_iteration.c. Implicit
+ * steps evaluate no guard at their stages, so that its polynomial is read. */
 static void leave_near(const frot_model *m, frot_state *s, const frot_work *w, double h) {
   double *near = s->data + w->layout.near;
   for (int k = 0; k < w->guards.count; k++) {
@@ -118,7 +118,7 @@ static void show(const frot_model *m, frot_state *s, frot_work *w, const frot_at
   frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
   frot_return_to_stages(w, a);
   if (recorder && recorder->segments) frot_record(m, s, w, recorder, !a->dense);
-  if (!a->dense && *g.t1 > w->step.looked) frot_look_inside(m, s, w, &g);
+  if (!a->dense && *g.t1 > w->step.looked) frot_complete_dense_output(m, s, w, &g);
 }
 
 /* The state that has grown so far that its squares are no numbers, -1 if none has. */
@@ -134,7 +134,7 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, const frot_att
                 double *x) {
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
-  int moved = 0, lost = frot_lost_row(m, s, w, a->t, a->h), large = grown(m, x);
+  int moved = 0, lost = frot_undetermined_row(m, s, w, a->t, a->h), large = grown(m, x);
   if (large >= 0) return frot_fail(s, FROT_DIVERGE, end, -1, FROT_GROWS, large, x[large]);
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   int status = s->weak && w->step.near[DP_STAGES]
@@ -142,16 +142,16 @@ static int land(const frot_model *m, frot_state *s, frot_work *w, const frot_att
                    : frot_project(m, s, w, end, x, x + m->nq, s->data + l->d, modes, NULL,
                                   s->data + l->frozen, &moved);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, end, a->h, x, x + m->nq);
-  lost = moved ? frot_speed_lost(m, s, w, end, a->h) : -1;
+  lost = moved ? frot_projection_loses_energy(m, s, w, end, a->h) : -1;
   if (lost >= 0) return frot_fail(s, FROT_POSTURE, end, lost, -1, -1, a->h);
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
-  frot_take_nearer(m, s, w);
+  frot_take_closer_features(m, s, w);
   s->has_slope = !moved && !s->pending && !s->spare_loops && w->nearer.count == 0;
-  if (s->has_slope && frot_sort_spare(m, s, w)) s->has_slope = 0;
-  if (s->has_slope) frot_turn_at_end(m, s, w, s->data + l->slope);
+  if (s->has_slope && frot_update_redundant_contacts(m, s, w)) s->has_slope = 0;
+  if (s->has_slope) frot_turn_references_at_end(m, s, w, s->data + l->slope);
   if (!s->implicit) frot_keep_crossings(m, s, w, a->t, a->h);
   if (s->tied > 0) s->has_slope = 0; /* stages are put onto relations by the inertia at the start */
-  if (!s->pending && !s->implicit && frot_note_still(m, s, w, x))
+  if (!s->pending && !s->implicit && frot_note_resting_islands(m, s, w, x))
     s->has_slope = 0; /* other guards are listed */
   return FROT_OK;
 }
@@ -162,7 +162,7 @@ static void look_at_noise(const frot_model *m, frot_state *s, frot_work *w, cons
   if (s->implicit || !(a->ratio > FROT_LIMITING)) return;
   if (++s->unmeasured < MEASURED && !s->noise_shown) return;
   s->unmeasured = 0;
-  frot_measure_noise(m, s, w, a->t + a->h);
+  frot_measure_rounding(m, s, w, a->t + a->h);
 }
 
 /* Take the step: it becomes the current segment. */
@@ -174,17 +174,17 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   s->statistics.steps++;
   s->statistics.implicit_steps += s->implicit, s->was_implicit = s->implicit;
   memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
-  frot_note_sizes(m, s, w, w->step.z1, frot_stage(w, DP_STAGES) + w->awake.n);
-  frot_note_worth(s, w, w->step.z1);
+  frot_update_sizes(m, s, w, w->step.z1, frot_stage(w, DP_STAGES) + w->awake.n);
+  frot_update_state_sizes(s, w, w->step.z1);
   leave_near(m, s, w, a->h);
   if (guard >= 0) s->last_ratio = 0;
   if (guard >= 0) frot_fire_guards(m, s, w, guard, a->t, a->h);
-  if (a->to_due) frot_fire_due(m, s);
+  if (a->to_due) frot_fire_time_event(m, s);
   forget_noise(m, s, w);
   frot_keep_step(m, s, w, a->t, a->h, end);
   frot_keep_friction(s, w);
   frot_copy_awake(w, w->step.z1, x);
-  frot_unpack(w, frot_stage(w, DP_STAGES), slope);
+  frot_unpack_awake(w, frot_stage(w, DP_STAGES), slope);
   memcpy(slope + l->nx, frot_stage(w, DP_STAGES) + w->awake.n,
          sizeof(double) * (size_t)w->guards.count);
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
@@ -209,18 +209,19 @@ static int go_explicitly(const frot_model *m, frot_state *s) {
   return 1;
 }
 
-/* End the step where another place of a contact that may part comes to count: closest_features.h. */
+/* End the step where another place of a contact that may part comes to count: closest_features.h.
+ */
 static int cut_where_nearer(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
                             int *guard) {
   for (double part = 0; part < 1 && !s->pending && *guard < 0;) {
-    int status = frot_look_nearer(m, s, w, a->t, a->h, &part);
+    int status = frot_find_closer_features(m, s, w, a->t, a->h, &part);
     if (status == FROT_OK && part < 1 && !(part * a->h <= FROT_LEAST_STEP * fmax(fabs(a->t), a->h)))
       status = run_again(m, s, w, a, part * a->h);
     else
       part = 1;
     if (status != FROT_OK || part == 1) return status;
     w->nearer.count = 0;
-    a->guard = frot_falling_guard(m, s, w, a->t, a->h, &a->theta);
+    a->guard = frot_first_crossing(m, s, w, a->t, a->h, &a->theta);
     status = cut_at_event(m, s, w, a, guard);
     if (status != FROT_OK) return status;
   }
@@ -249,7 +250,7 @@ static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
 static int step(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
   frot_attempt a = frot_attempt_from(*frot_segment_at(m, s->data + w->layout.segment).t1);
   if (s->due <= a.t) {
-    frot_fire_due(m, s);
+    frot_fire_time_event(m, s);
     return FROT_OK;
   }
   int status = frot_begin_step(m, s, w, &a);
@@ -258,14 +259,14 @@ static int step(const frot_model *m, frot_state *s, frot_work *w, frot_recorder 
   if (status != FROT_OK)
     return frot_fail_step(m, s, w, status, a.t, 0, w->step.z1, w->step.z1 + m->nq);
   status = take(m, s, w, &a, recorder);
-  frot_see_anew(w);
+  frot_forget_redundant_rows(w);
   w->reactions.follow = 0;
   return status;
 }
 
 int frot_step(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
-  frot_let_sleep(m, s, w);
+  frot_enter_sleep(m, s, w);
   int status = step(m, s, w, recorder);
-  frot_wake(w);
+  frot_leave_sleep(w);
   return status;
 }

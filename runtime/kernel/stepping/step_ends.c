@@ -47,8 +47,8 @@ void frot_keep_friction(frot_state *s, const frot_work *w) {
   }
 }
 
-void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z,
-                     const double *guards) {
+void frot_update_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z,
+                       const double *guards) {
   const frot_layout *l = &w->layout;
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n - FROT_QUADRATURES; k++) {
@@ -77,7 +77,7 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
   }
   frot_list_guards(m, s, w, modes_of(s, w));
   if (s->has_slope) {
-    frot_pack(w, s->data + l->slope, frot_stage(w, 0));
+    frot_pack_awake(w, s->data + l->slope, frot_stage(w, 0));
     memcpy(frot_stage(w, 0) + w->awake.n, s->data + l->slope + l->nx,
            sizeof(double) * (size_t)w->guards.count);
     /* as large as they have been: scratch says nothing of the step before */
@@ -89,10 +89,10 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   int status = frot_slope(m, s, w, t, w->step.z0, frot_stage(w, 0));
   if (status == FROT_OK) {
-    if (!s->from_posture && frot_note_spare(m, s, w)) {
-      frot_follow_spare(m, w, s->data + l->spare);
+    if (!s->from_posture && frot_find_redundant_rows(m, s, w)) {
+      frot_use_redundant_rows(m, w, s->data + l->spare);
       status = frot_slope(m, s, w, t, w->step.z0, frot_stage(w, 0));
-      frot_see_anew(w);
+      frot_forget_redundant_rows(w);
       if (status != FROT_OK) return status;
     }
     for (int i = 0; i < w->awake.now->n_groups; i++) {
@@ -103,12 +103,13 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
     frot_turn_references(m, s, w);
     frot_measure_end(m, s, w, t, w->step.z0);
     frot_keep_friction(s, w);
-    frot_note_sizes(m, s, w, w->step.z0, w->step.z);
+    frot_update_sizes(m, s, w, w->step.z0, w->step.z);
     memcpy(frot_stage(w, 0) + w->awake.n, w->step.z, sizeof(double) * (size_t)w->guards.count);
   }
   if (status != FROT_OK || !s->from_posture) return status;
   const double *q = w->step.z0, *d = s->data + l->d;
-  status = frot_follow_ways(m, s, w, t, q, q + m->nq, d, modes_of(s, w), s->data + l->spare);
+  status =
+      frot_accelerations_on_branch(m, s, w, t, q, q + m->nq, d, modes_of(s, w), s->data + l->spare);
   for (int k = 0; k < w->awake.n - FROT_QUADRATURES; k++) {
     int speed = w->awake.now->states[k] - m->nq;
     if (speed >= 0) frot_stage(w, 0)[k] = w->core.a[speed];
@@ -116,7 +117,7 @@ int frot_start_slope(const frot_model *m, frot_state *s, frot_work *w, double t)
   return status;
 }
 
-void frot_turn_at_end(const frot_model *m, frot_state *s, frot_work *w, double *slope) {
+void frot_turn_references_at_end(const frot_model *m, frot_state *s, frot_work *w, double *slope) {
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = modes_of(s, w);
   const frot_awake_lists *now = w->awake.now;

@@ -18,11 +18,11 @@ void frot_keep_friction(frot_state *s, const frot_work *w);
 
 /* Note how large values and guards have been, forces a moment ago, after frot_measure_end at z;
  * `guards`: the values of those listed. One that is at zero keeps its size until it is not. */
-void frot_note_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z,
-                     const double *guards);
+void frot_update_sizes(const frot_model *m, frot_state *s, const frot_work *w, const double *z,
+                       const double *guards);
 
 /* Turn the pins' references to their reactions at the end of the step, and with them the guards in
  * its slope. */
-void frot_turn_at_end(const frot_model *m, frot_state *s, frot_work *w, double *slope);
+void frot_turn_references_at_end(const frot_model *m, frot_state *s, frot_work *w, double *slope);
 
 #endif

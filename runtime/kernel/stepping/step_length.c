@@ -51,7 +51,7 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   int status = frot_start_slope(m, s, w, s->t);
   if (status != FROT_OK)
     return frot_fail_step(m, s, w, status, s->t, 0, w->step.z0, w->step.z0 + m->nq);
-  s->statistics.free = frot_free_speeds(m, s, w);
+  s->statistics.free = frot_count_free_speeds(m, s, w);
   for (int i = 0; i < w->awake.now->n_groups; i++) {
     const frot_group *g = &m->groups[w->awake.now->groups[i]];
     if (!g->general) s->statistics.masked = fmax(s->statistics.masked, frot_masked_part(m, w, g));
@@ -62,7 +62,7 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
   frot_starts_singular(m, s, w, s->t, h, lost);
   for (int i = 0; i < m->n_contacts; i++) {
     if (!lost[i]) continue;
-    if (!frot_begins_on_way(m, s, w, s->t, i))
+    if (!frot_begins_on_branch(m, s, w, s->t, i))
       return frot_fail(s, FROT_POSTURE, s->t, i, -1, -1, 0);
     const frot_group *g = frot_group_of(m, m->contacts[i].row_n);
     leaves = fmin(leaves, LEAVES * frot_time_of_turn(m, s, g, w->step.z0 + m->nq));
@@ -75,7 +75,7 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
     double slope = fabs(frot_stage(w, 0)[j]), size = fabs(w->step.z0[j]);
     if (slope > 0 && size > 0) h = fmin(h, FIRST_CHANGE * size / slope);
   }
-  h = frot_probe_step(m, s, w, s->t, fmax(h, FIRST_LEAST * s->h_max));
+  h = frot_probe_slopes(m, s, w, s->t, fmax(h, FIRST_LEAST * s->h_max));
   s->h = frot_finest_step(m, s, w, h);
   return FROT_OK;
 }

@@ -68,7 +68,7 @@ static void note_rates(const frot_model *m, frot_state *s, frot_work *w, double 
     if (fabs(rate[i]) > largest[i] && isfinite(rate[i])) largest[i] = fabs(rate[i]);
 }
 
-double frot_pace_step(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
+double frot_resolve_time(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   double spacing = fmax(told_run(s, w), t - s->began) / SAMPLES;
   if (m->n_paced == 0 || !(h > spacing)) return h;
   int count = (int)fmin(ceil(h / spacing), SAMPLES);

@@ -22,6 +22,6 @@ double frot_finest_step(const frot_model *m, const frot_state *s, const frot_wor
 
 /* h, or the length of the step that ends before the rates grow beyond what its stages will see.
  * The states are in w->step.z0. */
-double frot_pace_step(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
+double frot_resolve_time(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 
 #endif

@@ -366,7 +366,7 @@ void frot_bind_work(const frot_model *model, frot_work *work) {
   bind(model, work, (char *)work);
   frot_measure_islands(model, work);
   frot_measure_rows(model, work);
-  frot_list_all(model, work);
+  frot_list_all_islands(model, work);
   work->reactions.jammed = work->step.worst = -1; /* no step has failed */
 }
 
