@@ -41,7 +41,8 @@ def _unfolded(variables: Variables, bodies: Sequence[Body]) -> Callable[[Body, c
     """What keeps CasADi from adding numbers of light bodies to those of heavy ones.
 
     Their sum would be rounded before the kernel can take it in wide numbers (extended_inertia.h).
-    A number is the least of itself and of what nobody knows to be infinite, by a speed of the body's tree.
+    A number is the least of itself and of what nobody knows to be infinite, by a speed of the
+    body's tree.
     """
     masses = [variables.mass(body) for body in bodies]
     known = [float(m) for m in masses if m.is_constant() and float(m) > 0]
