@@ -10,13 +10,13 @@ the program from the last. A pass gives None for what the text is to blame for, 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.refuse import refuse_unknown
 from frot.dsl import Log, dump
 from frot.dsl.checked import Model
-from frot.dsl.data.classes import replace
 from frot.dsl.data.collection import without_collection
 from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, read_program
 

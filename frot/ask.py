@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from frot.dsl import checked
 from frot.dsl.catalogue import body_members, liaison_members, point_members
-from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.errors import FrotError, fail
 from frot.dsl.quantities.dimensions import Type
 

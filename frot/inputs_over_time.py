@@ -11,12 +11,12 @@ import csv
 import math
 import re
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
-from frot.dsl.data.classes import replace
 from frot.dsl.messages.errors import fail
 from frot.dsl.quantities.dimensions import REAL, Type, dimension
 from frot.runtime.scheduled import COEFFICIENTS, coefficient_name, knot_name

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from frot.compiler import find_program, find_toolchain, program_key
-from frot.dsl.data.classes import replace
 from frot.dsl.files.import_scan import imported_files
 from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostics import Diagnostic, Log

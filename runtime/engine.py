@@ -9,9 +9,9 @@ import signal
 import threading
 from array import array
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.errors import FrotError, fail
 from frot.runtime.library import (

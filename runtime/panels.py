@@ -8,10 +8,10 @@ that the text declares. Of many the ones that move most are taken, in the order 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from frot.dsl.data.classes import dataclass, replace
 from frot.runtime.program import VariableInfo
 from frot.runtime.result import Result
 

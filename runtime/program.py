@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
-
-from frot.dsl.data.classes import dataclass, field
 
 MANIFEST = "manifest.json"
 LIBRARY = "program.so"

@@ -6,11 +6,11 @@ import io
 import json
 from array import array
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from frot.dsl.data.classes import dataclass
 from frot.dsl.files.writing import DATA, check_target, write_whole
 from frot.dsl.messages.errors import FrotError
 from frot.runtime.engine import Engine, as_floats

@@ -9,9 +9,9 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.errors import fail
 
 if TYPE_CHECKING:

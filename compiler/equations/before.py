@@ -8,12 +8,12 @@ value before in the equations of its conditions already. What an equation gives 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.text_symbols import Held, TextSymbols, scalars
 from frot.compiler.lowering.symbols import shaped
 from frot.dsl.checked import Element, Expression, Reference, Variable
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 
 # Of a whole number, by how much a value is beyond it before it counts as back.

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.symbolic.columns import column
 from frot.dsl.checked import Variable
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 
 

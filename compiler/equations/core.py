@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import casadi as ca
 from frot.compiler.equations.chains import Chains, replace_known
 from frot.compiler.equations.differentiate import Differentiated
@@ -10,7 +12,6 @@ from frot.compiler.equations.given import Given
 from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.dsl import Log
-from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 
 

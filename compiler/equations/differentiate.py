@@ -7,6 +7,7 @@ choice of states has to be made, and none becomes singular on the way.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains
@@ -17,7 +18,6 @@ from frot.compiler.equations.origins import Origin, Unknown
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.slopes import symbols_inside
 from frot.dsl import Log
-from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

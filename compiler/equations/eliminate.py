@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains, Resolver
@@ -17,7 +18,6 @@ from frot.compiler.equations.origins import Origin
 from frot.compiler.equations.table import PARAMETER, UNIT, Factor, Row, Table
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.slopes import CANCELS
-from frot.dsl.data.classes import dataclass
 
 Entries = Mapping[int, int]
 

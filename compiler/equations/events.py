@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
 import casadi as ca
@@ -26,7 +27,6 @@ from frot.dsl.checked import (
 from frot.dsl.checked.arrays import component_names
 from frot.dsl.checked.walk import conjuncts, is_instant
 from frot.dsl.checked.wording import words
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 
 TERMINATE, FAIL, WARN, FAULT = range(4)

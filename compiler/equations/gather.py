@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import casadi as ca
 from frot.compiler.equations.eliminate import Residuals
@@ -11,7 +12,6 @@ from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.expressions import Lowering
 from frot.dsl import Log
 from frot.dsl.checked import Equation, IfEquations
-from frot.dsl.data.classes import replace
 from frot.dsl.expressions.expression import is_whole
 
 

@@ -8,11 +8,11 @@ The algorithm is that of C. Pantelides (SIAM J. Sci. Stat. Comput. 9, 1988).
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from frot.compiler.equations.origins import Origin, Unknown
 from frot.compiler.equations.sparse import match, pattern
 from frot.dsl import Label, Log
-from frot.dsl.data.classes import dataclass
 
 MOST_NAMED = 8
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from graphlib import TopologicalSorter
 
 from frot.compiler.equations.sparse import strong_components
-from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

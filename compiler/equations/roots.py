@@ -14,13 +14,13 @@ those of the signs of the defaults alone: for others the root is what the text s
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
 from frot.compiler.equations.chains import Resolver, replace_known
 from frot.compiler.equations.given import Given
 from frot.compiler.symbolic.columns import column
-from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
 
 FEW, MANY = (k * float(np.finfo(float).eps) for k in (4, 16))

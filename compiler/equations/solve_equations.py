@@ -7,6 +7,8 @@ depends on it after.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, replace
+
 import casadi as ca
 from frot.compiler.equations.chains import Chains, replace_known
 from frot.compiler.equations.combine import combine
@@ -44,7 +46,6 @@ from frot.compiler.mechanics.reduce import Reduced, Tree
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.compiler.symbolic.slopes import without_what_cancels
 from frot.dsl import Log, default_values, evaluate
-from frot.dsl.data.classes import dataclass, field, replace
 
 
 @dataclass(slots=True, eq=False)

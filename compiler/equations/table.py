@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains
 from frot.compiler.equations.given import Given
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.slopes import slopes, symbols_inside
-from frot.dsl.data.classes import dataclass
 
 UNIT, CONSTANT, PARAMETER, UNUSABLE = range(4)
 

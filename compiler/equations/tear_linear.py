@@ -9,6 +9,7 @@ that another one gives, and what is left is solved with pivots chosen in the run
 from __future__ import annotations
 
 from collections import defaultdict
+from dataclasses import dataclass
 from itertools import permutations
 
 import casadi as ca
@@ -21,7 +22,6 @@ from frot.compiler.symbolic.slopes import (
     slopes,
     without_what_cancels,
 )
-from frot.dsl.data.classes import dataclass
 
 # A pivot's size at least, in that of the largest factor of its unknown, at the defaults.
 _PIVOT = 0.1

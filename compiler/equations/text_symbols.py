@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import casadi as ca
 from frot.compiler.equations.chains import Chains
 from frot.compiler.lowering.symbols import shaped
 from frot.dsl.checked import Variable
 from frot.dsl.checked.arrays import component_names
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 
 

@@ -11,6 +11,7 @@ slips forwards or backwards: rounding decides nothing at a departure, at a rever
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
@@ -30,7 +31,6 @@ from frot.compiler.mechanics.variables import FREE, STICK
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.compiler.symbolic.vanishing_sums import Zeros
 from frot.dsl import Log
-from frot.dsl.data.classes import dataclass, replace
 
 
 def assemble(reduced: Reduced, log: Log) -> Assembled | None:

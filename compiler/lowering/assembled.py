@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains, Resolver, replace_known
@@ -13,7 +14,6 @@ from frot.compiler.mechanics.reduce import Reduced, Tree
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.sums import sizes_of_terms
 from frot.compiler.symbolic.vanishing_sums import Zeros
-from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.eliminate import Pivot
@@ -26,7 +27,6 @@ from frot.dsl.checked import (
 )
 from frot.dsl.checked.arrays import component_names, scalars
 from frot.dsl.checked.walk import conjuncts
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import REAL, Type
 

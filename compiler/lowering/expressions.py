@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 import casadi as ca
@@ -30,7 +31,6 @@ from frot.dsl.checked import (
 )
 from frot.dsl.checked.walk import Rules, SharedWalk, parts
 from frot.dsl.checked.wording import words
-from frot.dsl.data.classes import dataclass, field, replace
 from frot.dsl.messages.source import Span
 
 NEVER, RISING, ALWAYS = range(3)

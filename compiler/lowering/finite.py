@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -17,7 +18,6 @@ from frot.compiler.equations.origins import Origin
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.drawn import read_as_truths
-from frot.dsl.data.classes import dataclass
 
 _RISKY = {
     getattr(ca, f"OP_{name}")

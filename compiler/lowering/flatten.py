@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TypeVar
 
 from frot.dsl.checked import Expression, Input, Parameter
 from frot.dsl.checked.arrays import bounds_of, component_names, scalars
-from frot.dsl.data.classes import replace
 
 T = TypeVar("T", Parameter, Input)
 

@@ -8,6 +8,7 @@ matrix, no scale and no search: what does not touch costs what it costs alone.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -17,7 +18,6 @@ from frot.compiler.mechanics.dynamics import speeds_by_tree
 from frot.compiler.mechanics.elements import Element, link_elements, text_element
 from frot.compiler.symbolic.columns import dense
 from frot.compiler.symbolic.drawn import at_positive, at_random
-from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
 
 

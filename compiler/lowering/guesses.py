@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.chains import replace_known
@@ -12,7 +13,6 @@ from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.dsl.checked import Element
-from frot.dsl.data.classes import dataclass
 from frot.dsl.quantities.dimensions import Dimension
 
 # Square of the part of a guess that stronger ones must leave, or it says nothing more.

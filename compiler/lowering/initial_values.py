@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.equations.before import whole
@@ -24,7 +25,6 @@ from frot.compiler.mechanics.link import Link
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation
-from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import Dimension
 

@@ -8,6 +8,7 @@ move and lets the others sleep.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
@@ -21,7 +22,6 @@ from frot.compiler.lowering.groups import (
     reorder_groups,
 )
 from frot.compiler.symbolic.columns import column
-from frot.dsl.data.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

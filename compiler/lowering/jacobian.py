@@ -5,13 +5,13 @@ from __future__ import annotations
 import itertools
 from bisect import bisect_left
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.groups import Group, Grouping
 from frot.compiler.symbolic.columns import column
-from frot.dsl.data.classes import dataclass
 
 # What knows sparse matrices loads SciPy: only where there is one.
 TYPE_CHECKING = False

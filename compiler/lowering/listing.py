@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.equations.text_symbols import scalars
@@ -22,7 +23,6 @@ from frot.dsl.checked import (
     arrays,
 )
 from frot.dsl.checked.arrays import component_names
-from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.names.flanges import parameter_type
 from frot.dsl.quantities.dimensions import Dimension, Enumeration, dimension
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled, Block, row_depends, terms_of_rates
@@ -30,7 +31,6 @@ from frot.compiler.symbolic.columns import column, dense
 from frot.compiler.symbolic.equals import Kind, Member, share_functions
 from frot.compiler.symbolic.numbers_in_sums import size_of_numbers
 from frot.dsl import Log
-from frot.dsl.data.classes import dataclass, replace
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -8,12 +8,13 @@ values before (`pre`) stay. So a condition that reads what a `when` sets is deci
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import casadi as ca
 from frot.compiler.equations.events import FAULT, Outcome
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.symbolic.columns import column
 from frot.dsl import Log
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 
 

@@ -8,6 +8,7 @@ costs grows with the number of parts, and what stands beside a part does nothing
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
@@ -15,7 +16,6 @@ from frot.compiler.lowering.groups import Grouping, Sets, pack_matrix, pack_rows
 from frot.compiler.lowering.initial_values import Initial
 from frot.compiler.lowering.islands import Island
 from frot.compiler.symbolic.columns import scalars_of
-from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.lowering.flatten import T, by_input, tunable
@@ -11,7 +12,6 @@ from frot.compiler.mechanics.link import Link
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.symbolic.columns import column
 from frot.dsl.checked import Input, Liaison, Parameter
-from frot.dsl.data.classes import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, eq=False)

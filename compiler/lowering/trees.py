@@ -8,10 +8,10 @@ components, and what turns has one.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.mechanics.dynamics import Step
-from frot.dsl.data.classes import dataclass
 
 # Components of a twist: in the plane (about z, x, y), in space (about x y z, x y z).
 PLANE, SPACE = 3, 6

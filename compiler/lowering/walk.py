@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked import (
@@ -25,7 +26,6 @@ from frot.dsl.checked import (
     Variable,
 )
 from frot.dsl.checked.walk import nodes, parts
-from frot.dsl.data.classes import replace
 
 COMPARISONS = ("<", "<=", ">", ">=", "==", "<>")
 

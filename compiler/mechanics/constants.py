@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.symbols import Symbols
 from frot.dsl import Log
 from frot.dsl.checked import Expression, Quantity, Variable
-from frot.dsl.data.classes import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -13,6 +13,7 @@ from step to step (runtime/kernel/inertia/articulated.h).
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.mechanics.hang import Node
@@ -20,7 +21,6 @@ from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.spatial import cross, nowhere, size_of_cross
 from frot.compiler.symbolic.columns import column as stacked
 from frot.dsl.checked import Body
-from frot.dsl.data.classes import dataclass, field
 
 # Speeds of a tree from which on the recursion costs less than the mass matrix, measured: of one
 # whose reactions nobody reads, and of one with readings, each of which is one more way along it.

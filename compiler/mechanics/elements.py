@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import Enum
 
 from frot.compiler.lowering.symbols import Rows
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.link import Link
-from frot.dsl.data.classes import dataclass
 
 
 class Bound(Enum):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
@@ -25,7 +26,6 @@ from frot.dsl.checked import (
     Literal,
     Place,
 )
-from frot.dsl.data.classes import dataclass, field
 
 Argument = Expression | Place | Liaison
 

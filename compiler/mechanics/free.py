@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 
 from frot.compiler.mechanics.liaisons.stated import bodies_of
 from frot.compiler.mechanics.link import Link
@@ -11,7 +12,6 @@ from frot.compiler.mechanics.mechanize import link_of
 from frot.compiler.mechanics.spanning import span
 from frot.dsl import Log
 from frot.dsl.checked import Liaison
-from frot.dsl.data.classes import replace
 
 
 def free(mechanism: Mechanism, wanted: Collection[Liaison]) -> Mechanism:

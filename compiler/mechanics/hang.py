@@ -5,6 +5,7 @@ Velocities follow with the poses, and so do the accelerations that are there whi
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -13,7 +14,6 @@ from frot.compiler.mechanics.link import Point, frames_of, point_body
 from frot.compiler.mechanics.mechanism import Hanging
 from frot.compiler.mechanics.spatial import AT_REST, Moving, nowhere
 from frot.dsl.checked import Body
-from frot.dsl.data.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics

@@ -8,6 +8,7 @@ differentiated.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -42,7 +43,6 @@ from frot.compiler.mechanics.spatial import (
 )
 from frot.compiler.mechanics.values import unit_vector
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison
-from frot.dsl.data.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.geometry.contact import Contact

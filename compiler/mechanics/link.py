@@ -8,10 +8,10 @@ lower.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Self
 
 from frot.dsl.checked import Body, BodyPoint, Expression, Frame, Liaison, Literal
-from frot.dsl.data.classes import dataclass
 from frot.dsl.quantities.dimensions import BOOLEAN
 
 TYPE_CHECKING = False

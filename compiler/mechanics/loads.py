@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import casadi as ca
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.mechanics.dynamics import Push, in_trees
@@ -10,7 +12,6 @@ from frot.compiler.mechanics.mechanism import Mechanism, is_unilateral
 from frot.compiler.mechanics.variables import Variables
 from frot.dsl import Log
 from frot.dsl.checked import Law, Liaison
-from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 
 from frot.compiler.lowering.walk import has_time, is_fixed
 from frot.compiler.mechanics.link import Link, Point, point_body
@@ -21,7 +22,6 @@ from frot.dsl.checked import (
     Model,
     Surface,
 )
-from frot.dsl.data.classes import dataclass, replace
 
 # What has no bodies is told without CasADi.
 TYPE_CHECKING = False

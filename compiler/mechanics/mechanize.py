@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from frot.compiler.lowering.walk import read_quantities, subexpressions
 from frot.compiler.mechanics.geometry.contact import Contact
@@ -44,7 +45,6 @@ from frot.dsl.checked import (
     Model,
     Quantity,
 )
-from frot.dsl.data.classes import replace
 
 
 def mechanize(model: Model, log: Log) -> Mechanism | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.equations.apart import moved_by_forces
@@ -55,7 +56,6 @@ from frot.compiler.mechanics.variables import Variables, may_be_held
 from frot.compiler.symbolic.columns import column
 from frot.dsl import Log
 from frot.dsl.checked import Liaison, Quantity
-from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.messages.source import Span
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 from frot.compiler.mechanics.liaisons.facing import Attitude, Heading, Pointing, Steady
 from frot.compiler.mechanics.liaisons.joint import Joint
@@ -13,7 +14,6 @@ from frot.compiler.mechanics.mechanism import Hanging, is_driven, is_slender, tu
 from frot.compiler.mechanics.rolling import can_roll
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Body, Liaison, Model
-from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

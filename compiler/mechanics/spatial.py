@@ -6,8 +6,9 @@ same algebra with structural zeros: what does not exist in the plane is never wr
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import casadi as ca
-from frot.dsl.data.classes import dataclass
 
 X, Y, Z = (ca.SX(ca.DM.eye(3)[:, k]) for k in range(3))
 

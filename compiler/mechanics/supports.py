@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.mechanics.mechanism import Hanging
 from frot.compiler.mechanics.spatial import Pose, nowhere
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.walk import follows_time, has_time
 from frot.compiler.mechanics.spatial import X, Y, Z, beside, cross, whole
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Expression, Literal, Time
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Source, Span
 
 Lower = Callable[[Expression], ca.SX]

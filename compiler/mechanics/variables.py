@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.equations.chains import Chains
@@ -17,7 +18,6 @@ from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere
 from frot.dsl.catalogue import MODES
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity, Variable
-from frot.dsl.data.classes import dataclass, field
 
 # The motions that friction may hold, and the mode in which it does: the literals count from 1.
 HELD = ("slip", "speed")

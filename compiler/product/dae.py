@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -20,7 +21,6 @@ from frot.compiler.product.dae_switching import (
 )
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.dsl import default_values, evaluate
-from frot.dsl.data.classes import dataclass
 
 NEWTON_STEPS = 10
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.symbols import Rows
 from frot.compiler.symbolic.columns import scalars_of
-from frot.dsl.data.classes import dataclass
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)
 STICK, FORWARD, BACKWARD = range(1, 4)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,6 @@ from frot.compiler.report.first_integrals import FirstIntegral
 from frot.compiler.toolchain.chosen import MODEL_FLAGS, Toolchain
 from frot.dsl import default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
-from frot.dsl.data.classes import replace
 from frot.dsl.messages.source import escaped
 from frot.dsl.quantities.dimensions import Enumeration, dimension
 from frot.runtime.program import (

@@ -8,6 +8,7 @@ otherwise, so that a reaction depends on every input of its group.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.groups import Group, pack_spread
@@ -15,7 +16,6 @@ from frot.compiler.lowering.islands import dynamics_of
 from frot.compiler.lowering.lower import Lowered, state_arguments
 from frot.compiler.lowering.lower_parameters import parameters_needed
 from frot.compiler.symbolic.columns import column
-from frot.dsl.data.classes import dataclass
 
 TIME = "time"
 

@@ -10,9 +10,9 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 
 from frot.compiler.product.roll import NAMED, Statement, Straight
-from frot.dsl.data.classes import dataclass, field
 
 _MARK = re.compile(r"@|#\d+")
 # Numbers of a table on a line of C.

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
-from frot.dsl.data.classes import dataclass
 
 # Statements of a function from which on it is worth looking: straight lines run faster than loops
 # over tables, and a C compiler takes so many in half a second. The longest period looked for, and

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
 from frot.compiler.product.pieces import write_pieces
 from frot.compiler.product.roll import roll
-from frot.dsl.data.classes import dataclass
 
 # Statements of a piece. GCC takes least for some hundreds; a call costs nothing beside them.
 LONGEST = 500

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.lower import begin
@@ -25,7 +26,6 @@ from frot.compiler.report.relations import make_relations
 from frot.compiler.report.start import Start, find_start, may_part, posture_of
 from frot.dsl import Log, default_values
 from frot.dsl.checked import Body, Liaison
-from frot.dsl.data.classes import dataclass, field
 
 # Ranks of more relations than these take long: they are counted, and nothing more is said.
 MOST_RELATIONS = 1200

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import casadi as ca
@@ -12,7 +13,6 @@ from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.mechanics.spatial import cross, nowhere, whole
 from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl.checked import Body, BodyGeometry, BodyPoint, CurvePlace, Frame, Place, SurfacePlace
-from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.quantities.dimensions import Dimension, dimension
 
 AXES = "xyz"

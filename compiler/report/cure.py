@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 from frot.compiler.mechanics.liaisons.joint import Joint
@@ -13,7 +14,6 @@ from frot.compiler.mechanics.values import Axis
 from frot.compiler.report.redundancy import Loop
 from frot.compiler.report.relations import Floats, Posture, Relations, make_relations, rank
 from frot.dsl.checked import Expression, Liaison
-from frot.dsl.data.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
@@ -10,7 +11,6 @@ from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.report.followed import Followed
 from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.symbolic.columns import column, scalars_of
-from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 
 _CLOSED = 1e-11

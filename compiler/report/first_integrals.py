@@ -9,6 +9,7 @@ say so (the height of what rolls on a plane) is none.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -27,7 +28,6 @@ from frot.compiler.report.dynamics import make_dynamics
 from frot.compiler.report.relations import Floats, Posture
 from frot.compiler.report.search import Looked, Search
 from frot.compiler.report.start import find_start
-from frot.dsl.data.classes import dataclass
 from frot.dsl.quantities.dimensions import Dimension
 
 # Of more speeds the equations are not written out.

@@ -10,6 +10,7 @@ n M^-1 (n - mu t) = 0 at the coefficient named here; of a pin, whose couple is m
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
@@ -19,7 +20,6 @@ from frot.compiler.report.dynamics import Dynamics, State, make_dynamics
 from frot.compiler.report.relations import Floats, Posture
 from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl.checked import Liaison
-from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 
 # Of mu c: friction that does not change its reaction.

@@ -8,6 +8,7 @@ one there are more.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
@@ -20,7 +21,6 @@ from frot.compiler.report.relations import (
     rank,
 )
 from frot.dsl.checked import Body, Liaison
-from frot.dsl.data.classes import dataclass
 
 # Of an orthonormal combination of rows: a relation takes part.
 _TAKES_PART = 1e-7

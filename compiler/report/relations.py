@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
@@ -14,7 +15,6 @@ from frot.compiler.mechanics.link import Link
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.report.followed import Followed
 from frot.compiler.symbolic.columns import column
-from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from frot.compiler.lowering.walk import has_time, subexpressions
 from frot.compiler.mechanics.liaisons.freed import is_row
@@ -28,7 +29,6 @@ from frot.dsl.checked import (
     Reference,
     SurfacePlace,
 )
-from frot.dsl.data.classes import dataclass
 from frot.dsl.statements.connections import UNCONNECTED
 from frot.dsl.statements.equations import count
 

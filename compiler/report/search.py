@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import casadi as ca
 import numpy as np
 from frot.compiler.lowering.walk import as_number
@@ -10,7 +12,6 @@ from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.report.relations import Posture, turning_speeds
 from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl import default_values, evaluate
-from frot.dsl.data.classes import dataclass, replace
 from numpy.typing import NDArray
 
 # Rates and values that are zero beside the sizes of their terms.

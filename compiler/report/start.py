@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -15,7 +16,6 @@ from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.report.relations import Posture, Relations
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.dsl import default_values, evaluate
-from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
 
 _STEPS = 60

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Protocol
 
 import casadi as ca
 from frot.compiler.symbolic.columns import dense
-from frot.dsl.data.classes import dataclass
 
 
 class Owner(Protocol):

@@ -10,13 +10,13 @@ value of some function without any property but that equal operands give equal v
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import cast
 
 import casadi as ca
 import numpy as np
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.slopes import CANCELS
-from frot.dsl.data.classes import dataclass
 from numpy.typing import NDArray
 
 PLACES = 3

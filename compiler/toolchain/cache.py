@@ -10,12 +10,12 @@ import os
 import shutil
 import stat
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from frot.compiler.toolchain.chosen import KERNEL_FLAGS, MODEL_FLAGS, Toolchain
 from frot.compiler.toolchain.hold import Hold, hold
-from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.files.folders import cache_folder, room
 from frot.runtime.program import Program, read_program
 

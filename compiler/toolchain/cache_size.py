@@ -9,11 +9,11 @@ import re
 import secrets
 import shutil
 import time
+from dataclasses import dataclass
 from pathlib import Path
 from stat import S_ISDIR
 
 from frot.compiler.toolchain.hold import hold
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.errors import fail
 
 # Folders of entries; files of the parser's tables lie beside them.

@@ -7,9 +7,9 @@ import os
 import shlex
 import shutil
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.errors import fail
 
 # Nobody asks errno of a root, nor puts another function in the place of one: no bit changes.

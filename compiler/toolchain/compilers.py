@@ -8,11 +8,11 @@ import shlex
 import subprocess
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from frot.compiler.toolchain.chosen import Toolchain
 from frot.compiler.toolchain.keeper import Keeper
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.errors import fail
 
 LIBRARIES = ("-lm",)

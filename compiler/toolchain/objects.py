@@ -7,13 +7,13 @@ import hashlib
 import shutil
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from frot.compiler.toolchain.cache import Kept, is_whole, seal, stored
 from frot.compiler.toolchain.chosen import KERNEL_FLAGS, Toolchain, find_toolchain
 from frot.compiler.toolchain.compilers import compile_objects, join_objects
 from frot.compiler.toolchain.storing import store
-from frot.dsl.data.classes import replace
 from frot.dsl.files.folders import room
 from frot.dsl.messages.errors import FrotError
 

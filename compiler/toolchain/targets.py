@@ -6,6 +6,7 @@ import importlib.util
 import os
 import tempfile
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from frot.compiler.toolchain.cache import Kept
@@ -26,7 +27,6 @@ from frot.compiler.toolchain.objects import (
     kernel_sources,
     only_seen,
 )
-from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.files.folders import room
 from frot.dsl.messages.errors import fail
 from frot.runtime.fmi.platforms import NATIVE, own_platform

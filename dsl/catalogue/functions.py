@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from frot.dsl.data.classes import dataclass
 from frot.dsl.quantities.dimensions import REAL, Type
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import Protocol, TypeVar
 
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.quantities.dimensions import REAL, Type
 
 

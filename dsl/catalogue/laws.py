@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from frot.dsl.catalogue.kinds import Argument, LawKind, LiaisonKind, table
 from frot.dsl.catalogue.types import (
     ANGULAR_VELOCITY,
@@ -10,7 +12,6 @@ from frot.dsl.catalogue.types import (
     ROTATIONAL_DAMPING,
     VELOCITY,
 )
-from frot.dsl.data.classes import replace
 from frot.dsl.quantities.dimensions import REAL
 
 _MU = Argument("mu", REAL, sign="nonnegative", doc="coefficient of friction of motion")

@@ -5,9 +5,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
-
-from frot.dsl.data.classes import dataclass
 
 if TYPE_CHECKING:
     from frot.dsl.checked.expressions import Expression

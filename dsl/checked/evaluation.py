@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 from frot.dsl import checked
 from frot.dsl.catalogue import FUNCTIONS
 from frot.dsl.checked.walk import Rules, SharedWalk, nodes
-from frot.dsl.data.classes import dataclass, field
 
 Value = float | bool | str | tuple[Any, ...]
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from typing import ClassVar
 
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe
 from frot.dsl.checked.walk import Rules, Walk, parts
-from frot.dsl.data.classes import dataclass
 from frot.dsl.quantities.units import parse_unit
 
 # An expression that is longer is cut: calls that are expanded may repeat their arguments.

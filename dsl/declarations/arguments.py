@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from frot.dsl import checked
 from frot.dsl.catalogue import Argument, vector
 from frot.dsl.checked.describe import listed
-from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.declarations.argument_values import Bound, argument_value
 from frot.dsl.messages.source import Span
 from frot.dsl.names.near import did_you_mean

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from frot.dsl import checked
 from frot.dsl.checked.arrays import zero
 from frot.dsl.checked.describe import pair, written_unit
 from frot.dsl.checked.evaluation import constant
-from frot.dsl.data.classes import replace
 from frot.dsl.declarations.bounds import Bounds, hold
 from frot.dsl.declarations.given import (
     Declared,

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from frot.dsl import checked
 from frot.dsl.checked.arrays import element
 from frot.dsl.checked.describe import describe, written_unit
-from frot.dsl.data.classes import dataclass
 from frot.dsl.expressions.expression import agrees, as_integer, fitting, is_whole, value_of
 from frot.dsl.names.entities import Record
 from frot.dsl.names.modifiers import Modifier

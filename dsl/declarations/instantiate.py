@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from math import prod
 
-from frot.dsl.data.classes import dataclass
 from frot.dsl.declarations.components import declare
 from frot.dsl.declarations.geometry import body, curve, frame, surface
 from frot.dsl.declarations.given import Declared

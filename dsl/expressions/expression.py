@@ -5,10 +5,11 @@ What each kind of expression is stands in `rules.py`; this module knows none of 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from frot.dsl import checked
 from frot.dsl.checked.arrays import element
 from frot.dsl.checked.describe import describe, pair, written_unit
-from frot.dsl.data.classes import replace
 from frot.dsl.expressions.rates import as_rate
 from frot.dsl.expressions.seconds import seconds_missing
 from frot.dsl.names.entities import Record

@@ -6,10 +6,11 @@ and the outcome grows with the text, not with the number of paths through it.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 from frot.dsl import checked
 from frot.dsl.checked.order import in_order
 from frot.dsl.checked.walk import height
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.expressions.expression import expression, fitting, value_of
 from frot.dsl.expressions.records import as_record
 from frot.dsl.expressions.structure import sizes

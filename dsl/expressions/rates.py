@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from frot.dsl import checked
-from frot.dsl.data.classes import replace
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.turns import (
     CYCLES,

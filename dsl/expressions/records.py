@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from frot.dsl import checked
-from frot.dsl.data.classes import replace
 from frot.dsl.expressions.expression import expression, fitting, value_of
 from frot.dsl.expressions.structure import sizes
 from frot.dsl.messages.source import Span

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from frot.dsl.data.classes import dataclass, field
+from dataclasses import dataclass, field
+
 from frot.dsl.layout.pieces import COMMENT, Piece
 
 INDENT = 2

@@ -9,8 +9,8 @@ repeated until nothing moves.
 from __future__ import annotations
 
 from collections import defaultdict
+from dataclasses import dataclass, field
 
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.layout.blocks import INDENT
 from frot.dsl.layout.pieces import Piece
 from frot.dsl.layout.spacing import blanks, column_kind

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from dataclasses import dataclass, field
 
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.rendering import columns
 from frot.dsl.text.parsing import Lexeme
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 
 LIMIT = 20

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import bisect
+from dataclasses import dataclass, field
 from functools import cached_property
-
-from frot.dsl.data.classes import dataclass, field
 
 
 @dataclass(frozen=True, eq=False)

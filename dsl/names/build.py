@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from frot.dsl import checked
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.diagnostics import Label, Log
 from frot.dsl.messages.source import Span
 from frot.dsl.names.entities import REFUSED, Entity, Instance, Pending, Record, Refused

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING, TypeVar
 
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text import tree

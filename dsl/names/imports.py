@@ -6,9 +6,9 @@ its files. Where they lie is told in `import_scan.py`.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.files.import_scan import SUFFIX, locate, member, plain_path
 from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostics import Label, Log

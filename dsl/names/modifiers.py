@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 from frot.dsl import checked
-from frot.dsl.data.classes import dataclass, field, replace
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class

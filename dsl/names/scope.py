@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from frot.dsl import checked
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.names.build import Build, settled
 from frot.dsl.names.entities import Array, Entity, Instance, Pending, Refused

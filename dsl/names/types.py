@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked.describe import describe
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class, enter
 from frot.dsl.names.entities import Instance

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
-
-from frot.dsl.data.classes import dataclass
 
 BASE = ("m", "kg", "s", "A", "K", "mol", "cd")
 

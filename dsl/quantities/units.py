@@ -7,9 +7,9 @@ import math
 import re
 import unicodedata
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
 
-from frot.dsl.data.classes import dataclass
 from frot.dsl.quantities.dimensions import ONE, Dimension, dimension
 
 

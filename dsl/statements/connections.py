@@ -7,10 +7,10 @@ its flow then counts with the other sign. What nobody connects from outside carr
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
 
 from frot.dsl import checked
 from frot.dsl.checked.arrays import total, zero
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import Type
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 from frot.dsl import checked
 from frot.dsl.checked.describe import describe, written_unit
 from frot.dsl.checked.evaluation import constant
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.expressions.expression import NUMERIC, expect, fitting, value_of
 from frot.dsl.expressions.rates import rate_of
 from frot.dsl.expressions.records import pairs

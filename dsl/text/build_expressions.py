@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
-from frot.dsl.data.classes import dataclass
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text import tree

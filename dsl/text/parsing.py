@@ -8,9 +8,9 @@ the stacks are restored and the text is skipped to the next statement.
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from frot.dsl.data.classes import dataclass, field
 from frot.dsl.data.collection import without_collection
 from frot.dsl.messages.diagnostics import LIMIT, Log
 from frot.dsl.messages.source import Source, Span

@@ -6,7 +6,8 @@ Words are NFC-normalised. Where a noun has two spellings the class of the node i
 
 from __future__ import annotations
 
-from frot.dsl.data.classes import dataclass
+from dataclasses import dataclass
+
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text.tree_expressions import (
     Argument,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from frot.dsl.data.classes import dataclass
+from dataclasses import dataclass
+
 from frot.dsl.messages.source import Span
 
 

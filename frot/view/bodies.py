@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
-from frot.dsl.data.classes import dataclass
 from frot.view.outline import (
     Array,
     Outline,

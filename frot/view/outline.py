@@ -6,11 +6,10 @@ Lengths are in m; arrays of points have three columns.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-
-from frot.dsl.data.classes import dataclass
 
 Array = Any
 ROUND = 48  # sides of what is round

@@ -5,9 +5,9 @@ Lengths in m, forces in N, ground axes, unless a name says otherwise.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from frot.dsl.data.classes import dataclass
 from frot.view.outline import Array, Outline
 
 if TYPE_CHECKING:

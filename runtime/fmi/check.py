@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
-from frot.dsl.data.classes import dataclass
 from frot.runtime.fmi.scalars import scalars
 from frot.runtime.program import Program
 from frot.runtime.result import Result

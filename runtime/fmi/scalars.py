@@ -6,7 +6,8 @@ order; instance.h relies on it.
 
 from __future__ import annotations
 
-from frot.dsl.data.classes import dataclass, replace
+from dataclasses import dataclass, replace
+
 from frot.runtime.fmi.names import variable_names
 from frot.runtime.program import ParameterInfo, Program, Unit, VariableInfo
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Self
 
 import casadi as ca
@@ -17,7 +18,6 @@ from frot.compiler.mechanics.link import Friction, Link, Point
 from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
 from frot.compiler.mechanics.spatial import Pose, nowhere
 from frot.dsl.checked import Expression, Liaison, World
-from frot.dsl.data.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics
@@ -33,13 +33,13 @@ class Contact(Link):
     `a`, the first place of the liaison. `frictions`: sliding, then rolling.
     """
 
-    liaison: Liaison
+    liaison: Liaison = field()
     point: Point
     figure: Figure
     track: Placed
     track_first: bool
     floor: bool
-    unilateral: Expression
+    unilateral: Expression = field()
     reduced: bool = False
     frictions: tuple[Friction, ...] = ()
     opens = True

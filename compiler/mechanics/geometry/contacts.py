@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -24,7 +25,6 @@ from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
 from frot.compiler.mechanics.spatial import Pose, Z, cross, nowhere
 from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import World
-from frot.dsl.data.classes import dataclass, field, replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.geometry.contact import Contact

@@ -11,6 +11,7 @@ event, at which contacts are looked at anew; until then the curve goes on as it 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
@@ -29,7 +30,6 @@ from frot.compiler.mechanics.geometry.tracking import (
 )
 from frot.compiler.mechanics.spatial import Pose, Z, cross
 from frot.compiler.mechanics.values import Lower
-from frot.dsl.data.classes import dataclass
 
 # Part of a curve's length within which what is at its end is still on it, but for rounding.
 AT_END = 1e-13

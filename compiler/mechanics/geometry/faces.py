@@ -7,6 +7,7 @@ the other's corner.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 
 from frot.compiler.lowering.walk import follows_time
 from frot.compiler.mechanics.geometry.figure import Figure
@@ -17,7 +18,6 @@ from frot.compiler.mechanics.shapes import shape_of
 from frot.dsl import Log
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import BodyGeometry, Liaison, Model, Place
-from frot.dsl.data.classes import dataclass, replace
 
 # Corners that tell where a face is: an effort along each of more could not be told apart.
 _DETERMINE = 3

@@ -8,13 +8,13 @@ has none. How two figures touch stands in `touches.py`, and where no formula say
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.spatial import GROUND, Pose, cross, nowhere, whole
 from frot.compiler.mechanics.values import Axis, Lower
 from frot.dsl.checked import BodyPoint, Expression, Frame
-from frot.dsl.data.classes import dataclass
 
 Point = BodyPoint | Frame
 

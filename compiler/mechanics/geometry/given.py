@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure, Loss
@@ -10,7 +11,6 @@ from frot.compiler.mechanics.geometry.levels import lost_slope
 from frot.compiler.mechanics.spatial import Pose, cross, whole
 from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import Expression
-from frot.dsl.data.classes import dataclass
 
 LONG = 32  # beginnings looked at along a curve
 ACROSS = 8  # along each parameter of a surface

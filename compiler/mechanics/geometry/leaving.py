@@ -6,6 +6,7 @@ What can part leaves it there, or stays on the end itself (`ended.py`).
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.ended import AT_END
@@ -16,7 +17,6 @@ from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.values import Lower
 from frot.compiler.mechanics.variables import Variables
 from frot.dsl.checked import Expression, Liaison, Literal
-from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

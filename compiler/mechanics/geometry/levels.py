@@ -6,12 +6,12 @@ The function grows outwards. No surface needs charts so, and none of its points 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure, Loss, local_of
 from frot.compiler.mechanics.spatial import Pose
 from frot.compiler.mechanics.values import Lower, rate_by_time
-from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

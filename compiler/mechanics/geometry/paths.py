@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.spatial import Pose, nowhere
 from frot.compiler.mechanics.values import Lower, rate_by_time
-from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,6 +7,7 @@ tries both orders. Which figures touch in closed form stands in `touches.py`.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 from frot.compiler.mechanics.geometry.figure import Figure, Placed
 from frot.compiler.mechanics.geometry.plain import Dot, Flat, Straight
@@ -23,7 +24,6 @@ from frot.compiler.mechanics.liaisons.places import Apart, Slide, WayAlong
 from frot.compiler.mechanics.liaisons.touching import NoSlip, Touching
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Expression
-from frot.dsl.data.classes import dataclass
 
 
 def _rows(*locks: Lock) -> Pairing:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure, Loss, lost_axis, lost_on_axis
 from frot.compiler.mechanics.spatial import Pose, Z, cross, nowhere, whole
 from frot.compiler.mechanics.values import Axis, Lower
 from frot.dsl.checked import Expression
-from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

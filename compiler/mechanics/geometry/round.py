@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.walk import has_time
@@ -19,7 +20,6 @@ from frot.compiler.mechanics.geometry.plain import Flat, Straight
 from frot.compiler.mechanics.spatial import Pose, X, Y
 from frot.compiler.mechanics.values import Axis, Lower
 from frot.dsl.checked import Expression
-from frot.dsl.data.classes import dataclass
 
 TURN = 16  # beginnings looked at along a round curve
 

@@ -7,6 +7,7 @@ outside, -1 inside; the gap grows away from it on that side.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
@@ -15,7 +16,6 @@ from frot.compiler.mechanics.geometry.plain import Dot, Flat, Segment, Straight,
 from frot.compiler.mechanics.geometry.round import Ball, Egg, Oval, Ring
 from frot.compiler.mechanics.spatial import Pose, cross, nowhere
 from frot.compiler.mechanics.values import Lower, Moments
-from frot.dsl.data.classes import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, eq=False)

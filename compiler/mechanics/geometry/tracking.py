@@ -10,6 +10,7 @@ parameter, and closed surfaces by their function: none of these has a place that
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from itertools import permutations
 
 import casadi as ca
@@ -21,7 +22,6 @@ from frot.compiler.mechanics.geometry.touches import Touch, is_closed
 from frot.compiler.mechanics.solve import solve_in_units
 from frot.compiler.mechanics.spatial import Pose, Z, beside_moving, cross
 from frot.compiler.mechanics.values import Lower
-from frot.dsl.data.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

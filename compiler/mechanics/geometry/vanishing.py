@@ -8,6 +8,7 @@ in its centre, nothing round has a nearest place.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.lowering.walk import follows_time, is_fixed
@@ -17,7 +18,6 @@ from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.link import Geometry, Link, frames_of
 from frot.compiler.mechanics.spatial import Pose, whole
 from frot.dsl.checked import Curve, CurvePlace, Expression, Liaison, Surface, SurfacePlace
-from frot.dsl.data.classes import dataclass
 
 COUNT = 3  # numbers that tell where (FROT_WHERE)
 ALIKE = "where its figures are nearest they bend alike, so that no place of them is the nearest"

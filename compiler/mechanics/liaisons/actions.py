@@ -10,6 +10,7 @@ that the lock keeps at zero.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -20,7 +21,6 @@ from frot.compiler.mechanics.liaisons.moves import Column
 from frot.compiler.mechanics.link import Geometry
 from frot.compiler.mechanics.spatial import Moving, Pose, nowhere
 from frot.compiler.mechanics.values import Lower
-from frot.dsl.data.classes import dataclass, field
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Self
 
 import casadi as ca
@@ -16,7 +17,6 @@ from frot.compiler.mechanics.liaisons.motion import Motion, Seen
 from frot.compiler.mechanics.liaisons.moves import Column, Moved, slid
 from frot.compiler.mechanics.spatial import Moving, Pose, beside_moving, nowhere
 from frot.compiler.mechanics.values import Lower, rate_by_time
-from frot.dsl.data.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics
@@ -31,7 +31,7 @@ BESIDE = 0.1
 class Follow(Motion):
     """Along a curve fixed to the base, by its parameter."""
 
-    curve: Figure
+    curve: Figure = field()
     sign: int = 1
     coordinates = ("u",)
     comes_round = True

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import casadi as ca
 from frot.compiler.mechanics.liaisons.actions import Action, Between, twist
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.spatial import Z, cross
 from frot.compiler.mechanics.values import Axis
-from frot.dsl.data.classes import dataclass
 
 
 class _Turning(Lock):

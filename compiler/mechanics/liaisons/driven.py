@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import Self
 
 import casadi as ca
@@ -12,7 +13,6 @@ from frot.compiler.mechanics.liaisons.moves import Moved
 from frot.compiler.mechanics.spatial import Moving
 from frot.compiler.mechanics.values import Lower, rate_by_time
 from frot.dsl.checked import Expression
-from frot.dsl.data.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

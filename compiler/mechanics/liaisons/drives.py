@@ -8,11 +8,12 @@ a flange.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from frot.compiler.lowering.walk import follows_time, is_given
 from frot.compiler.mechanics.liaisons.freed import coordinate_of, is_row, reaction_of
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Equation, Expression, Flange, Liaison, Model, Quantity, Variable
-from frot.dsl.data.classes import replace
 
 # What drives a coordinate is a couple where this is an angle, else a force.
 _ANGLES = ("angle", "angle_a", "angle_b")

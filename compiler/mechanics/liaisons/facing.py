@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import casadi as ca
 from frot.compiler.mechanics.liaisons.motion import Motion, Quaternion
 from frot.compiler.mechanics.liaisons.moves import Column, Moved
@@ -19,7 +21,6 @@ from frot.compiler.mechanics.spatial import (
     turning,
 )
 from frot.compiler.mechanics.values import Lower
-from frot.dsl.data.classes import dataclass
 
 ORIENTATION = tuple(f"orientation[{k + 1}]" for k in range(4))
 ANGULAR_VELOCITY = tuple(f"angular_velocity.{k}" for k in "xyz")

@@ -9,6 +9,7 @@ loop is the weld, which has no friction. The motion and every reaction are those
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.joints import JOINTS, make_joint
@@ -17,7 +18,6 @@ from frot.compiler.mechanics.mechanism import turns
 from frot.compiler.mechanics.spanning import Groups, in_order
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Literal, Model
-from frot.dsl.data.classes import dataclass, replace
 from frot.dsl.quantities.dimensions import BOOLEAN
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Self
 
 import casadi as ca
@@ -18,7 +19,6 @@ from frot.compiler.mechanics.rolling import rolling_motions
 from frot.compiler.mechanics.spatial import Pose
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Liaison, World
-from frot.dsl.data.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics
@@ -32,7 +32,7 @@ class Joint(Link):
     liaison. `reduced`: it is built into the coordinates. `frictions`: of a pin.
     """
 
-    liaison: Liaison
+    liaison: Liaison = field()
     a: Point
     b: Point
     motions: tuple[Motion, ...]

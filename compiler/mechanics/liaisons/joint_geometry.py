@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -10,7 +11,6 @@ from frot.compiler.mechanics.geometry.touches import Touch
 from frot.compiler.mechanics.liaisons.actions import Action, Effort
 from frot.compiler.mechanics.link import Geometry, Reaction
 from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
-from frot.dsl.data.classes import dataclass
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics

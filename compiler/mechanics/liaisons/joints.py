@@ -8,6 +8,7 @@ to those of b; all coordinates are zero where both coincide. What a motion leave
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
 
 from frot.compiler.mechanics.liaisons.directions import Aligned, Crossed, Parallel, SameAngle
 from frot.compiler.mechanics.liaisons.driven import Drive, Driven
@@ -21,7 +22,6 @@ from frot.compiler.mechanics.link import Point, point_body
 from frot.compiler.mechanics.mechanism import is_particle
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Expression, Liaison
-from frot.dsl.data.classes import dataclass
 
 Options = Mapping[str, Expression]
 

@@ -6,6 +6,7 @@ A lock is one scalar relation between the places a and b.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -16,7 +17,6 @@ from frot.compiler.mechanics.link import point_body
 from frot.compiler.mechanics.spatial import Moving
 from frot.compiler.mechanics.values import Axis, Moments
 from frot.dsl.checked import Expression
-from frot.dsl.data.classes import replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.geometry.figure import Figure

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
 import casadi as ca
@@ -9,7 +10,6 @@ from frot.compiler.mechanics.liaisons.actions import Action, Between, Part
 from frot.compiler.mechanics.liaisons.moves import Moved
 from frot.compiler.mechanics.spatial import Moving, product
 from frot.compiler.mechanics.values import Lower, Moments
-from frot.dsl.data.classes import dataclass
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.geometry.figure import Figure

@@ -6,6 +6,8 @@ to their origin before the motion. What does not move has no entry.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, replace
+
 import casadi as ca
 from frot.compiler.mechanics.spatial import (
     Moving,
@@ -20,7 +22,6 @@ from frot.compiler.mechanics.spatial import (
 )
 from frot.compiler.mechanics.values import Lower, rate_by_time, unit_vector
 from frot.dsl.checked import Expression
-from frot.dsl.data.classes import dataclass, field, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

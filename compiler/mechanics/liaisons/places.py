@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 from typing import Self
 
 import casadi as ca
@@ -13,7 +14,6 @@ from frot.compiler.mechanics.liaisons.moves import Column, Moved, along_way
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, cross, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
 from frot.dsl.checked import Expression
-from frot.dsl.data.classes import dataclass, replace
 
 LEFT = 2
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -11,7 +12,6 @@ from frot.compiler.mechanics.liaisons.actions import RelationGeometry
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.link import Link, Point
 from frot.dsl.checked import Liaison, World
-from frot.dsl.data.classes import dataclass
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 class Relation(Link):
     """A lock of a joint; `first`: it stands for the joint."""
 
-    joint: Joint
+    joint: Joint = field()
     lock: Lock
-    first: bool
+    first: bool = field()
     ruled = False
 
     @property

@@ -9,6 +9,7 @@ found at the start, and kept, as any other.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -18,7 +19,6 @@ from frot.compiler.mechanics.liaisons.motion import Motion, Quaternion
 from frot.compiler.mechanics.liaisons.moves import Column, Moved
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, axes_of, cross, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
-from frot.dsl.data.classes import dataclass
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics

@@ -9,6 +9,7 @@ from __future__ import annotations
 import copy
 import itertools
 from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -21,7 +22,6 @@ from frot.compiler.mechanics.link import point_body
 from frot.compiler.mechanics.spatial import Moving, Pose, cross, nowhere, product
 from frot.dsl import Log
 from frot.dsl.checked import Body, Expression, Liaison, Quantity, StatedRelation, Variable
-from frot.dsl.data.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics
@@ -36,7 +36,7 @@ class Stated(Lock):
 
     left: Expression
     right: Expression
-    kinematic: bool
+    kinematic: bool = field()
     stated = True
 
     def of_joint(self, joint: Joint, kinematics: Kinematics, side: ca.SX) -> Action:

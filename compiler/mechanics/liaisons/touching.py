@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
@@ -15,7 +16,6 @@ from frot.compiler.mechanics.liaisons.moves import Column
 from frot.compiler.mechanics.spatial import Moving, Pose, Z, beside_moving, cross, nowhere
 from frot.compiler.mechanics.values import Axis, Lower, rate_by_time
 from frot.dsl.checked import Expression
-from frot.dsl.data.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
 import casadi as ca
@@ -12,7 +13,6 @@ from frot.compiler.mechanics.liaisons.moves import Column, Moved, along_way, tur
 from frot.compiler.mechanics.spatial import Moving, Pose, Z, beside, cross, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
 from frot.dsl.checked import Expression
-from frot.dsl.data.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics
