@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import casadi as ca
-from frot.compiler.symbolic.direct import take_operators
-
-take_operators()
 
 
 def column(values: Iterable[ca.SX]) -> ca.SX:
