@@ -18,6 +18,7 @@ from frot.compiler.mechanics.refuse import refuse_unknown
 from frot.dsl import Log, dump
 from frot.dsl.checked import Model
 from frot.dsl.data.collection import without_collection
+from frot.dsl.messages.interrupts import raise_noted_interrupt
 from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, read_program
 
 # What reads a report must not wait for CasADi: it is loaded where equations are formed.
@@ -40,6 +41,12 @@ def _silent(_: str) -> None:
     """Nobody waits to be told what is being done."""
 
 
+def _begin(words: str, tell: Callable[[str], None]) -> None:
+    """Announce the next pass; a Ctrl-C that was noted is raised here."""
+    raise_noted_interrupt()
+    tell(words)
+
+
 def mechanism_of(model: Model, log: Log) -> Mechanism | None:
     """Bodies, coordinates, contacts; what has neither bodies nor liaisons needs no CasADi."""
     if model.bodies or model.liaisons:
@@ -55,7 +62,7 @@ def reduced_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) ->
 
     `tell` takes what is being done, in words, here and below.
     """
-    tell("the mechanism")
+    _begin("the mechanism", tell)
     mechanism = mechanism_of(model, log)
     if mechanism is None:
         return None
@@ -65,7 +72,7 @@ def reduced_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) ->
     refuse_values(mechanism, log)
     if log.failed:
         return None
-    tell("the equations of motion")
+    _begin("the equations of motion", tell)
     return reduce(mechanism, log)
 
 
@@ -76,7 +83,7 @@ def assembled_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) 
         return None
     from frot.compiler.lowering.assemble import assemble
 
-    tell("the order of the equations")
+    _begin("the order of the equations", tell)
     return assemble(reduced, log)
 
 
@@ -104,9 +111,9 @@ def lowered_of(
     if search and not log.failed:
         from frot.compiler.report.first_integrals import first_integrals_of
 
-        tell("the first integrals")
+        _begin("the first integrals", tell)
         integrals = first_integrals_of(system, beginning)
-    tell("the functions")
+    _begin("the functions", tell)
     listed = () if extra is None else extra(system)
     return lower(system, beginning, make_groups(system), log, integrals, listed)
 
@@ -144,9 +151,9 @@ def build(
         lowered = lowered_of(model, log, tell, search=extra is None, extra=extra)
         if lowered is None:
             return None
-        tell("its C text")
+        _begin("its C text", tell)
         text = text_of(lowered, key)
-    tell(f"the C compiler, {len(text) // 1000} kB")
+    _begin(f"the C compiler, {len(text) // 1000} kB", tell)
     kernel = kept_kernel(toolchain)
 
     def fill(folder: Path) -> None:
@@ -181,6 +188,7 @@ def make_report(model: Model, log: Log) -> Report | None:
     from frot.compiler.report.analysis import analyse
 
     system = assembled_of(model, log)
+    raise_noted_interrupt()
     return None if system is None else report_of(mechanism, analyse(system))
 
 

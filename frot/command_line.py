@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import sys
 
-from frot.interrupts import Interrupts
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,9 +20,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     import signal
 
     _open_closed_streams()
-    interrupts = Interrupts()
     try:
-        interrupts.__enter__()
         from frot.commands import run
 
         return run(arguments)
@@ -32,8 +28,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(str(stop) or "interrupted", file=sys.stderr)
         return EXIT_INTERRUPTED
     finally:
-        last = signal.SIG_IGN if arguments is None else signal.default_int_handler
-        interrupts.leave(last)
+        if arguments is None and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _open_closed_streams() -> None:

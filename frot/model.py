@@ -12,7 +12,7 @@ from frot.dsl.files.import_scan import imported_files
 from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostics import Diagnostic, Log
 from frot.dsl.messages.errors import FrotError, fail
-from frot.interrupts import Interrupts
+from frot.dsl.messages.interrupts import DeferredInterrupts
 
 if TYPE_CHECKING:
     from frot.compiler import Toolchain
@@ -66,7 +66,7 @@ class Model:
             from frot.dsl import compile_text
 
             log = Log()
-            with Interrupts():
+            with DeferredInterrupts():
                 checked_model = compile_text(self._text, log, name=self._file, model=self._chosen)
             if checked_model is None or log.failed:
                 raise FrotError(log)
@@ -84,7 +84,7 @@ class Model:
 
             log = Log()
             told = () if tell is None else (tell,)
-            with Interrupts():
+            with DeferredInterrupts():
                 built = build(self.checked(), self._file, self._key, self._toolchain, log, *told)
             self._program = self._named(built)
             if self._program is None:
@@ -184,7 +184,7 @@ class Model:
         from frot.compiler import make_report
 
         log = Log()
-        with Interrupts():
+        with DeferredInterrupts():
             report = make_report(self.checked(), log)
         if report is None:
             raise FrotError(log)
@@ -195,7 +195,7 @@ class Model:
         from frot.compiler import make_dae
 
         log = Log()
-        with Interrupts():
+        with DeferredInterrupts():
             dae = make_dae(self.checked(), log)
         if dae is None:
             raise FrotError(log)
@@ -228,7 +228,7 @@ class Model:
             raise fail("E0806", str(error)) from None
         target = Path(path)
         try:
-            with Interrupts():
+            with DeferredInterrupts():
                 make = partial(compile_libraries, self._toolchain)
                 export(self.program(), target, fmi, make, chosen)
         except OSError as error:

@@ -10,6 +10,7 @@ from frot.dsl.checked.show import show_model
 from frot.dsl.files.reading import read_text
 from frot.dsl.messages.diagnostic_data import log_data
 from frot.dsl.messages.errors import FrotError
+from frot.dsl.messages.interrupts import DeferredInterrupts
 from frot.dsl.messages.source import escaped
 
 TYPE_CHECKING = False
@@ -38,8 +39,9 @@ def check_data(path: str, name: str | None) -> dict[str, object]:
 
 
 def _report(path: str, name: str | None, log: Log) -> Report | None:
-    model = load(path, log, name)
-    report = make_report(model, log) if model is not None else None
+    with DeferredInterrupts():
+        model = load(path, log, name)
+        report = make_report(model, log) if model is not None else None
     return None if log.failed else report
 
 
@@ -95,9 +97,11 @@ def emit_stage(path: str, name: str | None, stage: str) -> str:
     if text is not None and stage == "tree":
         printed = dump(parse(Source(path, text), log))
     elif text is not None:
-        model = load(path, log, name)
-        if model is not None and not log.failed:
-            printed = show_model(model) if stage == "instance" else print_stage(model, stage, log)
+        with DeferredInterrupts():
+            model = load(path, log, name)
+            if model is not None and not log.failed:
+                whole = stage == "instance"
+                printed = show_model(model) if whole else print_stage(model, stage, log)
     if log.failed or printed is None:
         raise FrotError(log)
     return "\n".join(escaped(line) for line in printed.split("\n"))

@@ -26,6 +26,7 @@ from frot.compiler.report.relations import make_relations
 from frot.compiler.report.start import Start, find_start, may_part, posture_of
 from frot.dsl import Log, default_values
 from frot.dsl.checked import Body, Liaison
+from frot.dsl.messages.interrupts import raise_noted_interrupt
 
 # Ranks of more relations than these take long: they are counted, and nothing more is said.
 MOST_RELATIONS = 1200
@@ -113,6 +114,7 @@ def analyse(system: Assembled) -> Analysis:
         return Analysis("the start was not found", whole, whole, 0, 0, (), ())
     found = _Found()
     for part in _parts(mechanism):
+        raise_noted_interrupt()
         _look(part, system, start, found)
     integrals = find_first_integrals(reduced, start.posture)
     speeds = int(reduced.symbols.v.numel())

@@ -12,6 +12,7 @@ from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.report.relations import Posture, turning_speeds
 from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl import default_values, evaluate
+from frot.dsl.messages.interrupts import raise_noted_interrupt
 from numpy.typing import NDArray
 
 # Rates and values that are zero beside the sizes of their terms.
@@ -68,6 +69,7 @@ class Search:
         found: list[tuple[Floats, Floats, Floats]] = []
         for far in _FAR:
             for tried in range(_TRIES * count):
+                raise_noted_interrupt()
                 one = self._at(p, far, random)
                 if one is not None:
                     found.append(one)

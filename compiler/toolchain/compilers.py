@@ -14,6 +14,7 @@ from pathlib import Path
 from frot.compiler.toolchain.chosen import Toolchain
 from frot.compiler.toolchain.keeper import Keeper
 from frot.dsl.messages.errors import fail
+from frot.dsl.messages.interrupts import raise_noted_interrupt
 
 LIBRARIES = ("-lm",)
 TIMEOUT = 600.0
@@ -36,13 +37,14 @@ def run_compilers(jobs: Sequence[Job], keeper: Keeper) -> None:
     FrotError (E0802) with the first lines of the output if one fails. What a compiler keeps for
     itself meanwhile lies beside its target, and goes with it.
     """
-    # In one thread: an interrupt may come at any point, and in a lock of `threading` it is lost
-    # until the compiler ends, or leaves the lock in a state that nothing can release.
+    # In one thread, so that an interrupt is raised here and stops all compilers.
     line, running = list(reversed(jobs)), list[_Running]()
     while line or running:
         while line and len(running) < (os.cpu_count() or 1):
             running.append(_start(line.pop(), keeper))
-        for one, printed in _ended(running):
+        ended = _ended(running)
+        raise_noted_interrupt()
+        for one, printed in ended:
             running.remove(one)
             _check(one, printed)
 
