@@ -9,17 +9,26 @@ import tomllib
 import types
 from pathlib import Path
 
-from setuptools import setup
+from setuptools import find_packages, setup
 from setuptools.command.build_py import build_py
 
 HERE = Path(__file__).parent
 LATER = "left to the first run"
 
 
+def list_packages() -> dict[str, str]:
+    """The folder of each package, those of pyproject.toml and all below them."""
+    settings = tomllib.loads((HERE / "pyproject.toml").read_text(encoding="utf-8"))
+    found = dict(settings["tool"]["setuptools"]["package-dir"])
+    for parent, folder in list(found.items()):
+        for name in find_packages(str(HERE / folder)):
+            found[f"{parent}.{name}"] = f"{folder}/{name.replace('.', '/')}"
+    return found
+
+
 def see_packages() -> None:
     """Make modules of Frot importable from where they lie, without what its packages import."""
-    settings = tomllib.loads((HERE / "pyproject.toml").read_text(encoding="utf-8"))
-    for name, folder in settings["tool"]["setuptools"]["package-dir"].items():
+    for name, folder in list_packages().items():
         package = types.ModuleType(name)
         package.__path__ = [str(HERE / folder)]
         sys.modules[name] = package
@@ -58,4 +67,4 @@ class BuildWithWhatIsMadeOnce(build_py):
             self.warn(f"the kernel is {LATER}: {error}")
 
 
-setup(cmdclass={"build_py": BuildWithWhatIsMadeOnce})
+setup(packages=sorted(list_packages()), cmdclass={"build_py": BuildWithWhatIsMadeOnce})

@@ -249,7 +249,7 @@ class Model:
         from frot.runtime.fmi.check import check
 
         try:
-            with Interrupts():
+            with DeferredInterrupts():
                 return check(self.program(), Path(path), self.simulate)
         except FrotError:
             raise

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.errors import FrotError
-from frot.interrupts import Interrupts
+from frot.dsl.messages.interrupts import DeferredInterrupts
 
 if TYPE_CHECKING:
     from frot.compiler.driver import Extra
@@ -40,7 +40,7 @@ def second_program(
         return model.named(found)
     log = Log()
     told = (lambda _: None) if tell is None else tell
-    with Interrupts():
+    with DeferredInterrupts():
         built = build(
             checked_of(model, moving) if change is None else change(checked_of(model, moving)),
             model.file,
