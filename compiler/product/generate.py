@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import re
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,6 +15,7 @@ from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import callable_record as _callable
 from frot.compiler.product.c_tables import record as _record
 from frot.compiler.product.c_tables import text as _text
+from frot.compiler.product.casadi_text import straightened
 from frot.compiler.product.islands import (
     island_arrays,
     part_arrays,
@@ -28,19 +28,6 @@ from frot.compiler.product.wide import WIDE, wide_names, wide_record, write_wide
 from frot.compiler.symbolic.columns import column
 
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
-# The kernel gives every argument and takes every result: without the questions whether it does, a
-# function is one straight line, which C compilers take in time proportional to its length.
-_ABSENT = re.compile(r"(arg\[\d+\])\? (\1\[\d+\]) : 0")
-_UNASKED = re.compile(r"if \(res\[\d+\]!=0\) (?=res\[)")
-# What CasADi calls for a square is no function that others may ask for: it goes where it is called.
-_SMALL = re.compile(r"^(casadi_real casadi_\w+\(casadi_real )", re.MULTILINE)
-# What CasADi tells of each function to who loads it: the kernel's tables have it, nobody asks.
-_TOLD = re.compile(
-    r"^CASADI_SYMBOL_EXPORT [^\n]*_(?:checkout|release|incref|decref|n_in|n_out|default_in|name_in|"
-    r"name_out|sparsity_in|sparsity_out|work|work_bytes|casadi_version|casadi_int_size|"
-    r"casadi_real_size)\([^\n]*\{(?:[^\n]*\}|.*?^\})\n+",
-    re.MULTILINE | re.DOTALL,
-)
 # Characters of C beyond which GCC looks for no more than it finds in such time.
 _LONG = 75_000
 _QUICK = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("O1")\n#endif\n'
@@ -236,5 +223,4 @@ def write_c(functions: Sequence[ca.Function]) -> str:
         text = path.read_text(encoding="utf-8")
     if "#error" in text:
         raise RuntimeError("CasADi could not generate C for a function of the model")
-    text = _TOLD.sub("", text)
-    return _SMALL.sub(r"static inline \1", _UNASKED.sub("", _ABSENT.sub(r"\2", text)))
+    return straightened(text)

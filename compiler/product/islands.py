@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 
 import casadi as ca
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.product.c_tables import array, callable_record, number, record
+from frot.compiler.product.casadi_text import CONSTANT
 from frot.compiler.product.wide import WIDE, wide_record
 from frot.compiler.symbolic.equals import Kind
 
@@ -20,7 +20,6 @@ _LISTS = ("turns", "groups", "islands", "contacts", "stated", "guessed", "vector
 _READS = ("q", "v", "u", "p", "d")
 # The argument of a shared function that is the owner's table of numbers.
 _NUMBERS = 7
-_CONSTANT = re.compile(r"^(  a\d+=)-?[\d.]+(?:e[-+]?\d+)?;$")
 
 
 def shared_functions(lowered: Lowered) -> Iterator[tuple[str, ca.Function]]:
@@ -46,7 +45,7 @@ def _read_in_function(lines: list[str], at: int, kind: Kind, name: str) -> None:
     places = kind.varying[name]
     count = 0
     for k in range(at, lines.index("}", at)):
-        found = _CONSTANT.match(lines[k])
+        found = CONSTANT.match(lines[k])
         if found is None:
             continue
         if count in places:

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from frot.compiler.product.casadi_text import ASSIGNMENT, OPERAND, RESULT
 
 # Statements of a function from which on it is worth looking: straight lines run faster than loops
 # over tables, and a C compiler takes so many in half a second. The longest period looked for, and
@@ -24,9 +25,6 @@ MANY, SHORT, FEW = 20_000, 250, 2
 # Statements of a stretch that is worth a function, and of what is looked for at other places.
 _WORTH = 8
 
-_OPERAND = re.compile(r"\ba(\d+)\b|\barg\[(\d+)\]\[(\d+)\]")
-_SET = re.compile(r"^  a(\d+)=(.*);$")
-_RESULT = re.compile(r"^  res\[(\d+)\]\[(\d+)\]=(a\d+);$")
 NAMED = re.compile(r"(#\d+|-?[\d.]+(e[-+]?\d+)?)$")
 
 
@@ -168,11 +166,11 @@ def _parse(statements: Sequence[str]) -> list[Statement]:
         return form
 
     for k, line in enumerate(statements):
-        found = _SET.match(line)
-        result = None if found else _RESULT.match(line)
+        found = ASSIGNMENT.match(line)
+        result = None if found else RESULT.match(line)
         operands.clear()
         if found:
-            form = _OPERAND.sub(mark, found[2])
+            form = OPERAND.sub(mark, found[2])
             made[found[1]] = k
             given.pop(found[1], None)
             if NAMED.match(form):
@@ -181,7 +179,7 @@ def _parse(statements: Sequence[str]) -> list[Statement]:
             parsed.append(Statement(form, tuple(operands), int(found[1]), False))
         else:
             assert result is not None
-            form = f"res[{result[1]}]={_OPERAND.sub(mark, result[3])}"
+            form = f"res[{result[1]}]={OPERAND.sub(mark, result[3])}"
             parsed.append(Statement(form, tuple(operands), int(result[2]), True))
     return parsed
 

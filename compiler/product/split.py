@@ -9,10 +9,17 @@ order, so that not a bit of the results changes.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from frot.compiler.product.casadi_text import (
+    ASSIGNMENT,
+    DECLARATION,
+    FUNCTION_HEAD,
+    GIVEN,
+    RESULT,
+    VARIABLE,
+)
 from frot.compiler.product.pieces import write_pieces
 from frot.compiler.product.roll import roll
 
@@ -21,14 +28,7 @@ LONGEST = 500
 # Items of a result with one value that are written as a loop.
 RUN = 4
 
-_ARGUMENTS = "const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem"
 _PASSED = "const casadi_real** arg, casadi_real** res, casadi_real* w"
-_HEAD = re.compile(r"^static int (casadi_f\d+)\(" + re.escape(_ARGUMENTS) + r"\) \{$")
-_DECLARED = re.compile(r"^  casadi_real a\d+[a\d, ]*;$")
-_VARIABLE = re.compile(r"\ba(\d+)\b")
-_SET = re.compile(r"^  a(\d+)=(.*);$")
-_GIVEN = re.compile(r"arg\[\d+\]\[\d+\]$|-?[\d.]+(e[-+]?\d+)?$")
-_RESULT = re.compile(r"^  res\[(\d+)\]\[(\d+)\]=(a\d+);$")
 
 
 def split_functions(text: str) -> str:
@@ -62,10 +62,10 @@ class _Function:
 def _functions(lines: Sequence[str]) -> Iterator[_Function]:
     at = 0
     while at < len(lines):
-        head = _HEAD.match(lines[at])
+        head = FUNCTION_HEAD.match(lines[at])
         if head is not None:
             end = lines.index("}", at)
-            statements = [x for x in lines[at + 1 : end - 1] if not _DECLARED.match(x)]
+            statements = [x for x in lines[at + 1 : end - 1] if not DECLARATION.match(x)]
             if lines[end - 1] == "  return 0;" and all(map(_is_plain, statements)):
                 yield _Function(head.group(1), range(at, end + 1), statements)
             at = end
@@ -87,7 +87,7 @@ def _in_pieces(name: str, head: str, statements: list[str]) -> list[str]:
 
 
 def _is_plain(line: str) -> bool:
-    return _SET.match(line) is not None or _RESULT.match(line) is not None
+    return ASSIGNMENT.match(line) is not None or RESULT.match(line) is not None
 
 
 def _with_loops(statements: list[str]) -> Iterator[str]:
@@ -103,7 +103,7 @@ def _with_loops(statements: list[str]) -> Iterator[str]:
         yield f"  for (casadi_int k={first}; k<{first + len(run)}; k++) {each}"
 
     for line in statements:
-        found = _RESULT.match(line)
+        found = RESULT.match(line)
         if found is None or (found[1], int(found[2]), found[3]) != (
             result,
             first + len(run),
@@ -136,10 +136,10 @@ def _with_passed(pieces: list[list[str]]) -> Iterator[list[str]]:
     for piece, (reads, sets), after in zip(pieces, own, reversed(wanted), strict=True):
         taken = [f"  a{x}={known.get(x, f'w[{int(x)}]')};" for x in sorted(reads)]
         for line in piece:
-            found = _SET.match(line)
+            found = ASSIGNMENT.match(line)
             if found:
                 known.pop(found[1], None)
-                if _GIVEN.match(found[2]):
+                if GIVEN.match(found[2]):
                     known[found[1]] = found[2]
         left = [f"  w[{int(x)}]=a{x};" for x in sorted(sets & after) if x not in known]
         yield [*_declared(_names([*piece, *taken])), *taken, *piece, *left]
@@ -150,15 +150,15 @@ def _reads_and_sets(piece: list[str]) -> tuple[set[str], set[str]]:
     reads: set[str] = set()
     sets: set[str] = set()
     for line in piece:
-        found = _SET.match(line)
-        reads.update(x for x in _VARIABLE.findall(found[2] if found else line) if x not in sets)
+        found = ASSIGNMENT.match(line)
+        reads.update(x for x in VARIABLE.findall(found[2] if found else line) if x not in sets)
         if found:
             sets.add(found[1])
     return reads, sets
 
 
 def _names(statements: Iterable[str]) -> list[str]:
-    return sorted({x for line in statements for x in _VARIABLE.findall(line)})
+    return sorted({x for line in statements for x in VARIABLE.findall(line)})
 
 
 def _declared(names: list[str]) -> list[str]:

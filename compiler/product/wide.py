@@ -13,17 +13,16 @@ from collections.abc import Mapping
 
 import casadi as ca
 from frot.compiler.product.c_tables import record
+from frot.compiler.product.casadi_text import (
+    BANNER,
+    BEFORE_C99,
+    BRACES,
+    DIRECTIVE,
+    EXPORTED,
+    FUNCTION_NAME,
+)
 from frot.compiler.product.split import split_functions
 
-# Of CasADi's text: what nobody asks of functions (names, patterns, sizes), what is written twice,
-# first for compilers before C99, and what else speaks to the preprocessor.
-_ASKED = re.compile(r"^CASADI_SYMBOL_EXPORT [^\n]*(?:\}|\{\n(?:[^}\n].*\n)*\})\n", re.MULTILINE)
-_TWICE = re.compile(
-    r"^#if __STDC_VERSION__ < 199901L\n((?:[^#\n].*\n)*)#else\n(?:[^#\n].*\n)*#endif\n",
-    re.MULTILINE,
-)
-_DIRECTIVE = re.compile(r"^ *#.*\n", re.MULTILINE)
-_NAME = re.compile(r"^/\* (\w+):.*\n^static int casadi_(f\d+)\(", re.MULTILINE)
 _CALL = re.compile(r"\b(sin|cos|sqrt)\(")
 _CALLED = {"sin": "sine", "cos": "cosine", "sqrt": "root"}
 # The name of these functions among the others.
@@ -40,10 +39,10 @@ _HEAD = """
 
 def write_wide(text: str) -> str:
     """The C of functions that CasADi wrote, in wide numbers."""
-    begins = text.index("*/", text.index("automatically generated")) + 3
-    plain = _TWICE.sub(r"\1", _ASKED.sub("", text[begins:]))
-    plain = split_functions(_DIRECTIVE.sub("", plain))
-    for braces in ('extern "C" {\n', '} /* extern "C" */\n'):
+    begins = text.index("*/", text.index(BANNER)) + 3
+    plain = BEFORE_C99.sub(r"\1", EXPORTED.sub("", text[begins:]))
+    plain = split_functions(DIRECTIVE.sub("", plain))
+    for braces in BRACES:
         plain = plain.replace(braces, "")
     plain = plain.replace("const casadi_real** arg", "const double** arg")
     plain = _CALL.sub(lambda found: f"frot_wide_{_CALLED[found[1]]}(", plain)
@@ -52,7 +51,7 @@ def write_wide(text: str) -> str:
 
 def wide_names(text: str) -> dict[str, str]:
     """How the functions of `write_wide(text)` are called there, by their own names."""
-    return {name: f"wide_{own}" for name, own in _NAME.findall(text)}
+    return {name: f"wide_{own}" for name, own in FUNCTION_NAME.findall(text)}
 
 
 def wide_record(function: ca.Function | None, names: Mapping[str, str]) -> str:
