@@ -1,7 +1,7 @@
 """The C text that CasADi writes: every pattern by which the compiler reads it stands here.
 
-CasADi promises nothing about this text. `tests/architecture/test_casadi_text.py` compares what it writes
-for a small function with what is known, and fails with "CasADi's C has changed".
+CasADi promises nothing about this text. `tests/architecture/test_casadi_text.py` compares what it
+writes for a small function with what is known, and fails with "CasADi's C has changed".
 """
 
 from __future__ import annotations
