@@ -38,6 +38,9 @@ int frot_fault_is_valid(const frot_model *m, const frot_fault *f) {
     case FROT_EVENT_FAULT:
       item = required(m->n_outcomes);
       break;
+    case FROT_INDEX:
+      item = (range){m->n_loads, m->n_loads + m->n_watched - 1};
+      break;
     case FROT_NAN:
       item = entry(m->n_loads + m->n_watched + causes), other = entry(m->n_blocks);
       break;
