@@ -65,13 +65,13 @@ def _flat(texts: dict[str, bytes]) -> dict[str, bytes]:
 
 def _with_headers(source: Path, folders: Sequence[Path]) -> dict[str, bytes]:
     """The source and all headers it reads from these folders, by name."""
-    waiting, texts = [source], {source.name: source.read_bytes()}
+    waiting, texts = [source.name], {source.name: source.read_bytes()}
     while waiting:
-        for name in _included(texts[waiting.pop().name]):
+        for name in _included(texts[waiting.pop()]):
             path = next((f / name for f in folders if (f / name).is_file()), None)
             if path is not None and name not in texts:
                 texts[name] = path.read_bytes()
-                waiting.append(path)
+                waiting.append(name)
     return texts
 
 
