@@ -35,8 +35,8 @@ static double size_at_start(const frot_model *m, const frot_state *s, const frot
 
 /* What the step brings the states that are no coordinates, by their slopes at its start, and what
  * it leaves them: what they are and move by at its end. Where that makes a size of zero, by the
- * first slope that is more than rounding: of what begins with the step nothing else is known, and
- * later ones may be wild where the step is far too long. */
+ * first slope that is more than rounding, or by the first where none is: of what begins with the
+ * step nothing else is known, and later ones may be wild where the step is far too long. */
 static void size_own_states(const frot_model *m, const frot_state *s, frot_work *w, double h) {
   const frot_size_work *own = &w->sizes;
   const double *end = frot_stage(w, DP_STAGES);
@@ -48,10 +48,13 @@ static void size_own_states(const frot_model *m, const frot_state *s, frot_work 
   if (!frot_state_sizes(m, s, w)) return;
   for (int i = 0; i < own->count; i++) {
     int j = own->states[i], at = w->awake.now->place[j];
-    double rounding = FROT_NOISE_MARGIN * s->data[w->layout.noise + j], slope = 0;
-    for (int k = 1; at >= 0 && !(slope > rounding) && k <= DP_STAGES; k++)
-      slope = fmax(slope, fabs(frot_stage(w, k)[at]));
-    if (own->own[j] == 0 && own->change[j] == 0) own->change[j] = h * slope;
+    if (own->own[j] != 0 || own->change[j] != 0) continue;
+    double rounding = FROT_NOISE_MARGIN * s->data[w->layout.noise + j], slope = 0, first = 0;
+    for (int k = 1; at >= 0 && !(slope > rounding) && k <= DP_STAGES; k++) {
+      slope = fabs(frot_stage(w, k)[at]);
+      if (first == 0) first = slope;
+    }
+    own->change[j] = h * (slope > rounding ? slope : first);
   }
   frot_state_sizes(m, s, w);
 }
