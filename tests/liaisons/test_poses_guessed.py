@@ -7,6 +7,8 @@ its opposite are one orientation: the signs of the guesses are drawn at random.
 from __future__ import annotations
 
 import functools
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -27,6 +29,22 @@ CHAINS = [
     (SCREW, "verrou"),
     ("rotoide", "rotoide", "appui_plan"),
 ]
+
+NUT = """
+model Screw
+  world(gravity = 0 m/s^2);
+  body nut: box(mass = 0.4399 kg, size = (0.1985, 0.5457, 0.5373) m);
+  frame seat on ground at (0.3506, 0.3706, 0.1575) m
+    rotated(axis = (0.4303, 0.8324, -0.3491), angle = 1.8646);
+  frame thread on nut at (0.1732, -0.433, -0.4552) m
+    rotated(axis = (-0.8014, -0.0239, 0.5976), angle = 2.9014);
+  liaison J: helicoidale(seat, thread, axis = z, pitch = -0.354 m);
+initial
+  guess(nut.position = (-0.118, -0.0435, -0.0002) m);
+  guess(nut.orientation = (0.4072, -0.3227, -0.4225, 0.7426));
+  experiment(stop = 10 ms);
+end Screw;
+"""
 
 
 @functools.cache
@@ -208,3 +226,25 @@ def test_coarse_guesses_find_the_turn_of_a_screw(error: float) -> None:
     """A pitch of 0.3 m: an error of 0.1 m or rad is less than what half a turn moves."""
     for k in range(6):
         assert most_missed([k], (SCREW,), False, 1.0, error) < 5 * error
+
+
+@pytest.mark.parametrize("name", ["screw_in_a_loop", "slide_of_two"])
+def test_two_bodies_start_at_poses_that_agree_to_rounding(name: str) -> None:
+    """One quaternion is guessed as the opposite of what the other one and the joint give."""
+    path = Path(__file__).with_name(f"{name}.frot")
+    given = dict(re.findall(r"parameter \w+ (\w+) = ([-+.e\d]+)", path.read_text()))
+    start = frot.load(path).simulate()
+    for body in ("b0", "b1") if name == "screw_in_a_loop" else ("b2", "b3"):
+        place = [float(given[f"{x}0_{body}"]) for x in "xyz"]
+        turn = np.array([float(given[f"q{k}_{body}"]) for k in range(1, 5)])
+        found = np.array([start[f"{body}.orientation[{k}]"][0] for k in range(1, 5)])
+        found *= np.sign(found @ turn)
+        assert [start[f"{body}.position.{x}"][0] for x in "xyz"] == pytest.approx(place, abs=1e-11)
+        assert found == pytest.approx(turn, abs=1e-11)
+
+
+def test_a_nut_starts_on_its_turn_where_guesses_miss_each_other_by_rounded_digits() -> None:
+    """Guesses of four digits: the place is missed by their rounding, not by a turn of 0.354 m."""
+    start = frot.compile(NUT).simulate()
+    place = [start[f"nut.position.{x}"][0] for x in "xyz"]
+    assert place == pytest.approx([-0.118, -0.0435, -0.0002], abs=3e-4)
