@@ -12,7 +12,7 @@ from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.symbolic.columns import column, scalars_of
-from frot.dsl.checked import Element
+from frot.dsl.checked import Element, Expression, Quantity
 from frot.dsl.quantities.dimensions import Dimension
 
 # Square of the part of a guess that stronger ones must leave, or it says nothing more.
@@ -63,6 +63,7 @@ def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
                 for side in (equation.left, equation.right)
             )
             of = equation.left.type.dimension
+            right = _nearer_turn(equation.left, left, right)
             whole = column(left) - column(right)
             if isinstance(equation.left, Element):
                 whole = system.resolve(settled(looking.lower(equation.left.operand)))
@@ -71,6 +72,19 @@ def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
             ]
     ordered = [sorted(each, key=lambda g: g.left.is_symbolic()) for each in (starts, guesses)]
     return [*ordered[0], *ordered[1]][::-1]
+
+
+def _nearer_turn(read: Expression, left: list[ca.SX], right: list[ca.SX]) -> list[ca.SX]:
+    """What is guessed of an orientation, or its opposite: both turn alike.
+
+    The one is meant that is nearer to what follows from the coordinates. A coordinate itself takes
+    the quaternion as it is written.
+    """
+    turns = isinstance(read, Quantity) and read.name == "orientation"
+    if not turns or all(x.is_symbolic() for x in left):
+        return right
+    opposite = ca.dot(column(left), column(right)) < 0
+    return [ca.if_else(opposite, -x, x) for x in right]
 
 
 def guessed_states(
@@ -90,6 +104,20 @@ def guessed_states(
         if own and key in of_text - known.keys() and not ca.depends_on(g.right, moving):
             found.setdefault(key, g.right)
     return found
+
+
+def guessed_halves(system: Assembled, guesses: Sequence[Guess]) -> dict[int, ca.SX]:
+    """1 or -1, by the first coordinate of each quaternion whose sign is guessed.
+
+    It and its opposite turn alike, so that the search begins at the one that is nearer.
+    """
+    firsts = {system.q[turn.coordinate].element_hash() for turn in system.reduced.symbols.turns}
+    moving = ca.vertcat(system.q, system.v, system.y, system.z, system.lam)
+    return {
+        g.left.element_hash(): ca.if_else(g.right < 0, -1, 1)
+        for g in reversed(guesses)
+        if g.left.element_hash() in firsts and not g.start and not ca.depends_on(g.right, moving)
+    }
 
 
 def guessed_places(

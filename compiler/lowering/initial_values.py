@@ -13,6 +13,7 @@ from frot.compiler.equations.text_symbols import scalars
 from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.guesses import (
+    guessed_halves,
     guessed_places,
     guessed_speeds,
     guessed_states,
@@ -105,7 +106,7 @@ def lower_initial(
     found = _placed(found, direct, system, statements, log)
     guesses = list_guesses(system, looking)
     # values that are stated one by one are where the search begins, or all there is to find
-    natural = _with(system.q, _natural(system), direct)
+    natural = _with(system.q, _natural(system), guessed_halves(system, guesses) | direct)
     natural = move_by(system, [g for g in guesses if g.start], system.q, natural, direct)
     stated = direct | guessed_states(system, guesses, direct)
     natural = _with(system.q, natural, stated)

@@ -241,3 +241,43 @@ def test_a_height_of_rounding_tells_no_side(sense: int, height: float) -> None:
         assert run.at(0)["foot.normal_force"] > 0
         end = run.at(1e-3)
         assert end["r.position.y"] + given["c"] / 2 * math.sin(end["r.angle"]) > -1e-12
+
+
+CROSSED = """planar model Crossed
+  parameter Length x = 0 m;
+  parameter Length wall_x = 0 m;
+  parameter Length wall_y = 0 m;
+  parameter Angle wall_turn = 0;
+  parameter Length rail_x = 0 m;
+  parameter Length rail_y = 0 m;
+  parameter Angle rail_turn = 0;
+  body p: particle(mass = 1 kg);
+  curve wall on ground: line(
+    through = (wall_x, wall_y), direction = (cos(wall_turn), sin(wall_turn)));
+  curve rail on ground: line(
+    through = (rail_x, rail_y), direction = (cos(rail_turn), sin(rail_turn)));
+  liaison G: contact_ponctuel(p, rail, unilateral = false);
+  liaison C: contact_ponctuel(p, wall) with coulomb(0.2);
+initial
+  guess(p.position.x = x);
+  experiment(stop = 1 ms);
+end Crossed;
+"""
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e3])
+@pytest.mark.parametrize("turned", [0.0, math.pi])
+def test_a_point_guessed_by_one_coordinate_that_its_rail_puts_on_a_wall_is_over_it(
+    scale: float, turned: float
+) -> None:
+    """The side is that of the place that is found, against gravity, not of where y was sought."""
+    crossing, wall = (0.6708064724929594, 0.1751871152293), 3.3517794696338363 + turned
+    given = {"x": scale * crossing[0], "wall_turn": wall, "rail_turn": 0.6115208112512827}
+    for name, back in (("wall", 0.4), ("rail", 0.372)):
+        turn = given[f"{name}_turn"]
+        given[f"{name}_x"] = scale * (crossing[0] - back * math.cos(turn))
+        given[f"{name}_y"] = scale * (crossing[1] - back * math.sin(turn))
+    result = frot.compile(CROSSED).simulate(parameters=given)
+    assert result["C.normal_force"][0] > 1
+    assert abs(result["C.gap"][-1]) < 1e-12 * scale
+    assert abs(result["p.velocity.y"][-1]) < 1e-12

@@ -120,7 +120,7 @@ static int compromise_widely(frot_opening *p) {
     frot_begin_blocks(p);
     frot_begin_units(p);
     if (frot_opening_metric(p) != FROT_OK) continue;
-    if (k == 1 && !frot_meet_guesses_in_sequence(p)) continue;
+    if (k == 1) frot_meet_guesses_in_sequence(p);
     if (k > 1) frot_begin_multistart(p, k - 2, (k - 1) % 3 == 0);
     if (!compromise(p)) continue;
     double missed = frot_guesses_missed(p);

@@ -12,18 +12,21 @@
 #define AROUND 8 /* beginnings of the unknowns of one vector beside the given one, */
 #define ROUNDS 4 /* each round twice as far off as the one before */
 #define WHOLE_TURN 6.283185307179586
+/* What vectors that nearly agree are missed by, squared, beside the arms of the angles. */
+#define NEARLY_MET 1e-6
 #define LEAST_ADVANCE 1e-9 /* of a turn, beside what angles do to what is missed */
 
-/* How many unknowns that are not taken the guesses of a vector follow from; those with `mark` are
- * marked, of an orientation all. */
-static int count_new(const frot_opening *p, int vector, int mark) {
+/* How many unknowns that are not taken the guesses of a vector follow from, and the last of them;
+ * those with `mark` are marked, of an orientation all. */
+static int count_new(const frot_opening *p, int vector, int mark, int *last) {
   const frot_part *part = p->part;
   unsigned char *state = p->w->opening.state;
   int first = p->n - part->n_guessed, nx = p->n_own, count = 0;
   for (int j = 0; j < part->n_guessed; j++) {
     const double *row = p->w->relations.jacobian + nx * (first + j);
     for (int k = 0; k < nx && part->vectors[j] == vector; k++)
-      if (row[k] != 0 && state[k] == 0) state[k] = FROT_MOVES_NOW, count++;
+      if (row[k] != 0 && state[k] == 0)
+        state[k] = FROT_MOVES_NOW, count++, *last = k > *last ? k : *last;
   }
   for (int i = 0; i < part->n_turns && mark; i++) {
     unsigned char *four = state + p->w->opening.turns[i].at;
@@ -35,14 +38,16 @@ static int count_new(const frot_opening *p, int vector, int mark) {
   return count;
 }
 
-/* Mark the unknowns of the vector that follows from the fewest; returns 0 where all are taken. */
+/* Mark the unknowns of the next vector from the ground outwards: of those whose last new unknown
+ * comes first, the one that follows from the fewest. Returns 0 where all are taken. */
 static int mark_next(const frot_opening *p) {
-  int fewest = 0, next = -1;
+  int fewest = 0, first = p->n_own, next = -1;
   for (int j = 0; j < p->part->n_guessed; j++) {
-    int count = p->part->vectors[j] == j ? count_new(p, j, 0) : 0;
-    if (count > 0 && (next < 0 || count < fewest)) fewest = count, next = j;
+    int last = -1, count = p->part->vectors[j] == j ? count_new(p, j, 0, &last) : 0;
+    if (count == 0 || last > first || (last == first && count >= fewest)) continue;
+    first = last, fewest = count, next = j;
   }
-  return next >= 0 && count_new(p, next, 1) > 0;
+  return next >= 0 && count_new(p, next, 1, &first) > 0;
 }
 
 /* Whether an unknown that is to come moves row i or, of a guess, any item of its vector. */
@@ -92,21 +97,28 @@ static int turn_wholly(frot_opening *p) {
   return turned && frot_evaluate_statements(p) == FROT_OK;
 }
 
-/* Whether the unknowns marked are where the equations chosen hold, or come there from here. */
-static int come_there(frot_opening *p) {
-  if (!frot_follow_damped(p)) return 0;
-  if (frot_missed_square(p) <= FROT_NOTHING_MISSED) return 1;
-  return turn_wholly(p) && frot_follow_damped(p) && frot_missed_square(p) <= FROT_NOTHING_MISSED;
+/* Move the unknowns marked to where the equations chosen are missed least near here, and on by
+ * whole turns while that leaves less. Returns what is missed, squared, INFINITY where there is no
+ * way. */
+static double come_there(frot_opening *p) {
+  double missed = INFINITY, before;
+  do {
+    before = missed;
+    if (!frot_follow_damped(p)) return INFINITY;
+    missed = frot_missed_square(p);
+  } while (missed > FROT_NOTHING_MISSED && missed < before && turn_wholly(p));
+  return missed;
 }
 
-/* Move the unknowns marked to where the equations chosen hold, from several beginnings; returns
- * whether they do. */
-static int meet_next(frot_opening *p) {
+/* Move the unknowns marked to where the equations chosen are missed least, from here and, with
+ * `widely`, from several other beginnings until they are met. Returns whether they are, but for
+ * NEARLY_MET. */
+static int meet_next(frot_opening *p, int widely) {
   frot_opening_work *w = &p->w->opening;
   size_t bytes = sizeof(double) * (size_t)p->n_own;
-  double *before = w->nearest;
+  double *before = w->second, *best = w->nearest, least = INFINITY;
   memcpy(before, p->x, bytes);
-  for (int k = 0; k <= AROUND * ROUNDS; k++) {
+  for (int k = 0; k <= (widely ? AROUND * ROUNDS : 0) && !(least <= NEARLY_MET); k++) {
     double farther = k > AROUND ? 1 << ((k - 1) / AROUND) : 1;
     memcpy(p->x, before, bytes);
     frot_begin_units(p);
@@ -117,23 +129,28 @@ static int meet_next(frot_opening *p) {
         p->x[i] = before[i];
       else if (p->m->q_speed[p->part->reads.q[i]] >= 0) /* of no orientation */
         p->x[i] = before[i] + farther * (p->x[i] - before[i]);
-    if (come_there(p)) return 1;
+    double missed = come_there(p);
+    if (!(missed < least)) continue;
+    least = missed;
+    memcpy(best, p->x, bytes);
+    frot_keep_blocks(p, best + p->n_own);
   }
-  return 0;
+  memcpy(p->x, isfinite(least) ? best : before, bytes);
+  isfinite(least) ? frot_return_blocks(p, best + p->n_own) : frot_begin_blocks(p);
+  return least <= NEARLY_MET;
 }
 
-int frot_meet_guesses_in_sequence(frot_opening *p) {
+void frot_meet_guesses_in_sequence(frot_opening *p) {
   unsigned char *state = p->w->opening.state;
   int met = 1;
   memset(state, 0, (size_t)p->n_own);
   p->guessed = p->alike = 1;
-  while (met && frot_evaluate_statements(p) == FROT_OK && mark_next(p)) {
+  while (frot_evaluate_statements(p) == FROT_OK && mark_next(p)) {
     choose_rows(p);
     p->some = 1;
-    met = meet_next(p);
+    met &= meet_next(p, met);
     p->some = 0;
     for (int k = 0; k < p->n_own; k++) state[k] = state[k] != 0 ? FROT_TAKEN : 0;
   }
   p->guessed = p->alike = 0;
-  return met;
 }
