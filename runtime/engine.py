@@ -392,3 +392,7 @@ class Engine:
     def statistics(self) -> Statistics:
         """Counts of the run so far."""
         return Statistics.from_buffer_copy(self._library.frot_run_statistics(self._s).contents)
+
+    def state_name(self, state: int) -> str:
+        """Name of a state; "" where it is not known."""
+        return str(self._library.frot_state_name(self._model, state).decode("utf-8"))

@@ -77,6 +77,8 @@ class Statistics(ct.Structure):
         ("crossings", ct.c_longlong),
         ("free", ct.c_longlong),
         ("masked", ct.c_double),
+        ("lost", ct.c_double),
+        ("lost_state", ct.c_longlong),
     )
 
 
@@ -109,6 +111,7 @@ _SIGNATURES: dict[str, tuple[object, tuple[object, ...]]] = {
     "frot_last_fault": (ct.POINTER(Fault), (_POINTER,)),
     "frot_run_statistics": (ct.POINTER(Statistics), (_POINTER,)),
     "frot_fault_text": (None, (_POINTER, _POINTER, ct.c_char_p, ct.c_size_t)),
+    "frot_state_name": (ct.c_char_p, (_POINTER, _INT)),
     "frot_event_text": (None, (_POINTER, ct.POINTER(RawEvent), ct.c_char_p, ct.c_size_t)),
     "frot_fault_places": (None, (_POINTER, _POINTER, ct.c_char_p, ct.c_size_t)),
 }

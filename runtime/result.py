@@ -15,6 +15,7 @@ from frot.dsl.files.writing import DATA, check_target, write_whole
 from frot.dsl.messages.errors import FrotError
 from frot.runtime.engine import Engine, as_floats
 from frot.runtime.program import IntegralInfo, Program
+from frot.runtime.rounding_lines import rounding_lines
 from frot.runtime.showing import Showing, nearest
 
 # Loaded where values are asked for.
@@ -41,7 +42,6 @@ MOST_EVENTS = 40
 MOST_KEPT = 8
 # Rows of a table that are made at once.
 _ROWS = 1000
-MASKED = 1e-10  # part of an acceleration or a step that rounding may make, told from there on
 # Relative residual of the energy balance from which a run is not to be trusted.
 SUSPICIOUS = 1e-4
 ROLLING = ("free", "held", "rolling", "rolling")
@@ -107,7 +107,8 @@ class Figures:
     to what moves, that rounding may have made beyond the tolerance. `free`: speeds at the
     start that no liaison holds. `masked`: what part of an acceleration may be rounding, at the
     start, where a light body is held between heavy ones and its own inertia is lost among those
-    that its joint carries.
+    that its joint carries. `lost`: what part of the state `lost_state` rounding of the rates has
+    made, where that is far above the tolerance; else 0.
     """
 
     steps: int
@@ -119,6 +120,8 @@ class Figures:
     blurred: float = 0.0
     free: int = -1
     masked: float = 0.0
+    lost: float = 0.0
+    lost_state: str = ""
 
 
 class Values(Mapping[str, "Floats"]):
@@ -345,18 +348,7 @@ class Result(Showing):
                 f"  {_counted(figures.crossings, 'passage')} through postures in which the "
                 "relations of a loop depend on each other: it goes straight on there"
             )
-        if figures.crossings and figures.blurred:
-            lines.append(f"  rounding made errors of {figures.blurred:.1e} there")
-        elif figures.blurred > MASKED:
-            lines.append(
-                f"  warning: rounding may make {figures.blurred:.0e} of what moves in a step, "
-                "whatever the tolerance"
-            )
-        if figures.masked > MASKED:
-            lines.append(
-                f"  warning: rounding may make {figures.masked:.0e} of an acceleration, whatever "
-                "the tolerance: a body is held between ones so much heavier"
-            )
+        lines += rounding_lines(figures)
         if figures.unsearched:
             lines.append(
                 f"  at {_counted(figures.unsearched, 'instant')} one motion was found; with so "

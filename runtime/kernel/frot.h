@@ -120,6 +120,8 @@ typedef struct {
   long long crossings;  /* steps through postures in which rows that hold depend on each other */
   long long free;       /* speeds at the start that no permanent row holds */
   double masked;        /* part of an acceleration that rounding of the inertias may make there */
+  double lost;          /* part of a state's size that rounding of rates has made; 0: it is small */
+  long long lost_state; /* that state, where `lost` is above zero */
 } frot_statistics;
 
 /* The model compiled together with the kernel. */
@@ -220,6 +222,8 @@ const frot_statistics *frot_run_statistics(const frot_state *state);
 
 /* The sentence that tells a fault, with names, values in SI and the remedy, ended by NUL. */
 void frot_fault_text(const frot_model *model, const frot_state *state, char *text, size_t size);
+/* The name of a state in the text; "" where that is not known. */
+const char *frot_state_name(const frot_model *model, int state);
 /* Places (file:line:column, one a line) of what the fault is about; empty if none is to blame. */
 void frot_fault_places(const frot_model *model, const frot_state *state, char *text, size_t size);
 /* The sentence that tells an event: "floor: slip -> stick at t = 1.86884131838260". */

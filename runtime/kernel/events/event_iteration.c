@@ -6,6 +6,7 @@
 #include "evaluation/fault_source.h"
 #include "evaluation/algebraic_loops.h"
 #include "events/feature_edges.h"
+#include "methods/rate_rounding.h"
 #include "model/indexing.h"
 #include "guards/conditions.h"
 #include "methods/right_hand_side.h"
@@ -228,7 +229,7 @@ static int update(const instant *in, int first, int *changed) {
   int moved = memcmp(in->q, q, sizeof(double) * (size_t)m->nq) != 0 ||
               memcmp(in->v, v, sizeof(double) * (size_t)m->nv) != 0;
   s->jumped |= moved;
-  if (moved) note_near(in);
+  if (moved) note_near(in), frot_forget_rate_rounding(m, s, w);
   memcpy(in->q, q, sizeof(double) * (size_t)m->nq);
   memcpy(in->v, v, sizeof(double) * (size_t)m->nv);
   memcpy(held, w->events.held, held_size);

@@ -108,7 +108,7 @@ static void raise_by_jacobian(const frot_model *m, const frot_state *s, frot_wor
   frot_jacobian j = frot_jacobian_of(m, w, NULL, NULL);
   const frot_pattern *p = &m->pattern;
   int n = frot_order(m), sparse = p->n > 0, entries = sparse ? p->entries : n * n, raised = 1;
-  raising r = {j.scratch, j.scratch + n, j.pivot};
+  raising r = {j.scratch, j.scratch + n, j.raised_by};
   for (int k = 0; k < n; k++) {
     r.lives[k] = (double)LASTING / LASTING_STEPS / h;
     r.most[k] =

@@ -50,14 +50,15 @@ frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *
   j.block_scale = take(base, &used, 2 * ny);
   j.growth = integer;
   j.pivot = doubles ? NULL : j.growth + 1;
-  j.block_pivot = doubles ? NULL : j.pivot + n;
+  j.raised_by = doubles ? NULL : j.pivot + n;
+  j.block_pivot = doubles ? NULL : j.raised_by + n;
   size_t own = 0, places = motion ? frot_radau_integers(m) : 0, more = 0;
   if (motion)
     j.linearize = frot_linearize_scratch(m, base ? base + used : NULL,
                                          doubles ? NULL : j.block_pivot + ny, &own, &more);
   j.linearize.rates = j.entries, j.linearize.residual = j.block_q;
   if (doubles) *doubles = used + own;
-  if (integers) *integers = (size_t)(1 + n + ny) + places + more;
+  if (integers) *integers = (size_t)(1 + 2 * n + ny) + places + more;
   return j;
 }
 
@@ -156,8 +157,8 @@ const double *frot_jacobian_damping(const frot_model *m, const frot_work *w, dou
   return damping;
 }
 
-/* y <- |J| x. */
-static void spread(const frot_model *m, const frot_jacobian *j, const double *x, double *y) {
+void frot_jacobian_spread(const frot_model *m, const frot_work *w, const double *x, double *y) {
+  frot_jacobian own = frot_jacobian_of(m, w, NULL, NULL), *j = &own;
   const frot_pattern *p = &m->pattern;
   int n = frot_order(m);
   memset(y, 0, sizeof(double) * (size_t)n);
@@ -177,7 +178,7 @@ double frot_jacobian_bound(const frot_model *m, const frot_work *w, const double
   memcpy(x, size, sizeof(double) * (size_t)n);
   for (int pass = 0; pass < BOUND_PASSES; pass++) {
     double norm = 0;
-    spread(m, &j, x, y);
+    frot_jacobian_spread(m, w, x, y);
     for (int i = 0; i < n; i++)
       if (y[i] > 0) norm = fmax(norm, x[i] > 0 ? y[i] / x[i] : INFINITY);
     bound = fmin(bound, norm);

@@ -17,6 +17,7 @@ typedef struct {
   double *slope_y, *block_q, *block_t, *block_y, *block_scale; /* with blocks */
   int *growth;                                                 /* 1: solutions are to be checked */
   int *pivot, *block_pivot;
+  int *raised_by; /* n: scratch of error_scales.c */
   frot_linearize_work linearize; /* of a motion */
 } frot_jacobian;
 
@@ -49,6 +50,9 @@ double frot_jacobian_error(const frot_model *m, const frot_work *w, double shift
 /* For each state the part by which an implicit step h lets an error of its rate be felt less: one
  * more than the change by damping, and of a speed by stiffness, in the step. In scratch. */
 const double *frot_jacobian_damping(const frot_model *m, const frot_work *w, double h);
+
+/* y <- |J| x. */
+void frot_jacobian_spread(const frot_model *m, const frot_work *w, const double *x, double *y);
 
 /* A bound of the eigenvalues' sizes: the least norm by rows that is found with states in units of
  * size[j] and of sizes that follow from these by |J| (L. Collatz, H. Wielandt). */

@@ -42,6 +42,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.scale_g = at, at += l.ng;
   l.most_g = at, at += l.ng;
   l.worth = at, at += m->nq;
+  l.lost = at, at += m->nq;
   l.noise = at, at += m->nq + m->nv + l.ng;
   l.along = at, at += 2 * m->n_elements;
   l.friction = at, at += m->n_elements;

@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 25
+#define FROT_LAYOUT_VERSION 26
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -32,7 +32,7 @@ typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, experiment, nominal, unilateral, carried, x, y, slope, scale_x,
-      scale_g, most_g, worth, noise, along, friction, reach, asleep, fired, several, due, left,
+      scale_g, most_g, worth, lost, noise, along, friction, reach, asleep, fired, several, due, left,
       vanished, spare, sign, posture, asked, fresh, near, modes, d, frozen, segment, size;
 } frot_layout;
 

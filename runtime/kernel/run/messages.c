@@ -199,6 +199,10 @@ static void reach_text(const frot_model *m, const frot_fault *f, char *text, siz
              f->value, f->where[1] != 0 ? "rad" : "m", f->where[0]);
 }
 
+const char *frot_state_name(const frot_model *m, int state) {
+  return m->states && state >= 0 && state < m->nq + m->nv ? m->states[state].name : "";
+}
+
 void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_t size) {
   const frot_fault *f = &s->fault;
   const char *name = contact_name(m, f->contact);

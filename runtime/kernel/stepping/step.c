@@ -25,6 +25,7 @@
 #include "constraints/redundant_rows.h"
 #include "methods/dormand_prince.h"
 #include "methods/method_choice.h"
+#include "methods/rate_rounding.h"
 #include "recording/segment_store.h"
 #include "numerics/tolerances.h"
 
@@ -174,6 +175,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   s->statistics.steps++;
   s->statistics.implicit_steps += s->implicit, s->was_implicit = s->implicit;
   memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
+  frot_follow_rate_rounding(m, s, w, a->h);
   frot_update_sizes(m, s, w, w->step.z1, frot_stage(w, DP_STAGES) + w->awake.n);
   frot_update_state_sizes(s, w, w->step.z1);
   leave_near(m, s, w, a->h);
