@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,6 +20,7 @@ from frot.dsl.catalogue import TYPES
 from frot.dsl.messages.errors import fail
 from frot.dsl.quantities.dimensions import REAL, Type, dimension
 from frot.runtime.scheduled import COEFFICIENTS, coefficient_name, knot_name
+from frot.runtime.tables import moving_of
 
 if TYPE_CHECKING:
     from frot.model import Model
@@ -110,11 +111,6 @@ def driven_program(
 
         program = second_program(model, "", moving=moving)
     return program, constants, tuple(tables)
-
-
-def moving_of(tables: Iterable[Table]) -> frozenset[str]:
-    """The inputs that are polynomials of time in the program of these tables."""
-    return frozenset(table.name for table in tables if table.way != "held")
 
 
 def _span(

@@ -147,8 +147,8 @@ class Model:
 
     def run(self, program: Program, tables: Sequence[Table] = (), **options: Any) -> Result:
         """Run one of its programs with the options of `simulate`; the result knows its model."""
-        from frot.inputs_over_time import moving_of
         from frot.runtime import Interrupted, SimulationError, simulate
+        from frot.runtime.tables import moving_of
 
         try:
             result = simulate(program, tables=tables, **options)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -231,3 +231,8 @@ def _cubic(
 
 def _bad(name: str, what: str, help: str) -> Exception:
     return fail("E0821", f"bad values of the input '{name}' over time: {what}", help=help)
+
+
+def moving_of(tables: Iterable[Table]) -> frozenset[str]:
+    """The inputs that are polynomials of time in the program of these tables."""
+    return frozenset(table.name for table in tables if table.way != "held")

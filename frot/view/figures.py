@@ -130,6 +130,18 @@ def _sphere(surface: Surface, placed: Placed, n: Numbers, scope: Scope, time: fl
     return sheet(grid, LINES).moved(np.eye(3), _origin(placed, n, time))
 
 
+def _ellipsoid(surface: Surface, placed: Placed, n: Numbers, scope: Scope, time: float) -> Outline:
+    a, b, c = (float(x) for x in np.ravel(n.of(surface.arguments["semi_axes"], time)))
+    grid = over_grid(
+        lambda u, v: np.array(
+            (a * np.cos(u) * np.sin(v), b * np.sin(u) * np.sin(v), c * np.cos(v))
+        ),
+        np.linspace(0, 2 * np.pi, ACROSS),
+        np.linspace(0, np.pi, ACROSS),
+    )
+    return sheet(grid, LINES).moved(np.eye(3), _origin(placed, n, time))
+
+
 def _cylinder(surface: Surface, placed: Placed, n: Numbers, scope: Scope, time: float) -> Outline:
     """As long as what moves needs it."""
     tube = placed.figure.tube
@@ -185,6 +197,7 @@ def _implicit(surface: Surface, placed: Placed, n: Numbers, scope: Scope, time: 
 _Surface = Callable[[Surface, Placed, Numbers, Scope, float], Outline]
 SURFACES: Mapping[str, _Surface] = {
     "cylinder": _cylinder,
+    "ellipsoid": _ellipsoid,
     "implicit": _implicit,
     "parametric": _sheet,
     "plane": _plane,

@@ -95,8 +95,9 @@ def start_of(
     inputs: Mapping[str, object] | None = None,
 ) -> Moments:
     """What a picture reads of the start, before any step; FrotError if there is none."""
-    from frot.inputs_over_time import driven_program, moving_of
+    from frot.inputs_over_time import driven_program
     from frot.runtime.run import begin
+    from frot.runtime.tables import moving_of
 
     _, constants, tables = driven_program(model, inputs, start, None)
     program = picture_program(model, moving_of(tables))

@@ -58,7 +58,7 @@ equation
   experiment(stop = 2 s);
 end Alike;
 """
-    with pytest.raises(frot.SimulationError, match="E0904"):
+    with pytest.raises(frot.SimulationError, match="E0912"):
         frot.compile(text).simulate()
 
 

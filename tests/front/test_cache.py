@@ -97,7 +97,7 @@ def test_what_is_not_needed_is_not_imported(command: str, filled: Path, shell: S
     heavy |= {
         "simulate": {
             *("lark", "numpy", "scipy", "frot.dsl.catalogue", "frot.dsl.messages.codes"),
-            *("dataclasses", "subprocess", "tempfile", "frot.compiler.product.generate"),
+            *("subprocess", "tempfile", "frot.compiler.product.generate"),
         },
         "check": {"frot.compiler.mechanics.reduce"},
         "--help": {"lark", "numpy", "scipy", "frot.dsl", "frot.model"},

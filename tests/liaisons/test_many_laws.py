@@ -21,7 +21,9 @@ KERNEL = Path(refuse.__file__).parents[2] / "runtime" / "kernel"
 
 
 def test_the_compiler_knows_how_many_the_kernel_takes() -> None:
-    found = re.search(r"#define FROT_LAWS_OF_CONTACT (\d+)", (KERNEL / "options.h").read_text())
+    found = re.search(
+        r"#define FROT_LAWS_OF_CONTACT (\d+)", (KERNEL / "modes" / "mode_options.h").read_text()
+    )
     assert found is not None and int(found[1]) == refuse.MOST_LAWS
 
 

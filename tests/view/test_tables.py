@@ -46,7 +46,7 @@ def test_every_liaison_has_a_symbol() -> None:
 def test_every_curve_and_surface_has_a_row() -> None:
     from frot.dsl.declarations import geometry
 
-    french = {"droite", "cercle", "plan"}
+    french = {"droite", "cercle", "plan", "ellipsoide"}
     assert set(figures.CURVES) == {*geometry._CURVES, "parametric"} - french
     assert set(figures.SURFACES) == {*geometry._SURFACES, "parametric", "implicit"} - french
 

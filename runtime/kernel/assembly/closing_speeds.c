@@ -79,9 +79,9 @@ static void open_separating(const frot_opening *p, frot_contact_mode *modes) {
 }
 
 int frot_stop_approach(frot_opening *p, frot_contact_mode *modes) {
-  int count = p->part->n_contacts, equations = 0, one_by_one = 0, status = FROT_OK;
+  int count = p->part->n_contacts, equations = 0, one_by_one = 0, status = FROT_OK, settled = 0;
   memcpy(p->w->opening.start, p->x, sizeof(double) * (size_t)p->n_own);
-  for (int round = 0; round < AT_ONCE + count * count; round++) {
+  for (int round = 0; round < AT_ONCE + count * count && !settled; round++) {
     one_by_one |= round >= AT_ONCE;
     status = solve_again(p);
     if (status == FROT_INITIAL && equations > 1) {
@@ -98,12 +98,13 @@ int frot_stop_approach(frot_opening *p, frot_contact_mode *modes) {
     int added = add_approached(p, modes, one_by_one);
     equations += added;
     if (added) continue;
-    if (equations < 2) break;
-    if (!leave_one(p, 1)) {
-      status = solve_again(p);
-      break;
-    }
-    equations--;
+    settled = equations < 2 || !leave_one(p, 1);
+    if (settled && equations > 1) status = solve_again(p);
+    if (!settled) equations--;
+  }
+  if (!settled) { /* no set of equations keeps all contacts from closing: say which contradict */
+    add_approached(p, modes, 0);
+    status = solve_again(p);
   }
   if (status == FROT_OK) open_separating(p, modes);
   return status;
