@@ -188,15 +188,21 @@ static void note_neighbours(const frot_model *m, const frot_state *s, frot_work 
 }
 
 /* What rounding of rates makes of speeds, and of states that have always been zero, in the stages
- * of a step h: what leaves zero in it is no larger there at first, whatever moves by it. Where the
- * terms of rates are known, add_rounding_of_rates has done so for the states. */
+ * of a step h: what leaves zero in it is no larger there at first, whatever moves by it. Of speeds
+ * only the rounding of their terms counts, right after add_rounding: what was measured before holds
+ * the effect of such changes already, and would grow from measure to measure. Where the terms of
+ * rates are known, add_rounding_of_rates has done so for the states. */
 static void add_rounding_of_stages(const frot_model *m, const frot_state *s, const frot_work *w,
                                    double h, double *size) {
   const double *noise = s->data + w->layout.noise, *most = s->data + w->layout.scale_x;
+  const double *terms = w->relations.residual;
   for (int j = 0; j < w->awake.n - FROT_QUADRATURES && m->nv > 0 && !s->implicit; j++) {
     int state = w->awake.now->states[j];
     int begins = state < m->nq && m->q_speed[state] < 0 && most[state] == 0 && !m->terms.call;
-    if (state >= m->nq || begins) size[state] = fmax(size[state], h * noise[state] / FROT_NUDGE);
+    double rounding = 0;
+    if (state >= m->nq) rounding = USUAL * level(s) * FROT_ROUNDING * terms[state - m->nq];
+    if (begins) rounding = noise[state];
+    size[state] = fmax(size[state], h * rounding / FROT_NUDGE);
   }
 }
 
