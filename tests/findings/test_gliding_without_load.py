@@ -28,10 +28,12 @@ planar model Guided
   frame f0 on bar at (-0.78, 1.64) m;
   frame f1 on bar at (-0.28, 0.89) m;
   curve l0 on ground: line(
-    through = (x + (-0.78*cos(pose) - 1.64*sin(pose))*1 m, y + (-0.78*sin(pose) + 1.64*cos(pose))*1 m),
+    through = (x + (-0.78*cos(pose) - 1.64*sin(pose))*1 m,
+               y + (-0.78*sin(pose) + 1.64*cos(pose))*1 m),
     direction = (cos(tilt), sin(tilt)));
   curve l1 on ground: line(
-    through = (x + (-0.28*cos(pose) - 0.89*sin(pose))*1 m, y + (-0.28*sin(pose) + 0.89*cos(pose))*1 m),
+    through = (x + (-0.28*cos(pose) - 0.89*sin(pose))*1 m,
+               y + (-0.28*sin(pose) + 0.89*cos(pose))*1 m),
     direction = (cos(tilt), sin(tilt)));
   liaison c0: {first} with coulomb(mu);
   liaison c1: {second};
