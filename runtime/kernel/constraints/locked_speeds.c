@@ -140,3 +140,7 @@ void frot_find_locked_speeds(const frot_model *m, const frot_state *s, frot_work
     for (int k = 0; k < g->n_speeds; k++) known[g->unknowns[k]] = 0;
   }
 }
+
+int frot_state_stays(const frot_model *m, const double *frozen, int k) {
+  return k < m->nq ? stays(m, k, frozen) : frozen[k - m->nq] != 0;
+}

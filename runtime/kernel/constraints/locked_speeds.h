@@ -10,4 +10,7 @@
 void frot_find_locked_speeds(const frot_model *m, const frot_state *s, frot_work *w,
                              const frot_contact_mode *modes, double *frozen);
 
+/* Whether state k, a coordinate or a speed, stays where it is while the frozen speeds are zero. */
+int frot_state_stays(const frot_model *m, const double *frozen, int k);
+
 #endif

@@ -260,6 +260,7 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
       status = frot_wide_factor(m, s, w, g, t, q, v, d);
       if (status == FROT_OK) form_masked(m, w, g);
     } else if (status == FROT_OK) {
+      frot_drop_loads(m, s, w, g, v);
       form_group(m, s, w, g, modes, wanted);
     }
   }

@@ -4,7 +4,9 @@
 #include <string.h>
 
 #include "evaluation/evaluate.h"
+#include "inertia/mass_matrix.h"
 #include "model/indexing.h"
+#include "numerics/dense.h"
 #include "numerics/tolerances.h"
 
 void frot_size_drives(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
@@ -50,6 +52,59 @@ void frot_size_biases(const frot_model *m, const frot_state *s, frot_work *w, co
     int row = m->contacts[g->contacts[i]].row_n;
     double reach = s->data[w->layout.reach + g->contacts[i]];
     if (row >= 0 && reach > 0) w->core.bias_size[row] += size_of_turning(m, g, v, reach, &sum);
+  }
+}
+
+/* Whether c of all rows of a group is rounding of its terms. */
+static int biases_are_rounding(const frot_model *m, const frot_work *w, const frot_group *g) {
+  for (int i = 0; i < g->n_rows; i++) {
+    int row = g->rows[i];
+    if (frot_is_reading(m, row)) continue;
+    if (fabs(w->core.c[row]) > FROT_ROUNDING * w->core.bias_size[row]) return 0;
+  }
+  return g->n_rows > 0;
+}
+
+/* What speeds bring to the loads of a group has the size |v| W, W their turning, in the metric. 0
+ * where that is more than rounding leaves of turning beside what moves. */
+static double size_of_gyration(const frot_model *m, const frot_state *s, const frot_work *w,
+                               const frot_group *g, const double *v) {
+  double turning = 0, moving = 0;
+  for (int k = 0; k < g->n_speeds; k++) {
+    int speed = g->unknowns[k];
+    *(m->speed_turns[speed] ? &turning : &moving) += fabs(v[speed]);
+  }
+  for (int i = 0; i < g->n_contacts; i++)
+    if (s->data[w->layout.reach + g->contacts[i]] * turning > FROT_CANCELS * moving) return 0;
+  return turning > 0 ? turning * sqrt(frot_square_of(w, g, v)) : 0;
+}
+
+/* Whether the loads of a group are below `size` in the metric: of its motion, and of each reading
+ * with the inertia of its direction. */
+static int loads_are_below(const frot_model *m, const frot_work *w, const frot_group *g,
+                           double size) {
+  const double *force = w->core.force + g->vector;
+  double *own = w->core.column;
+  if (frot_dot(force, force, g->n_speeds) > size * size) return 0;
+  frot_own_inertias(w, g, own);
+  for (int i = 0; i < g->n_rows; i++) {
+    int reads = m->row_reads[g->rows[i]];
+    double load = reads >= 0 ? fabs(w->core.h[g->unknowns[reads]]) : 0;
+    if (load > 0 && !(load <= size * sqrt(fmax(own[reads], 0)))) return 0;
+  }
+  return 1;
+}
+
+void frot_drop_loads(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
+                     const double *v) {
+  if (!biases_are_rounding(m, w, g)) return;
+  double size = FROT_ROUNDING * size_of_gyration(m, s, w, g, v);
+  if (!(size > 0) || !loads_are_below(m, w, g, size)) return;
+  memset(w->core.force + g->vector, 0, sizeof(double) * (size_t)g->n_speeds);
+  for (int k = 0; k < g->n_speeds; k++) w->core.h[g->unknowns[k]] = 0;
+  for (int i = 0; i < g->n_rows; i++) {
+    int row = g->rows[i], reads = m->row_reads[row];
+    *(reads >= 0 ? &w->core.h[g->unknowns[reads]] : &w->core.c[row]) = 0;
   }
 }
 

@@ -11,6 +11,11 @@ void frot_size_drives(const frot_model *m, frot_state *s, frot_work *w, double t
 void frot_size_biases(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
                       const double *v);
 
+/* Where all loads of a group are what rounding of its speeds makes of them, they are zero:
+ * reactions would be made of rounding alone. After frot_size_biases and frot_factor. */
+void frot_drop_loads(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
+                     const double *v);
+
 /* Let rows that are nothing but rounding be zero, and the speeds that they give. */
 void frot_clean_rows(const frot_model *m, const frot_state *s, frot_work *w, const frot_group *g,
                      const double *v);

@@ -5,6 +5,7 @@
 
 #include "numerics/dense_complex.h"
 #include "singular/singular_posture.h"
+#include "constraints/locked_speeds.h"
 #include "methods/jacobian.h"
 #include "methods/right_hand_side.h"
 #include "numerics/radau_table.h"
@@ -78,7 +79,7 @@ static int factor(const frot_model *m, frot_work *w, const scratch *x, double h)
   return 0;
 }
 
-/* The first guess: the last step goes on, where the motion has gone on from it in its mode. */
+/* The first guess extrapolates the last step; a state that stays has none to extrapolate. */
 static void guess(const frot_model *m, frot_state *s, frot_work *w, const scratch *x, double t,
                   double h) {
   int n = frot_order(m);
@@ -92,6 +93,9 @@ static void guess(const frot_model *m, frot_state *s, frot_work *w, const scratc
     for (int r = 0; r < RA_STAGES; r++)
       for (int k = 0; k < n; k++) x->moved[r * n + k] += ra_TI[r][i] * (there[k] - start[k]);
   }
+  for (int k = 0; k < n; k++)
+    for (int r = 0; r < RA_STAGES && frot_state_stays(m, s->data + w->layout.frozen, k); r++)
+      x->moved[r * n + k] = 0;
 }
 
 /* Slopes of the stages at what w gives. */
