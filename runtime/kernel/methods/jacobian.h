@@ -17,7 +17,7 @@ typedef struct {
   double *slope_y, *block_q, *block_t, *block_y, *block_scale; /* with blocks */
   int *growth;                                                 /* 1: solutions are to be checked */
   int *pivot, *block_pivot;
-  int *raised_by; /* n: scratch of error_scales.c */
+  int *raised_by;                /* n: scratch of error_scales.c */
   frot_linearize_work linearize; /* of a motion */
 } frot_jacobian;
 

@@ -32,8 +32,8 @@ typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, experiment, nominal, unilateral, carried, x, y, slope, scale_x,
-      scale_g, most_g, worth, lost, noise, along, friction, reach, asleep, fired, several, due, left,
-      vanished, spare, sign, posture, asked, fresh, near, modes, d, frozen, segment, size;
+      scale_g, most_g, worth, lost, noise, along, friction, reach, asleep, fired, several, due,
+      left, vanished, spare, sign, posture, asked, fresh, near, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
