@@ -23,8 +23,7 @@
 #include "methods/method_choice.h"
 #include "numerics/tolerances.h"
 
-/* Rejections of one step after which the rounding of its derivatives is measured; the first
- * suffices where it has not been measured since the last event. */
+/* Rejections of one step after which the rounding of its derivatives is measured. */
 #define PATIENCE 2
 /* Part of an error from which on what is left of an older measure is measured again at once. */
 #define NOISY 0.01
@@ -221,7 +220,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   int unfound = s->implicit && status == FROT_DIVERGE && frot_has_motion(m);
   if (status == FROT_OK && a->ratio > 1 && w->step.worst < 0 && a->rejections % PATIENCE == 0)
     frot_measure_end(m, s, w, t + h, w->step.z1); /* a guard: of what size its terms are now */
-  if ((a->ratio > 1 && (w->step.noisy > NOISY || (!s->implicit && s->noise_measured <= 0))) ||
+  if ((a->ratio > 1 && (w->step.noisy > NOISY)) ||
       ((a->ratio > 1 || unfound) && a->rejections % PATIENCE == 0))
     measure_noise(m, s, w, t + h);
   if (a->rejections % HOLD == 0) {

@@ -278,8 +278,10 @@ int frot_measure_rounding(const frot_model *m, frot_state *s, frot_work *w, doub
   for (int j = 0; j < n + w->layout.ng; j++)
     noise[j] *= j < m->nq && m->q_speed[j] < 0 ? plain : before;
   add_rounding(m, s, w, t, w->step.z0, NULL);
-  add_rounding_of_rates(m, s, w, t, fabs(t - now), w->step.z0, size);
-  add_rounding_of_stages(m, s, w, fabs(t - now), size);
+  /* of a step that is far too long the stages say nothing about the next one's */
+  double h = astray ? 0 : fabs(t - now);
+  add_rounding_of_rates(m, s, w, t, h, w->step.z0, size);
+  add_rounding_of_stages(m, s, w, h, size);
   for (int pattern = 0; pattern < 2; pattern++) {
     for (int side = 0; side < 2; side++) {
       double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
