@@ -130,9 +130,7 @@ class Model:
         with way `held`, `linear` or `cubic`, an array of two columns, a pandas Series, a function
         of time, or the text `FILE.csv:COLUMN`; see docs/inputs.md.
         """
-        from frot.inputs_over_time import driven_program
-
-        program, constants, tables = driven_program(self, inputs, start, stop)
+        program, constants, tables = self._with_inputs(inputs, start, stop)
         return self.run(
             program,
             stop=stop,
@@ -144,6 +142,19 @@ class Model:
             watch=watch,
             tables=tables,
         )
+
+    def _with_inputs(
+        self,
+        inputs: Mapping[str, object] | None,
+        start: float | str | None,
+        stop: float | str | None,
+    ) -> tuple[Program, Mapping[str, object] | None, tuple[Table, ...]]:
+        """The program for these inputs, those that are constant, and those over time."""
+        if inputs is None or (isinstance(inputs, dict) and not inputs):
+            return self.program(), inputs, ()
+        from frot.inputs_over_time import driven_program
+
+        return driven_program(self, inputs, start, stop)
 
     def run(self, program: Program, tables: Sequence[Table] = (), **options: Any) -> Result:
         """Run one of its programs with the options of `simulate`; the result knows its model."""
