@@ -106,16 +106,16 @@ def leaning() -> frot.Model:
     return frot.compile(FALLS)
 
 
-@pytest.mark.parametrize(("tolerance", "bound"), [(1e-6, 1e-6), (1e-8, 1e-7), (1e-10, 1e-11)])
-def test_one_that_turns_back_before_it_is_flat_follows_the_tolerance(
-    leaning: frot.Model, tolerance: float, bound: float
-) -> None:
-    """It turns back a little before it is flat, where rows of its loop nearly depend on others."""
+def test_what_ends_next_to_a_posture_is_kept_up_to_there(leaning: frot.Model) -> None:
+    """It turns back a little before it is flat, where rounding decides which way. The last step,
+    whose end cannot be put onto the relations, was told by the one before it, to 7e-7."""
     start, w = -1.0407282713016985, 4.506238157044091
-    parameters = {"lean": 0.0, "th": start, "w": w}
-    result = leaning.simulate(tolerance=tolerance, parameters=parameters)
-    end = result.time[-1]
-    assert abs(result["l.angle"][-1] - fallen(start, w, end)) < bound
+    with pytest.raises(frot.FrotError) as told:
+        leaning.simulate(tolerance=1e-8, parameters={"lean": 0.0, "th": start, "w": w})
+    assert told.value.diagnostics[0].code == "E0910"
+    end = told.value.result.time[-1]
+    assert 1.5 < end < 1.7
+    assert abs(told.value.result["l.angle"][-1] - fallen(start, w, end)) < 3e-8
 
 
 def test_one_that_leans_falls_through_its_flat_postures(leaning: frot.Model) -> None:
