@@ -68,17 +68,19 @@ class Turning:
 class Rows:
     """Rows of a link in the order of the kernel's arrays; -1 where there is none.
 
-    `reaction` are the components of what it locks: of a contact the normal one.
+    `reaction` are the components of what it locks: of a contact the normal one. `of_laws` are those
+    of each law of friction; `tangent` and `rolling` the first of sliding and of rolling.
     """
 
     reaction: tuple[int, ...]
     tangent: int
     rolling: int
+    of_laws: tuple[tuple[int, ...], ...] = ()
 
     @property
     def all(self) -> tuple[int, ...]:
         """Every row."""
-        return (*self.reaction, *(r for r in (self.tangent, self.rolling) if r >= 0))
+        return (*self.reaction, *(row for rows in self.of_laws for row in rows))
 
 
 def reading_places(mechanism: Mechanism) -> tuple[dict[Liaison, int], int]:
@@ -100,12 +102,15 @@ def link_rows(links: tuple[Link, ...]) -> tuple[Rows, ...]:
         reaction = tuple(range(count, count + (link.readings or 1)))
         count += len(reaction)
         tangent = rolling = -1
+        of_laws: list[tuple[int, ...]] = []
         for friction in link.frictions:
             if friction.rolling:
-                rolling, count = count, count + 1
-            else:
-                tangent, count = count, count + 1
-        rows.append(Rows(reaction, tangent, rolling))
+                rolling = count
+            elif not friction.pivoting:
+                tangent = count
+            of_laws.append(tuple(range(count, count + friction.components)))
+            count += friction.components
+        rows.append(Rows(reaction, tangent, rolling, tuple(of_laws)))
     return tuple(rows)
 
 

@@ -41,13 +41,27 @@ class Friction:
     r |R| sin f. To first order in mu that is mu r |R|, against the turning q', a slip r q'.
 
     `arm`: the radius of a pin, on which it makes a couple; None where it is a force, or where the
-    coefficient is a length itself: `rolling`.
+    coefficient is a length itself: `rolling`, and `pivoting` about the normal. `components`: of the
+    motion that it opposes, two in the tangent plane of a contact in space.
     """
 
     mu: Expression
     mu_s: Expression
     arm: Expression | None = None
     rolling: bool = False
+    pivoting: bool = False
+    components: int = 1
+
+    @property
+    def name(self) -> str:
+        """That of its reaction."""
+        couple = "rolling_couple" if self.rolling else "tangential_force"
+        return "pivoting_couple" if self.pivoting else couple
+
+    @property
+    def turns(self) -> bool:
+        """Whether it opposes a turning, by a couple."""
+        return self.rolling or self.pivoting
 
     @property
     def coefficients(self) -> tuple[Expression, Expression]:

@@ -12,6 +12,7 @@ from frot.compiler.mechanics.geometry.figure import Placed
 from frot.compiler.mechanics.geometry.figures import figure_of
 from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE, pair
 from frot.compiler.mechanics.geometry.plain import Dot, Tether
+from frot.compiler.mechanics.geometry.space_contact import SpaceContact
 from frot.compiler.mechanics.geometry.tracking import can_touch
 from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
 from frot.compiler.mechanics.liaisons.freed import OF_PLACES, OF_SPEEDS, is_row
@@ -44,6 +45,7 @@ from frot.dsl.checked import (
     Literal,
     Model,
     Quantity,
+    SurfacePlace,
 )
 
 
@@ -118,6 +120,8 @@ def link_of(liaison: Liaison, planar: bool, log: Log) -> Link | None:
         return _joint(liaison, planar, log)
     if planar and is_thread(liaison):
         return _thread(liaison, log)
+    if not planar and liaison.kind.name in IN_SPACE and parts_or_rubs(liaison):
+        return _space_contact(liaison, log)
     if liaison.kind.name in (IN_PLANE if planar else IN_SPACE) or "gap" in liaison.driven:
         return _placed(liaison, planar, log)
     return _contact(liaison, log)
@@ -220,6 +224,52 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     told = told_by_time(liaison, planar)
     pairing = let_go(pairing, drives_of(liaison).keys() - told.keys())
     return make_joint(liaison, first, second, pairing, told, swapped=swapped)
+
+
+def parts_or_rubs(liaison: Liaison) -> bool:
+    """Whether a liaison between figures may part, or has friction."""
+    return is_unilateral(liaison) or bool(liaison.laws)
+
+
+def _space_contact(liaison: Liaison, log: Log) -> SpaceContact | None:
+    """Two figures in space that touch at one place; a cord is the inside of a sphere."""
+    a, b = _cord(liaison), figure_of(liaison.b, False)
+    if not is_thread(liaison):
+        a = figure_of(liaison.a, False)
+    exchanged = False
+    if a is None or b is None:
+        refuse_places(liaison, log)
+        return None
+    if not can_touch(a.figure, b.figure, False):
+        a, b, exchanged = b, a, True
+    if not can_touch(a.figure, b.figure, False):
+        refuse_places(liaison, log)
+        return None
+    if any(figure.figure.has_ends or figure.figure.borders for figure in (a, b)):
+        refuse(
+            log,
+            f"a {spelled(liaison)} in space that can part, on a face or curve with ends",
+            liaison.span,
+            "use a `surface`: a plane or a sphere has no edge",
+        )
+        return None
+    place = liaison.b if exchanged else liaison.a
+    floor = isinstance(place, SurfacePlace) and place.surface.span is None
+    return SpaceContact(
+        liaison=liaison,
+        a=a,
+        b=b,
+        floor=floor or is_thread(liaison),
+        unilateral=liaison.options["unilateral"],
+        exchanged=exchanged,
+    )
+
+
+def _cord(liaison: Liaison) -> Placed | None:
+    """The place and the reach of a cord, None of other liaisons."""
+    if not is_thread(liaison) or not isinstance(liaison.a, Point):
+        return None
+    return Placed(liaison.a, Tether(liaison.options["length"]))
 
 
 def _contact(liaison: Liaison, log: Log) -> Contact | None:

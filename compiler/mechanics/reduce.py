@@ -288,7 +288,7 @@ def _variables(
         sides.setdefault(link.liaison, symbols.sides[k])
         before = reactions.get(link.liaison)
         all_rows = (*(before.reaction if before else ()), *rows.reaction)
-        reactions[link.liaison] = Rows(all_rows, rows.tangent, rows.rolling)
+        reactions[link.liaison] = replace(rows, reaction=all_rows)
         links[link.liaison] = link.whole
         if link.whole is link:
             geometry[link.liaison] = own
