@@ -142,7 +142,7 @@ def _slips(system: Assembled) -> Iterator[_Slip]:
     found = [
         _Slip(system.rate[rows.tangent], k)
         for k, (link, rows) in enumerate(zip(links, reduced.contact_rows, strict=True))
-        if rows.tangent >= 0 and any(not friction.rolling for friction in link.frictions)
+        if rows.tangent >= 0 and any(x.components == 1 and not x.turns for x in link.frictions)
     ]
     found += [
         _Slip(system.rate[first + k], len(links) + k, element) for k, element in enumerate(elements)

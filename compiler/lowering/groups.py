@@ -110,6 +110,7 @@ def make_groups(system: Assembled) -> Grouping:
     for r, k in _entries(rows):
         sets.join(nw + r, k)
         moved.setdefault(r, []).append(k)
+    _share_entries(moved, elements)
     for k, r in _entries(spread):
         sets.join(nw + r, k)
     owners: dict[int, int] = {}
@@ -148,6 +149,15 @@ def make_groups(system: Assembled) -> Grouping:
             )
         )
     return _grouping(system, groups, elements, frozenset(range(n_rows)) - moved.keys())
+
+
+def _share_entries(moved: dict[int, list[int]], elements: list[Element]) -> None:
+    """Give the rows of one law the entries of them all: the kernel turns them among each other."""
+    for e in elements:
+        if e.part == 0 and e.parts > 1:
+            rows = range(e.row, e.row + e.parts)
+            both = sorted({k for r in rows for k in moved.get(r, ())})
+            moved.update(dict.fromkeys(rows, both))
 
 
 def reorder_groups(system: Assembled, grouping: Grouping, order: Sequence[int]) -> Grouping:

@@ -230,11 +230,19 @@ def _unturned(system: Assembled) -> list[int]:
     return [speed for k, speed in enumerate(system.q_speed) if k not in turned]
 
 
+def slips_in_space(system: Assembled) -> bool:
+    """Whether friction opposes a slip of several components."""
+    links = system.reduced.mechanism.contacts
+    return any(friction.components > 1 for link in links for friction in link.frictions)
+
+
 def why_explicit(system: Assembled) -> str | None:
     """What keeps the implicit method from a model whatever it costs, or None.
 
     As in `the method 'implicit' is not supported for a model without states`.
     """
+    if slips_in_space(system):
+        return "a model with friction on a slip of several components"
     if system.late:
         return "a model whose rates need what is solved last"
     if system.early and system.q.numel() + system.nv > MOST_CONDENSED:

@@ -24,7 +24,8 @@ class Element:
 
     `contact` is the place of its liaison, or of the text's item, among the kernel's contacts; `row`
     that of the motion, `bounded_by` those of the reaction that bounds it. `fixed`: its coefficients
-    depend on parameters only.
+    depend on parameters only. A law on a motion of several components is as many elements, which
+    follow each other: this one is the `part`th of `parts`.
     """
 
     contact: int
@@ -33,16 +34,20 @@ class Element:
     bounded_by: tuple[int, ...]
     rolling: bool
     fixed: bool
+    part: int = 0
+    parts: int = 1
 
 
 def link_elements(contact: int, link: Link, rows: Rows) -> list[Element]:
     """The elements of a liaison: sliding or turning, then rolling."""
     bound = Bound.NORMAL if link.has_normal else Bound.PIN
     found: list[Element] = []
-    for friction in link.frictions:
-        row = rows.rolling if friction.rolling else rows.tangent
+    for friction, own in zip(link.frictions, rows.of_laws, strict=True):
         fixed = all(is_fixed(x) for x in friction.coefficients)
-        found.append(Element(contact, bound, row, rows.reaction, friction.rolling, fixed))
+        parts = len(own)
+        for part, row in enumerate(own):
+            turns = friction.turns
+            found.append(Element(contact, bound, row, rows.reaction, turns, fixed, part, parts))
     return found
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from frot.compiler.lowering.walk import read_quantities, subexpressions
@@ -262,7 +262,24 @@ def _space_contact(liaison: Liaison, log: Log) -> SpaceContact | None:
         floor=floor or is_thread(liaison),
         unilateral=liaison.options["unilateral"],
         exchanged=exchanged,
+        frictions=tuple(_space_frictions(liaison)),
     )
+
+
+def _space_frictions(liaison: Liaison) -> Iterator[Friction]:
+    """The laws of a contact in space: sliding and rolling in its tangent plane, pivoting."""
+    coulomb = _law(liaison, "coulomb")
+    if coulomb is not None:
+        yield Friction(coulomb.arguments["mu"], coulomb.arguments["mu_s"], components=2)
+    rolling, pivoting = (
+        _law(liaison, f"{motion}_resistance") for motion in ("rolling", "pivoting")
+    )
+    if rolling is not None:
+        delta = rolling.arguments["delta"]
+        yield Friction(delta, delta, rolling=True, components=2)
+    if pivoting is not None:
+        delta = pivoting.arguments["delta"]
+        yield Friction(delta, delta, pivoting=True)
 
 
 def _cord(liaison: Liaison) -> Placed | None:

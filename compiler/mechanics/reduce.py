@@ -366,6 +366,7 @@ def _coefficients(
     for contact in contacts:
         for friction in contact.frictions:
             arm = ca.SX(1) if friction.arm is None else moving.lower(friction.arm)
+            own: list[ca.SX] = []
             for expression in friction.coefficients:
                 value = moving.lower(expression)
                 if _reads_solution(value, symbols) or _reads_speed(value, symbols):
@@ -375,7 +376,8 @@ def _coefficients(
                         "motion otherwise than by positions is not supported yet",
                         expression.span,
                     )
-                values.append(ca.if_else(value >= 0, arm * value, ca.SX.nan()))
+                own.append(ca.if_else(value >= 0, arm * value, ca.SX.nan()))
+            values += own * friction.components
     return column(values)
 
 

@@ -31,7 +31,9 @@ from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import dimension
 
 PLANE_LIAISONS = ("point_courbe", "contact_ponctuel", "courbe_courbe")
+SPACE_CONTACTS = ("contact_ponctuel", "point_surface", "appui_faces")
 LAWS = ("coulomb", "rolling_resistance")
+SPACE_LAWS = (*LAWS, "pivoting_resistance")
 # Laws of friction of one liaison: the kernel's FROT_LAWS_OF_CONTACT.
 MOST_LAWS = 2
 _ONE_CONTACT = "a law of one's own acts in a `contact_ponctuel` or a `point_courbe` of the plane"
@@ -156,14 +158,16 @@ def _refuse_law(liaison: Liaison, law: Law, planar: bool, ideal: bool, log: Log)
             where = f"of a {spelled(liaison)}" + ("" if planar else " in space")
             refuse(log, f"the law '{law.kind.name}' {where}", law.span, _ONE_CONTACT)
         return
-    if law.kind.name not in LAWS:
-        refuse(log, f"the law '{law.kind.name}'", law.span, _one_of("laws", LAWS))
+    laws = LAWS if planar else SPACE_LAWS
+    if law.kind.name not in laws:
+        refuse(log, f"the law '{law.kind.name}'", law.span, _one_of("laws", laws))
         return
-    if not planar:
-        refuse(log, f"the law '{law.kind.name}' in space", law.span, "planar models take it")
+    if not planar and liaison.kind.name not in SPACE_CONTACTS:
+        where = f"the law '{law.kind.name}' of a {spelled(liaison)} in space"
+        refuse(log, where, law.span, _one_of("liaisons with friction", SPACE_CONTACTS))
         return
     pin = liaison.kind.name == "rotoide"
-    if (ideal or liaison.relations) and not (pin and law.kind.name == "coulomb"):
+    if planar and (ideal or liaison.relations) and not (pin and law.kind.name == "coulomb"):
         kind = spelled(liaison)
         refuse(log, f"the law '{law.kind.name}' of a {kind}", law.span, "`coulomb` of a rotoïde is")
         return
@@ -193,7 +197,7 @@ def _refuse_law(liaison: Liaison, law: Law, planar: bool, ideal: bool, log: Log)
 
 def _refuse_many_laws(liaison: Liaison, log: Log) -> None:
     """Report more laws of friction than the kernel solves for in one liaison."""
-    dry = [law for law in liaison.laws if law.kind.name in LAWS]
+    dry = [law for law in liaison.laws if law.kind.name in SPACE_LAWS]
     if len(dry) <= MOST_LAWS:
         return
     names = ", ".join(f"'{law.kind.name}'" for law in dry)
