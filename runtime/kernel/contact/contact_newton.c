@@ -33,7 +33,7 @@ static double radius_of(const frot_contact_equations *p, const frot_contact_bloc
                         const double *x) {
   if (k->n_bounding != 1) return bound_of(k, x);
   for (int i = 0; i < p->n_blocks; i++)
-    if (p->blocks[i].rule == FROT_NORMAL && p->blocks[i].at == k->bounding)
+    if (p->blocks[i].rule == FROT_ROW_PRESSES && p->blocks[i].at == k->bounding)
       return k->ratio * fmax(x[k->bounding], 0);
   return bound_of(k, x);
 }
@@ -49,19 +49,19 @@ static void miss(const natural_map *f, const double *x, const double *a, double 
     int at = one->at;
     double y[3], bound, size;
     switch (one->rule) {
-      case FROT_ABSENT:
+      case FROT_ROW_ABSENT:
         missed[at] = x[at];
         break;
-      case FROT_HELD:
+      case FROT_ROW_HELD:
         missed[at] = f->r[at] * a[at];
         break;
-      case FROT_READING:
+      case FROT_ROW_READS:
         missed[at] = x[at] - a[at];
         break;
-      case FROT_NORMAL:
+      case FROT_ROW_PRESSES:
         missed[at] = x[at] - fmax(0, x[at] - f->r[at] * a[at]);
         break;
-      case FROT_SLIDING:
+      case FROT_ROW_SLIDES:
         bound = bound_of(one, x);
         for (int i = 0; i < one->n; i++) missed[at + i] = x[at + i] + bound * one->d[i];
         break;
@@ -110,22 +110,22 @@ static void differentiate(const natural_map *f, const double *x, const double *a
       const double *w = p->w + i * n;
       double *entry = matrix + i;
       switch (one->rule) {
-        case FROT_ABSENT:
+        case FROT_ROW_ABSENT:
           entry[i * n] = 1;
           continue;
-        case FROT_HELD:
+        case FROT_ROW_HELD:
           for (int j = 0; j < n; j++) entry[j * n] = f->r[i] * w[j];
           continue;
-        case FROT_READING:
+        case FROT_ROW_READS:
           for (int j = 0; j < n; j++) entry[j * n] = (i == j) - w[j];
           continue;
-        case FROT_NORMAL:
+        case FROT_ROW_PRESSES:
           if (x[i] - f->r[i] * a[i] > 0)
             for (int j = 0; j < n; j++) entry[j * n] = f->r[i] * w[j];
           else
             entry[i * n] = 1;
           continue;
-        case FROT_SLIDING:
+        case FROT_ROW_SLIDES:
           entry[i * n] += 1;
           add_bound(p, one, x, one->d[i - at], entry);
           continue;
@@ -177,25 +177,25 @@ static void sweep(const natural_map *f, double *x, double *a) {
       a[row] = p->b[row] + frot_dot(p->w + row * p->rows, x, p->rows);
     }
     double own[3] = {0};
-    double radius = one->rule == FROT_BALL ? radius_of(p, one, x) : 0;
+    double radius = one->rule == FROT_ROW_BALL ? radius_of(p, one, x) : 0;
     for (int i = 0; i < one->n; i++) own[i] = x[one->at + i] - f->r[one->at] * a[one->at + i];
     double size = length_of(own, one->n);
     for (int i = 0; i < one->n; i++) {
       int row = one->at + i;
       switch (one->rule) {
-        case FROT_ABSENT:
+        case FROT_ROW_ABSENT:
           x[row] = 0;
           break;
-        case FROT_HELD:
+        case FROT_ROW_HELD:
           x[row] = own[i];
           break;
-        case FROT_READING:
+        case FROT_ROW_READS:
           x[row] = a[row];
           break;
-        case FROT_NORMAL:
+        case FROT_ROW_PRESSES:
           x[row] = fmax(0, own[i]);
           break;
-        case FROT_SLIDING:
+        case FROT_ROW_SLIDES:
           x[row] = -bound_of(one, x) * one->d[i];
           break;
         default:

@@ -4,21 +4,21 @@
 #define FROT_CONTACT_NEWTON_H
 
 /* What is asked of one or more rows with reactions x and accelerations a = b + W x:
- * ABSENT   x = 0
- * HELD     a = 0
- * READING  x = a: a reaction that other reactions give
- * NORMAL   x >= 0, a >= 0, x a = 0
- * BALL     |x| <= bound, and x = -bound a/|a| where a is not zero: rest, or a slip that begins
- * SLIDING  x = -bound d, of a slip in the direction d already
+ * ABSENT  x = 0
+ * HELD    a = 0
+ * READS   x = a: a reaction that other reactions give
+ * PRESSES x >= 0, a >= 0, x a = 0
+ * BALL    |x| <= bound, and x = -bound a/|a| where a is not zero: rest, or a slip that begins
+ * SLIDES  x = -bound d, of a slip in the direction d already
  * The bound is ratio times the length of the reactions x[bounding .. bounding + n_bounding), or the
  * ratio itself where n_bounding is zero. */
 enum frot_contact_rule {
-  FROT_ABSENT,
-  FROT_HELD,
-  FROT_READING,
-  FROT_NORMAL,
-  FROT_BALL,
-  FROT_SLIDING
+  FROT_ROW_ABSENT,
+  FROT_ROW_HELD,
+  FROT_ROW_READS,
+  FROT_ROW_PRESSES,
+  FROT_ROW_BALL,
+  FROT_ROW_SLIDES
 };
 
 typedef struct {
@@ -26,7 +26,7 @@ typedef struct {
   int at, n; /* rows */
   int bounding, n_bounding;
   double ratio;
-  double d[3]; /* of SLIDING */
+  double d[3]; /* of SLIDES */
 } frot_contact_block;
 
 typedef struct {

@@ -73,6 +73,8 @@ typedef struct {
   int fixed;         /* 1: its coefficients depend on parameters only */
   int prescribed;    /* 1: its motion depends on no speed: both sides are prescribed */
   int shown[2];      /* variables that are its motion: zero while it holds; else -1 */
+  int part, parts;   /* of a motion of several components, elements that follow each other: which
+                        of how many, else 0 and 1: slip_frames.h */
 } frot_element;
 
 /* A step of a large tree of bodies: the step before it or -1, its speeds among the unknowns of its

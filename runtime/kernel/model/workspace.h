@@ -5,6 +5,7 @@
 #ifndef FROT_WORKSPACE_H
 #define FROT_WORKSPACE_H
 
+#include "contact/contact_newton.h"
 #include "model/state.h"
 
 /* Arguments and results of the generated function that is called, and its own scratch. `values`:
@@ -77,6 +78,7 @@ typedef struct {
   double *free, *delassus;
   double *load, *load_size, *row_load, *bias_size;
   double *lam, *a;
+  double *frame, *lam_of_text; /* slip_frames.h; NULL where no motion has several components */
   double *rest, *column, *abreast;
   double *inertia, *twist, *motion, *momenta;
 } frot_core_work;
@@ -203,6 +205,7 @@ typedef struct {
 typedef struct {
   int *list, count;
   double *size, *shown, *motion, *end_reaction, *end_friction, end_kinetic;
+  double *end_slip, *end_direction; /* vanishing_slips.c: 4 and 2 n_elements */
 } frot_guard_work;
 
 /* dormand_prince.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones
@@ -258,6 +261,10 @@ typedef struct {
   double *motions, *pivot_bound, *nothing_frozen, *margin, *rates, *set_out, *others, *beyond,
       *moved_from;
   double *along; /* directions of pins' reactions in `best`: there may be solutions in others */
+  /* contact_search.c: the equations of a component, their rows, the element of each block or -1 */
+  double *problem, *reactions_found;
+  frot_contact_block *blocks;
+  int *row_of, *block_of, *pivot;
   int *choice, *component, *chosen;
   double turn[2]; /* cosine and sine of where pins' reactions are looked for from: departures.h */
   int exact;      /* whether `best` needs no slack: frot_is_exact */

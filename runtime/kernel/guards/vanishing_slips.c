@@ -1,0 +1,162 @@
+/* The slip s = rho d of an element of n >= 2 components. Its direction has the rate (friction over
+ * rho): on the way to a stop every digit of d is wanted, so the error of s is measured in parts of
+ * rho, down to the rounding of the terms of s. Zero is rho no larger than some of that rounding
+ * while rho falls. */
+#include "guards/vanishing_slips.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "evaluation/slip_frames.h"
+#include "evaluation/term_sizes.h"
+#include "methods/dormand_prince.h"
+#include "model/indexing.h"
+#include "model/stage_slopes.h"
+#include "numerics/dormand_prince_table.h"
+
+/* Rounding of a slip, and where it is zero, in the last places of its terms. */
+#define FLOOR (32 * DBL_EPSILON)
+#define ZERO (1000 * DBL_EPSILON)
+/* Cosine of the largest turn in a step, and the error that a larger one counts as: the step is
+ * shortened to 0.44 of itself. */
+#define TURN 0.3
+#define TURNED 300.0
+/* Of a slip that vanishes with another one: its part of what it usually is before, and what is left
+ * of it at the instant at which the other one is zero. */
+#define SMALL 1e-6
+#define LEFT 0.2
+/* Part of the usual time of a slip that its first step takes, over the root of the tolerance. */
+#define BEGINNING 0.1
+
+enum { SIZE, ALONG, ACROSS, TERMS, FROT_SLIP_ITEMS = 4 };
+
+static int slips(const frot_model *m, const frot_contact_mode *modes, int e) {
+  return frot_is_vector(m, e) && modes[m->elements[e].contact].closed &&
+         frot_element_mode(m, modes, e)->friction > FROT_STICK;
+}
+
+static const frot_contact_mode *modes_of(const frot_state *s, const frot_work *w) {
+  return (const frot_contact_mode *)(const void *)(s->data + w->layout.modes);
+}
+
+/* J a + c of a row. */
+static double acceleration_of(const frot_model *m, const frot_work *w, int row) {
+  const frot_group *g = frot_group_of(m, row);
+  const double *entries = frot_entries(m, w->core.rows, row);
+  double sum = w->core.c[row];
+  for (int k = 0; k < g->n_speeds; k++) sum += entries[k] * w->core.a[g->unknowns[k]];
+  return sum;
+}
+
+void frot_measure_slips(const frot_model *m, frot_work *w, const frot_contact_mode *modes) {
+  const frot_awake_lists *now = w->awake.now;
+  for (int i = 0; i < now->n_elements && w->core.frame; i++) {
+    int e = now->elements[i], row = m->elements[e].row;
+    if (!slips(m, modes, e)) continue;
+    double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e, across = 0;
+    const double *frame = w->core.frame + FROT_MOST_PARTS * FROT_MOST_PARTS * e;
+    own[SIZE] = w->core.rate[row];
+    own[ALONG] = acceleration_of(m, w, row);
+    for (int k = 1; k < m->elements[e].parts; k++) {
+      double one = acceleration_of(m, w, row + k);
+      across += one * one;
+    }
+    own[ACROSS] = sqrt(across);
+    own[TERMS] = frot_row_size(m, w, row, w->core.v);
+    for (int k = 0; k < m->elements[e].parts; k++) w->guards.end_direction[2 * (e + k)] = frame[k];
+  }
+}
+
+/* Length of the change of a slip in the rows of the end, by the estimates `of` of the slopes. */
+static double length_of_error(const frot_model *m, const frot_work *w, int e, const double *of,
+                              double h) {
+  double square = 0;
+  for (int k = 0; k < m->elements[e].parts; k++) {
+    int row = m->elements[e].row + k;
+    const frot_group *g = frot_group_of(m, row);
+    const double *entries = frot_entries(m, w->core.rows, row);
+    double sum = 0;
+    for (int j = 0; j < g->n_speeds; j++) {
+      int at = w->awake.now->place[m->nq + g->unknowns[j]];
+      if (entries[j] == 0 || at < 0) continue;
+      double one;
+      frot_weigh_stages(w, of, DP_STAGES + 1, at, 1, &one);
+      sum += entries[j] * h * one;
+    }
+    square += sum * sum;
+  }
+  return sqrt(square);
+}
+
+double frot_slip_error(const frot_model *m, const frot_state *s, const frot_work *w, double h,
+                       double tolerance) {
+  const frot_awake_lists *now = w->awake.now;
+  const frot_contact_mode *modes = modes_of(s, w);
+  double worst = 0;
+  for (int i = 0; i < now->n_elements && w->core.frame; i++) {
+    int e = now->elements[i];
+    if (!slips(m, modes, e) || frot_element_mode(m, modes, e)->starts) continue;
+    const double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e;
+    double before = s->data[w->layout.slip + e], cosine = 0;
+    for (int k = 0; k < m->elements[e].parts; k++)
+      cosine += s->data[w->layout.along + 2 * (e + k)] * w->guards.end_direction[2 * (e + k)];
+    if (cosine < TURN && before > 0) worst = fmax(worst, TURNED);
+    double fifth = length_of_error(m, w, e, dp_e5, h), third = length_of_error(m, w, e, dp_e3, h);
+    double joint = sqrt(fifth * fifth + 0.01 * third * third);
+    double error = joint > 0 ? fifth * fifth / joint : 0;
+    double bound = tolerance * fmin(before, own[SIZE]) + FLOOR * own[TERMS];
+    if (error > 0) worst = fmax(worst, error / bound);
+  }
+  return worst;
+}
+
+static void fire(const frot_model *m, frot_state *s, const frot_work *w, int e) {
+  s->data[w->layout.fired + frot_element_guard(m, e)] = FROT_SLIP_ENDED;
+  s->pending = 1;
+}
+
+/* Part of its size that is left of a slip after the time dt. */
+static double part_left(const double *own, double dt) {
+  return hypot(own[SIZE] + dt * own[ALONG], dt * own[ACROSS]) / own[SIZE];
+}
+
+int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
+  const frot_awake_lists *now = w->awake.now;
+  frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + w->layout.modes);
+  double dt = -1;
+  int begun = 0;
+  for (int i = 0; i < now->n_elements && w->core.frame; i++) {
+    int e = now->elements[i];
+    if (!slips(m, modes, e)) continue;
+    const double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e;
+    s->data[w->layout.slip + e] = own[SIZE];
+    for (int k = 0; k < m->elements[e].parts; k++)
+      s->data[w->layout.along + 2 * (e + k)] = w->guards.end_direction[2 * (e + k)];
+    if (modes[m->n_contacts + e].starts) {
+      modes[m->n_contacts + e].starts = 0, begun = 1;
+      continue;
+    }
+    if (own[SIZE] <= ZERO * own[TERMS] && own[ALONG] < 0) {
+      fire(m, s, w, e);
+      dt = fmax(dt, -own[SIZE] / own[ALONG]);
+    }
+  }
+  for (int i = 0; i < now->n_elements && dt >= 0; i++) {
+    int e = now->elements[i];
+    if (!slips(m, modes, e) || s->data[w->layout.fired + frot_element_guard(m, e)] != 0) continue;
+    const double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e;
+    double usual = frot_row_size(m, w, m->elements[e].row, s->data + w->layout.scale_x + m->nq);
+    if (own[SIZE] <= SMALL * usual && part_left(own, dt) <= LEFT) fire(m, s, w, e);
+  }
+  return begun;
+}
+
+double frot_longest_beginning(const frot_model *m, const frot_state *s, const frot_work *w) {
+  const frot_awake_lists *now = w->awake.now;
+  const frot_contact_mode *modes = modes_of(s, w);
+  for (int i = 0; i < now->n_elements && w->core.frame; i++)
+    if (frot_element_mode(m, modes, now->elements[i])->starts)
+      return BEGINNING * sqrt(s->tolerance) * fmax(s->calm, s->h);
+  return INFINITY;
+}
