@@ -49,8 +49,10 @@ static double acceleration_of(const frot_model *m, const frot_work *w, int row) 
   return sum;
 }
 
-void frot_measure_slips(const frot_model *m, frot_work *w, const frot_contact_mode *modes) {
+void frot_measure_slips(const frot_model *m, const frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
+  const frot_contact_mode *modes = modes_of(s, w);
+  const double *usual = s->data + w->layout.scale_x + m->nq; /* largest speeds so far */
   for (int i = 0; i < now->n_elements && w->core.frame; i++) {
     int e = now->elements[i], row = m->elements[e].row;
     if (!slips(m, modes, e)) continue;
@@ -63,7 +65,7 @@ void frot_measure_slips(const frot_model *m, frot_work *w, const frot_contact_mo
       across += one * one;
     }
     own[ACROSS] = sqrt(across);
-    own[TERMS] = frot_row_size(m, w, row, w->core.v);
+    own[TERMS] = fmax(frot_row_size(m, w, row, w->core.v), frot_row_size(m, w, row, usual));
     for (int k = 0; k < m->elements[e].parts; k++) w->guards.end_direction[2 * (e + k)] = frame[k];
   }
 }

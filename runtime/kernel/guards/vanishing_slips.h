@@ -9,7 +9,7 @@ enum { FROT_SLIP_ENDED = 3 };
 
 /* The slip of each element of several components at the end of the step, and the rates of its
  * components along and across it, after the last stage: w->guards.end_slip. */
-void frot_measure_slips(const frot_model *m, frot_work *w, const frot_contact_mode *modes);
+void frot_measure_slips(const frot_model *m, const frot_state *s, frot_work *w);
 
 /* The largest error of such a slip in the step over its bound: the tolerance times the smaller of
  * |s| at both ends, and what rounding of its terms leaves. A slip that turns by more than 72

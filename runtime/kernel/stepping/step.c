@@ -52,8 +52,7 @@ static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_atte
   a->h = h, a->to_due = 0, a->dense = 1, a->beyond = a->refined = 0;
   int status = frot_run_stages(m, s, w, a->t, h);
   if (status != FROT_OK) return status;
-  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-  frot_measure_slips(m, w, modes);
+  frot_measure_slips(m, s, w);
   frot_measure_end(m, s, w, a->t + h, w->step.z1);
   return frot_make_dense(m, s, w, a->t, h);
 }
