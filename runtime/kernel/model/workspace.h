@@ -5,6 +5,7 @@
 #ifndef FROT_WORKSPACE_H
 #define FROT_WORKSPACE_H
 
+#include "contact/cone_point.h"
 #include "contact/contact_newton.h"
 #include "model/state.h"
 
@@ -125,6 +126,9 @@ typedef struct {
   frot_follower *followers;
   double
       *rate; /* n_groups: what a pass of friction_fixed_point.c leaves of a change, in the step */
+  double *cone_rows; /* cone_reactions.c: equations and scratch, cones and balls */
+  frot_cone *cones;
+  frot_ball *balls;
   double *noted, *instant; /* friction_predictor.c: n_elements and n_groups times FROT_INSTANTS */
   int *instants;           /* of each group, how many of them */
   int dependent, *sign;    /* sign (n_groups): of the determinant, 0 where there is none */

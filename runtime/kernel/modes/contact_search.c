@@ -18,6 +18,8 @@
 #define MANY_SWEEPS 400
 /* Part of the accelerations of its terms from which on what departs moves. */
 #define MOVES 1e-9
+/* Part of its bound by which friction is below it where a rest has ended that no guard located. */
+#define AT_BOUND 1e-6
 
 typedef struct {
   const frot_instant *in;
@@ -134,6 +136,15 @@ static int departs(const search *p, const frot_contact_block *one, const double 
   return one->rule == FROT_ROW_BALL && length_in(one, a) > MOVES * size;
 }
 
+/* Whether the reactions in which a group rested have ended at this instant, and the friction x of a
+ * block is at its bound in those that are left. */
+static int ends_at_bound(const search *p, const frot_contact_block *one, const double *x) {
+  const frot_state *s = p->in->s;
+  if (s->jammed_at != p->in->t || s->jammed != p->in->m->contact_group[p->chosen[0]]) return 0;
+  double bound = one->ratio * (one->n_bounding ? fabs(x[one->bounding]) : 1);
+  return length_in(one, x) >= (1 - AT_BOUND) * bound;
+}
+
 /* Give what departs the coefficient of motion, and what fired at its bound its direction. Returns
  * whether anything is another now. */
 static int change_departed(const search *p, const double *x, const double *a) {
@@ -144,8 +155,9 @@ static int change_departed(const search *p, const double *x, const double *a) {
     int e = in->w->search.block_of[k];
     if (e < 0 || one->rule != FROT_ROW_BALL) continue;
     const double *coefficient = in->w->core.coefficient + 2 * e;
-    int fired = in->fired[frot_element_guard(in->m, e)] != 0 &&
-                frot_element_mode(in->m, in->w->search.before, e)->friction == FROT_STICK;
+    int rested = frot_element_mode(in->m, in->w->search.before, e)->friction == FROT_STICK;
+    int fired =
+        rested && (in->fired[frot_element_guard(in->m, e)] != 0 || ends_at_bound(p, one, x));
     int moves = departs(p, one, x, a);
     if ((moves || fired) && one->ratio != coefficient[0]) {
       one->ratio = coefficient[0], changed = 1;

@@ -232,6 +232,12 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   TAKE(r->known, 2 * followers), TAKE(r->effects, 2 * followed), TAKE(r->rate, m->n_groups);
   TAKE(r->followers, followers), TAKE(r->noted, FROT_INSTANTS * elements);
   TAKE(r->instant, FROT_INSTANTS * m->n_groups), TAKE(r->instants, m->n_groups);
+  if (has_vectors(m)) {
+    int widest = 0;
+    for (int k = 0; k < m->n_groups; k++) widest = larger(widest, m->groups[k].n_rows);
+    TAKE(r->cone_rows, widest * (widest + 3) + frot_cone_scratch(widest, widest));
+    TAKE(r->cones, m->n_contacts), TAKE(r->balls, elements);
+  }
   TAKE(w->span.basis, (n + 1) * e->widest), TAKE(w->span.parts, n + e->widest);
   TAKE(w->span.along, n), TAKE(w->span.way, n);
   TAKE(w->span.bias, n), TAKE(w->span.bias_size, n), TAKE(w->span.left, n);
