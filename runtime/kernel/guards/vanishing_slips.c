@@ -11,6 +11,7 @@
 #include "evaluation/slip_frames.h"
 #include "evaluation/term_sizes.h"
 #include "methods/dormand_prince.h"
+#include "methods/radau.h"
 #include "model/indexing.h"
 #include "model/stage_slopes.h"
 #include "numerics/dormand_prince_table.h"
@@ -70,9 +71,19 @@ void frot_measure_slips(const frot_model *m, const frot_state *s, frot_work *w) 
   }
 }
 
-/* Length of the change of a slip in the rows of the end, by the estimates `of` of the slopes. */
-static double length_of_error(const frot_model *m, const frot_work *w, int e, const double *of,
-                              double h) {
+/* Error of the speed `at` by the estimate `of` of the slopes, or the one of the implicit method. */
+static double error_of_speed(const frot_model *m, const frot_state *s, const frot_work *w, int at,
+                             const double *of, double h) {
+  if (s->implicit) return frot_stage(w, FROT_RADAU_ERROR)[m->nq + at];
+  int place = w->awake.now->place[m->nq + at];
+  double one = 0;
+  if (place >= 0) frot_weigh_stages(w, of, DP_STAGES + 1, place, 1, &one);
+  return h * one;
+}
+
+/* Length of the error of a slip in the rows of the end. */
+static double length_of_error(const frot_model *m, const frot_state *s, const frot_work *w, int e,
+                              const double *of, double h) {
   double square = 0;
   for (int k = 0; k < m->elements[e].parts; k++) {
     int row = m->elements[e].row + k;
@@ -80,11 +91,7 @@ static double length_of_error(const frot_model *m, const frot_work *w, int e, co
     const double *entries = frot_entries(m, w->core.rows, row);
     double sum = 0;
     for (int j = 0; j < g->n_speeds; j++) {
-      int at = w->awake.now->place[m->nq + g->unknowns[j]];
-      if (entries[j] == 0 || at < 0) continue;
-      double one;
-      frot_weigh_stages(w, of, DP_STAGES + 1, at, 1, &one);
-      sum += entries[j] * h * one;
+      if (entries[j] != 0) sum += entries[j] * error_of_speed(m, s, w, g->unknowns[j], of, h);
     }
     square += sum * sum;
   }
@@ -104,9 +111,10 @@ double frot_slip_error(const frot_model *m, const frot_state *s, const frot_work
     for (int k = 0; k < m->elements[e].parts; k++)
       cosine += s->data[w->layout.along + 2 * (e + k)] * w->guards.end_direction[2 * (e + k)];
     if (cosine < TURN && before > 0) worst = fmax(worst, TURNED);
-    double fifth = length_of_error(m, w, e, dp_e5, h), third = length_of_error(m, w, e, dp_e3, h);
+    double fifth = length_of_error(m, s, w, e, dp_e5, h), third = fifth;
+    if (!s->implicit) third = length_of_error(m, s, w, e, dp_e3, h);
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
-    double error = joint > 0 ? fifth * fifth / joint : 0;
+    double error = joint > 0 && !s->implicit ? fifth * fifth / joint : fifth;
     double bound = tolerance * fmin(before, own[SIZE]) + FLOOR * own[TERMS];
     if (error > 0) worst = fmax(worst, error / bound);
   }
