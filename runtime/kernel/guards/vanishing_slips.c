@@ -14,11 +14,14 @@
 #include "methods/radau.h"
 #include "model/indexing.h"
 #include "model/stage_slopes.h"
+#include "reactions/reactions.h"
 #include "numerics/dormand_prince_table.h"
 
 /* Rounding of a slip, and where it is zero, in the last places of its terms. */
 #define FLOOR (32 * DBL_EPSILON)
 #define ZERO (1000 * DBL_EPSILON)
+/* How much larger than the rounding of an acceleration that of the slip may be in the step. */
+#define NOISE 8
 /* Cosine of the largest turn in a step, and the error that a larger one counts as: the step is
  * shortened to 0.44 of itself. */
 #define TURN 0.3
@@ -27,8 +30,13 @@
  * of it at the instant at which the other one is zero. */
 #define SMALL 1e-6
 #define LEFT 0.2
-/* Part of the usual time of a slip that its first step takes, over the root of the tolerance. */
+/* Part of the usual time that the first step of a slip takes, over the root of the tolerance; where
+ * it begins without acceleration (beside its rounding) friction puts its direction right at once,
+ * and its size is off by the third power of the step: over the cube root. */
 #define BEGINNING 0.1
+#define GROWS 1e4
+/* Part of the longest step that the usual time is at least: a jam shortens steps without end. */
+#define SHORTEST 1e-2
 
 enum { SIZE, ALONG, ACROSS, TERMS, FROT_SLIP_ITEMS = 4 };
 
@@ -111,11 +119,13 @@ double frot_slip_error(const frot_model *m, const frot_state *s, const frot_work
     for (int k = 0; k < m->elements[e].parts; k++)
       cosine += s->data[w->layout.along + 2 * (e + k)] * w->guards.end_direction[2 * (e + k)];
     if (cosine < TURN && before > 0) worst = fmax(worst, TURNED);
+    if (s->implicit && own[ALONG] > 0) continue; /* its direction is held: no zero is near */
     double fifth = length_of_error(m, s, w, e, dp_e5, h), third = fifth;
     if (!s->implicit) third = length_of_error(m, s, w, e, dp_e3, h);
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
     double error = joint > 0 && !s->implicit ? fifth * fifth / joint : fifth;
-    double bound = tolerance * fmin(before, own[SIZE]) + FLOOR * own[TERMS];
+    double noise = NOISE * h * frot_row_rounding(m, w, m->elements[e].row);
+    double bound = tolerance * fmin(before, own[SIZE]) + FLOOR * own[TERMS] + noise;
     if (error > 0) worst = fmax(worst, error / bound);
   }
   return worst;
@@ -165,8 +175,13 @@ int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
 double frot_longest_beginning(const frot_model *m, const frot_state *s, const frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   const frot_contact_mode *modes = modes_of(s, w);
-  for (int i = 0; i < now->n_elements && w->core.frame; i++)
-    if (frot_element_mode(m, modes, now->elements[i])->starts)
-      return BEGINNING * sqrt(s->tolerance) * fmax(s->calm, s->h);
-  return INFINITY;
+  double longest = INFINITY, usual = fmax(fmax(s->calm, s->h), SHORTEST * s->h_max);
+  for (int i = 0; i < now->n_elements && w->core.frame; i++) {
+    int e = now->elements[i], row = m->elements[e].row;
+    if (!frot_element_mode(m, modes, e)->starts) continue;
+    int grows = fabs(acceleration_of(m, w, row)) <= GROWS * frot_row_rounding(m, w, row);
+    double part = grows ? cbrt(s->tolerance) : sqrt(s->tolerance);
+    longest = fmin(longest, BEGINNING * part * usual);
+  }
+  return longest;
 }

@@ -2,7 +2,7 @@
  *
  * The static coefficient holds what rests; what departs has the coefficient of motion, and the
  * others are found again with it. Where both are the same, a rest that ends at its bound departs
- * without an acceleration: against its reaction, which is at its bound there. */
+ * without an acceleration: the motion a short time later says what departs, and where to. */
 #include "modes/departures.h"
 
 #include <math.h>
@@ -20,6 +20,10 @@
 #define MOVES 1e-9
 /* Part of its bound by which friction is below it where a rest has ended that no guard located. */
 #define AT_BOUND 1e-6
+/* The time after which the beginnings of motions are told apart, as a part of the usual step, and
+ * that as a part of the longest step at least. */
+#define LATER 1e-3
+#define USUAL 1e-2
 
 typedef struct {
   const frot_instant *in;
@@ -145,11 +149,12 @@ static int ends_at_bound(const search *p, const frot_contact_block *one, const d
   return length_in(one, x) >= (1 - AT_BOUND) * bound;
 }
 
-/* Give what departs the coefficient of motion, and what fired at its bound its direction. Returns
- * whether anything is another now. */
-static int change_departed(const search *p, const double *x, const double *a) {
+/* Give what departs the coefficient of motion. Returns whether anything is another now; *ended:
+ * whether a rest has ended at its bound without an acceleration. */
+static int change_departed(const search *p, const double *x, const double *a, int *ended) {
   const frot_instant *in = p->in;
   int changed = 0;
+  *ended = 0;
   for (int k = 0; k < p->blocks; k++) {
     frot_contact_block *one = &in->w->search.blocks[k];
     int e = in->w->search.block_of[k];
@@ -161,13 +166,29 @@ static int change_departed(const search *p, const double *x, const double *a) {
     int moves = departs(p, one, x, a);
     if ((moves || fired) && one->ratio != coefficient[0]) {
       one->ratio = coefficient[0], changed = 1;
-    } else if (fired && !moves && length_in(one, x) > 0) {
-      double size = length_in(one, x);
-      for (int i = 0; i < one->n; i++) one->d[i] = -x[one->at + i] / size;
-      one->rule = FROT_ROW_SLIDES, changed = 1;
+    } else if (fired && !moves) {
+      *ended = 1;
     }
   }
   return changed;
+}
+
+/* The motion a short time later, where time and the motion so far have changed the loads: it tells
+ * apart what begins without acceleration. The instant is evaluated again afterwards. Returns 1
+ * where none is found. */
+static int solve_later(const search *p, double *x, double *a) {
+  const frot_instant *in = p->in;
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  double dt = LATER * fmax(fmax(in->s->calm, in->s->h), USUAL * in->s->h_max);
+  double *q = w->step.z;
+  const double *d = in->s->data + in->l.d;
+  for (int k = 0; k < m->nq; k++) q[k] = in->q[k] + dt * w->core.qd[k];
+  memcpy(q + m->nq, in->v, sizeof(double) * (size_t)m->nv);
+  int status = frot_dynamics(m, in->s, w, in->t + dt, q, q + m->nq, d, w->search.best, FROT_LAWS);
+  int failed = status != FROT_OK || solve(p, x, a);
+  status = frot_dynamics(m, in->s, w, in->t, in->q, in->v, d, w->search.best, FROT_LAWS);
+  return failed || status != FROT_OK;
 }
 
 static void set_contact(const search *p, int at, int i, const double *x, const double *a) {
@@ -193,10 +214,9 @@ static void set_modes(const search *p, const double *x, const double *a) {
       if (m->contacts[i].row_n == row) set_contact(p, one->at, i, x, a);
     if (e < 0 || !best[m->elements[e].contact].closed) continue;
     int parts = m->elements[e].parts, moves = departs(p, one, x, a);
-    int starts = moves || (one->rule == FROT_ROW_SLIDES && in->zero[e]);
     double size = length_in(one, a), *along = in->s->data + in->l.along + 2 * e;
-    for (int i = 0; i < parts && starts; i++) {
-      double d = moves ? a[one->at + i] / size : one->d[i];
+    for (int i = 0; i < parts && moves; i++) {
+      double d = a[one->at + i] / size;
       if (parts > 1) along[2 * i] = d;
       best[m->n_contacts + e + i] =
           (frot_contact_mode){.friction = i > 0                ? FROT_NONE
@@ -204,7 +224,7 @@ static void set_modes(const search *p, const double *x, const double *a) {
                                                                : FROT_SLIP_BACKWARD,
                               .starts = i == 0 && parts > 1};
     }
-    for (int i = 0; i < parts && !starts && in->zero[e]; i++)
+    for (int i = 0; i < parts && !moves && in->zero[e]; i++)
       best[m->n_contacts + e + i] = (frot_contact_mode){.friction = FROT_STICK};
   }
 }
@@ -214,10 +234,11 @@ int frot_find_contact_motion(const frot_instant *in, const int *chosen, int coun
   list_blocks(&p);
   double *x = in->w->search.reactions_found, *a = x + in->m->n_rows;
   in->w->search.lasts = 1;
-  int rounds = 2 * p.blocks + 1;
+  int rounds = p.blocks + 1, ended;
   do {
     if (solve(&p, x, a)) return 0;
-  } while (change_departed(&p, x, a) && --rounds > 0);
+  } while (change_departed(&p, x, a, &ended) && --rounds > 0);
+  if (ended && solve_later(&p, x, a)) return 0;
   set_modes(&p, x, a);
   const frot_group *g = &in->m->groups[in->m->contact_group[chosen[0]]];
   if (frot_group_reactions(in->m, in->w, g, in->w->search.best, NULL)) return 0;
