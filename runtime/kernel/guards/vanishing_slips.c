@@ -31,10 +31,10 @@
 #define SMALL 1e-6
 #define LEFT 0.2
 /* Part of the usual time that the first step of a slip takes, over the root of the tolerance; where
- * it begins without acceleration (beside its rounding) friction puts its direction right at once,
- * and its size is off by the third power of the step: over the cube root. */
+ * it begins without acceleration (beside that of its loads) friction puts its direction right at
+ * once, and its size is off by the third power of the step: over the cube root. */
 #define BEGINNING 0.1
-#define GROWS 1e4
+#define GROWS 1e-6
 /* Part of the longest step that the usual time is at least: a jam shortens steps without end. */
 #define SHORTEST 1e-2
 
@@ -179,7 +179,7 @@ double frot_longest_beginning(const frot_model *m, const frot_state *s, const fr
   for (int i = 0; i < now->n_elements && w->core.frame; i++) {
     int e = now->elements[i], row = m->elements[e].row;
     if (!frot_element_mode(m, modes, e)->starts) continue;
-    int grows = fabs(acceleration_of(m, w, row)) <= GROWS * frot_row_rounding(m, w, row);
+    int grows = fabs(acceleration_of(m, w, row)) <= GROWS * w->core.row_load[row];
     double part = grows ? cbrt(s->tolerance) : sqrt(s->tolerance);
     longest = fmin(longest, BEGINNING * part * usual);
   }
