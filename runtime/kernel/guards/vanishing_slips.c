@@ -10,11 +10,14 @@
 
 #include "evaluation/slip_frames.h"
 #include "evaluation/term_sizes.h"
+#include "evaluation/evaluate.h"
+#include "inertia/mass_matrix.h"
 #include "methods/dormand_prince.h"
 #include "methods/radau.h"
 #include "model/indexing.h"
 #include "model/stage_slopes.h"
 #include "reactions/reactions.h"
+#include "numerics/dense.h"
 #include "numerics/dormand_prince_table.h"
 
 /* Rounding of a slip, and where it is zero, in the last places of its terms. */
@@ -141,6 +144,23 @@ static double part_left(const double *own, double dt) {
   return hypot(own[SIZE] + dt * own[ALONG], dt * own[ACROSS]) / own[SIZE];
 }
 
+/* Speeds that friction on a slip acts on count no less than by what the impulse of it brings them
+ * that would stop the slip: one that stays zero beside the others is rounding. */
+static void size_speeds(const frot_model *m, frot_state *s, frot_work *w, int e) {
+  int row = m->elements[e].row;
+  const frot_group *g = frot_group_of(m, row);
+  if (g->general || w->core.formed[g - m->groups] == FROT_FACTOR) return;
+  const double *half = frot_entries(m, w->core.half, row);
+  double *z = w->core.rest, own = frot_dot(half, half, g->n_speeds);
+  double *scale = s->data + w->layout.scale_x + m->nq;
+  memcpy(z, half, sizeof(double) * (size_t)g->n_speeds);
+  frot_outwards(w, g, z);
+  for (int k = 0; k < g->n_speeds && own > 0; k++) {
+    double *one = scale + g->unknowns[k];
+    *one = fmax(*one, fabs(z[k]) / own * w->guards.end_slip[FROT_SLIP_ITEMS * e + SIZE]);
+  }
+}
+
 int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + w->layout.modes);
@@ -151,6 +171,7 @@ int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
     if (!slips(m, modes, e)) continue;
     const double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e;
     s->data[w->layout.slip + e] = own[SIZE];
+    size_speeds(m, s, w, e);
     for (int k = 0; k < m->elements[e].parts; k++)
       s->data[w->layout.along + 2 * (e + k)] = w->guards.end_direction[2 * (e + k)];
     if (modes[m->n_contacts + e].starts) {
