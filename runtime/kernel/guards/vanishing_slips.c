@@ -39,7 +39,7 @@
 #define BEGINNING 0.1
 #define GROWS 1e-6
 /* Part of the longest step that the usual time is at least: a jam shortens steps without end. */
-#define SHORTEST 1e-2
+#define SHORTEST 0.1
 
 enum { SIZE, ALONG, ACROSS, TERMS, FROT_SLIP_ITEMS = 4 };
 
@@ -134,19 +134,11 @@ double frot_slip_error(const frot_model *m, const frot_state *s, const frot_work
   return worst;
 }
 
-static void fire(const frot_model *m, frot_state *s, const frot_work *w, int e) {
-  s->data[w->layout.fired + frot_element_guard(m, e)] = FROT_SLIP_ENDED;
-  s->pending = 1;
-}
-
-/* Part of its size that is left of a slip after the time dt. */
-static double part_left(const double *own, double dt) {
-  return hypot(own[SIZE] + dt * own[ALONG], dt * own[ACROSS]) / own[SIZE];
-}
-
 /* Speeds that friction on a slip acts on count no less than by what the impulse of it brings them
- * that would stop the slip: one that stays zero beside the others is rounding. */
-static void size_speeds(const frot_model *m, frot_state *s, frot_work *w, int e) {
+ * that would stop the slip: one that stays zero beside the others is rounding. The same of places,
+ * where a step of length h is the first. */
+static void size_speeds(const frot_model *m, frot_state *s, frot_work *w, int e, double slip,
+                        double h) {
   int row = m->elements[e].row;
   const frot_group *g = frot_group_of(m, row);
   if (g->general || w->core.formed[g - m->groups] == FROT_FACTOR) return;
@@ -157,8 +149,22 @@ static void size_speeds(const frot_model *m, frot_state *s, frot_work *w, int e)
   frot_outwards(w, g, z);
   for (int k = 0; k < g->n_speeds && own > 0; k++) {
     double *one = scale + g->unknowns[k];
-    *one = fmax(*one, fabs(z[k]) / own * w->guards.end_slip[FROT_SLIP_ITEMS * e + SIZE]);
+    *one = fmax(*one, fabs(z[k]) / own * slip);
   }
+  for (int j = 0; j < m->nq && h > 0; j++) {
+    double *place = s->data + w->layout.scale_x + j;
+    if (m->q_speed[j] >= 0) *place = fmax(*place, h * scale[m->q_speed[j]]);
+  }
+}
+
+static void fire(const frot_model *m, frot_state *s, const frot_work *w, int e) {
+  s->data[w->layout.fired + frot_element_guard(m, e)] = FROT_SLIP_ENDED;
+  s->pending = 1;
+}
+
+/* Part of its size that is left of a slip after the time dt. */
+static double part_left(const double *own, double dt) {
+  return hypot(own[SIZE] + dt * own[ALONG], dt * own[ACROSS]) / own[SIZE];
 }
 
 int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
@@ -171,7 +177,7 @@ int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
     if (!slips(m, modes, e)) continue;
     const double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e;
     s->data[w->layout.slip + e] = own[SIZE];
-    size_speeds(m, s, w, e);
+    size_speeds(m, s, w, e, own[SIZE], 0);
     for (int k = 0; k < m->elements[e].parts; k++)
       s->data[w->layout.along + 2 * (e + k)] = w->guards.end_direction[2 * (e + k)];
     if (modes[m->n_contacts + e].starts) {
@@ -193,7 +199,7 @@ int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
   return begun;
 }
 
-double frot_longest_beginning(const frot_model *m, const frot_state *s, const frot_work *w) {
+double frot_begin_slips(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   const frot_contact_mode *modes = modes_of(s, w);
   double longest = INFINITY, usual = fmax(fmax(s->calm, s->h), SHORTEST * s->h_max);
@@ -203,6 +209,7 @@ double frot_longest_beginning(const frot_model *m, const frot_state *s, const fr
     int grows = fabs(acceleration_of(m, w, row)) <= GROWS * w->core.row_load[row];
     double part = grows ? cbrt(s->tolerance) : sqrt(s->tolerance);
     longest = fmin(longest, BEGINNING * part * usual);
+    size_speeds(m, s, w, e, w->core.row_load[row] * longest, longest);
   }
   return longest;
 }

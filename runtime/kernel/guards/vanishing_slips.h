@@ -23,7 +23,8 @@ double frot_slip_error(const frot_model *m, const frot_state *s, const frot_work
  * that began with the step goes where its speed says from now on: returns whether there is one. */
 int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w);
 
-/* Longest step from here on: one in which a slip that begins keeps its direction. */
-double frot_longest_beginning(const frot_model *m, const frot_state *s, const frot_work *w);
+/* Where slips begin: the length of a step in which they keep their direction, INFINITY where none
+ * begins. What they move is measured by what their loads bring it in that step. */
+double frot_begin_slips(const frot_model *m, frot_state *s, frot_work *w);
 
 #endif

@@ -23,7 +23,7 @@
 /* The time after which the beginnings of motions are told apart, as a part of the usual step, and
  * that as a part of the longest step at least. */
 #define LATER 1e-3
-#define USUAL 1e-2
+#define USUAL 0.1
 
 typedef struct {
   const frot_instant *in;
