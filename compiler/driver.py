@@ -13,8 +13,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+from frot.compiler.mechanics.check_support import refuse_unknown
 from frot.compiler.mechanics.mechanism import Mechanism
-from frot.compiler.mechanics.refuse import refuse_unknown
 from frot.dsl import Log, dump
 from frot.dsl.checked import Model
 from frot.dsl.data.collection import without_collection
@@ -24,14 +24,13 @@ from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, read_program
 # What reads a report must not wait for CasADi: it is loaded where equations are formed.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from frot.compiler.lowering.assembled import Assembled
-    from frot.compiler.lowering.listing import Listed
+    from frot.compiler.equations.assembled import Assembled
+    from frot.compiler.equations.reduce import Reduced
     from frot.compiler.lowering.lower import Lowered
-    from frot.compiler.mechanics.reduce import Reduced
+    from frot.compiler.lowering.result_variables import FirstIntegral, Listed
     from frot.compiler.product.dae import Dae
-    from frot.compiler.report.first_integrals import FirstIntegral
     from frot.compiler.report.report import Report
-    from frot.compiler.toolchain.chosen import Toolchain
+    from frot.compiler.toolchain.compiler_choice import Toolchain
 
     # Variables of an assembled system that are listed after the others.
     Extra = Callable[[Assembled], tuple[Listed, ...]]
@@ -66,8 +65,8 @@ def reduced_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) ->
     mechanism = mechanism_of(model, log)
     if mechanism is None:
         return None
-    from frot.compiler.lowering.checks import refuse_values
-    from frot.compiler.mechanics.reduce import reduce
+    from frot.compiler.equations.parameter_checks import refuse_values
+    from frot.compiler.equations.reduce import reduce
 
     refuse_values(mechanism, log)
     if log.failed:
@@ -81,7 +80,7 @@ def assembled_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) 
     reduced = reduced_of(model, log, tell)
     if reduced is None:
         return None
-    from frot.compiler.lowering.assemble import assemble
+    from frot.compiler.equations.assemble import assemble
 
     _begin("the order of the equations", tell)
     return assemble(reduced, log)
@@ -142,10 +141,10 @@ def build(
     program that are listed after the others; its first integrals are then not searched for.
     """
     from frot.compiler.product.describe import describe
-    from frot.compiler.toolchain.chosen import MODEL_FLAGS
+    from frot.compiler.toolchain.cache_store import store, write_manifest
+    from frot.compiler.toolchain.compiler_choice import MODEL_FLAGS
     from frot.compiler.toolchain.compilers import compile_objects, link_library
     from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_objects
-    from frot.compiler.toolchain.storing import store, write_manifest
 
     with without_collection():
         lowered = lowered_of(model, log, tell, search=extra is None, extra=extra)

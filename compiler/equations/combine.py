@@ -12,15 +12,15 @@ from collections.abc import Iterator, Sequence
 
 import casadi as ca
 import numpy as np
-from frot.compiler.equations.chains import Chains
 from frot.compiler.equations.differentiate import find_incidence
 from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.index import Index, find_unbalanced, reduce_index
 from frot.compiler.equations.order import find_components
 from frot.compiler.equations.sparse import pivots
 from frot.compiler.symbolic.columns import column
-from frot.compiler.symbolic.drawn import at_random
+from frot.compiler.symbolic.random_tests import at_random
 from frot.compiler.symbolic.slopes import collect, slopes, symbols_inside
+from frot.compiler.translate.derivative_chains import Chains
 
 NEGLIGIBLE = 1e-10  # of numbers of order one that should be nothing but rounding
 PLAIN = 1e-6  # pivots above it, in the largest, tell a matrix that has an inverse

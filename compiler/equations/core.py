@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.equations.chains import Chains, replace_known
 from frot.compiler.equations.differentiate import Differentiated
 from frot.compiler.equations.eliminate import Eliminated, Pivot, Residuals, eliminate, resolve_all
-from frot.compiler.equations.given import Given
-from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.equations.parameter_defaults import Given
+from frot.compiler.equations.reduce import Reduced
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.derivative_chains import Chains, replace_known
 from frot.dsl import Log
 from frot.dsl.messages.source import Span
 

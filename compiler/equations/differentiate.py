@@ -10,13 +10,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.equations.chains import Chains
 from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.index import Index, find_unbalanced, reduce_index, report_unbalanced
 from frot.compiler.equations.order import Component, find_components
-from frot.compiler.equations.origins import Origin, Unknown
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.slopes import symbols_inside
+from frot.compiler.translate.derivative_chains import Chains
+from frot.compiler.translate.origins import Origin, Unknown
 from frot.dsl import Log
 
 

@@ -12,12 +12,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.equations.chains import Chains, Resolver
-from frot.compiler.equations.given import Given
-from frot.compiler.equations.origins import Origin
-from frot.compiler.equations.table import PARAMETER, UNIT, Factor, Row, Table
+from frot.compiler.equations.incidence import PARAMETER, UNIT, Factor, Row, Table
+from frot.compiler.equations.parameter_defaults import Given
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.slopes import CANCELS
+from frot.compiler.translate.derivative_chains import Chains, Resolver
+from frot.compiler.translate.origins import Origin
 
 Entries = Mapping[int, int]
 

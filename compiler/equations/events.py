@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
 import casadi as ca
-from frot.compiler.equations.before import Before
-from frot.compiler.equations.text_symbols import TextSymbols, scalars
-from frot.compiler.lowering.expressions import NEVER, RISING, Conditions, Lowering
-from frot.compiler.lowering.symbols import shaped
 from frot.compiler.symbolic.columns import column
+from frot.compiler.translate.expressions import NEVER, RISING, Conditions, Lowering
+from frot.compiler.translate.previous_values import Before
+from frot.compiler.translate.symbols import shaped
+from frot.compiler.translate.text_symbols import TextSymbols, scalars
 from frot.dsl import Log
 from frot.dsl.checked import (
     Assertion,
@@ -70,13 +70,13 @@ class Events:
 
 
 class _Gatherer:
-    """Lowers the `when`s: `moving` locates the conditions, `looking` reads values at an event."""
+    """Lowers the `when`s: `moving` locates the conditions, `display` reads values at an event."""
 
     def __init__(
-        self, text: TextSymbols, conditions: Conditions, moving: Lowering, looking: Lowering
+        self, text: TextSymbols, conditions: Conditions, moving: Lowering, display: Lowering
     ) -> None:
         self.text, self.conditions = text, conditions
-        self.moving, self.looking = moving, looking
+        self.moving, self.display = moving, display
         self.events = Events()
         self.before: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value before
         self.after: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value after
@@ -105,7 +105,7 @@ class _Gatherer:
         if len(joined) > 1 and any(is_instant(c) for c in joined):
             # the others need only hold at that instant
             return _product(
-                [self.condition(c) if is_instant(c) else self.looking.lower(c) for c in joined]
+                [self.condition(c) if is_instant(c) else self.display.lower(c) for c in joined]
             )
         if isinstance(expression, Call) and expression.function == "edge":
             expression = expression.arguments[0]
@@ -165,7 +165,7 @@ class _Gatherer:
     def _act(self, action: Assign | Reinit | Terminate | Assertion, active: ca.SX) -> None:
         match action:
             case Assign():
-                value = self.looking.lower(action.value)
+                value = self.display.lower(action.value)
                 whole = self.text.values[action.variable]
                 rows = whole[action.item[0], :].T if action.item else whole
                 targets = scalars(rows[action.item[1]] if len(action.item) > 1 else rows)
@@ -175,15 +175,15 @@ class _Gatherer:
                 for symbol, item in zip(targets, values, strict=True):
                     self.set(symbol, active, item)
             case Reinit():
-                targets = scalars(self.looking.lower(action.target))
+                targets = scalars(self.display.lower(action.target))
                 for target, value in zip(
-                    targets, scalars(self.looking.lower(action.value)), strict=True
+                    targets, scalars(self.display.lower(action.value)), strict=True
                 ):
                     self.events.jumps.append((active, Jump(target, value, action.span)))
             case Terminate():
                 self._ask(Outcome(TERMINATE, action.message, action.span), active)
             case Assertion():
-                holds = self.looking.lower(action.condition)
+                holds = self.display.lower(action.condition)
                 kind = WARN if action.level == "warning" else FAIL
                 self._ask(Outcome(kind, action.message, action.span), active * (1 - holds))
 
@@ -213,15 +213,15 @@ def gather_events(
     faults: Iterable[tuple[ca.SX, str, Span]],
     *,
     moving: Lowering,
-    looking: Lowering,
+    display: Lowering,
     log: Log,
 ) -> Events:
-    """Lower every `when` and `assert`. `looking` is given the discrete values after the event.
+    """Lower every `when` and `assert`. `display` is given the discrete values after the event.
 
     `modes` are discrete values that no `when` sets; `faults` are values that fail once they are
     positive, each with what is told and where.
     """
-    gatherer = _Gatherer(text, conditions, moving, looking)
+    gatherer = _Gatherer(text, conditions, moving, display)
     after: dict[Variable, ca.SX] = {}
     before: dict[Variable, ca.SX] = {}
     for variable in model.variables:
@@ -234,10 +234,10 @@ def gather_events(
         for symbol, new, old in zip(scalars(text.values[variable]), news, olds, strict=True):
             gatherer.after[symbol.element_hash()] = new
             gatherer.before[symbol.element_hash()] = old
-    looking.variable = lambda v: after[v] if v.discrete else text.values[v]
+    display.variable = lambda v: after[v] if v.discrete else text.values[v]
     assert moving.before is not None
-    looking.before = Before(text, moving.before.first, before.__getitem__)
-    looking.known = conditions
+    display.before = Before(text, moving.before.first, before.__getitem__)
+    display.known = conditions
     for mode in modes:
         gatherer.before[mode.element_hash()] = ca.SX.sym(f"{mode.name()} before")
     for when in model.whens:

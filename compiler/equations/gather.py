@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import casadi as ca
 from frot.compiler.equations.eliminate import Residuals
-from frot.compiler.equations.origins import Origin
-from frot.compiler.equations.text_symbols import scalars
-from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.translate.expressions import Lowering
+from frot.compiler.translate.origins import Origin
+from frot.compiler.translate.text_symbols import scalars
 from frot.dsl import Log
 from frot.dsl.checked import Equation, IfEquations
 from frot.dsl.expressions.expression import is_whole

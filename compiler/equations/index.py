@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from frot.compiler.equations.origins import Origin, Unknown
 from frot.compiler.equations.sparse import match, pattern
+from frot.compiler.translate.origins import Origin, Unknown
 from frot.dsl import Label, Log
 
 MOST_NAMED = 8

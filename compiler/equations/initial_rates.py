@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import casadi as ca
-from frot.compiler.equations.chains import replace_known
-from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.derivative_chains import replace_known
 
 
 def finds_places(value: ca.SX, places: Sequence[ca.SX], system: Assembled) -> bool:

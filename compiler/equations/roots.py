@@ -18,9 +18,9 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from frot.compiler.equations.chains import Resolver, replace_known
-from frot.compiler.equations.given import Given
+from frot.compiler.equations.parameter_defaults import Given
 from frot.compiler.symbolic.columns import column
+from frot.compiler.translate.derivative_chains import Resolver, replace_known
 from numpy.typing import NDArray
 
 FEW, MANY = (k * float(np.finfo(float).eps) for k in (4, 16))

@@ -10,7 +10,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import casadi as ca
-from frot.compiler.equations.chains import Chains, replace_known
+from frot.compiler.equations.assembled import (
+    Assembled,
+    Block,
+    Invariants,
+    Solution,
+    followed_blocks,
+)
 from frot.compiler.equations.combine import combine
 from frot.compiler.equations.core import Core, make_core
 from frot.compiler.equations.differentiate import (
@@ -27,24 +33,18 @@ from frot.compiler.equations.eliminate import (
     eliminate,
     resolve_all,
 )
-from frot.compiler.equations.floating import is_tied_down
-from frot.compiler.equations.given import Given
 from frot.compiler.equations.index import reduce_index
 from frot.compiler.equations.order import Component, closure
-from frot.compiler.equations.origins import Origin
+from frot.compiler.equations.parameter_defaults import Given
+from frot.compiler.equations.reduce import Reduced, Tree
 from frot.compiler.equations.roots import Roots
 from frot.compiler.equations.tear import tear
-from frot.compiler.lowering.assembled import (
-    Assembled,
-    Block,
-    Invariants,
-    Solution,
-    followed_blocks,
-)
-from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.reduce import Reduced, Tree
+from frot.compiler.equations.undetermined_potentials import is_tied_down
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.compiler.symbolic.slopes import without_what_cancels
+from frot.compiler.translate.derivative_chains import Chains, replace_known
+from frot.compiler.translate.origins import Origin
+from frot.compiler.translate.walk import as_number
 from frot.dsl import Log, default_values, evaluate
 
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections import defaultdict
 
 import casadi as ca
-from frot.compiler.equations.chains import replace_known
-from frot.compiler.equations.given import Given
+from frot.compiler.equations.parameter_defaults import Given
 from frot.compiler.equations.tear_linear import Torn, tear_linear
 from frot.compiler.symbolic.columns import column
+from frot.compiler.translate.derivative_chains import replace_known
 
 
 def tear(residual: list[ca.SX], unknowns: list[ca.SX], given: Given) -> Torn:

@@ -13,8 +13,7 @@ from dataclasses import dataclass
 from itertools import permutations
 
 import casadi as ca
-from frot.compiler.equations.chains import replace_known
-from frot.compiler.equations.given import Given
+from frot.compiler.equations.parameter_defaults import Given
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.slopes import (
     CANCELS,
@@ -22,6 +21,7 @@ from frot.compiler.symbolic.slopes import (
     slopes,
     without_what_cancels,
 )
+from frot.compiler.translate.derivative_chains import replace_known
 
 # A pivot's size at least, in that of the largest factor of its unknown, at the defaults.
 _PIVOT = 0.1

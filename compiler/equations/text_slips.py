@@ -11,8 +11,8 @@ from typing import Any
 
 import casadi as ca
 from frot.compiler.equations.events import Events
-from frot.compiler.equations.text_symbols import Discrete, FrictionElement, TextSymbols, scalars
 from frot.compiler.mechanics.variables import Sense, Variables
+from frot.compiler.translate.text_symbols import Discrete, FrictionElement, TextSymbols, scalars
 from frot.dsl.checked.arrays import component_names
 
 
@@ -46,16 +46,16 @@ def follow_mode(
     variables: Variables, text: TextSymbols, events: Events, owner: FrictionElement | Sense
 ) -> None:
     """Let conditions and equations follow a mode or a sense: it becomes one of the first."""
-    if owner in variables.felt:
+    if owner in variables.located_modes:
         return
-    old, new = list(variables.modes).index(owner), len(variables.felt)
+    old, new = list(variables.modes).index(owner), len(variables.located_modes)
     order = list(variables.modes.items())
     columns: tuple[MutableSequence[Any], ...] = (order, text.discrete)
     for items in (*columns, events.before, events.values):
         items.insert(new, items.pop(old))
     variables.modes.clear()
     variables.modes.update(order)
-    variables.felt.append(owner)
+    variables.located_modes.append(owner)
 
 
 def sense_of(variables: Variables, text: TextSymbols, events: Events, contact: int) -> ca.SX:

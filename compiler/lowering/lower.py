@@ -6,35 +6,31 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.lowering.assembled import Assembled, Block, row_depends, terms_of_rates
-from frot.compiler.lowering.checks import Check, parameter_checks
-from frot.compiler.lowering.explicit import make_explicit
-from frot.compiler.lowering.expressions import Lowering
-from frot.compiler.lowering.finite import Watched, watch_numbers
+from frot.compiler.equations.assembled import Assembled, Block, row_depends, terms_of_rates
+from frot.compiler.equations.carried_bodies import Carried, carried_bodies
+from frot.compiler.equations.parameter_checks import Check, parameter_checks
+from frot.compiler.equations.reduce import Reduced
+from frot.compiler.lowering.explicit_reactions import make_explicit
 from frot.compiler.lowering.first_conditions import first_conditions
 from frot.compiler.lowering.groups import Grouping
+from frot.compiler.lowering.initial_partition import Part, Scene
 from frot.compiler.lowering.initial_values import Initial, Statement, lower_initial
 from frot.compiler.lowering.islands import Island, divide
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, too_full, why_explicit
-from frot.compiler.lowering.listing import Listed, list_variables
 from frot.compiler.lowering.lower_events import Ranks, lower_update, rank_whens
 from frot.compiler.lowering.lower_parameters import lower_parameters, parameters_needed
-from frot.compiler.lowering.pace import make_pace
-from frot.compiler.lowering.parts import Part, Scene
+from frot.compiler.lowering.nonfinite import Watched, watch_numbers
+from frot.compiler.lowering.result_variables import FirstIntegral, Listed, list_variables
+from frot.compiler.lowering.sort_conditions import sort_conditions
 from frot.compiler.lowering.switching import straighten, switching_residual
-from frot.compiler.lowering.timing import sort_conditions
+from frot.compiler.lowering.time_forcing import make_pace
 from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
 from frot.compiler.mechanics.mechanism import is_unilateral
-from frot.compiler.mechanics.reduce import Reduced
-from frot.compiler.mechanics.supports import Carried, carried_bodies
 from frot.compiler.symbolic.columns import column, dense
-from frot.compiler.symbolic.equals import Kind, Member, share_functions
 from frot.compiler.symbolic.numbers_in_sums import size_of_numbers
+from frot.compiler.symbolic.shared_functions import Kind, Member, share_functions
+from frot.compiler.translate.expressions import Lowering
 from frot.dsl import Log
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from frot.compiler.report.first_integrals import FirstIntegral
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,18 +79,18 @@ class Lowered:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Beginning:
+class InitialProblem:
     """The statements of `initial`, and what lowered them.
 
-    `looking` lowers what is only looked at, `explicit` writes out the formulas of unknowns.
+    `display` lowers what is only looked at, `explicit` writes out the formulas of unknowns.
     """
 
-    looking: Lowering
+    display: Lowering
     explicit: Callable[[ca.SX], ca.SX]
     initial: Initial
 
 
-def begin(system: Assembled, log: Log) -> Beginning:
+def begin(system: Assembled, log: Log) -> InitialProblem:
     """Lower the statements; those that cannot hold are reported."""
     reduced, explicit = system.reduced, make_explicit(system)
     chains, settled = reduced.text.chains, reduced.variables.settled
@@ -102,7 +98,7 @@ def begin(system: Assembled, log: Log) -> Beginning:
     def formula(value: ca.SX) -> ca.SX:
         return explicit(system.resolve(settled(value)))
 
-    looking = Lowering(
+    display = Lowering(
         reduced.symbols,
         reduced.variables.quantity,
         lambda value: chains.rate(formula(value)),
@@ -110,12 +106,12 @@ def begin(system: Assembled, log: Log) -> Beginning:
         variable=reduced.text.values.__getitem__,
         without_rate=lambda value: chains.without_rate(formula(value)),
     )
-    return Beginning(looking, explicit, lower_initial(system, looking, explicit, log))
+    return InitialProblem(display, explicit, lower_initial(system, display, explicit, log))
 
 
 def lower(
     system: Assembled,
-    beginning: Beginning,
+    beginning: InitialProblem,
     grouping: Grouping,
     log: Log,
     integrals: tuple[FirstIntegral, ...] = (),
@@ -127,8 +123,8 @@ def lower(
     """
     reduced = system.reduced
     s, resolve, settled = reduced.symbols, system.resolve, reduced.variables.settled
-    looking, explicit, initial = beginning.looking, beginning.explicit, beginning.initial
-    variables = (*list_variables(system, looking, integrals), *extra)
+    display, explicit, initial = beginning.display, beginning.explicit, beginning.initial
+    variables = (*list_variables(system, display, integrals), *extra)
     located = explicit(system.resolve(column(reduced.conditions.values)))
     conditions, timers = sort_conditions(system, located)
     switching = tuple(_switching(k, b, system, conditions) for k, b in enumerate(system.blocks))
@@ -148,12 +144,12 @@ def lower(
     outputs: dict[str, tuple[list[ca.SX], list[ca.SX]]] = {
         "parameters": (
             [given, is_set, s.u],
-            lower_parameters(looking, checks, system, grouping, given, is_set),
+            lower_parameters(display, checks, system, grouping, given, is_set),
         ),
         "start": ([s.t, s.u, s.p], initial.start),
         "beginning": (
             state,
-            [*initial.beginning, unsolved(first_conditions(system, looking, conditions), system)],
+            [*initial.beginning, unsolved(first_conditions(system, display, conditions), system)],
         ),
         "sizes": (
             state,

@@ -11,8 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.equations.events import FAULT, Outcome
-from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.symbolic.columns import column
 from frot.dsl import Log
 from frot.dsl.messages.source import Span

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from frot.compiler.lowering.symbols import Rows
-from frot.compiler.lowering.walk import is_fixed
-from frot.compiler.mechanics.link import Link
+from frot.compiler.mechanics.constraint import Constraint, Rows
+from frot.compiler.translate.walk import is_fixed
 
 
 class Bound(Enum):
@@ -35,7 +34,7 @@ class Element:
     fixed: bool
 
 
-def link_elements(contact: int, link: Link, rows: Rows) -> list[Element]:
+def link_elements(contact: int, link: Constraint, rows: Rows) -> list[Element]:
     """The elements of a liaison: sliding or turning, then rolling."""
     bound = Bound.NORMAL if link.has_normal else Bound.PIN
     found: list[Element] = []

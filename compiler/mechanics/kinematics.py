@@ -13,17 +13,15 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.lowering.expressions import NEVER, Conditions
-from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
 from frot.compiler.mechanics.constants import Constants
+from frot.compiler.mechanics.constraint import Constraint, Point, point_body
+from frot.compiler.mechanics.geometry.closest_solved import Track
 from frot.compiler.mechanics.geometry.figure import Placed
-from frot.compiler.mechanics.geometry.tracking import Track
-from frot.compiler.mechanics.hang import Node, hang
 from frot.compiler.mechanics.liaisons.actions import Between, Part
 from frot.compiler.mechanics.liaisons.motion import counted, seen
 from frot.compiler.mechanics.liaisons.moves import carried, turned_by_time
-from frot.compiler.mechanics.liaisons.roll import Spotted
-from frot.compiler.mechanics.link import Link, Point, point_body
+from frot.compiler.mechanics.liaisons.rolling_on_planes import Spotted
+from frot.compiler.mechanics.make_symbols import counters_of, reading_places
 from frot.compiler.mechanics.mechanism import (
     Hanging,
     Mechanism,
@@ -41,7 +39,10 @@ from frot.compiler.mechanics.spatial import (
     turn_about,
     whole,
 )
+from frot.compiler.mechanics.tree_step import Node, hang
 from frot.compiler.mechanics.values import unit_vector
+from frot.compiler.translate.expressions import NEVER, Conditions
+from frot.compiler.translate.symbols import Symbols
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison
 
 if TYPE_CHECKING:
@@ -310,7 +311,7 @@ class Kinematics:
         value, rate = seen(motion, a, b, self.fixed.lower)
         return self.counted(joint, index, value), rate
 
-    def counted(self, link: Link, index: int, angle: ca.SX) -> ca.SX:
+    def counted(self, link: Constraint, index: int, angle: ca.SX) -> ca.SX:
         """The angle of a motion with the turns that its counter has seen, if it has one."""
         counter = self.counters.get((link.liaison, index))
         return angle if counter is None else counted(angle, counter)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.mechanics.dynamics import Push, in_trees
 from frot.compiler.mechanics.forces import Action, Load, load
 from frot.compiler.mechanics.mechanism import Mechanism, is_unilateral
 from frot.compiler.mechanics.variables import Variables
+from frot.compiler.translate.expressions import Lowering
 from frot.dsl import Log
 from frot.dsl.checked import Law, Liaison
 

@@ -5,22 +5,28 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from frot.compiler.lowering.walk import read_quantities, subexpressions
+from frot.compiler.mechanics.check_support import (
+    REACTION,
+    refuse,
+    refuse_places,
+    refuse_unknown,
+    spelled,
+)
+from frot.compiler.mechanics.constraint import Constraint, Friction, Point, point_body
+from frot.compiler.mechanics.geometry.closest_solved import can_touch
 from frot.compiler.mechanics.geometry.contact import Contact
 from frot.compiler.mechanics.geometry.faces import part_faces
 from frot.compiler.mechanics.geometry.figure import Placed
+from frot.compiler.mechanics.geometry.figure_liaisons import IN_PLANE, IN_SPACE, pair
 from frot.compiler.mechanics.geometry.figures import figure_of
-from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE, pair
-from frot.compiler.mechanics.geometry.plain import Dot, Tether
-from frot.compiler.mechanics.geometry.tracking import can_touch
+from frot.compiler.mechanics.geometry.planes import CordCircle, PointFigure
 from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
-from frot.compiler.mechanics.liaisons.freed import OF_PLACES, OF_SPEEDS, is_row
-from frot.compiler.mechanics.liaisons.halves import halve
 from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, make_joint
+from frot.compiler.mechanics.liaisons.kinematic_relations import OF_PLACES, OF_SPEEDS, is_row
 from frot.compiler.mechanics.liaisons.lock import Lock
-from frot.compiler.mechanics.liaisons.stated import Stated
-from frot.compiler.mechanics.link import Friction, Link, Point, point_body
+from frot.compiler.mechanics.liaisons.split_bodies import halve
+from frot.compiler.mechanics.liaisons.user_liaisons import Stated
 from frot.compiler.mechanics.mechanism import (
     Mechanism,
     is_thread,
@@ -28,14 +34,8 @@ from frot.compiler.mechanics.mechanism import (
     relinked,
     turns,
 )
-from frot.compiler.mechanics.refuse import (
-    REACTION,
-    refuse,
-    refuse_places,
-    refuse_unknown,
-    spelled,
-)
 from frot.compiler.mechanics.spanning import span
+from frot.compiler.translate.walk import read_quantities, subexpressions
 from frot.dsl import Log
 from frot.dsl.checked import (
     CurvePlace,
@@ -65,8 +65,8 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     tree = span(replace(model, bodies=(*model.bodies, *halved.halves)), halved.links)
     read = _read_liaisons(model)
     read |= {corner for x in read for corner in faced.corners.get(x, ())}
-    chosen: list[Link] = []
-    ideal: list[Link] = []
+    chosen: list[Constraint] = []
+    ideal: list[Constraint] = []
     for whole in halved.links:
         link = whole.kept(whole.liaison in tree.kept)
         silent = not link.frictions and link.liaison not in read
@@ -94,7 +94,7 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     )
 
 
-def _refuse_lost(link: Link, rows: tuple[Link, ...], log: Log) -> None:
+def _refuse_lost(link: Constraint, rows: tuple[Constraint, ...], log: Log) -> None:
     """Friction that a liaison would lose where it is kept relation by relation."""
     if link.frictions and not any(row.frictions for row in rows):
         refuse(
@@ -110,7 +110,7 @@ def _law(liaison: Liaison, kind: str) -> Law | None:
     return next((law for law in liaison.laws if law.kind.name == kind), None)
 
 
-def link_of(liaison: Liaison, planar: bool, log: Log) -> Link | None:
+def link_of(liaison: Liaison, planar: bool, log: Log) -> Constraint | None:
     """What a liaison joins and how, kept by nothing yet; None where that is reported."""
     if liaison.relations:
         return _stated(liaison, planar, log)
@@ -277,8 +277,8 @@ def _thread(liaison: Liaison, log: Log) -> Contact | None:
     return Contact(
         liaison=liaison,
         point=b,
-        figure=Dot(),
-        track=Placed(a, Tether(length)),
+        figure=PointFigure(),
+        track=Placed(a, CordCircle(length)),
         track_first=True,
         floor=False,
         unilateral=liaison.options["unilateral"],
@@ -304,7 +304,7 @@ def _read_liaisons(model: Model) -> set[Liaison]:
     }
 
 
-def _refuse_surface(model: Model, links: Iterable[Link], log: Log) -> None:
+def _refuse_surface(model: Model, links: Iterable[Constraint], log: Log) -> None:
     """In the plane slip has a sign where there is one way to slip: at the surface of a pin, ..."""
     plain = {e.liaison for e in links if model.planar and not e.slips}
     for node in read_quantities(model):

@@ -6,16 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import casadi as ca
-from frot.compiler.equations.chains import Chains
-from frot.compiler.equations.text_symbols import FrictionElement
-from frot.compiler.lowering.symbols import Rows, Symbols
+from frot.compiler.mechanics.constraint import Constraint, Geometry, Reaction, Rows, point_body
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Effort
-from frot.compiler.mechanics.liaisons.freed import numbered
-from frot.compiler.mechanics.liaisons.stated import Reader, unit_of
-from frot.compiler.mechanics.link import Geometry, Link, Reaction, point_body
+from frot.compiler.mechanics.liaisons.kinematic_relations import numbered
+from frot.compiler.mechanics.liaisons.user_liaisons import Reader, unit_of
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere
+from frot.compiler.translate.derivative_chains import Chains
+from frot.compiler.translate.symbols import Symbols
+from frot.compiler.translate.text_symbols import FrictionElement
 from frot.dsl.catalogue import MODES
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity, Variable
 
@@ -43,21 +43,21 @@ class Variables:
     computed, `drives` the efforts that keep prescribed coordinates, by their names; `corners` the
     liaisons that one of faces stands for, `values` are those of the text, `frictions` is what
     laws of the user give on the body, `modes` those that are read: numbers of contacts, symbols;
-    the first of them are `felt`, for something follows them, the others are only looked at.
+    the first of them are `located_modes`, whose changes are events; outputs alone read the others.
     """
 
     symbols: Symbols
     chains: Chains
     kinematics: Kinematics
     geometry: dict[Liaison, Geometry]
-    links: dict[Liaison, Link]
+    links: dict[Liaison, Constraint]
     reactions: dict[Liaison, Rows]
     drives: dict[Liaison, list[tuple[str, ca.SX]]]
     corners: Mapping[Liaison, tuple[Liaison, ...]]
     values: Mapping[Variable, ca.SX]
     frictions: dict[Liaison, ca.SX] = field(default_factory=dict)
     modes: dict[Liaison | FrictionElement | Sense, tuple[int, ca.SX]] = field(default_factory=dict)
-    felt: list[Liaison | FrictionElement | Sense] = field(default_factory=list)
+    located_modes: list[Liaison | FrictionElement | Sense] = field(default_factory=list)
     _inertias: dict[Body, ca.SX] = field(default_factory=dict, repr=False)
 
     def quantity(self, node: Quantity) -> ca.SX:

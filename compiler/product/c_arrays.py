@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import casadi as ca
-from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.lowering.jacobian import alike
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.mechanics.variables import Sense

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.lowering.walk import as_number
 from frot.compiler.product.dae_switching import (
     GUARDS,
     PARTS,
@@ -20,6 +19,7 @@ from frot.compiler.product.dae_switching import (
     switches_of,
 )
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.walk import as_number
 from frot.dsl import default_values, evaluate
 
 NEWTON_STEPS = 10

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.symbols import Rows
+from frot.compiler.equations.assembled import Assembled
+from frot.compiler.mechanics.constraint import Rows
 from frot.compiler.symbolic.columns import scalars_of
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)

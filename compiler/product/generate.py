@@ -16,15 +16,15 @@ from frot.compiler.product.c_tables import callable_record as _callable
 from frot.compiler.product.c_tables import record as _record
 from frot.compiler.product.c_tables import text as _text
 from frot.compiler.product.casadi_text import straightened
-from frot.compiler.product.islands import (
+from frot.compiler.product.extended_precision import WIDE, wide_names, wide_record, write_wide
+from frot.compiler.product.implicit_cost import price_of_implicit
+from frot.compiler.product.shared_parts import (
     island_arrays,
     part_arrays,
     read_numbers,
     shared_functions,
 )
-from frot.compiler.product.price import price_of_implicit
 from frot.compiler.product.split import split_functions
-from frot.compiler.product.wide import WIDE, wide_names, wide_record, write_wide
 from frot.compiler.symbolic.columns import column
 
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
@@ -99,7 +99,7 @@ def _counts(lowered: Lowered) -> dict[str, float | str]:
         "n_held": len(reduced.text.held),
         "n_ranks": lowered.ranks.count,
         "n_modes": len(reduced.variables.modes),
-        "n_felt": len(reduced.variables.felt),
+        "n_felt": len(reduced.variables.located_modes),
         "n_located": reduced.conditions.located,
         "n_sensed": reduced.conditions.sensed,
         "n_timed": reduced.conditions.timed,

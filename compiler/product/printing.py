@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from frot.compiler.equations.reduce import Reduced
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.symbolic.columns import scalars_of
 
 

@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.equations.assembled import Assembled
+from frot.compiler.equations.reduce import Reduced
 from frot.compiler.lowering.lower import begin
-from frot.compiler.mechanics.free import free
-from frot.compiler.mechanics.liaisons.stated import bodies_of
-from frot.compiler.mechanics.link import Link
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.free_bodies import free
+from frot.compiler.mechanics.liaisons.user_liaisons import bodies_of
 from frot.compiler.mechanics.mechanism import (
     Mechanism,
     is_unilateral,
     relations_of,
 )
-from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.report.candidates import place_body
-from frot.compiler.report.cure import find_cure
 from frot.compiler.report.first_integrals import MOST_SPEEDS, find_first_integrals
 from frot.compiler.report.holonomy import non_holonomic
+from frot.compiler.report.isostatic_alternatives import find_cure
 from frot.compiler.report.paradox import find_paradoxes
 from frot.compiler.report.redundancy import Loop, find_loops, find_ranks
 from frot.compiler.report.relations import make_relations
@@ -234,7 +234,7 @@ def _look(part: list[Liaison], system: Assembled, start: Start, found: _Found) -
         found.holonomic.append((one.name, None if broken is None else not broken))
 
 
-def _parting(mechanism: Mechanism) -> dict[Link, bool]:
+def _parting(mechanism: Mechanism) -> dict[Constraint, bool]:
     values = default_values(mechanism.model, {})
     return {x: may_part(x, values) for x in mechanism.contacts}
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import casadi as ca
-from frot.compiler.lowering.walk import is_fixed
-from frot.compiler.mechanics.link import owner_body, point_body
-from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.equations.reduce import Reduced
+from frot.compiler.mechanics.constraint import owner_body, point_body
 from frot.compiler.mechanics.spatial import cross, nowhere, whole
 from frot.compiler.symbolic.columns import scalars_of
+from frot.compiler.translate.walk import is_fixed
 from frot.dsl.checked import Body, BodyGeometry, BodyPoint, CurvePlace, Frame, Place, SurfacePlace
 from frot.dsl.quantities.dimensions import Dimension, dimension
 

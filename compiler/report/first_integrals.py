@@ -9,13 +9,13 @@ say so (the height of what rolls on a plane) is none.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.lower import Beginning
-from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.equations.assembled import Assembled
+from frot.compiler.equations.reduce import Reduced
+from frot.compiler.lowering.lower import InitialProblem
+from frot.compiler.lowering.result_variables import FirstIntegral
 from frot.compiler.report.candidates import (
     ENERGY,
     MOMENTUM,
@@ -24,7 +24,7 @@ from frot.compiler.report.candidates import (
     Twist,
     list_candidates,
 )
-from frot.compiler.report.dynamics import make_dynamics
+from frot.compiler.report.numeric_dynamics import make_dynamics
 from frot.compiler.report.relations import Floats, Posture
 from frot.compiler.report.search import Looked, Search
 from frot.compiler.report.start import find_start
@@ -40,20 +40,7 @@ _NEW = 1e-7
 _NONE = 1e-7
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class FirstIntegral:
-    """What stays constant, in words, with its value as an expression of the reduced system.
-
-    `always`: whatever the parameters are; else at their defaults.
-    """
-
-    text: str
-    value: ca.SX
-    dimension: Dimension
-    always: bool
-
-
-def first_integrals_of(system: Assembled, beginning: Beginning) -> tuple[FirstIntegral, ...]:
+def first_integrals_of(system: Assembled, beginning: InitialProblem) -> tuple[FirstIntegral, ...]:
     """Those about the start of a system; of more than `MOST_SPEEDS` the energy at most."""
     reduced = system.reduced
     if not reduced.mechanism.model.bodies:

@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
+from frot.compiler.equations.reduce import Reduced
 from frot.compiler.mechanics.mechanism import is_unilateral
-from frot.compiler.mechanics.reduce import Reduced
-from frot.compiler.report.dynamics import Dynamics, State, make_dynamics
+from frot.compiler.report.numeric_dynamics import Dynamics, State, make_dynamics
 from frot.compiler.report.relations import Floats, Posture
 from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl.checked import Liaison

@@ -23,10 +23,10 @@ from frot.dsl.expressions.expression import expression, fitting
 from frot.dsl.expressions.known import known
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.names.classes import Class
-from frot.dsl.names.members import coordinates
+from frot.dsl.names.declared_types import find_class
+from frot.dsl.names.find_member import coordinates
 from frot.dsl.names.near import did_you_mean, unknown_kind
 from frot.dsl.names.scope import Scope
-from frot.dsl.names.types import find_class
 from frot.dsl.quantities.dimensions import BOOLEAN
 from frot.dsl.quantities.turns import RATE, TURNING
 from frot.dsl.text import tree

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from front_door import HOOP, Door
 from frot.compiler.driver import assembled_of, lowered_of
-from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.mechanics.mechanize import mechanize
+from frot.compiler.translate.expressions import Lowering
 from frot.dsl import Log
 
 import frot

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from frot.compiler import driver
 from frot.compiler.mechanics import dynamics
-from frot.compiler.product import roll
+from frot.compiler.product import reroll
 from frot.dsl import Log, compile_text
 
 import frot
@@ -99,7 +99,7 @@ def test_rolled_code_gives_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> Non
     text = CHAIN.format(n=25, first=0.3, tolerance=1e-9)
     rolled, straight = [], []
     for least, results in ((400, rolled), (10**9, straight)):
-        monkeypatch.setattr(roll, "LEAST", least)
+        monkeypatch.setattr(reroll, "LEAST", least)
         program = frot.compile(f"// {least}\n{text}")
         results.append(program.simulate(stop=0.2))
         loops = (program.program().folder / "model.c").read_text().count("r<")

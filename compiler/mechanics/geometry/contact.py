@@ -7,14 +7,13 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Self
 
 import casadi as ca
-from frot.compiler.lowering.symbols import Rows
+from frot.compiler.mechanics.constraint import Constraint, Friction, Point, Rows
 from frot.compiler.mechanics.geometry.contacts import ContactGeometry, contact_geometry
 from frot.compiler.mechanics.geometry.figure import Figure, Placed
-from frot.compiler.mechanics.liaisons.curves import Follow
+from frot.compiler.mechanics.liaisons.curves import PointOnCurve
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.liaisons.places import Slide
-from frot.compiler.mechanics.link import Friction, Link, Point
+from frot.compiler.mechanics.liaisons.translations import Slide
 from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
 from frot.compiler.mechanics.spatial import Pose, nowhere
 from frot.dsl.checked import Expression, Liaison, World
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Contact(Link):
+class Contact(Constraint):
     """A point, a rim or a curve on a curve of the plane, with the laws that bound its reaction.
 
     `figure` is what touches: a point, or a rim with its centre at `point`; `track` the figure that
@@ -89,7 +88,7 @@ class Contact(Link):
     def _follows(self) -> bool:
         return self.liaison.kind.along_curve
 
-    def counted(self, planar: bool) -> Iterator[tuple[Link, int]]:
+    def counted(self, planar: bool) -> Iterator[tuple[Constraint, int]]:
         """That of a point on a circle."""
         if self._follows and not self.reduced and self.track.figure.is_round:
             yield self, 0
@@ -106,7 +105,7 @@ class Contact(Link):
         """Along the curve."""
         curve = self.track.figure
         if curve.plane is None:
-            return (Follow(curve),)
+            return (PointOnCurve(curve),)
         return (Slide(curve.plane, coordinates=("u",)),)
 
     def columns(self, kinematics: Kinematics, a: Pose, b: Pose) -> list[Column]:

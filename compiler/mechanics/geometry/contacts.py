@@ -7,20 +7,20 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.mechanics.geometry.ended import (
+from frot.compiler.mechanics.constraint import Geometry, Reaction, point_body
+from frot.compiler.mechanics.geometry.closest_closed_form import is_closed, touch
+from frot.compiler.mechanics.geometry.closest_solved import Track, on_side, track
+from frot.compiler.mechanics.geometry.curves_with_ends import (
     AT_END,
     Ending,
     away,
     bounded,
     track_to_ends,
 )
-from frot.compiler.mechanics.geometry.paths import slope_at
+from frot.compiler.mechanics.geometry.parametric_figures import slope_at
 from frot.compiler.mechanics.geometry.sides import sides_of
-from frot.compiler.mechanics.geometry.touches import is_closed, touch
-from frot.compiler.mechanics.geometry.tracking import Track, on_side, track
 from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.liaisons.actions import Effort
-from frot.compiler.mechanics.link import Geometry, Reaction, point_body
 from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
 from frot.compiler.mechanics.spatial import Pose, Z, cross, nowhere
 from frot.compiler.mechanics.values import Lower

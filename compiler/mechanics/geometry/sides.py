@@ -18,8 +18,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import casadi as ca
+from frot.compiler.mechanics.constraint import point_body
 from frot.compiler.mechanics.kinematics import Kinematics, Line
-from frot.compiler.mechanics.link import point_body
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.spatial import X, Y, Z
 from frot.dsl.checked import BodyGeometry, World

@@ -14,11 +14,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import casadi as ca
+from frot.compiler.mechanics.constraint import Geometry
+from frot.compiler.mechanics.geometry.closest_closed_form import Touch
+from frot.compiler.mechanics.geometry.closest_solved import Track
 from frot.compiler.mechanics.geometry.figure import Figure
-from frot.compiler.mechanics.geometry.touches import Touch
-from frot.compiler.mechanics.geometry.tracking import Track
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.link import Geometry
 from frot.compiler.mechanics.spatial import Moving, Pose, nowhere
 from frot.compiler.mechanics.values import Lower
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Self
 
 import casadi as ca
+from frot.compiler.mechanics.geometry.closest_solved import Track, along, tangency
 from frot.compiler.mechanics.geometry.figure import Figure
-from frot.compiler.mechanics.geometry.paths import slope_at
-from frot.compiler.mechanics.geometry.plain import Dot
-from frot.compiler.mechanics.geometry.tracking import Track, along, tangency
+from frot.compiler.mechanics.geometry.parametric_figures import slope_at
+from frot.compiler.mechanics.geometry.planes import PointFigure
 from frot.compiler.mechanics.liaisons.actions import Action, Between, push
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.motion import Motion, Seen
@@ -28,7 +28,7 @@ BESIDE = 0.1
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Follow(Motion):
+class PointOnCurve(Motion):
     """Along a curve fixed to the base, by its parameter."""
 
     curve: Figure = field()
@@ -116,7 +116,7 @@ class Across(Lock):
     @property
     def figures(self) -> tuple[Figure, Figure] | None:
         """The curve and a point."""
-        return (self.curve, Dot()) if self.side == 0 else None
+        return (self.curve, PointFigure()) if self.side == 0 else None
 
     def find(self, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
         """The nearest point of the curve."""

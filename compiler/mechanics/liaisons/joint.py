@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Self
 
 import casadi as ca
-from frot.compiler.lowering.symbols import Rows
+from frot.compiler.mechanics.constraint import Constraint, Friction, Point, Rows
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.liaisons.actions import Between, Part
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, joint_geometry
@@ -14,8 +14,7 @@ from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
 from frot.compiler.mechanics.liaisons.relation import Relation
-from frot.compiler.mechanics.link import Friction, Link, Point
-from frot.compiler.mechanics.rolling import rolling_motions
+from frot.compiler.mechanics.rolling_by_coordinates import rolling_motions
 from frot.compiler.mechanics.spatial import Pose
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Liaison, World
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Joint(Link):
+class Joint(Constraint):
     """A liaison of the points `a` and `b` that leaves `motions` and locks the rest.
 
     `carries`: coordinates can keep it, else only rows. `swapped`: `a` is the second place of the
@@ -131,7 +130,7 @@ class Joint(Link):
         """A pin that is smooth."""
         return replace(self, frictions=())
 
-    def rows(self, told: bool) -> tuple[Link, ...]:
+    def rows(self, told: bool) -> tuple[Constraint, ...]:
         """Relation by relation.
 
         In space ways are along axes of a, last the one about which a pin turns: rows of a loop that

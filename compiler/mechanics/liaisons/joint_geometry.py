@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.lowering.symbols import Rows
-from frot.compiler.mechanics.geometry.touches import Touch
+from frot.compiler.mechanics.constraint import Geometry, Reaction, Rows
+from frot.compiler.mechanics.geometry.closest_closed_form import Touch
 from frot.compiler.mechanics.liaisons.actions import Action, Effort
-from frot.compiler.mechanics.link import Geometry, Reaction
 from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
 
 if TYPE_CHECKING:

@@ -10,10 +10,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import casadi as ca
+from frot.compiler.mechanics.constraint import point_body
 from frot.compiler.mechanics.liaisons.actions import Action, Between, Part, RelationGeometry
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.link import point_body
 from frot.compiler.mechanics.spatial import Moving
 from frot.compiler.mechanics.values import Axis, Moments
 from frot.dsl.checked import Expression

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.lowering.symbols import Rows
+from frot.compiler.mechanics.constraint import Constraint, Point, Rows
 from frot.compiler.mechanics.liaisons.actions import RelationGeometry
 from frot.compiler.mechanics.liaisons.lock import Lock
-from frot.compiler.mechanics.link import Link, Point
 from frot.dsl.checked import Liaison, World
 
 if TYPE_CHECKING:
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Relation(Link):
+class Relation(Constraint):
     """A lock of a joint; `first`: it stands for the joint."""
 
     joint: Joint = field()
@@ -33,7 +32,7 @@ class Relation(Link):
         return self.joint.liaison
 
     @property
-    def whole(self) -> Link:
+    def whole(self) -> Constraint:
         """The joint."""
         return self.joint
 
@@ -72,7 +71,7 @@ class Relation(Link):
         """What the text says in its own words is its own affair."""
         return not self.lock.stated
 
-    def counted(self, planar: bool) -> Iterator[tuple[Link, int]]:
+    def counted(self, planar: bool) -> Iterator[tuple[Constraint, int]]:
         """In space; in the plane the angles of bodies count the turns."""
         if self.first and not planar:
             for k, motion in enumerate(self.joint.motions):
