@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.equations.eliminate import Pivot, resolve_all
 from frot.compiler.equations.reduce import Reduced, Tree
+from frot.compiler.equations.structure.eliminate import Pivot, resolve_all
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.sums import sizes_of_terms
 from frot.compiler.symbolic.vanishing_sums import Zeros

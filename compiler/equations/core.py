@@ -5,10 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.equations.differentiate import Differentiated
-from frot.compiler.equations.eliminate import Eliminated, Pivot, Residuals, eliminate, resolve_all
-from frot.compiler.equations.parameter_defaults import Given
 from frot.compiler.equations.reduce import Reduced
+from frot.compiler.equations.structure.differentiate import Differentiated
+from frot.compiler.equations.structure.eliminate import (
+    Eliminated,
+    Pivot,
+    Residuals,
+    eliminate,
+    resolve_all,
+)
+from frot.compiler.equations.structure.parameter_defaults import Given
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.compiler.translate.derivative_chains import Chains, replace_known
 from frot.dsl import Log

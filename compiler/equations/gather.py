@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import casadi as ca
-from frot.compiler.equations.eliminate import Residuals
+from frot.compiler.equations.structure.eliminate import Residuals
 from frot.compiler.translate.expressions import Lowering
 from frot.compiler.translate.origins import Origin
 from frot.compiler.translate.text_symbols import scalars

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.equations.eliminate import Pivot
+from frot.compiler.equations.structure.eliminate import Pivot
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.symbolic.slopes import CANCELS, size_of_sum
 from frot.compiler.translate.walk import as_number, is_fixed

@@ -12,10 +12,10 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.equations.eliminate import Residuals
 from frot.compiler.equations.events import Events, gather_events
 from frot.compiler.equations.gather import gather
 from frot.compiler.equations.separable_trees import moved_by_forces
+from frot.compiler.equations.structure.eliminate import Residuals
 from frot.compiler.equations.text_of_motion import (
     add_slip_accelerations,
     chains_of_motion,
@@ -30,7 +30,8 @@ from frot.compiler.mechanics.cancelling import (
     sizes_of_drives,
 )
 from frot.compiler.mechanics.constants import Constants
-from frot.compiler.mechanics.constraint import Constraint, Geometry, Rows
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint_geometry import Geometry, Rows
 from frot.compiler.mechanics.dynamics import (
     Step,
     heaviest_loads,
@@ -44,6 +45,7 @@ from frot.compiler.mechanics.loads import applied_loads, sum_loads
 from frot.compiler.mechanics.make_symbols import link_rows, make_symbols
 from frot.compiler.mechanics.masses import make_masses
 from frot.compiler.mechanics.mechanism import Mechanism
+from frot.compiler.mechanics.tree_step import place_bodies
 from frot.compiler.mechanics.undetermined_spin import refuse_idle_spins
 from frot.compiler.mechanics.variables import Variables, may_be_held
 from frot.compiler.symbolic.columns import column
@@ -130,7 +132,7 @@ def reduce(mechanism: Mechanism, log: Log) -> Reduced | None:
     """Form the equations; what cannot be lowered is reported."""
     symbols = make_symbols(mechanism)
     conditions = Conditions()
-    kinematics = Kinematics(mechanism, symbols, Constants(symbols), conditions)
+    kinematics = place_bodies(mechanism, symbols, Constants(symbols), conditions)
     symbols = kinematics.symbols
     text = chains_of_motion(mechanism, symbols)
     geometry = _geometry(mechanism, kinematics)

@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import casadi as ca
-from frot.compiler.equations.differentiate import components_of, find_incidence
-from frot.compiler.equations.eliminate import Residuals
-from frot.compiler.equations.index import find_unbalanced, reduce_index
-from frot.compiler.equations.order import closure
+from frot.compiler.equations.structure.differentiate import components_of, find_incidence
+from frot.compiler.equations.structure.eliminate import Residuals
+from frot.compiler.equations.structure.index import find_unbalanced, reduce_index
+from frot.compiler.equations.structure.order import closure
 from frot.compiler.symbolic.columns import column
 from frot.compiler.translate.symbols import Symbols
 from frot.compiler.translate.text_symbols import TextSymbols

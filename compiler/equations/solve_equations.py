@@ -17,15 +17,16 @@ from frot.compiler.equations.assembled import (
     Solution,
     followed_blocks,
 )
-from frot.compiler.equations.combine import combine
 from frot.compiler.equations.core import Core, make_core
-from frot.compiler.equations.differentiate import (
+from frot.compiler.equations.reduce import Reduced, Tree
+from frot.compiler.equations.structure.combine import combine
+from frot.compiler.equations.structure.differentiate import (
     Differentiated,
     differentiate,
     find_incidence,
     is_balanced,
 )
-from frot.compiler.equations.eliminate import (
+from frot.compiler.equations.structure.eliminate import (
     Eliminated,
     Entries,
     Pivot,
@@ -33,13 +34,12 @@ from frot.compiler.equations.eliminate import (
     eliminate,
     resolve_all,
 )
-from frot.compiler.equations.index import reduce_index
-from frot.compiler.equations.order import Component, closure
-from frot.compiler.equations.parameter_defaults import Given
-from frot.compiler.equations.reduce import Reduced, Tree
-from frot.compiler.equations.roots import Roots
-from frot.compiler.equations.tear import tear
-from frot.compiler.equations.undetermined_potentials import is_tied_down
+from frot.compiler.equations.structure.index import reduce_index
+from frot.compiler.equations.structure.order import Component, closure
+from frot.compiler.equations.structure.parameter_defaults import Given
+from frot.compiler.equations.structure.roots import Roots
+from frot.compiler.equations.structure.tear import tear
+from frot.compiler.equations.structure.undetermined_potentials import is_tied_down
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.compiler.symbolic.slopes import without_what_cancels
 from frot.compiler.translate.derivative_chains import Chains, replace_known

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from math import prod
 
 import casadi as ca
-from frot.compiler.equations.eliminate import Residuals
+from frot.compiler.equations.structure.eliminate import Residuals
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.translate.derivative_chains import Chains

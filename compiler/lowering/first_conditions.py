@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.equations.assembled import Assembled
-from frot.compiler.equations.sparse import strong_components
+from frot.compiler.equations.structure.sparse import strong_components
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.compiler.translate.derivative_chains import replace_known
 from frot.compiler.translate.expressions import Lowering

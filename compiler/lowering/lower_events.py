@@ -126,7 +126,7 @@ def _levels(needs: list[list[int]], steps: range) -> list[int]:
     """How many of `steps` lie one after the other before each node, circles counted once."""
     if not any(k in steps for row in needs for k in row):
         return [0] * len(needs)
-    from frot.compiler.equations.order import find_components
+    from frot.compiler.equations.structure.order import find_components
 
     count = len(needs)
     levels, components = [0] * count, find_components(needs, range(count))

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import casadi as ca
-from frot.compiler.mechanics.constraint import Constraint, Geometry
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint_geometry import Geometry
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.make_symbols import link_rows
 from frot.compiler.mechanics.mechanism import Mechanism

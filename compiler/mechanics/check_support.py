@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from fractions import Fraction
 
-from frot.compiler.mechanics.mechanism import turns
+from frot.compiler.mechanics.points import turns
 from frot.compiler.translate.walk import (
     follows_time,
     is_fixed,

@@ -7,27 +7,25 @@ lower.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from typing import Self
 
-from frot.dsl.checked import Body, BodyPoint, Expression, Frame, Liaison, Literal
+from frot.compiler.mechanics.points import Point, point_body
+from frot.dsl.checked import Body, Expression, Liaison, Literal, World
 from frot.dsl.quantities.dimensions import BOOLEAN
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import casadi as ca
+    from frot.compiler.mechanics.constraint_geometry import Geometry, Rows
     from frot.compiler.mechanics.geometry.figure import Figure
     from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.liaisons.actions import Effort
-    from frot.compiler.mechanics.liaisons.joint import Joint
+    from frot.compiler.mechanics.liaisons.actions import Part
     from frot.compiler.mechanics.liaisons.lock import Lock
     from frot.compiler.mechanics.liaisons.motion import Motion
     from frot.compiler.mechanics.liaisons.moves import Column
     from frot.compiler.mechanics.spatial import Pose
-    from frot.dsl.checked import World
-
-Point = BodyPoint | Frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,92 +50,6 @@ class Friction:
     def coefficients(self) -> tuple[Expression, Expression]:
         """Of motion, and of rest."""
         return self.mu, self.mu_s
-
-
-class Geometry:
-    """A link as functions of the coordinates: CasADi expressions.
-
-    `gap` >= 0 while apart; `witness` (3), the first of which that is not zero has the sign of the
-    side; `reach`, the size of the lengths that the gap is made of beside the coordinates.
-
-    Of what does not slip `still` is the velocity (3) that is zero beside the normal, with the
-    direction (3) in which the row says so. Which direction that is means nothing: how it turns
-    adds nothing to the row's acceleration in the motion, and beside it, where the stages of a step
-    lie, it must add nothing.
-    """
-
-    __slots__ = ()
-
-    gap: ca.SX
-    witness: ca.SX
-    reach: ca.SX
-    still: tuple[ca.SX, ca.SX] | None = None
-
-    @property
-    def is_free(self) -> bool:
-        """Whether it locks nothing, so that what drives it is all that acts."""
-        return False
-
-    @property
-    def words(self) -> Mapping[str, str]:
-        """Those of `slip`, `normal_force` and `tangential_force` that it has, described."""
-        raise NotImplementedError
-
-    def rates(self, kinematics: Kinematics) -> list[ca.SX]:
-        """Relative velocities of the link's rows, in their order."""
-        raise NotImplementedError
-
-    def coordinate(self, index: int, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
-        """A coordinate by the place of its motion, and its rate."""
-        raise NotImplementedError
-
-    def rate_of(self, coordinate: str, kinematics: Kinematics) -> ca.SX:
-        """The rate of a coordinate, with what auxiliary speeds add to it."""
-        raise NotImplementedError
-
-    def effort(self, coordinate: str, kinematics: Kinematics) -> Effort:
-        """One unit along a coordinate, whether coordinates keep the liaison or not."""
-        raise NotImplementedError
-
-    def place(self, kinematics: Kinematics) -> ca.SX:
-        """Where it touches, or its place b (3)."""
-        raise NotImplementedError
-
-    def variable(self, name: str, reaction: Reaction) -> ca.SX:
-        """A variable of the liaison; KeyError if it has none of this name."""
-        raise NotImplementedError
-
-
-@dataclass(frozen=True, slots=True)
-class Rows:
-    """Rows of a link in the order of the kernel's arrays; -1 where there is none.
-
-    `reaction` are the components of what it locks: of a contact the normal one.
-    """
-
-    reaction: tuple[int, ...]
-    tangent: int
-    rolling: int
-
-    @property
-    def all(self) -> tuple[int, ...]:
-        """Every row."""
-        return (*self.reaction, *(r for r in (self.tangent, self.rolling) if r >= 0))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Reaction:
-    """What acts in a liaison.
-
-    `rows` of the reactions `lam`, None where they are not computed; force and couple of what keeps
-    prescribed coordinates (`drive`), what a law of the user gives on the body (`friction`).
-    """
-
-    rows: Rows | None
-    lam: ca.SX
-    drive: tuple[ca.SX, ca.SX]
-    friction: ca.SX
-    planar: bool
 
 
 class Constraint:
@@ -184,7 +96,7 @@ class Constraint:
         return self
 
     @property
-    def joint(self) -> Joint | None:
+    def joint(self) -> JointParts | None:
         """The joint that it is, or is of."""
         return None
 
@@ -287,21 +199,109 @@ class Constraint:
         raise NotImplementedError
 
 
-def point_body(point: Point) -> Body:
-    """The body a point belongs to."""
-    return point.body if isinstance(point, BodyPoint) else owner_body(point)
+@dataclass(frozen=True, slots=True, eq=False)
+class JointParts(Constraint):
+    """A liaison of the points `a` and `b` that leaves `motions` and locks the rest.
 
+    `carries`: coordinates can keep it, else only rows. `swapped`: `a` is the second place of the
+    liaison. `reduced`: it is built into the coordinates. `frictions`: of a pin.
+    """
 
-def owner_body(owner: Body | Frame) -> Body:
-    """The body a frame, or a frame on a frame, is fixed to."""
-    while isinstance(owner, Frame):
-        owner = owner.owner
-    return owner
+    liaison: Liaison = field()
+    a: Point
+    b: Point
+    motions: tuple[Motion, ...]
+    locks: tuple[Lock, ...]
+    reduced: bool = False
+    frictions: tuple[Friction, ...] = ()
+    carries: bool = True
+    swapped: bool = False
+    has_normal = False
 
+    @property
+    def joint(self) -> JointParts:
+        """It."""
+        return self
 
-def frames_of(point: Point) -> Iterator[Frame]:
-    """The frames between a point and its body, from the point on."""
-    frame: Body | Frame = point.body if isinstance(point, BodyPoint) else point
-    while isinstance(frame, Frame):
-        yield frame
-        frame = frame.owner
+    @property
+    def is_rigid(self) -> bool:
+        """Whether it joins two bodies to one."""
+        return self.carries and not self.motions
+
+    @property
+    def ends(self) -> tuple[Point, Point]:
+        """Its places."""
+        return self.a, self.b
+
+    @property
+    def rolls(self) -> bool:  # type: ignore[override]
+        """Where a lock keeps from slipping."""
+        return any(lock.rolls for lock in self.locks)
+
+    @property
+    def ruled(self) -> bool:  # type: ignore[override]
+        """What rolls does so in every mode."""
+        return not self.rolls
+
+    @property
+    def first(self) -> bool:  # type: ignore[override]
+        """What rolls has its mode with its first relation."""
+        return not self.rolls
+
+    @property
+    def held(self) -> tuple[Lock, ...]:
+        """The locks that coordinates keep, where they keep the joint: of what rolls, no slip."""
+        return tuple(x for x in self.locks if x.kinematic) if self.rolls else self.locks
+
+    @property
+    def relation_count(self) -> int:
+        """That of its locks."""
+        return len(self.locks)
+
+    @property
+    def readings(self) -> int:
+        """Those of all that coordinates keep."""
+        return len(self.held) if self.reduced else 0
+
+    @property
+    def has_gap(self) -> bool:
+        """As a whole it has none."""
+        return False
+
+    @property
+    def keeps_places(self) -> bool:
+        """By locks that are more than relations between velocities."""
+        return not all(lock.kinematic for lock in self.locks)
+
+    @property
+    def slips(self) -> bool:
+        """At the surface of a pin, where figures touch, or along a slide."""
+        ways = sum(motion.bare.slides for motion in self.motions)
+        return bool(self.frictions) or any(x.touches for x in self._parts) or ways == 1
+
+    @property
+    def by_coordinates(self) -> bool:
+        """Where a lock is."""
+        return any(lock.by_coordinates for lock in self.locks)
+
+    @property
+    def pairs(self) -> tuple[tuple[Figure, Figure], ...]:
+        """Those of its parts."""
+        return tuple(x.figures for x in self._parts if x.figures is not None)
+
+    @property
+    def curves(self) -> tuple[Figure, ...]:
+        """Those of its motions."""
+        return tuple(x.curve for x in self.motions if x.curve is not None)
+
+    @property
+    def _parts(self) -> tuple[Part, ...]:
+        return (*self.motions, *self.locks)
+
+    def kept(self, reduced: bool) -> Self:
+        """By coordinates, or by rows."""
+        return replace(self, reduced=reduced)
+
+    def without_friction(self) -> Self:
+        """A pin that is smooth."""
+        return replace(self, frictions=())

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from frot.compiler.mechanics.constraint import Constraint, Rows
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint_geometry import Rows
 from frot.compiler.translate.walk import is_fixed
 
 

@@ -6,10 +6,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import casadi as ca
-from frot.compiler.mechanics.constraint import point_body
 from frot.compiler.mechanics.dynamics import Push
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Effort
+from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.spatial import about_z, nowhere, whole
 from frot.compiler.mechanics.values import rate_by_time
 from frot.compiler.translate.expressions import Lowering

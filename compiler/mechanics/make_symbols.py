@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 import casadi as ca
-from frot.compiler.mechanics.constraint import Constraint, Rows
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint_geometry import Rows
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.symbolic.columns import column

@@ -8,7 +8,8 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from frot.compiler.mechanics.constraint import Constraint, Point, point_body
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.points import Point, point_body
 from frot.compiler.translate.walk import has_time, is_fixed
 from frot.dsl.checked import (
     Body,
@@ -23,7 +24,7 @@ from frot.dsl.checked import (
     Surface,
 )
 
-# What has no bodies is told without CasADi.
+# What has no bodies is reported without CasADi.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from frot.compiler.mechanics.liaisons.motion import Motion
@@ -192,13 +193,3 @@ def prescribed(mechanism: Mechanism) -> Counter[Liaison]:
     return Counter(
         x.liaison for x in flanges if x.effort.name.startswith(f"{x.liaison.name}.drive.")
     )
-
-
-def is_particle(body: Body) -> bool:
-    """Whether the body has no orientation."""
-    return body.shape is not None and not body.shape.turns
-
-
-def turns(body: Body) -> bool:
-    """Whether the body can have an angular velocity: neither the ground nor a particle."""
-    return body.shape is not None and body.shape.turns

@@ -12,7 +12,7 @@ from frot.compiler.mechanics.check_support import (
     refuse_unknown,
     spelled,
 )
-from frot.compiler.mechanics.constraint import Constraint, Friction, Point, point_body
+from frot.compiler.mechanics.constraint import Constraint, Friction
 from frot.compiler.mechanics.geometry.closest_solved import can_touch
 from frot.compiler.mechanics.geometry.contact import Contact
 from frot.compiler.mechanics.geometry.faces import part_faces
@@ -32,8 +32,8 @@ from frot.compiler.mechanics.mechanism import (
     is_thread,
     is_unilateral,
     relinked,
-    turns,
 )
+from frot.compiler.mechanics.points import Point, point_body, turns
 from frot.compiler.mechanics.spanning import span
 from frot.compiler.translate.walk import read_quantities, subexpressions
 from frot.dsl import Log

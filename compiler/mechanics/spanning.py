@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from frot.compiler.mechanics.constraint import Constraint, Point, point_body
-from frot.compiler.mechanics.liaisons.joint import Joint
+from frot.compiler.mechanics.constraint import Constraint, JointParts
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.orientations import Attitude, Heading, Pointing, Steady
 from frot.compiler.mechanics.liaisons.translations import Slide
-from frot.compiler.mechanics.mechanism import Hanging, is_driven, is_slender, turns
+from frot.compiler.mechanics.mechanism import Hanging, is_driven, is_slender
+from frot.compiler.mechanics.points import Point, point_body, turns
 from frot.compiler.mechanics.rolling_by_coordinates import can_roll
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Body, Liaison, Model
@@ -34,7 +34,7 @@ def span(model: Model, links: Iterable[Constraint]) -> SpanningTree:
     links = tuple(links)
     bodies = (model.ground, *model.bodies)
     groups = Groups(bodies)
-    branches: dict[Body, list[tuple[Joint, Body]]] = {b: [] for b in bodies}
+    branches: dict[Body, list[tuple[JointParts, Body]]] = {b: [] for b in bodies}
     for joint in in_order(links):
         a, b = point_body(joint.a), point_body(joint.b)
         if groups.join(a, b):
@@ -62,7 +62,7 @@ def span(model: Model, links: Iterable[Constraint]) -> SpanningTree:
     )
 
 
-def in_order(links: Iterable[Constraint]) -> list[Joint]:
+def in_order(links: Iterable[Constraint]) -> list[JointParts]:
     """The joints in the order in which they join bodies."""
     joints = (x.joint for x in links if x.joint is not None and x.joint.carries)
     return sorted(joints, key=lambda x: (not x.frictions, -len(x.locks)))
@@ -83,7 +83,7 @@ def _can_roll(
 class _Builder:
     model: Model
     groups: Groups
-    branches: dict[Body, list[tuple[Joint, Body]]]
+    branches: dict[Body, list[tuple[JointParts, Body]]]
     carried: dict[Body, Constraint]
 
     def hang(self, group: Body) -> Iterator[Hanging]:
@@ -113,7 +113,7 @@ class _Builder:
                     yield self._jointed(other, joint, joint.b, joint.a, back)
 
     def _jointed(
-        self, body: Body, joint: Joint, base: Point, own: Point, motions: tuple[Motion, ...]
+        self, body: Body, joint: JointParts, base: Point, own: Point, motions: tuple[Motion, ...]
     ) -> Hanging:
         """Of a body in a joint: a particle has only the ways that the joint leaves."""
         ends = (point_body(base), body)

@@ -1,39 +1,66 @@
-"""One step of the pass along the spanning tree: from the place that carries a body to its G.
+"""The pass along the spanning tree: in each step from the place that carries a body to its G.
 
 Velocities follow with the poses, and so do the accelerations that are there while no speed changes.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import replace
 
 import casadi as ca
-from frot.compiler.mechanics.constraint import Point, frames_of, point_body
+from frot.compiler.mechanics.constants import Constants
+from frot.compiler.mechanics.kinematics import Carried, Kinematics, Node
+from frot.compiler.mechanics.liaisons.motion import Carrier
 from frot.compiler.mechanics.liaisons.moves import Column, carried, turned_by_time
-from frot.compiler.mechanics.mechanism import Hanging
+from frot.compiler.mechanics.make_symbols import counters_of, reading_places
+from frot.compiler.mechanics.mechanism import Hanging, Mechanism
+from frot.compiler.mechanics.points import Point, frames_of, point_body
 from frot.compiler.mechanics.spatial import AT_REST, Moving, nowhere
+from frot.compiler.translate.expressions import Conditions
+from frot.compiler.translate.symbols import Symbols
 from frot.dsl.checked import Body
 
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.kinematics import Kinematics
+
+def place_bodies(
+    mechanism: Mechanism,
+    symbols: Symbols,
+    fixed: Constants,
+    conditions: Conditions | None = None,
+) -> Kinematics:
+    """The kinematics of a mechanism: one pass along its tree."""
+    ground, contacts = mechanism.model.ground, mechanism.contacts
+    kinematics = Kinematics(
+        symbols,
+        fixed,
+        ground,
+        planar=mechanism.model.planar,
+        still=mechanism.fixed,
+        readings=reading_places(mechanism)[0],
+        counters=counters_of(mechanism, symbols.q),
+        numbers={link.liaison: k for k, link in enumerate(contacts)},
+        sides={link.liaison: symbols.sides[k] for k, link in enumerate(contacts) if link.first},
+        conditions=conditions,
+    )
+    nq = nv = 0
+    for hanging in mechanism.coordinates:
+        kinematics.carried[hanging.body] = _carried_by(hanging, nq, nv)
+        hang(kinematics, hanging, nq, nv, ground)
+        nq, nv = nq + len(hanging.names), nv + len(hanging.speeds)
+    if kinematics.spots:
+        own = ca.SX(symbols.rates)
+        for place, spot in kinematics.spots.items():
+            own[place] = spot.rate
+        kinematics.symbols = replace(symbols, rates=own)
+    return kinematics
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Node:
-    """A step of the tree: what the speeds `places` (of v, then auxiliary) move beyond it.
-
-    `arm` (3) goes from the origin of the node before to its own. `columns` are velocities of the
-    axes and of their origin there. `faces_ground`: what is
-    beyond keeps its orientation whatever carries it, and only its places follow. `above`: the node
-    before, -1 for the ground.
-    """
-
-    above: int
-    arm: ca.SX
-    faces_ground: bool
-    places: tuple[int, ...]
-    columns: tuple[Column, ...]
+def _carried_by(hanging: Hanging, nq: int, nv: int) -> Carried:
+    motions: list[tuple[int, int, tuple[str, ...]]] = []
+    for motion in hanging.motions:
+        motions.append((nq, nv, motion.coordinates))
+        nq, nv = nq + len(motion.coordinates), nv + motion.speed_count
+    liaison = None if hanging.link is None else hanging.link.liaison
+    return Carried(hanging.link, liaison, tuple(motions), hanging.carries_b)
 
 
 def hang(kinematics: Kinematics, hanging: Hanging, nq: int, nv: int, ground: Body) -> None:
@@ -42,10 +69,12 @@ def hang(kinematics: Kinematics, hanging: Hanging, nq: int, nv: int, ground: Bod
     base, at, out = _base(kinematics, hanging, ground)
     node = kinematics.node_of[base]
     moving, arm = at, kinematics.beyond[base] + out
+    first, liaison = nq, None if hanging.link is None else hanging.link.liaison
     for motion in hanging.motions:
         m, n = len(motion.coordinates), motion.speed_count
         q, v = symbols.q[nq : nq + m], symbols.v[nv : nv + n]
-        moved = motion.carry(kinematics, hanging, moving, q, v)
+        carrier = Carrier(liaison, hanging.base, first, nq)
+        moved = motion.carry(kinematics, carrier, moving, q, v)
         moving = moved.moving
         if moved.tangent is not None and hanging.link is not None:
             kinematics.tangents[hanging.link.liaison] = moved.tangent

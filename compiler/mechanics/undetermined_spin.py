@@ -10,8 +10,8 @@ import math
 from collections.abc import Iterator
 
 import casadi as ca
-from frot.compiler.mechanics.constraint import point_body
 from frot.compiler.mechanics.mechanism import Mechanism, spins_in_vain
+from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.variables import Variables
 from frot.compiler.symbolic.columns import scalars_of

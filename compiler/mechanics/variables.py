@@ -6,11 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import casadi as ca
-from frot.compiler.mechanics.constraint import Constraint, Geometry, Reaction, Rows, point_body
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint_geometry import Geometry, Reaction, Rows
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.liaisons.kinematic_relations import numbered
 from frot.compiler.mechanics.liaisons.user_liaisons import Reader, unit_of
+from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere
 from frot.compiler.translate.derivative_chains import Chains

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.equations.assembled import Assembled
-from frot.compiler.mechanics.constraint import Rows
+from frot.compiler.mechanics.constraint_geometry import Rows
 from frot.compiler.symbolic.columns import scalars_of
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)

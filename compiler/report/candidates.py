@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import casadi as ca
 from frot.compiler.equations.reduce import Reduced
-from frot.compiler.mechanics.constraint import owner_body, point_body
+from frot.compiler.mechanics.points import owner_body, point_body
 from frot.compiler.mechanics.spatial import cross, nowhere, whole
 from frot.compiler.symbolic.columns import scalars_of
 from frot.compiler.translate.walk import is_fixed

@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from frot.compiler.mechanics.constraint import Constraint
-from frot.compiler.mechanics.liaisons.joint import Joint
+from frot.compiler.mechanics.constraint import Constraint, JointParts
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, make_joint
 from frot.compiler.mechanics.liaisons.translations import LEFT, FixedAlong
 from frot.compiler.mechanics.values import Axis
@@ -171,6 +170,6 @@ def _pairing(option: _Option, given: Mapping[str, Expression], planar: bool) -> 
     return JOINTS[option.kind](axes, planar)  # type: ignore[arg-type]
 
 
-def _relations(joint: Joint, pairing: Pairing) -> list[Constraint]:
+def _relations(joint: JointParts, pairing: Pairing) -> list[Constraint]:
     other = make_joint(joint.liaison, joint.a, joint.b, replace(pairing, motions=()), {})
     return list(other.rows(True))

@@ -13,6 +13,7 @@ from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.make_symbols import make_symbols
 from frot.compiler.mechanics.mechanism import Mechanism
+from frot.compiler.mechanics.tree_step import place_bodies
 from frot.compiler.report.closest_numeric import Followed
 from frot.compiler.symbolic.columns import column
 from frot.compiler.translate.symbols import Symbols
@@ -199,7 +200,7 @@ def null_space(rows: Floats) -> Floats:
 def make_relations(mechanism: Mechanism, unilateral: Mapping[Constraint, bool]) -> Relations:
     """The relations of a mechanism without laws; `unilateral` tells which links may part."""
     symbols = make_symbols(mechanism)
-    kinematics = Kinematics(mechanism, symbols, Constants(symbols))
+    kinematics = place_bodies(mechanism, symbols, Constants(symbols))
     world = mechanism.model.world
     links = mechanism.contacts
     found = [x.geometry(kinematics, symbols.sides[k], world) for k, x in enumerate(links)]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import casadi as ca
 
 from frot.compiler.lowering.result_variables import Listed
-from frot.compiler.mechanics.constraint import point_body
+from frot.compiler.mechanics.points import point_body
 from frot.dsl.checked import (
     Body,
     BodyGeometry,

@@ -11,10 +11,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.mechanics.constraint import Constraint, Geometry, frames_of
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint_geometry import Geometry
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.planes import PointFigure
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.points import frames_of
 from frot.compiler.mechanics.spatial import Pose, whole
 from frot.compiler.translate.walk import follows_time, is_fixed
 from frot.dsl.checked import Curve, CurvePlace, Expression, Liaison, Surface, SurfacePlace

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
-from frot.compiler.mechanics.constraint import Point, point_body
 from frot.compiler.mechanics.liaisons.alignments import Aligned, Crossed, Parallel, SameAngle
 from frot.compiler.mechanics.liaisons.driven import Drive, Driven
 from frot.compiler.mechanics.liaisons.joint import Joint
@@ -19,7 +18,7 @@ from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.orientations import Attitude
 from frot.compiler.mechanics.liaisons.rotations import Screw, ScrewCoupling, Turn
 from frot.compiler.mechanics.liaisons.translations import LEFT, FixedAlong, FixedPoint, Slide
-from frot.compiler.mechanics.mechanism import is_particle
+from frot.compiler.mechanics.points import Point, is_particle, point_body
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Expression, Liaison
 

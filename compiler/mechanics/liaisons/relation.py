@@ -4,24 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.mechanics.constraint import Constraint, Point, Rows
-from frot.compiler.mechanics.liaisons.actions import RelationGeometry
+from frot.compiler.mechanics.constraint import Constraint, JointParts
+from frot.compiler.mechanics.constraint_geometry import RelationGeometry, Rows
+from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.lock import Lock
+from frot.compiler.mechanics.points import Point
 from frot.dsl.checked import Liaison, World
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.liaisons.joint import Joint
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Relation(Constraint):
     """A lock of a joint; `first`: it stands for the joint."""
 
-    joint: Joint = field()
+    joint: JointParts = field()
     lock: Lock
     first: bool = field()
     ruled = False

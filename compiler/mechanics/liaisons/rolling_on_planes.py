@@ -10,27 +10,15 @@ found at the start, and kept, as any other.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure
-from frot.compiler.mechanics.liaisons.motion import Motion, Quaternion
+from frot.compiler.mechanics.kinematics import Kinematics, TakenAlong
+from frot.compiler.mechanics.liaisons.motion import Carrier, Motion, Quaternion
 from frot.compiler.mechanics.liaisons.moves import Column, Moved
 from frot.compiler.mechanics.liaisons.orientations import ANGULAR_VELOCITY, ORIENTATION
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, axes_of, cross, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.mechanism import Hanging
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Spotted:
-    """The rate of a coordinate that what rolls takes along, and the size of that."""
-
-    rate: ca.SX
-    size: ca.SX
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,17 +57,17 @@ class Roll(Motion):
     turns = True
 
     def carry(
-        self, kinematics: Kinematics, hanging: Hanging, base: Moving, q: ca.SX, v: ca.SX
+        self, kinematics: Kinematics, carrier: Carrier, base: Moving, q: ca.SX, v: ca.SX
     ) -> Moved:
         """It takes the first of its coordinates along, and says where they and its height begin."""
-        assert hanging.link is not None
-        lower, side = kinematics.fixed.lower, kinematics.sides[hanging.link.liaison]
+        assert carrier.liaison is not None
+        lower, side = kinematics.fixed.lower, kinematics.sides[carrier.liaison]
         moved, rates = self.roll(base, q, v, lower, side)
-        first, _ = kinematics.places[hanging.body]
+        first = carrier.first
         for k, rate in enumerate(ca.vertsplit(rates)):
-            kinematics.spots[first + k] = Spotted(rate, self.figure.reach(lower))
-        assert hanging.base is not None  # without a guess a body is at the origin of the ground
-        plane = kinematics.pose(hanging.base)
+            kinematics.spots[first + k] = TakenAlong(rate, self.figure.reach(lower))
+        assert carrier.base is not None  # without a guess a body is at the origin of the ground
+        plane = kinematics.pose(carrier.base)
         for k, way in enumerate((*self.axis.beside(lower), self.axis.unit(lower))):
             kinematics.starts[first + k] = -ca.dot(plane.direction(way), plane.origin)
         return moved

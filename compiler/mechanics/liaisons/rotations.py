@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 import casadi as ca
+from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Action, Between
+from frot.compiler.mechanics.liaisons.joint_places import JointPlaces, joint_coordinate
 from frot.compiler.mechanics.liaisons.lock import Lock
-from frot.compiler.mechanics.liaisons.motion import Motion, Seen, counted
+from frot.compiler.mechanics.liaisons.motion import Motion, Seen
 from frot.compiler.mechanics.liaisons.moves import Column, Moved, along_way, turned
-from frot.compiler.mechanics.spatial import Moving, Pose, Z, beside, cross, nowhere
+from frot.compiler.mechanics.spatial import Moving, Pose, Z, beside, counted, cross, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
 from frot.dsl.checked import Expression
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.liaisons.joint import Joint
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -169,9 +167,9 @@ class ScrewCoupling(Lock):
     axis: Axis
     pitch: Expression
 
-    def turn(self, joint: Joint, kinematics: Kinematics) -> ca.SX:
+    def turn(self, joint: JointPlaces, kinematics: Kinematics) -> ca.SX:
         """That of the screw, with its whole turns."""
-        return kinematics.coordinate(joint, 0)[0]
+        return joint_coordinate(joint, 0, kinematics)[0]
 
     def between(self, at: Between) -> Action:
         """A force F along e comes with the couple -F pitch/2 pi: no work on the screw's motion."""

@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from frot.compiler.mechanics.constraint import Constraint, Point, point_body
+from frot.compiler.mechanics.constraint import Constraint, JointParts
 from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.joints import JOINTS, make_joint
-from frot.compiler.mechanics.mechanism import turns
+from frot.compiler.mechanics.points import Point, point_body, turns
 from frot.compiler.mechanics.spanning import Groups, in_order
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Literal, Model
@@ -33,7 +33,7 @@ def halve(model: Model, links: Sequence[Constraint]) -> Halved:
     """Part a body at each joint with friction that would close a loop of such joints."""
     groups = Groups((model.ground, *model.bodies))
     halves: dict[Body, Body] = {}
-    moved: dict[Liaison, Joint] = {}
+    moved: dict[Liaison, JointParts] = {}
     welds: list[Joint] = []
     for joint in in_order(links):
         if not joint.frictions or groups.join(point_body(joint.a), point_body(joint.b)):

@@ -10,22 +10,20 @@ import copy
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.mechanics.constraint import point_body
-from frot.compiler.mechanics.liaisons.actions import Action, Effort, RelationGeometry
+from frot.compiler.mechanics.constraint_geometry import RelationGeometry
+from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.actions import Action, Effort
+from frot.compiler.mechanics.liaisons.joint_places import JointPlaces
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.moves import Column
+from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.spatial import Moving, Pose, cross, nowhere, product
 from frot.compiler.translate.expressions import Lowering
 from frot.compiler.translate.walk import subexpressions
 from frot.dsl import Log
 from frot.dsl.checked import Body, Expression, Liaison, Quantity, StatedRelation, Variable
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.liaisons.joint import Joint
 
 _SPACE = 3
 
@@ -39,14 +37,16 @@ class Stated(Lock):
     kinematic: bool = field()
     stated = True
 
-    def of_joint(self, joint: Joint, kinematics: Kinematics, side: ca.SX) -> Action:
+    def of_joint(self, joint: JointPlaces, kinematics: Kinematics, side: ca.SX) -> Action:
         """The wrench and the gap; of a relation between velocities there is no gap."""
         reader = Reader(kinematics)
         gap = ca.SX(0) if self.kinematic else reader.value(self)[0]
         force, couple = _wrench(self, joint, reader)
         return Action(force, couple, Column(nowhere(), nowhere()), gap)
 
-    def of_relation(self, joint: Joint, kinematics: Kinematics, side: ca.SX) -> RelationGeometry:
+    def of_relation(
+        self, joint: JointPlaces, kinematics: Kinematics, side: ca.SX
+    ) -> RelationGeometry:
         """Left side less right side, and the size of both."""
         reader = Reader(kinematics)
         value, size = reader.value(self)
@@ -92,7 +92,7 @@ def bodies_of(relation: Stated | StatedRelation) -> set[Body]:
     }
 
 
-def unit_of(relation: StatedRelation, joint: Joint, reader: Reader) -> Effort:
+def unit_of(relation: StatedRelation, joint: JointPlaces, reader: Reader) -> Effort:
     """What one unit of what keeps a relation does."""
     kinematics = reader.kinematics
     speeds = ca.vertcat(kinematics.symbols.v, kinematics.symbols.sw)
@@ -147,7 +147,9 @@ def _read(node: Quantity, kinematics: Kinematics) -> ca.SX:
     return ca.densify(moving.pose.axes[:, "xyz".index(node.name[1])])
 
 
-def _wrench(relation: Stated | StatedRelation, joint: Joint, reader: Reader) -> tuple[ca.SX, ca.SX]:
+def _wrench(
+    relation: Stated | StatedRelation, joint: JointPlaces, reader: Reader
+) -> tuple[ca.SX, ca.SX]:
     """Force and couple on b for one unit of what keeps a relation."""
     kinematics = reader.kinematics
     body, there = point_body(joint.b), kinematics.position(joint.b)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from frot.compiler.equations.sparse import match, pattern
+from frot.compiler.equations.structure.sparse import match, pattern
 from frot.compiler.translate.origins import Origin, Unknown
 from frot.dsl import Label, Log
 

@@ -12,8 +12,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.equations.incidence import PARAMETER, UNIT, Factor, Row, Table
-from frot.compiler.equations.parameter_defaults import Given
+from frot.compiler.equations.structure.incidence import PARAMETER, UNIT, Factor, Row, Table
+from frot.compiler.equations.structure.parameter_defaults import Given
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.slopes import CANCELS
 from frot.compiler.translate.derivative_chains import Chains, Resolver

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from graphlib import TopologicalSorter
 
-from frot.compiler.equations.sparse import strong_components
+from frot.compiler.equations.structure.sparse import strong_components
 
 
 @dataclass(frozen=True, slots=True)

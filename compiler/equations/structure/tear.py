@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections import defaultdict
 
 import casadi as ca
-from frot.compiler.equations.parameter_defaults import Given
-from frot.compiler.equations.tear_linear import Torn, tear_linear
+from frot.compiler.equations.structure.parameter_defaults import Given
+from frot.compiler.equations.structure.tear_linear import Torn, tear_linear
 from frot.compiler.symbolic.columns import column
 from frot.compiler.translate.derivative_chains import replace_known
 

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from frot.compiler.equations.parameter_defaults import Given
+from frot.compiler.equations.structure.parameter_defaults import Given
 from frot.compiler.symbolic.columns import column
 from frot.compiler.translate.derivative_chains import Resolver, replace_known
 from numpy.typing import NDArray

@@ -12,11 +12,11 @@ from collections.abc import Iterator, Sequence
 
 import casadi as ca
 import numpy as np
-from frot.compiler.equations.differentiate import find_incidence
-from frot.compiler.equations.eliminate import Residuals
-from frot.compiler.equations.index import Index, find_unbalanced, reduce_index
-from frot.compiler.equations.order import find_components
-from frot.compiler.equations.sparse import pivots
+from frot.compiler.equations.structure.differentiate import find_incidence
+from frot.compiler.equations.structure.eliminate import Residuals
+from frot.compiler.equations.structure.index import Index, find_unbalanced, reduce_index
+from frot.compiler.equations.structure.order import find_components
+from frot.compiler.equations.structure.sparse import pivots
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.random_tests import at_random
 from frot.compiler.symbolic.slopes import collect, slopes, symbols_inside

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.equations.parameter_defaults import Given
+from frot.compiler.equations.structure.parameter_defaults import Given
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.slopes import slopes, symbols_inside
 from frot.compiler.translate.derivative_chains import Chains

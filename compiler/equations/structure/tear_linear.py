@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import permutations
 
 import casadi as ca
-from frot.compiler.equations.parameter_defaults import Given
+from frot.compiler.equations.structure.parameter_defaults import Given
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.slopes import (
     CANCELS,

@@ -10,9 +10,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.equations.eliminate import Residuals
-from frot.compiler.equations.index import Index, find_unbalanced, reduce_index, report_unbalanced
-from frot.compiler.equations.order import Component, find_components
+from frot.compiler.equations.structure.eliminate import Residuals
+from frot.compiler.equations.structure.index import (
+    Index,
+    find_unbalanced,
+    reduce_index,
+    report_unbalanced,
+)
+from frot.compiler.equations.structure.order import Component, find_components
 from frot.compiler.symbolic.columns import column
 from frot.compiler.symbolic.slopes import symbols_inside
 from frot.compiler.translate.derivative_chains import Chains
