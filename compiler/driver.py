@@ -1,7 +1,7 @@
 """The passes and their order, from checked model to compiled program: nothing else calls one.
 
-    Model -- mechanize --> Mechanism -- reduce --> Reduced -- assemble --> Assembled
-          -- group --> Grouping -- lower --> Lowered -- generate --> C -- compile --> Program
+    Model -- mechanize --> Mechanism -- reduced_of --> Reduced -- assembled_of --> Assembled
+          -- lowered_of --> Lowered -- generate --> C -- compile --> Program
 
 Every product is made from one of these stages: what `frot check` prints from the first, the DAE and
 the program from the last. A pass gives None for what the text is to blame for, told in the log.
@@ -25,7 +25,7 @@ from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, read_program
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from frot.compiler.equations.assembled import Assembled
-    from frot.compiler.equations.reduce import Reduced
+    from frot.compiler.equations.reduced import Reduced
     from frot.compiler.lowering.lower import Lowered
     from frot.compiler.lowering.result_variables import FirstIntegral, Listed
     from frot.compiler.product.dae import Dae
@@ -63,27 +63,63 @@ def reduced_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) ->
     """
     _begin("the mechanism", tell)
     mechanism = mechanism_of(model, log)
-    if mechanism is None:
-        return None
+    return None if mechanism is None else reduce(mechanism, log, tell)
+
+
+def reduce(mechanism: Mechanism, log: Log, tell: Callable[[str], None] = _silent) -> Reduced | None:
+    """The equations of a mechanism and of its text."""
+    from frot.compiler.equations import gather_text as gathering
     from frot.compiler.equations.parameter_checks import refuse_values
-    from frot.compiler.equations.reduce import reduce
+    from frot.compiler.equations.read_text import read_text
+    from frot.compiler.mechanics.reduce import place, reduce_motion
 
     refuse_values(mechanism, log)
     if log.failed:
         return None
     _begin("the equations of motion", tell)
-    return reduce(mechanism, log)
+    placed = place(mechanism)
+    reading = read_text(placed, log)
+    applied = gathering.apply_loads(placed, reading, log)
+    gathered = gathering.gather_text(placed, reading, log)
+    if gathered is None:
+        return None
+    large = gathering.large_trees(placed, reading, applied, gathered)
+    loads, coefficients = applied.loads, applied.coefficients
+    motion = reduce_motion(placed, reading.variables, loads, coefficients, large, log)
+    return gathering.make_reduced(placed, reading, applied, gathered, motion)
 
 
 def assembled_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) -> Assembled | None:
     """The one system that the kernel solves."""
     reduced = reduced_of(model, log, tell)
-    if reduced is None:
-        return None
-    from frot.compiler.equations.assemble import assemble
+    return None if reduced is None else assemble(reduced, log, tell)
+
+
+def assemble(reduced: Reduced, log: Log, tell: Callable[[str], None] = _silent) -> Assembled | None:
+    """The system of the reduced equations, with slips at zero where friction holds them."""
+    from frot.compiler.equations.assembled import plain_system
+    from frot.compiler.equations.held_slips import hold_slips
 
     _begin("the order of the equations", tell)
-    return assemble(reduced, log)
+    system = plain_system(reduced) if reduced.plain else _solved(reduced, log)
+    return None if system is None else hold_slips(system)
+
+
+def _solved(reduced: Reduced, log: Log) -> Assembled | None:
+    """The system of a mechanism and the equations of its text."""
+    from frot.compiler.equations.solve_equations import (
+        order_equations,
+        pose_equations,
+        remove_definitions,
+        solve_in_order,
+    )
+
+    posed = pose_equations(reduced, log)
+    left = None if posed is None else remove_definitions(posed, log)
+    if posed is None or left is None:
+        return None
+    ordered = order_equations(posed, left, log)
+    return None if ordered is None else solve_in_order(posed, left, ordered, log)
 
 
 def lowered_of(
@@ -100,21 +136,38 @@ def lowered_of(
     gives variables that are listed after the others.
     """
     system = assembled_of(model, log, tell)
-    if system is None:
-        return None
-    from frot.compiler.lowering.groups import make_groups
-    from frot.compiler.lowering.lower import begin, lower
+    return None if system is None else lower_system(system, log, tell, search, extra)
 
-    beginning = begin(system, log)
+
+def lower_system(
+    system: Assembled,
+    log: Log,
+    tell: Callable[[str], None] = _silent,
+    search: bool = True,
+    extra: Extra | None = None,
+) -> Lowered | None:
+    """The functions of a system: see `lowered_of`."""
+    from frot.compiler.lowering.groups import make_groups
+    from frot.compiler.lowering.initial_problem import pose_initial_problem
+    from frot.compiler.lowering.lower import lower
+    from frot.compiler.lowering.result_variables import list_variables
+    from frot.compiler.lowering.sort_conditions import sort_conditions
+    from frot.compiler.lowering.switches import lower_switches
+
+    problem = pose_initial_problem(system, log)
     integrals: tuple[FirstIntegral, ...] = ()
     if search and not log.failed:
         from frot.compiler.report.first_integrals import first_integrals_of
 
         _begin("the first integrals", tell)
-        integrals = first_integrals_of(system, beginning)
+        integrals = first_integrals_of(system, problem)
     _begin("the functions", tell)
     listed = () if extra is None else extra(system)
-    return lower(system, beginning, make_groups(system), log, integrals, listed)
+    grouping = make_groups(system)
+    variables = (*list_variables(system, problem.display, integrals), *listed)
+    system, values = sort_conditions(system, problem.explicit)
+    system, switches = lower_switches(system, values, log)
+    return lower(system, problem, switches, grouping, variables, integrals, log)
 
 
 def text_of(lowered: Lowered, key: str) -> str:

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.equations.reduce import Reduced, Tree
+from frot.compiler.equations.reduced import Reduced
 from frot.compiler.equations.structure.eliminate import Pivot, resolve_all
-from frot.compiler.symbolic.columns import column
+from frot.compiler.mechanics.reduce import BodyTrees, SystemMatrices
+from frot.compiler.symbolic.columns import column, scalars_of
 from frot.compiler.symbolic.sums import sizes_of_terms
 from frot.compiler.symbolic.vanishing_sums import Zeros
 from frot.compiler.translate.derivative_chains import Chains, Resolver, replace_known
@@ -82,14 +83,13 @@ class HeldSlips:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Assembled:
-    """States (q, v), y, and the core system `matrix` z = `force` + `spread` lam.
+    """States (q, v), y, and the core system: see `SystemMatrices`.
 
-    z (nw): rates of v (nv), auxiliary accelerations (na), algebraic unknowns (nc). The rows
-    accelerate by `rows` z + `bias`, and have the speeds `rate`; those of the mechanism's contacts
-    come first, then one for each friction element. `rates` are those of q; with `late` they, or
-    `power`, depend on z, lam or the y of late blocks. `solution` is what the symbols of the text
-    are in terms of these. `tree`: of large trees of bodies `matrix` and `force` have what `Reduced`
-    says; where both are looked at, `in_full`. `held` puts zero for
+    z (nw): rates of v (nv), auxiliary accelerations (na), algebraic unknowns (nc). Rows of the
+    mechanism's contacts come first, then one for each friction element. `rates` are those of q;
+    with `late` they, or the power, depend on z, lam or the y of late blocks. `solution` is what
+    the symbols of the text are in terms of these. `tree`: of large trees of bodies matrix and
+    force have what `MotionEquations` says; `in_full` has them written out. `held` puts zero for
     what friction holds.
     """
 
@@ -107,23 +107,13 @@ class Assembled:
     nc: int
     late: bool
     rates: ca.SX
-    matrix: ca.SX
-    force: ca.SX
-    force_size: ca.SX
-    spread: ca.SX
-    metric: ca.SX
-    rows: ca.SX
-    bias: ca.SX
-    rate: ca.SX
-    gap: ca.SX
-    coefficients: ca.SX
-    power: ca.SX
+    matrices: SystemMatrices
     blocks: tuple[Block, ...]
     invariants: Invariants
     pivots: tuple[Pivot, ...]
     divisors: tuple[Pivot, ...]
     solution: Solution
-    tree: Tree
+    tree: BodyTrees
     held: HeldSlips | None = None
 
     def at_rest(self, value: ca.SX) -> ca.SX:
@@ -136,7 +126,7 @@ class Assembled:
 
     def in_full(self) -> tuple[ca.SX, ca.SX]:
         """Matrix and force with those of large trees of bodies written out."""
-        return self.tree.in_full(self.matrix, self.force, self.nv)
+        return self.tree.in_full(self.matrices.matrix, self.matrices.force, self.nv)
 
     @property
     def nv(self) -> int:
@@ -147,6 +137,37 @@ class Assembled:
     def early(self) -> int:
         """The number of unknowns of blocks that are solved before the core."""
         return sum(int(b.residual.numel()) for b in self.blocks if not b.late)
+
+
+def plain_system(reduced: Reduced) -> Assembled:
+    """A mechanism alone: its mass matrix is the core."""
+    s = reduced.symbols
+    na = s.sw.numel()
+    nothing = ca.SX.zeros(0)
+    y, blocks = followed_blocks(reduced)
+    return Assembled(
+        reduced=reduced,
+        elements=(),
+        q=s.q,
+        v=s.v,
+        y=y,
+        z=ca.vertcat(s.a, ca.SX.sym("auxiliary", na)),
+        lam=s.lam,
+        discrete=column(d.symbol for d in reduced.text.memory),
+        names=tuple(x.name() for x in (*scalars_of(s.q), *scalars_of(s.v))),
+        q_speed=s.q_speed,
+        na=na,
+        nc=0,
+        late=False,
+        rates=s.rates,
+        matrices=reduced.motion.matrices,
+        blocks=blocks,
+        invariants=Invariants(nothing, ()),
+        pivots=(),
+        divisors=(),
+        solution=Solution(reduced.text.chains, Resolver(), {}),
+        tree=reduced.motion.tree,
+    )
 
 
 def followed_blocks(reduced: Reduced) -> tuple[ca.SX, tuple[Block, ...]]:
@@ -171,12 +192,12 @@ def row_depends(system: Assembled) -> tuple[tuple[bool, ...], ...]:
     """
     s = system.reduced.symbols
     others = ca.vertcat(s.t, s.u, system.discrete, system.y)
-    driven = ca.substitute(system.rate, system.v, ca.SX.zeros(*system.v.shape))
-    rows, coordinates = system.rows.size1(), system.q.numel()
+    driven = ca.substitute(system.matrices.rate, system.v, ca.SX.zeros(*system.v.shape))
+    rows, coordinates = system.matrices.rows.size1(), system.q.numel()
     table = [[False] * coordinates + [not driven[r].is_zero()] for r in range(rows)]
-    places = [*system.rows.sparsity().get_triplet()[0], *range(rows)]
+    places = [*system.matrices.rows.sparsity().get_triplet()[0], *range(rows)]
     # The rates of rows are asked for all else alone: on coordinates their entries depend.
-    values = ca.vertcat(ca.vec(system.rows.nz[:]), system.rate)
+    values = ca.vertcat(ca.vec(system.matrices.rows.nz[:]), system.matrices.rate)
     entries = len(places) - rows
     depends = ca.jacobian_sparsity(values, ca.vertcat(system.q, others))
     for k, x in zip(*depends.get_triplet(), strict=True):

@@ -17,12 +17,10 @@ from frot.dsl.expressions.expression import is_whole
 
 def gather(equations: Sequence[Equation | IfEquations], lowering: Lowering, log: Log) -> Residuals:
     """One residual for every scalar equation."""
-    found = Residuals([], [])
-    for equation in equations:
-        for left, right, origin in _sides(equation, lowering, log):
-            found.values.append(left - right)
-            found.origins.append(origin)
-    return found
+    found = [sides for equation in equations for sides in _sides(equation, lowering, log)]
+    return Residuals(
+        tuple(left - right for left, right, _ in found), tuple(origin for _, _, origin in found)
+    )
 
 
 def _sides(

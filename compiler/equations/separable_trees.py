@@ -17,7 +17,7 @@ from frot.compiler.equations.structure.index import find_unbalanced, reduce_inde
 from frot.compiler.equations.structure.order import closure
 from frot.compiler.symbolic.columns import column
 from frot.compiler.translate.symbols import Symbols
-from frot.compiler.translate.text_symbols import TextSymbols
+from frot.compiler.translate.text_symbols import TextTable
 
 
 def moved_by_forces(
@@ -25,7 +25,7 @@ def moved_by_forces(
     large: frozenset[int],
     forces: ca.SX,
     equations: Residuals,
-    text: TextSymbols,
+    text: TextTable,
     symbols: Symbols,
 ) -> frozenset[int]:
     """The speeds of those large trees.

@@ -16,7 +16,7 @@ from frot.compiler.translate.previous_values import whole
 from frot.compiler.translate.symbols import Symbols
 from frot.compiler.translate.text_symbols import (
     FrictionElement,
-    TextSymbols,
+    TextTable,
     make_text_symbols,
     scalars,
 )
@@ -24,7 +24,7 @@ from frot.dsl import Log
 from frot.dsl.checked import Call, Expression, Model, Variable
 
 
-def chains_of_motion(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
+def chains_of_motion(mechanism: Mechanism, symbols: Symbols) -> TextTable:
     """Chains of the coordinates, then symbols for the variables of the text."""
     chains = Chains(symbols.t)
     # the coordinate whose rate is a speed stands before it; a quaternion has none for each
@@ -49,7 +49,7 @@ def chains_of_motion(mechanism: Mechanism, symbols: Symbols) -> TextSymbols:
     return make_text_symbols(mechanism.model.variables, chains)
 
 
-def give_rates_of_tracks(kinematics: Kinematics, text: TextSymbols) -> None:
+def give_rates_of_tracks(kinematics: Kinematics, text: TextTable) -> None:
     """What is followed where figures touch has rates that hold the speeds."""
     speeds = kinematics.symbols.v
     for liaison, track in kinematics.tracks.items():
@@ -61,7 +61,7 @@ def give_rates_of_tracks(kinematics: Kinematics, text: TextSymbols) -> None:
 
 
 def first_values(
-    model: Model, text: TextSymbols, given: Symbols, display: Lowering, log: Log
+    model: Model, text: TextTable, given: Symbols, display: Lowering, log: Log
 ) -> Callable[[Variable], list[ca.SX]]:
     """Gives the first values of what jumps: those of `initial`, of `start`, or zero."""
     stated: dict[Variable, Expression] = {}
@@ -103,7 +103,7 @@ def _is_given(value: ca.SX, symbols: Symbols) -> bool:
     return all(x.element_hash() in known for x in ca.symvar(value))
 
 
-def friction_maker(text: TextSymbols) -> Callable[[Call, list[ca.SX], str], ca.SX]:
+def friction_maker(text: TextTable) -> Callable[[Call, list[ca.SX], str], ca.SX]:
     """Makes an element of every `friction(slip, bound, bound_s)` of the equations."""
     taken: set[str] = set()
 
@@ -126,10 +126,12 @@ def friction_maker(text: TextSymbols) -> Callable[[Call, list[ca.SX], str], ca.S
     return make
 
 
-def add_slip_accelerations(equations: Residuals, text: TextSymbols) -> None:
-    """An unknown for the rate of each slip, so that index reduction brings it to light."""
+def slip_accelerations(equations: Residuals, text: TextTable) -> Residuals:
+    """The equations with an unknown for the rate of each slip, which index reduction needs."""
+    values, origins = list(equations.values), list(equations.origins)
     for element in text.elements:
         name = element.acceleration.name()
         text.chains.add(name, element.span, symbols=(element.acceleration,))
-        equations.values.append(text.chains.rate(element.slip) - element.acceleration)
-        equations.origins.append(Origin(element.span, f"slip of {element.name}", ""))
+        values.append(text.chains.rate(element.slip) - element.acceleration)
+        origins.append(Origin(element.span, f"slip of {element.name}", ""))
+    return Residuals(tuple(values), tuple(origins))

@@ -51,8 +51,10 @@ def _always_holds(joint: Constraint) -> bool:
 def _solution(system: Assembled) -> ca.SX:
     rows = system.lam.numel()
     core, force = system.in_full()
-    matrix = ca.blockcat([[core, -system.spread], [system.rows, ca.SX(rows, rows)]])
-    matrix, right = ca.sparsify(matrix), ca.vertcat(force, -system.bias)
+    matrix = ca.blockcat(
+        [[core, -system.matrices.spread], [system.matrices.rows, ca.SX(rows, rows)]]
+    )
+    matrix, right = ca.sparsify(matrix), ca.vertcat(force, -system.matrices.bias)
     solution = ca.SX.zeros(right.shape)
     for part in _apart(matrix.sparsity()):
         solution[part] = solve_in_units(matrix[part, part], right[part])

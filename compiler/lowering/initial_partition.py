@@ -110,7 +110,10 @@ class Scene:
             {k for z in g.unknowns for k in of_speed.get(z, ())} for g in self._grouping.groups
         ]
         of_contacts = self._of_contacts(of_groups)
-        gaps = ca.jacobian(system.gap, system.q).T, ca.jacobian(system.gap, system.y).T
+        gaps = (
+            ca.jacobian(system.matrices.gap, system.q).T,
+            ca.jacobian(system.matrices.gap, system.y).T,
+        )
         for own, read in zip(of_contacts, _rows_read(*gaps, kind.through), strict=False):
             own |= read
         return self._divide(kind, [*joined, *of_groups, *of_contacts], of_groups, of_contacts)
@@ -199,7 +202,7 @@ class Scene:
         seen = [x for result in results.values() for x in result]
         groups = [self._grouping.groups[g] for g in own["groups"]]
         if system.early:
-            seen += [pack_rows(system, groups), system.gap[own["contacts"]]]
+            seen += [pack_rows(system, groups), system.matrices.gap[own["contacts"]]]
             seen += [pack_matrix(system, groups), *pack_spread(system, groups)]
         read = self._read(seen)
         y = self._needed([*own_y, *read[5]])

@@ -128,12 +128,12 @@ def _of_motion(system: Assembled, grouping: Grouping, state: list[ca.SX]) -> Jac
 def _owned(system: Assembled, groups: Sequence[Group]) -> list[ca.SX]:
     """What holds, by owners: the rates of q, the groups, the residuals of the early blocks."""
     matrix, force = system.in_full()
-    balance = matrix @ system.z - system.spread @ system.lam - force
-    motion = system.rows @ system.z + system.bias
+    balance = matrix @ system.z - system.matrices.spread @ system.lam - force
+    motion = system.matrices.rows @ system.z + system.matrices.bias
     parts = [system.rates]
     for g in groups:
         laws = [2 * e + k for e in g.elements for k in (0, 1)]
-        of_group = (balance, g.unknowns), (motion, g.rows), (system.coefficients, laws)
+        of_group = (balance, g.unknowns), (motion, g.rows), (system.matrices.coefficients, laws)
         # nothing taken from a scalar would be a row of CasADi's
         parts.append(column(values[k] for values, places in of_group for k in places))
     return [*parts, column(b.residual for b in system.blocks if not b.late)]
@@ -217,7 +217,7 @@ def may_be_stiff(system: Assembled) -> bool:
         return True
     if system.nv > reduced.symbols.v.numel():
         return True
-    loads = system.resolve(reduced.load_sizes)
+    loads = system.resolve(reduced.motion.load_sizes)
     return bool(loads.numel()) and bool(ca.depends_on(loads, ca.vertcat(system.q, system.v)))
 
 

@@ -7,7 +7,7 @@ import functools
 import casadi as ca
 from frot.compiler.equations.assembled import Assembled
 from frot.compiler.equations.parameter_checks import Check
-from frot.compiler.equations.reduce import Reduced
+from frot.compiler.equations.reduced import Reduced
 from frot.compiler.lowering.groups import Group, Grouping
 from frot.compiler.symbolic.columns import column
 from frot.compiler.translate.derivative_chains import replace_known
@@ -82,8 +82,8 @@ def _most_carried(group: Group, reduced: Reduced) -> ca.SX:
     found = {
         load.element_hash(): load
         for z in group.unknowns[: group.n_speeds]
-        if group.composite and z < reduced.carried.numel()
-        for load in [reduced.carried[z]]
+        if group.composite and z < reduced.motion.carried.numel()
+        for load in [reduced.motion.carried[z]]
     }
     return functools.reduce(ca.fmax, found.values(), ca.SX(0))
 

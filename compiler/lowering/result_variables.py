@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.equations.assembled import Assembled
-from frot.compiler.equations.reduce import Reduced
+from frot.compiler.equations.reduced import Reduced
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.symbolic.columns import column
 from frot.compiler.translate.expressions import Lowering
@@ -145,8 +145,10 @@ def _all(system: Assembled, display: Lowering) -> Iterator[Listed]:
     if not mechanism.model.bodies:
         return
     dissipated, work = reduced.symbols.energy[0], reduced.symbols.energy[1]
-    yield Listed("energy.kinetic", reduced.kinetic, ENERGY, "kinetic energy of all bodies")
-    yield Listed("energy.potential", reduced.potential, ENERGY, "gravity, springs, attractions")
+    yield Listed("energy.kinetic", reduced.motion.kinetic, ENERGY, "kinetic energy of all bodies")
+    yield Listed(
+        "energy.potential", reduced.motion.potential, ENERGY, "gravity, springs, attractions"
+    )
     yield Listed("energy.dissipated", dissipated, ENERGY, "lost in friction since the start")
     yield Listed("energy.work", work, ENERGY, "work done by the other forces since the start")
 

@@ -6,6 +6,9 @@ reactions, and what follows from these.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
 import casadi as ca
 from frot.compiler.equations.assembled import Assembled
 from frot.compiler.symbolic.columns import column
@@ -13,14 +16,25 @@ from frot.compiler.symbolic.columns import column
 MOVED, SENSED, TIMED, AT_EVENTS = range(4)
 
 
-def sort_conditions(system: Assembled, values: ca.SX) -> tuple[ca.SX, list[ca.SX]]:
-    """Sort the conditions of `system`, which have these values, into those kinds.
+@dataclass(frozen=True, slots=True, eq=False)
+class SortedConditions:
+    """The values of the conditions in their new order.
 
-    Gives the values in the new order; and of those at instants known before, which are linear in
-    time, the slopes and the values at time zero.
+    `timers`: of those at instants known before, which are linear in time, the slopes and the
+    values at time zero.
     """
+
+    values: ca.SX
+    timers: list[ca.SX]
+
+
+def sort_conditions(
+    system: Assembled, explicit: Callable[[ca.SX], ca.SX]
+) -> tuple[Assembled, SortedConditions]:
+    """The system with its conditions sorted into those kinds."""
     reduced = system.reduced
-    t, conditions = reduced.symbols.t, reduced.conditions
+    t, conditions, events = reduced.symbols.t, reduced.conditions, reduced.events
+    values = explicit(system.resolve(column(conditions.values)))
     solved = ca.vertcat(system.z, system.lam, system.y[system.early :, :])
     moving = ca.vertcat(system.q, system.v, system.y)
     kinds: list[int] = []
@@ -37,10 +51,14 @@ def sort_conditions(system: Assembled, values: ca.SX) -> tuple[ca.SX, list[ca.SX
         kinds.append(kind)
     order = sorted(range(len(kinds)), key=lambda k: kinds[k])
     place = {k: i for i, k in enumerate(order)}
-    conditions.reorder(order)
-    conditions.sensed, conditions.timed = kinds.count(SENSED), kinds.count(TIMED)
-    conditions.located = kinds.count(MOVED) + conditions.sensed
-    reduced.events.conditions[:] = [place[k] for k in reduced.events.conditions]
-    timed = [k for k in order if kinds[k] == TIMED]
-    at_zero = ca.substitute(column(values[k] for k in timed), t, ca.SX(0)) if timed else ca.SX(0, 1)
-    return column(values[k] for k in order), [column(slopes[k] for k in timed), at_zero]
+    moved, sensed, timed = (kinds.count(kind) for kind in (MOVED, SENSED, TIMED))
+    reduced = replace(
+        reduced,
+        conditions=conditions.sorted(order, moved + sensed, sensed, timed),
+        events=replace(events, conditions=tuple(place[k] for k in events.conditions)),
+    )
+    late = [k for k in order if kinds[k] == TIMED]
+    at_zero = ca.substitute(column(values[k] for k in late), t, ca.SX(0)) if late else ca.SX(0, 1)
+    timers = [column(slopes[k] for k in late), at_zero]
+    found = SortedConditions(column(values[k] for k in order), timers)
+    return replace(system, reduced=reduced), found

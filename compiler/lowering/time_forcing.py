@@ -15,14 +15,14 @@ def make_pace(system: Assembled, conditions: ca.SX) -> tuple[ca.SX, ca.SX] | Non
     """Sizes of what depends on time at given states, and its rates; None where nothing does."""
     t, reduced = system.reduced.symbols.t, system.reduced
     none = ca.SX.zeros(len(system.elements))
-    drives = system.resolve(ca.vertcat(reduced.drives, none))
-    reach = system.resolve(ca.vertcat(reduced.reach, none))
+    drives = system.resolve(ca.vertcat(reduced.motion.drives, none))
+    reach = system.resolve(ca.vertcat(reduced.motion.reach, none))
     parts = [
-        system.bias,
-        system.gap,
-        system.force,
+        system.matrices.bias,
+        system.matrices.gap,
+        system.matrices.force,
         *(x for step in system.tree.steps for x in (step.force, step.couple)),
-        system.coefficients,
+        system.matrices.coefficients,
         ca.SX.zeros(0) if system.late else system.rates,
         conditions,
         *(b.residual for b in system.blocks if not b.late),

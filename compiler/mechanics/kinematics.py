@@ -31,7 +31,7 @@ from frot.compiler.mechanics.spatial import (
     whole,
 )
 from frot.compiler.mechanics.values import unit_vector
-from frot.compiler.translate.expressions import NEVER, Conditions
+from frot.compiler.translate.conditions import NEVER, ConditionTable
 from frot.compiler.translate.symbols import Symbols
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison
 
@@ -111,7 +111,7 @@ class Kinematics:
         counters: dict[tuple[Liaison, int], ca.SX],
         numbers: dict[Liaison, int],
         sides: dict[Liaison, ca.SX],
-        conditions: Conditions | None = None,
+        conditions: ConditionTable | None = None,
     ) -> None:
         """`fixed` gives what no motion changes; into `conditions` go the ends of figures.
 
@@ -284,7 +284,7 @@ class Kinematics:
         number, text = self._numbers[liaison], f"{liaison.name}: beyond an end"
         return partial(
             self._conditions.add,
-            strict=True, text=text, span=liaison.span, told=NEVER, contact=number,
+            strict=True, text=text, span=liaison.span, report_rule=NEVER, contact=number,
         )  # fmt: skip
 
     def angular_velocity(self, owner: Body | Frame | BodyPoint) -> ca.SX:

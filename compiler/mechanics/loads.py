@@ -32,8 +32,16 @@ class Loads:
     terms: ca.SX
 
 
-def applied_loads(mechanism: Mechanism, variables: Variables, moving: Lowering) -> list[Load]:
-    """The forces of the text, the efforts of its flanges and drives, the laws of its own."""
+def applied_loads(
+    mechanism: Mechanism,
+    variables: Variables,
+    moving: Lowering,
+    frictions: dict[Liaison, ca.SX],
+) -> list[Load]:
+    """The forces of the text, the efforts of its flanges and drives, the laws of its own.
+
+    `frictions` collects what these laws give.
+    """
     kinematics = variables.kinematics
     applied = [load(force, kinematics, moving, variables.effort) for force in mechanism.forces]
     for flange in mechanism.model.flanges:
@@ -46,7 +54,7 @@ def applied_loads(mechanism: Mechanism, variables: Variables, moving: Lowering) 
             if "tangential" in law.arguments:
                 force = moving.lower(law.arguments["tangential"])
                 _refuse_left_over(liaison, law, force, variables, moving.log)
-                variables.frictions[liaison] = variables.frictions.get(liaison, ca.SX(0)) + force
+                frictions[liaison] = frictions.get(liaison, ca.SX(0)) + force
                 slip = variables.of_liaison(liaison, "slip")
                 applied.append(Load((Action(slip, force),), None))
     return applied

@@ -16,7 +16,7 @@ from frot.compiler.mechanics.make_symbols import counters_of, reading_places
 from frot.compiler.mechanics.mechanism import Hanging, Mechanism
 from frot.compiler.mechanics.points import Point, frames_of, point_body
 from frot.compiler.mechanics.spatial import AT_REST, Moving, nowhere
-from frot.compiler.translate.expressions import Conditions
+from frot.compiler.translate.conditions import ConditionTable
 from frot.compiler.translate.symbols import Symbols
 from frot.dsl.checked import Body
 
@@ -25,7 +25,7 @@ def place_bodies(
     mechanism: Mechanism,
     symbols: Symbols,
     fixed: Constants,
-    conditions: Conditions | None = None,
+    conditions: ConditionTable | None = None,
 ) -> Kinematics:
     """The kinematics of a mechanism: one pass along its tree."""
     ground, contacts = mechanism.model.ground, mechanism.contacts

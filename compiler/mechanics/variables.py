@@ -37,6 +37,20 @@ class Sense:
     contact: int
 
 
+ModeOwner = Liaison | FrictionElement | Sense
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Modes:
+    """The modes that are read: of each owner the number of its contact, and a symbol.
+
+    Changes of the first `located` are events; outputs alone read the others.
+    """
+
+    of: Mapping[ModeOwner, tuple[int, ca.SX]]
+    located: int
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Variables:
     """Gives the value of a variable by its owner and name.
@@ -44,8 +58,7 @@ class Variables:
     `geometry` and `links` hold every liaison, `reactions` the rows of those whose reaction is
     computed, `drives` the efforts that keep prescribed coordinates, by their names; `corners` the
     liaisons that one of faces stands for, `values` are those of the text, `frictions` is what
-    laws of the user give on the body, `modes` those that are read: numbers of contacts, symbols;
-    the first of them are `located_modes`, whose changes are events; outputs alone read the others.
+    laws of the user give on the body, `modes` are those that are read.
     """
 
     symbols: Symbols
@@ -57,9 +70,8 @@ class Variables:
     drives: dict[Liaison, list[tuple[str, ca.SX]]]
     corners: Mapping[Liaison, tuple[Liaison, ...]]
     values: Mapping[Variable, ca.SX]
-    frictions: dict[Liaison, ca.SX] = field(default_factory=dict)
-    modes: dict[Liaison | FrictionElement | Sense, tuple[int, ca.SX]] = field(default_factory=dict)
-    located_modes: list[Liaison | FrictionElement | Sense] = field(default_factory=list)
+    frictions: Mapping[Liaison, ca.SX]
+    modes: Modes
     _inertias: dict[Body, ca.SX] = field(default_factory=dict, repr=False)
 
     def quantity(self, node: Quantity) -> ca.SX:
@@ -74,7 +86,7 @@ class Variables:
             return ca.SX(0)
         assert isinstance(node.owner, Liaison)
         owner = self.corners.get(node.owner, (node.owner,))[0]
-        return self.of_liaison(owner, "mode") == STICK if owner in self.modes else ca.SX(0)
+        return self.of_liaison(owner, "mode") == STICK if owner in self.modes.of else ca.SX(0)
 
     def at_rest(self, node: Quantity) -> ca.SX:
         """As `quantity`, but a motion that friction holds is zero to the last bit."""
@@ -193,7 +205,7 @@ class Variables:
                 return ca.mmax(ca.vertcat(*parts))
             return parts[0] if name == "slip" else sum(parts[1:], parts[0])
         if name == "mode":
-            return self.modes.get(liaison, (-1, ca.SX(0)))[1] + 1  # literals count from 1
+            return self.modes.of.get(liaison, (-1, ca.SX(0)))[1] + 1  # literals count from 1
         return self.geometry[liaison].variable(name, self._reaction(liaison))
 
     def _reaction(self, liaison: Liaison) -> Reaction:

@@ -57,11 +57,11 @@ def switches_of(system: Assembled) -> list[Switch]:
                 rows=rows,
                 free=not link.reduced,
                 normal=mode[SIDE] * lam[rows.reaction[0]] if link.opens else _size(lam, rows),
-                gap=None if link.reduced or not link.opens else system.gap[i],
+                gap=None if link.reduced or not link.opens else system.matrices.gap[i],
                 labels=link.labels(rows),
             )
         )
-    row = reduced.rows.size1()
+    row = reduced.motion.matrices.rows.size1()
     for k, element in enumerate(system.elements):
         found.append(
             Switch(
@@ -90,13 +90,17 @@ def _size(lam: ca.SX, rows: Rows) -> ca.SX:
 def _coefficient(system: Assembled, row: int, *, at_rest: bool) -> ca.SX:
     """The coefficient of the law whose motion is this row; of a `friction`, its bound."""
     rows = [r for x in system.reduced.contact_rows for r in (x.tangent, x.rolling) if r >= 0]
-    rows += range(system.reduced.rows.size1(), system.rows.size1())
-    return system.coefficients[2 * rows.index(row) + at_rest]
+    rows += range(system.reduced.motion.matrices.rows.size1(), system.matrices.rows.size1())
+    return system.matrices.coefficients[2 * rows.index(row) + at_rest]
 
 
 def laws_of(system: Assembled, switches: list[Switch]) -> Iterator[ca.SX]:
     """One equation a row that no auxiliary acceleration balances."""
-    acceleration = system.rows @ system.z + system.bias if system.lam.numel() else ca.SX.zeros(0)
+    acceleration = (
+        system.matrices.rows @ system.z + system.matrices.bias
+        if system.lam.numel()
+        else ca.SX.zeros(0)
+    )
     for w in switches:
         closed = w.mode[CLOSED]
         for row in w.rows.reaction if w.free else ():
@@ -120,7 +124,7 @@ def guards_of(system: Assembled, switches: list[Switch], conditions: ca.SX) -> I
         for row, kind in w.laws():
             name = "friction" if row == w.rows.tangent else "rolling"
             bound = _coefficient(system, row, at_rest=True) * w.normal
-            lam, rate = system.lam[row], system.rate[row]
+            lam, rate = system.lam[row], system.matrices.rate[row]
             slips = closed * ((kind == FORWARD) + (kind == BACKWARD))
             stuck = closed * (kind == STICK)
             along = ca.if_else(kind == FORWARD, rate, -rate)
@@ -146,9 +150,9 @@ def reset_of(system: Assembled, switches: list[Switch]) -> ca.SX:
             holds[row] = w.mode[CLOSED]
         for row, kind in w.laws():
             holds[row] = w.mode[CLOSED] * (kind == STICK)
-    active = ca.diag(holds) @ system.rows[:, :nv]
-    metric = system.tree.in_full(system.metric, system.v, nv)[0]
+    active = ca.diag(holds) @ system.matrices.rows[:, :nv]
+    metric = system.tree.in_full(system.matrices.metric, system.v, nv)[0]
     spread = ca.solve(metric[:nv, :nv], active.T)
     matrix = active @ spread + ca.diag(1 - holds)
-    moved = system.v - spread @ ca.solve(matrix, holds * system.rate)
+    moved = system.v - spread @ ca.solve(matrix, holds * system.matrices.rate)
     return ca.vertcat(system.q, moved)

@@ -22,18 +22,18 @@ def price_of_implicit(lowered: Lowered) -> float:
     One at least: where a step of lower order is not longer, it is of no use.
     Blocks are taken to be solved in two passes. The measure is the same on every machine.
     """
-    jacobian, system = lowered.jacobian, lowered.system
+    jacobian, system = lowered.whole.jacobian, lowered.system
     if jacobian is None:
         return 0.0
-    kinds = [lowered.kinds[member.kind].functions for _, member in lowered.islands]
-    own = [*kinds, lowered.functions]
+    kinds = [lowered.shared.kinds[member.kind].functions for _, member in lowered.shared.islands]
+    own = [*kinds, lowered.whole.functions]
     once = float(_KERNEL)
     once += sum(f["dynamics"].n_instructions() for f in own if "dynamics" in f)
-    once += 2 * sum(block.n_instructions() for block in lowered.blocks)
+    once += 2 * sum(block.n_instructions() for block in lowered.switches.blocks)
     cores = [len(g.unknowns) + len(g.rows) for g in lowered.grouping.groups]
     once += sum(core**3 for core in cores) / 3
     n = system.q.numel() + system.nv
-    slopes = lowered.functions["jacobian"].n_instructions()
+    slopes = lowered.whole.functions["jacobian"].n_instructions()
     if jacobian.lines is not None:
         slopes *= max(1, jacobian.lines.n_directions)
         # each column of a group is solved for accelerations and reactions

@@ -24,7 +24,7 @@ _NUMBERS = 7
 
 def shared_functions(lowered: Lowered) -> Iterator[tuple[str, ca.Function]]:
     """The functions of all kinds, by their names."""
-    for kind in lowered.kinds:
+    for kind in lowered.shared.kinds:
         yield from kind.functions.items()
 
 
@@ -32,7 +32,7 @@ def read_numbers(text: str, lowered: Lowered) -> str:
     """The C text of some functions, with the constants in which equal ones differ read."""
     lines = text.split("\n")
     heads = {line.split(":", 1)[0]: k for k, line in enumerate(lines) if line.startswith("/* ")}
-    for kind in lowered.kinds:
+    for kind in lowered.shared.kinds:
         for name, function in kind.functions.items():
             at = heads.get(f"/* {function.name()}")
             if kind.varying[name] and at is not None:
@@ -71,14 +71,14 @@ def island_arrays(lowered: Lowered, wide: Mapping[str, str]) -> list[str]:
     """The tables of frot_island; `wide`: names in C of the functions in wide numbers."""
     arrays: list[str] = []
     records: list[str] = []
-    for k, (island, member) in enumerate(lowered.islands):
+    for k, (island, member) in enumerate(lowered.shared.islands):
         lists = {x: getattr(island, x) for x in (*_READS, "conditions")}
         names = {x: f"island_{k}_{x}" for x in lists}
         arrays += [array("int", names[x], [str(i) for i in own]) for x, own in lists.items()]
         numbers = f"island_{k}_numbers"
         arrays.append(array("double", numbers, [number(x) for x in member.numbers]))
         located = sum(i < lowered.reduced.conditions.located for i in island.conditions)
-        functions = lowered.kinds[member.kind].functions
+        functions = lowered.shared.kinds[member.kind].functions
         records.append(
             record(
                 *(int(island.sleeps), min(island.groups, default=0), len(island.groups)),
@@ -94,8 +94,8 @@ def part_arrays(lowered: Lowered) -> list[str]:
     """The tables of frot_part: of places, of speeds."""
     arrays = [array("int", "of_no_part", [])]
     for name, prefix, parts in (
-        ("parts", "place", lowered.parts),
-        ("speed_parts", "speed", lowered.speed_parts),
+        ("parts", "place", lowered.shared.parts),
+        ("speed_parts", "speed", lowered.shared.speed_parts),
     ):
         records: list[str] = []
         for k, (part, member) in enumerate(parts):
@@ -106,7 +106,7 @@ def part_arrays(lowered: Lowered) -> list[str]:
             numbers = f"{prefix}_{k}_numbers" if member.numbers else "0"
             if member.numbers:
                 arrays.append(array("double", numbers, [number(x) for x in member.numbers]))
-            functions = lowered.kinds[member.kind].functions
+            functions = lowered.shared.kinds[member.kind].functions
             records.append(
                 record(
                     *(

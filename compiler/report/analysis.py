@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from frot.compiler.equations.assembled import Assembled
-from frot.compiler.equations.reduce import Reduced
-from frot.compiler.lowering.lower import begin
+from frot.compiler.equations.reduced import Reduced
+from frot.compiler.lowering.initial_problem import pose_initial_problem
 from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.mechanics.free_bodies import free
 from frot.compiler.mechanics.liaisons.user_liaisons import bodies_of
@@ -108,8 +108,8 @@ def analyse(system: Assembled) -> Analysis:
     mechanism = reduced.mechanism
     whole = _count(mechanism)
     log = Log()
-    beginning = begin(system, log)
-    start = None if log.failed else find_start(system, beginning)
+    problem = pose_initial_problem(system, log)
+    start = None if log.failed else find_start(system, problem)
     if start is None or not start.found:
         return Analysis("the start was not found", whole, whole, 0, 0, (), ())
     found = _Found()

@@ -9,7 +9,7 @@ import numpy as np
 from frot.compiler.mechanics.geometry.closest_solved import Track
 from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.symbolic.columns import column
-from frot.compiler.translate.expressions import Conditions
+from frot.compiler.translate.conditions import Conditions
 from numpy.typing import ArrayLike
 
 # Newton steps to a place, and what is left of its equations beside their terms.

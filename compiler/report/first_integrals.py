@@ -13,8 +13,8 @@ from collections.abc import Iterable, Iterator
 import casadi as ca
 import numpy as np
 from frot.compiler.equations.assembled import Assembled
-from frot.compiler.equations.reduce import Reduced
-from frot.compiler.lowering.lower import InitialProblem
+from frot.compiler.equations.reduced import Reduced
+from frot.compiler.lowering.initial_problem import InitialProblem
 from frot.compiler.lowering.result_variables import FirstIntegral
 from frot.compiler.report.candidates import (
     ENERGY,
@@ -40,14 +40,14 @@ _NEW = 1e-7
 _NONE = 1e-7
 
 
-def first_integrals_of(system: Assembled, beginning: InitialProblem) -> tuple[FirstIntegral, ...]:
+def first_integrals_of(system: Assembled, problem: InitialProblem) -> tuple[FirstIntegral, ...]:
     """Those about the start of a system; of more than `MOST_SPEEDS` the energy at most."""
     reduced = system.reduced
     if not reduced.mechanism.model.bodies:
         return ()
     if reduced.symbols.v.numel() > MOST_SPEEDS:
         return find_first_integrals(reduced, None)
-    return find_first_integrals(reduced, find_start(system, beginning).posture)
+    return find_first_integrals(reduced, find_start(system, problem).posture)
 
 
 def find_first_integrals(reduced: Reduced, start: Posture | None) -> tuple[FirstIntegral, ...]:
@@ -104,9 +104,14 @@ def _energy_alone(reduced: Reduced) -> tuple[FirstIntegral, ...]:
     """The energy where nothing works: no friction, no load without potential, nothing driven."""
     mechanism = reduced.mechanism
     dry = any(rows.tangent >= 0 or rows.rolling >= 0 for rows in reduced.contact_rows)
-    if dry or mechanism.is_driven or not reduced.plain or not reduced.power.is_zero():
+    if (
+        dry
+        or mechanism.is_driven
+        or not reduced.plain
+        or not reduced.motion.matrices.power.is_zero()
+    ):
         return ()
-    energy = reduced.variables.settled(reduced.kinetic + reduced.potential)
+    energy = reduced.variables.settled(reduced.motion.kinetic + reduced.motion.potential)
     return (FirstIntegral("energy", energy, ENERGY, True),)
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
-from frot.compiler.equations.reduce import Reduced
+from frot.compiler.equations.reduced import Reduced
 from frot.compiler.report.closest_numeric import Followed
 from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.symbolic.columns import column, scalars_of
@@ -201,9 +201,23 @@ def solve(mass: Floats, rows: Floats, load: Floats, wanted: Floats) -> tuple[Flo
 def make_dynamics(reduced: Reduced) -> Dynamics:
     """The functions of a reduced mechanism."""
     s, links = reduced.symbols, reduced.mechanism.contacts
-    mass, force = reduced.tree.in_full(reduced.mass, reduced.force, s.v.numel())
-    outputs = [mass, force, reduced.rows, reduced.bias, reduced.rate, reduced.gap]
-    looked = ca.veccat(*outputs, reduced.kinetic, reduced.potential, reduced.coefficients)
+    mass, force = reduced.motion.tree.in_full(
+        reduced.motion.matrices.matrix, reduced.motion.matrices.force, s.v.numel()
+    )
+    outputs = [
+        mass,
+        force,
+        reduced.motion.matrices.rows,
+        reduced.motion.matrices.bias,
+        reduced.motion.matrices.rate,
+        reduced.motion.matrices.gap,
+    ]
+    looked = ca.veccat(
+        *outputs,
+        reduced.motion.kinetic,
+        reduced.motion.potential,
+        reduced.motion.matrices.coefficients,
+    )
     known = {x.element_hash() for part in (s.t, s.q, s.v, s.u, s.p, s.sides) for x in _items(part)}
     tracks = reduced.variables.kinematics.tracks.values()
     looked = ca.veccat(looked, *(x.unknowns for x in tracks))
@@ -220,8 +234,16 @@ def make_dynamics(reduced: Reduced) -> Dynamics:
     return Dynamics(
         reduced=reduced,
         function=Numbers("motion", arguments, outputs),
-        matrices=Numbers("matrices", arguments, (mass, reduced.rows)),
-        relations=Numbers("relations", arguments, (reduced.rows, reduced.rate, reduced.gap)),
+        matrices=Numbers("matrices", arguments, (mass, reduced.motion.matrices.rows)),
+        relations=Numbers(
+            "relations",
+            arguments,
+            (
+                reduced.motion.matrices.rows,
+                reduced.motion.matrices.rate,
+                reduced.motion.matrices.gap,
+            ),
+        ),
         others=others,
         followed=followed,
         places=tuple(at[x.element_hash()] for x in scalars_of(followed.unknowns)),

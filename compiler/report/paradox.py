@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
-from frot.compiler.equations.reduce import Reduced
+from frot.compiler.equations.reduced import Reduced
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.report.numeric_dynamics import Dynamics, State, make_dynamics
 from frot.compiler.report.relations import Floats, Posture
@@ -106,7 +106,7 @@ class _Watched:
         self._numbers = ca.Function(
             "coefficient",
             dynamics.arguments,
-            [reduced.coefficients[2 * before], self.radius],
+            [reduced.motion.matrices.coefficients[2 * before], self.radius],
         )
 
     def coefficient(self, state: State) -> float:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import casadi as ca
+from frot.compiler.translate.conditions import RISING, ConditionTable
 from frot.compiler.translate.previous_values import Before, whole
 from frot.compiler.translate.symbols import Symbols
 from frot.compiler.translate.walk import is_fixed, quantities_in
@@ -33,75 +34,6 @@ from frot.dsl.checked.walk import Rules, SharedWalk, parts
 from frot.dsl.checked.wording import words
 from frot.dsl.messages.source import Span
 
-NEVER, RISING, ALWAYS = range(3)
-
-
-@dataclass(slots=True)
-class Conditions:
-    """Conditions on time and motion that switch something: `value` > 0 while true.
-
-    `strict`: whether the condition is false where its value is zero. `texts` are as the author
-    wrote them, at `spans`; `told` says when a change is an event to him (frot_told). `contacts`:
-    of one that is no switch of the text, the contact a figure of which ends there. `at_rest`: the
-    values with motions of liaisons that friction holds at zero, None where there are none. In their
-    last order the first `located` change by the motion, the last `sensed` of these by what it is
-    solved for, the `timed` after them by time alone.
-    """
-
-    flags: list[ca.SX] = field(default_factory=list)
-    values: list[ca.SX] = field(default_factory=list)
-    strict: list[bool] = field(default_factory=list)
-    texts: list[str] = field(default_factory=list)
-    spans: list[Span | None] = field(default_factory=list)
-    told: list[int] = field(default_factory=list)
-    contacts: list[int] = field(default_factory=list)
-    at_rest: list[ca.SX | None] = field(default_factory=list)
-    located: int = 0
-    sensed: int = 0
-    timed: int = 0
-
-    def add(
-        self,
-        value: ca.SX,
-        strict: bool,
-        text: str,
-        span: Span | None,
-        told: int = ALWAYS,
-        contact: int = -1,
-        at_rest: ca.SX | None = None,
-    ) -> ca.SX:
-        """A flag, 0 or 1, that follows the sign of `value` by located events."""
-        found = self.find(value, strict, contact)
-        if found is not None:
-            return found  # the same switch, written or read twice
-        flag = ca.SX.sym(f"condition_{len(self.flags)}")
-        self.flags.append(flag)
-        self.values.append(value)
-        self.strict.append(strict)
-        self.texts.append(text)
-        self.spans.append(span)
-        self.told.append(told)
-        self.contacts.append(contact)
-        self.at_rest.append(at_rest)
-        return flag
-
-    def find(self, value: ca.SX, strict: bool, contact: int = -1) -> ca.SX | None:
-        """The flag of a condition: of two contacts that pass one end each has its own."""
-        own = zip(self.flags, self.values, self.strict, self.contacts, strict=True)
-        for flag, known, kind, of in own:
-            if kind == strict and of == contact and ca.is_equal(known, value, 20):
-                return flag
-        return None
-
-    def reorder(self, order: list[int]) -> None:
-        """Put the conditions into another order."""
-        columns: tuple[list[Any], ...] = (
-            *(self.flags, self.values, self.strict),
-            *(self.texts, self.spans, self.told, self.contacts, self.at_rest),
-        )
-        for items in columns:
-            items[:] = [items[k] for k in order]
-
 
 @dataclass(slots=True)
 class Lowering(SharedWalk[ca.SX]):
@@ -121,8 +53,8 @@ class Lowering(SharedWalk[ca.SX]):
     quantity: Callable[[Quantity], ca.SX]
     rate: Callable[[ca.SX], ca.SX]
     log: Log
-    conditions: Conditions | None = None
-    known: Conditions | None = None
+    conditions: ConditionTable | None = None
+    known: ConditionTable | None = None
     variable: Callable[[Variable], ca.SX] | None = None
     before: Before | None = None
     friction: Callable[[Call, list[ca.SX], str], ca.SX] | None = None
@@ -188,7 +120,7 @@ class Lowering(SharedWalk[ca.SX]):
             return self.variable(target)
         return self.of(target.value)
 
-    def _located(self, expression: Expression) -> Conditions | None:
+    def _located(self, expression: Expression) -> ConditionTable | None:
         """Where the events of a switch go; None if it never changes or is only looked at."""
         return None if is_fixed(expression) else self.conditions
 
@@ -286,7 +218,7 @@ class Lowering(SharedWalk[ca.SX]):
         made: ca.SX = function.form(ca, *arguments)
         return made
 
-    def _step(self, node: Call, arguments: list[ca.SX], conditions: Conditions) -> ca.SX:
+    def _step(self, node: Call, arguments: list[ca.SX], conditions: ConditionTable) -> ca.SX:
         """`floor`, `ceil` and `mod` of what changes: the events are where they step."""
         assert self.before is not None
 
@@ -348,7 +280,7 @@ class Lowering(SharedWalk[ca.SX]):
 
     @staticmethod
     def _least(
-        x: ca.SX, y: ca.SX, conditions: Conditions | None, name: str, text: str, span: Span
+        x: ca.SX, y: ca.SX, conditions: ConditionTable | None, name: str, text: str, span: Span
     ) -> ca.SX:
         below = x - y if name == "max" else y - x
         flag = conditions.add(below, False, text, span) if conditions is not None else below >= 0

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.translate.symbols import shaped
-from frot.compiler.translate.text_symbols import Held, TextSymbols, scalars
+from frot.compiler.translate.text_symbols import Held, TextTable, scalars
 from frot.dsl.checked import Element, Expression, Reference, Variable
 from frot.dsl.messages.source import Span
 
@@ -28,7 +28,7 @@ class Before:
     `set_before` gives that of what a `when` sets, inside of a `when`.
     """
 
-    text: TextSymbols
+    text: TextTable
     first: Callable[[Variable], list[ca.SX]]
     set_before: Callable[[Variable], ca.SX] | None = None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import casadi as ca
@@ -49,7 +50,7 @@ class Held:
     span: Span
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False)
 class TextSymbols:
     """`values` gives the symbols of each variable, in the shape of its type.
 
@@ -57,24 +58,45 @@ class TextSymbols:
     """
 
     chains: Chains
+    values: Mapping[Variable, ca.SX]
+    discrete: tuple[Discrete, ...]
+    held: tuple[Held, ...]
+    elements: tuple[FrictionElement, ...]
+
+    @property
+    def memory(self) -> tuple[Discrete | Held, ...]:
+        """All that changes at events only, in the order of the kernel."""
+        return (*self.discrete, *self.held)
+
+
+@dataclass(slots=True, eq=False)
+class TextTable:
+    """The symbols of a text while its equations are translated: see `TextSymbols`."""
+
+    chains: Chains
     values: dict[Variable, ca.SX] = field(default_factory=dict)
     discrete: list[Discrete] = field(default_factory=list)
     held: list[Held] = field(default_factory=list)
     elements: list[FrictionElement] = field(default_factory=list)
 
-    @property
-    def memory(self) -> list[Discrete | Held]:
-        """All that changes at events only, in the order of the kernel."""
-        return [*self.discrete, *self.held]
-
     def add_discrete(self, name: str, symbol: ca.SX, start: ca.SX) -> None:
         """A discrete value, one of the text or one the compiler counts with."""
         self.discrete.append(Discrete(name, symbol, start))
 
+    def finish(self) -> TextSymbols:
+        """The symbols collected."""
+        return TextSymbols(
+            self.chains,
+            dict(self.values),
+            tuple(self.discrete),
+            tuple(self.held),
+            tuple(self.elements),
+        )
 
-def make_text_symbols(variables: tuple[Variable, ...], chains: Chains) -> TextSymbols:
+
+def make_text_symbols(variables: tuple[Variable, ...], chains: Chains) -> TextTable:
     """A chain for every scalar of every continuous variable; symbols for the discrete ones."""
-    text = TextSymbols(chains)
+    text = TextTable(chains)
     for variable in variables:
         names = component_names(variable.name, variable.type.shape)
         symbols = [ca.SX.sym(name) for name in names]

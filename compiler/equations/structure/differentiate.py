@@ -61,7 +61,7 @@ def differentiate(
     if not is_balanced(incidence, left, system.origins, chains, log):
         return None
     index = reduce_index(incidence, len(left))
-    values, origins = list(system.values), system.origins
+    values, origins = list(system.values), list(system.origins)
     invariants: list[ca.SX] = []
     of_invariants: list[Origin] = []
     for level in range(1, max(index.equations, default=0) + 1):

@@ -8,7 +8,7 @@ of dummy derivatives made beforehand: it needs no state, no index reduction and 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import casadi as ca
@@ -27,12 +27,12 @@ MOST_FILL = 12
 LEAST = 0.01
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False)
 class Residuals:
     """Scalar equations 0 = values[i] with their origins."""
 
-    values: list[ca.SX]
-    origins: list[Origin]
+    values: Sequence[ca.SX]
+    origins: Sequence[Origin]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

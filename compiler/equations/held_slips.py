@@ -1,6 +1,4 @@
-"""Reduced mechanism and equations of the text to the one system that the kernel solves.
-
-What is the slip of a friction element of the text is zero to the last bit while friction holds.
+"""What is the slip of a friction element is zero to the last bit while friction holds.
 
 In equations, bounds and conditions it stands as a difference of speeds, each of which a run gives
 to rounding: through aliases, sums and gears, and with any factor. Such sums are zero in the mode
@@ -15,114 +13,76 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
-from frot.compiler.equations.assembled import (
-    Assembled,
-    HeldSlips,
-    Invariants,
-    Solution,
-    followed_blocks,
-)
-from frot.compiler.equations.reduce import Reduced
-from frot.compiler.equations.solve_equations import solve_equations
-from frot.compiler.equations.text_slips import follow_mode, sense_of
+from frot.compiler.equations.assembled import Assembled, HeldSlips
+from frot.compiler.equations.text_slips import ModeBook
 from frot.compiler.mechanics.variables import FREE, STICK
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.compiler.symbolic.vanishing_sums import Zeros
-from frot.compiler.translate.derivative_chains import Resolver
 from frot.compiler.translate.text_symbols import FrictionElement
-from frot.dsl import Log
 
 
-def assemble(reduced: Reduced, log: Log) -> Assembled | None:
-    """The kernel's system; what cannot be solved is reported."""
-    system = _plain(reduced) if reduced.plain else solve_equations(reduced, log)
-    return system if system is None else _with_held_slips(system)
-
-
-def _plain(reduced: Reduced) -> Assembled:
-    """A mechanism alone: its mass matrix is the core."""
-    s = reduced.symbols
-    na = s.sw.numel()
-    nothing = ca.SX.zeros(0)
-    y, blocks = followed_blocks(reduced)
-    return Assembled(
-        reduced=reduced,
-        elements=(),
-        q=s.q,
-        v=s.v,
-        y=y,
-        z=ca.vertcat(s.a, ca.SX.sym("auxiliary", na)),
-        lam=s.lam,
-        discrete=nothing,
-        names=tuple(x.name() for x in (*scalars_of(s.q), *scalars_of(s.v))),
-        q_speed=s.q_speed,
-        na=na,
-        nc=0,
-        late=False,
-        rates=s.rates,
-        matrix=reduced.mass,
-        force=reduced.force,
-        force_size=reduced.force_size,
-        spread=reduced.rows.T,
-        metric=reduced.mass,
-        rows=reduced.rows,
-        bias=reduced.bias,
-        rate=reduced.rate,
-        gap=reduced.gap,
-        coefficients=reduced.coefficients,
-        power=reduced.power,
-        blocks=blocks,
-        invariants=Invariants(nothing, ()),
-        pivots=(),
-        divisors=(),
-        solution=Solution(reduced.text.chains, Resolver(), {}),
-        tree=reduced.tree,
-    )
-
-
-def _with_held_slips(system: Assembled) -> Assembled:
+def hold_slips(system: Assembled) -> Assembled:
     """The system with slips at zero where friction holds them, and conditions that follow modes."""
     reduced = system.reduced
-    if reduced.conditions.values:
-        _decide_conditions(system)
+    book, conditions = ModeBook(reduced), list(reduced.conditions.values)
+    if conditions:
+        conditions = _decided_conditions(system, book)
+        system = _with(system, book, conditions)
     found = _find_held(system)
     if found is not None:
-        system = _hold(system, *found)
-    return replace(system, discrete=column(d.symbol for d in reduced.text.memory))
+        system = _hold(system, book, conditions, *found)
+    return system
 
 
-def _hold(system: Assembled, held: HeldSlips, elements: list[FrictionElement]) -> Assembled:
+def _with(system: Assembled, book: ModeBook, conditions: Sequence[ca.SX]) -> Assembled:
+    """The system with the modes of the book, and these values of its conditions."""
+    reduced = book.reduced(conditions)
+    discrete = column(d.symbol for d in reduced.text.memory)
+    return replace(system, reduced=reduced, discrete=discrete)
+
+
+def _hold(
+    system: Assembled,
+    book: ModeBook,
+    conditions: list[ca.SX],
+    held: HeldSlips,
+    elements: list[FrictionElement],
+) -> Assembled:
     """With what friction holds at zero in all that decides the motion."""
-    reduced = system.reduced
 
     def put(value: ca.SX) -> ca.SX:
         new, found = held.put(value)
         for k in sorted(found):
-            follow_mode(reduced.variables, reduced.text, reduced.events, elements[k])
+            book.follow(elements[k])
         return new
 
-    conditions = reduced.conditions
-    for k, value in enumerate(scalars_of(system.resolve(column(conditions.values)))):
+    conditions = list(conditions)
+    for k, value in enumerate(scalars_of(system.resolve(column(conditions)))):
         new = put(value)
         if not ca.is_equal(new, value):  # the others are still known by the variables of the text
-            conditions.values[k] = new
-    steps = (
+            conditions[k] = new
+    trees = (
         replace(step, force=put(step.force), couple=put(step.couple)) for step in system.tree.steps
     )
-    return replace(
+    own, steps = system.matrices, tuple(trees)
+    system = replace(
         system,
         held=held,
         rates=put(system.rates),
-        matrix=put(system.matrix),
-        force=put(system.force),
-        spread=put(system.spread),
-        rows=put(system.rows),
-        bias=put(system.bias),
-        coefficients=put(system.coefficients),
-        power=put(system.power),
+        matrices=replace(
+            own,
+            matrix=put(own.matrix),
+            force=put(own.force),
+            spread=put(own.spread),
+            rows=put(own.rows),
+            bias=put(own.bias),
+            coefficients=put(own.coefficients),
+            power=put(own.power),
+        ),
         blocks=tuple(replace(b, residual=put(b.residual)) for b in system.blocks),
-        tree=replace(system.tree, steps=tuple(steps)),
+        tree=replace(system.tree, steps=steps),
     )
+    return _with(system, book, conditions)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -138,14 +98,15 @@ def _slips(system: Assembled) -> Iterator[_Slip]:
     """Those of the liaisons with friction, then those of the text, that speeds make."""
     reduced, v = system.reduced, system.v
     links, elements = reduced.mechanism.contacts, system.elements
-    first = system.rate.numel() - len(elements)
+    first = system.matrices.rate.numel() - len(elements)
     found = [
-        _Slip(system.rate[rows.tangent], k)
+        _Slip(system.matrices.rate[rows.tangent], k)
         for k, (link, rows) in enumerate(zip(links, reduced.contact_rows, strict=True))
         if rows.tangent >= 0 and any(not friction.rolling for friction in link.frictions)
     ]
     found += [
-        _Slip(system.rate[first + k], len(links) + k, element) for k, element in enumerate(elements)
+        _Slip(system.matrices.rate[first + k], len(links) + k, element)
+        for k, element in enumerate(elements)
     ]
     for slip in found:
         if _is_linear(slip.value, v):
@@ -157,7 +118,7 @@ def _find_held(system: Assembled) -> tuple[HeldSlips, list[FrictionElement]] | N
     slips = [(x.value, x.element) for x in _slips(system) if x.element is not None]
     if not slips:
         return None
-    modes, elements = system.reduced.variables.modes, [element for _, element in slips]
+    modes, elements = system.reduced.variables.modes.of, [element for _, element in slips]
     sticks = tuple(modes[x][1] + 1 == STICK for x in elements)  # literals count from 1
     return HeldSlips(Zeros([value for value, _ in slips], system.v), sticks), elements
 
@@ -169,20 +130,23 @@ def _is_linear(value: ca.SX, speeds: ca.SX) -> bool:
     return not ca.depends_on(ca.jacobian(value, speeds), speeds)
 
 
-def _decide_conditions(system: Assembled) -> None:
-    """Let conditions on the sign of a slip follow the mode."""
+def _decided_conditions(system: Assembled, book: ModeBook) -> list[ca.SX]:
+    """The values of the conditions, where those on the sign of a slip follow the mode."""
     conditions, slips = system.reduced.conditions, tuple(_slips(system))
     cases = list(_cases(system, slips)) if slips else []
+    decided = [
+        value if at_rest is None else at_rest
+        for value, at_rest in zip(conditions.values, conditions.at_rest, strict=True)
+    ]
     for k, value in enumerate(scalars_of(system.resolve(column(conditions.values)))):
-        at_rest = conditions.at_rest[k]
-        conditions.values[k] = conditions.values[k] if at_rest is None else at_rest
-        decided = -1 if conditions.strict[k] else 1
+        at_zero = -1 if conditions.strict[k] else 1
         for case in cases if _is_linear(value, system.v) else ():
             which = case.zeros.together(case.put(value))
             if which:
                 found = [slips[i] for i in which]
-                conditions.values[k] = case.by_senses(found, value, conditions.values[k], decided)
+                decided[k] = case.by_senses(book, found, value, decided[k], at_zero)
                 break
+    return decided
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -198,13 +162,16 @@ class _Case:
         return _on_side(value, self.system, self.side)
 
     def by_senses(
-        self, slips: Sequence[_Slip], value: ca.SX, otherwise: ca.SX, decided: int
+        self,
+        book: ModeBook,
+        slips: Sequence[_Slip],
+        value: ca.SX,
+        otherwise: ca.SX,
+        decided: int,
     ) -> ca.SX:
         """A value that is a sum of slips by their senses, where at most one of them slips."""
         reduced = self.system.reduced
-        senses = column(
-            sense_of(reduced.variables, reduced.text, reduced.events, x.contact) for x in slips
-        )
+        senses = column(book.sense(x.contact) for x in slips)
         factors = self._factors(slips, value)
         moving = ca.sum1(senses != 0)
         known = ca.if_else(moving == 0, decided, ca.dot(factors, senses))
