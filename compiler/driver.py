@@ -237,11 +237,16 @@ def make_report(model: Model, log: Log) -> Report | None:
         return None
     if not model.bodies:
         return report_of(mechanism, None)
+    from frot.compiler.lowering.initial_problem import pose_initial_problem
     from frot.compiler.report.analysis import analyse
 
     system = assembled_of(model, log)
     raise_noted_interrupt()
-    return None if system is None else report_of(mechanism, analyse(system))
+    if system is None:
+        return None
+    own = Log()  # of a start that cannot be posed the report says so itself
+    problem = pose_initial_problem(system, own)
+    return report_of(mechanism, analyse(system, None if own.failed else problem))
 
 
 def _balanced(model: Model, log: Log) -> Mechanism | None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from frot.compiler.equations.assembled import Assembled
 from frot.compiler.equations.reduced import Reduced
-from frot.compiler.lowering.initial_problem import pose_initial_problem
+from frot.compiler.lowering.initial_problem import InitialProblem
 from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.mechanics.free_bodies import free
 from frot.compiler.mechanics.liaisons.user_liaisons import bodies_of
@@ -24,7 +24,7 @@ from frot.compiler.report.paradox import find_paradoxes
 from frot.compiler.report.redundancy import Loop, find_loops, find_ranks
 from frot.compiler.report.relations import make_relations
 from frot.compiler.report.start import Start, find_start, may_part, posture_of
-from frot.dsl import Log, default_values
+from frot.dsl import default_values
 from frot.dsl.checked import Body, Liaison
 from frot.dsl.messages.interrupts import raise_noted_interrupt
 
@@ -102,14 +102,12 @@ class Analysis:
         return not self.missing
 
 
-def analyse(system: Assembled) -> Analysis:
-    """Look at the mechanism of a system."""
+def analyse(system: Assembled, problem: InitialProblem | None) -> Analysis:
+    """What the mechanism of a system allows; `problem` is None where it could not be posed."""
     reduced = system.reduced
     mechanism = reduced.mechanism
     whole = _count(mechanism)
-    log = Log()
-    problem = pose_initial_problem(system, log)
-    start = None if log.failed else find_start(system, problem)
+    start = None if problem is None else find_start(system, problem)
     if start is None or not start.found:
         return Analysis("the start was not found", whole, whole, 0, 0, (), ())
     found = _Found()
