@@ -68,25 +68,30 @@ def reduced_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) ->
 
 def reduce(mechanism: Mechanism, log: Log, tell: Callable[[str], None] = _silent) -> Reduced | None:
     """The equations of a mechanism and of its text."""
-    from frot.compiler.equations import gather_text as gathering
+    from frot.compiler.equations.gather_text import (
+        apply_loads,
+        gather_text,
+        large_trees,
+        make_reduced,
+    )
     from frot.compiler.equations.parameter_checks import refuse_values
     from frot.compiler.equations.read_text import read_text
-    from frot.compiler.mechanics.reduce import place, reduce_motion
+    from frot.compiler.mechanics.reduce import place_mechanism, reduce_motion
 
     refuse_values(mechanism, log)
     if log.failed:
         return None
     _begin("the equations of motion", tell)
-    placed = place(mechanism)
+    placed = place_mechanism(mechanism)
     reading = read_text(placed, log)
-    applied = gathering.apply_loads(placed, reading, log)
-    gathered = gathering.gather_text(placed, reading, log)
+    applied = apply_loads(placed, reading, log)
+    gathered = gather_text(placed, reading, log)
     if gathered is None:
         return None
-    large = gathering.large_trees(placed, reading, applied, gathered)
+    large = large_trees(placed, reading, applied, gathered)
     loads, coefficients = applied.loads, applied.coefficients
     motion = reduce_motion(placed, reading.variables, loads, coefficients, large, log)
-    return gathering.make_reduced(placed, reading, applied, gathered, motion)
+    return make_reduced(placed, reading, applied, gathered, motion)
 
 
 def assembled_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) -> Assembled | None:

@@ -15,9 +15,9 @@ from frot.compiler.equations.structure.eliminate import Residuals
 from frot.compiler.equations.text_of_motion import friction_maker, slip_accelerations
 from frot.compiler.equations.text_slips import slip_modes
 from frot.compiler.mechanics.dynamics import large_speeds, speeds_by_tree
-from frot.compiler.mechanics.forces import Load
+from frot.compiler.mechanics.forces.force import Load
+from frot.compiler.mechanics.forces.loads import applied_loads
 from frot.compiler.mechanics.geometry.end_events import find_leaving
-from frot.compiler.mechanics.loads import applied_loads
 from frot.compiler.mechanics.make_symbols import link_rows
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.reduce import (

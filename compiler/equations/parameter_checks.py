@@ -114,12 +114,18 @@ def _checks(mechanism: Mechanism, parameters: Sequence[Parameter]) -> Iterator[C
         for law in liaison.laws:
             owner = f"liaison '{liaison.name}'"
             yield from _arguments(owner, law.kind.arguments, law.arguments)
-            mu, mu_s = law.arguments.get("mu"), law.arguments.get("mu_s")
-            if mu is not None and mu_s is not None and is_fixed(mu) and is_fixed(mu_s):
-                yield Check(FINITE, f"mu of liaison '{liaison.name}'", mu, mu.span)
-                yield Check(
-                    NOT_BELOW_PREVIOUS, f"mu_s of liaison '{liaison.name}'", mu_s, mu_s.span
-                )
+            yield from _pairs(owner, law.kind.arguments, law.arguments)
+
+
+def _pairs(
+    owner: str, kinds: tuple[Argument, ...], values: Mapping[str, Expression]
+) -> Iterator[Check]:
+    """Arguments that must not be below another, each after that."""
+    for kind in kinds:
+        low, high = values.get(kind.not_below), values.get(kind.name)
+        if low is not None and high is not None and is_fixed(low) and is_fixed(high):
+            yield Check(FINITE, f"{kind.not_below} of {owner}", low, low.span)
+            yield Check(NOT_BELOW_PREVIOUS, f"{kind.name} of {owner}", high, high.span)
 
 
 _MUST: Mapping[int, str] = {

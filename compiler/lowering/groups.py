@@ -15,7 +15,7 @@ import numpy as np
 from frot.compiler.equations.assembled import Assembled
 from frot.compiler.lowering.trees import TreeTable, make_tree
 from frot.compiler.mechanics.dynamics import speeds_by_tree
-from frot.compiler.mechanics.elements import Element, link_elements, text_element
+from frot.compiler.mechanics.laws.elements import Element, link_elements, text_element
 from frot.compiler.symbolic.columns import dense
 from frot.compiler.symbolic.random_tests import at_positive, at_random
 from numpy.typing import NDArray

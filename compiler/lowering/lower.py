@@ -11,6 +11,7 @@ from frot.compiler.equations.reduced import Reduced
 from frot.compiler.lowering.groups import Grouping
 from frot.compiler.lowering.initial_partition import Part, Scene
 from frot.compiler.lowering.initial_problem import InitialProblem
+from frot.compiler.lowering.initial_values import Initial
 from frot.compiler.lowering.islands import Island, divide
 from frot.compiler.lowering.kernel_functions import KernelFunctions, make_functions
 from frot.compiler.lowering.lower_parameters import parameters_needed
@@ -41,7 +42,7 @@ class Lowered:
     """
 
     system: Assembled
-    problem: InitialProblem
+    initial: Initial
     grouping: Grouping
     switches: Switches
     whole: KernelFunctions
@@ -60,7 +61,7 @@ class Lowered:
     @property
     def n_guessed(self) -> int:
         """The number of scalars whose places are guessed."""
-        guessed = self.problem.initial.guessed
+        guessed = self.initial.guessed
         return int(guessed[0].numel()) if guessed else 0
 
 
@@ -88,7 +89,7 @@ def lower(
         return None
     return Lowered(
         system=system,
-        problem=problem,
+        initial=problem.initial,
         grouping=grouping,
         switches=switches,
         whole=whole,

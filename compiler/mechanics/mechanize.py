@@ -5,21 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from frot.compiler.mechanics.check_support import (
-    REACTION,
-    refuse,
-    refuse_places,
-    refuse_unknown,
-    spelled,
-)
-from frot.compiler.mechanics.constraint import Constraint, Friction
+from frot.compiler.mechanics.check_support import refuse_unknown
+from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.mechanics.geometry.closest_solved import can_touch
 from frot.compiler.mechanics.geometry.contact import Contact
 from frot.compiler.mechanics.geometry.faces import part_faces
 from frot.compiler.mechanics.geometry.figure import Placed
-from frot.compiler.mechanics.geometry.figure_liaisons import IN_PLANE, IN_SPACE, pair
+from frot.compiler.mechanics.geometry.figure_liaisons import IN_SPACE, in_plane, pair
 from frot.compiler.mechanics.geometry.figures import figure_of
 from frot.compiler.mechanics.geometry.planes import CordCircle, PointFigure
+from frot.compiler.mechanics.laws.law import REACTION
+from frot.compiler.mechanics.laws.law_models import frictions_of
 from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
 from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, make_joint
@@ -33,13 +29,13 @@ from frot.compiler.mechanics.mechanism import (
     is_unilateral,
     relinked,
 )
-from frot.compiler.mechanics.points import Point, point_body, turns
+from frot.compiler.mechanics.points import Point
 from frot.compiler.mechanics.spanning import span
+from frot.compiler.mechanics.unsupported import refuse, refuse_places
 from frot.compiler.translate.walk import read_quantities, subexpressions
 from frot.dsl import Log
 from frot.dsl.checked import (
     CurvePlace,
-    Law,
     Liaison,
     Literal,
     Model,
@@ -53,7 +49,7 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     if log.failed:
         return None
     model = faced.model
-    refuse_unknown(model, (*JOINTS, *(IN_PLANE if model.planar else IN_SPACE)), log)
+    refuse_unknown(model, (*JOINTS, *(in_plane() if model.planar else IN_SPACE)), log)
     if log.failed:
         return None
     model = free_drives(model)
@@ -99,15 +95,10 @@ def _refuse_lost(link: Constraint, rows: tuple[Constraint, ...], log: Log) -> No
     if link.frictions and not any(row.frictions for row in rows):
         refuse(
             log,
-            f"friction in a {spelled(link.liaison)} that closes a loop",
+            f"friction in a {link.liaison.kind.title} that closes a loop",
             link.liaison.span,
             "all liaisons of a loop cannot have friction: leave it out of one of them",
         )
-
-
-def _law(liaison: Liaison, kind: str) -> Law | None:
-    """The law of this kind; a liaison has each kind once at most."""
-    return next((law for law in liaison.laws if law.kind.name == kind), None)
 
 
 def link_of(liaison: Liaison, planar: bool, log: Log) -> Constraint | None:
@@ -118,14 +109,15 @@ def link_of(liaison: Liaison, planar: bool, log: Log) -> Constraint | None:
         return _joint(liaison, planar, log)
     if planar and is_thread(liaison):
         return _thread(liaison, log)
-    if liaison.kind.name in (IN_PLANE if planar else IN_SPACE) or "gap" in liaison.driven:
+    figures = in_plane() if planar else IN_SPACE
+    if liaison.kind.name in figures or "gap" in liaison.driven:
         return _placed(liaison, planar, log)
     return _contact(liaison, log)
 
 
 def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     a, b, unilateral = liaison.a, liaison.b, liaison.options["unilateral"]
-    name, told = liaison.kind.name, spelled(liaison)
+    name, told = liaison.kind.name, liaison.kind.title
     for place in (a, b):
         if not isinstance(place, Point):
             refuse_places(liaison, log)
@@ -142,28 +134,8 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     joint = make_joint(
         liaison, a, b, JOINTS[name](liaison.options, planar), told_by_time(liaison, planar)
     )
-    law = _law(liaison, "coulomb")
-    if law is None:
-        return joint
-    if not (turns(point_body(a)) or turns(point_body(b))):
-        log.report(
-            "E0511",
-            f"'coulomb' of '{liaison.name}', a pin of two bodies that do not turn",
-            law.span,
-            help="a particle has no angle: use a rod, a disc or a ring",
-        )
-        return None
-    if "radius" not in law.arguments:
-        log.report(
-            "E0204",
-            f"'coulomb' of the {told} '{liaison.name}' needs radius",
-            law.span,
-            notes=("radius: radius of the pin; its friction couple is mu*radius*norm(R)",),
-            help="write `coulomb(..., radius = 8 mm)`",
-        )
-        return None
-    mu, mu_s, radius = (law.arguments[key] for key in ("mu", "mu_s", "radius"))
-    return replace(joint, frictions=(Friction(mu, mu_s, arm=radius),))
+    frictions = frictions_of(joint, log)
+    return None if frictions is None else replace(joint, frictions=frictions)
 
 
 def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
@@ -203,7 +175,7 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     if is_unilateral(liaison):
         refuse(
             log,
-            f"a {spelled(liaison)} that can part" + ("" if planar else " in space"),
+            f"a {liaison.kind.title} that can part" + ("" if planar else " in space"),
             unilateral.span if isinstance(unilateral, Literal) else liaison.span,
             "write `unilateral = false` where it keeps what it joins",
         )
@@ -231,24 +203,8 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
         return None
     track, rim = figures[first], figures[1 - first]
     assert track is not None and rim is not None
-    coulomb = _law(liaison, "coulomb")
-    rolling = _law(liaison, "rolling_resistance")
-    moving = point_body(rim.point)
-    if rolling is not None and moving.shape is not None and not moving.shape.turns:
-        log.report(
-            "E0511",
-            f"rolling resistance on '{moving.name}', which does not turn",
-            rolling.span,
-            help="a particle has no angle; use a disc or a ring",
-        )
-    frictions: list[Friction] = []
-    if coulomb is not None:
-        frictions.append(Friction(coulomb.arguments["mu"], coulomb.arguments["mu_s"]))
-    if rolling is not None:
-        length = rolling.arguments["delta"]
-        frictions.append(Friction(length, length, rolling=True))
     place = places[first]
-    return Contact(
+    contact = Contact(
         liaison=liaison,
         point=rim.point,
         figure=rim.figure,
@@ -256,8 +212,9 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
         track_first=first == 0,
         floor=isinstance(place, CurvePlace) and place.curve.span is None,
         unilateral=liaison.options["unilateral"],
-        frictions=tuple(frictions),
     )
+    frictions = frictions_of(contact, log)
+    return None if frictions is None else replace(contact, frictions=frictions)
 
 
 def _thread(liaison: Liaison, log: Log) -> Contact | None:

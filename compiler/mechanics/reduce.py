@@ -21,9 +21,9 @@ from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.mechanics.constraint_geometry import Geometry
 from frot.compiler.mechanics.dynamics import Step, heaviest_loads, write_out
-from frot.compiler.mechanics.forces import Load
+from frot.compiler.mechanics.forces.force import Load
+from frot.compiler.mechanics.forces.loads import sum_loads
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.loads import sum_loads
 from frot.compiler.mechanics.make_symbols import link_rows, make_symbols
 from frot.compiler.mechanics.masses import make_masses
 from frot.compiler.mechanics.mechanism import Mechanism
@@ -118,7 +118,7 @@ class MotionEquations:
     energy_terms: ca.SX
 
 
-def place(mechanism: Mechanism) -> Placed:
+def place_mechanism(mechanism: Mechanism) -> Placed:
     """Where everything is, and how its contacts stand, as functions of the coordinates."""
     symbols, conditions = make_symbols(mechanism), ConditionTable()
     kinematics = place_bodies(mechanism, symbols, Constants(symbols), conditions)

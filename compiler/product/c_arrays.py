@@ -36,10 +36,7 @@ def tables_of(
         ),
         "statements": (
             "frot_statement",
-            [
-                record(*_at(x.text, x.span), text(x.unit))
-                for x in lowered.problem.initial.statements
-            ],
+            [record(*_at(x.text, x.span), text(x.unit)) for x in lowered.initial.statements],
         ),
         "loads": ("frot_load", [record(*_at(x.name, x.span)) for x in reduced.mechanism.forces]),
         "equations": (
@@ -64,10 +61,10 @@ def tables_of(
             ],
         ),
         "states": ("frot_load", [record(*x) for x in _states(system)]),
-        "position_direct": ("unsigned char", _whole(lowered.problem.initial.direct)),
-        "position_kind": ("unsigned char", _whole(lowered.problem.initial.kinds)),
-        "position_statement": ("int", _whole(lowered.problem.initial.position_statement)),
-        "velocity_statement": ("int", _whole(lowered.problem.initial.velocity_statement)),
+        "position_direct": ("unsigned char", _whole(lowered.initial.direct)),
+        "position_kind": ("unsigned char", _whole(lowered.initial.kinds)),
+        "position_statement": ("int", _whole(lowered.initial.position_statement)),
+        "velocity_statement": ("int", _whole(lowered.initial.velocity_statement)),
         "p_dependent": ("int", _whole(lowered.dependent)),
         "p_type": ("int", [str(_TYPES[p.type.base]) for p in reduced.symbols.parameters]),
         "row_depends": ("unsigned char", _whole(x for row in lowered.row_depends for x in row)),

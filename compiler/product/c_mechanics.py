@@ -8,7 +8,7 @@ import casadi as ca
 from frot.compiler.equations.text_slips import slip_names
 from frot.compiler.lowering.groups import Group, Grouping
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.mechanics.elements import Bound
+from frot.compiler.mechanics.laws.elements import Bound
 from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import place as _place
 from frot.compiler.product.c_tables import record as _record

@@ -12,6 +12,7 @@ from frot.compiler.mechanics.liaisons.translations import LEFT, FixedAlong
 from frot.compiler.mechanics.values import Axis
 from frot.compiler.report.redundancy import Loop
 from frot.compiler.report.relations import Floats, Posture, Relations, make_relations, rank
+from frot.dsl.catalogue import Softer
 from frot.dsl.checked import Expression, Liaison
 
 
@@ -29,38 +30,6 @@ class Cure:
 
     changes: tuple[Change, ...]
     left: int
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Option:
-    """What a liaison may become, and the options of the other whose axis it keeps."""
-
-    kind: str
-    axes: tuple[tuple[str, str, str], ...] = ()
-
-
-_KEEPS_AXIS = (("axis", "axis", "z"),)
-_KEEPS_SLIDE = (("axis", "axis", "x"),)
-# Those that lock least less first stand last: engineers keep what guides.
-_SOFTER: Mapping[str, tuple[_Option, ...]] = {
-    "rotoide": (
-        _Option("spherique"),
-        _Option("verrou", _KEEPS_AXIS),
-        _Option("lineaire_annulaire", _KEEPS_AXIS),
-    ),
-    "prismatique": (
-        _Option("verrou", _KEEPS_SLIDE),
-        _Option("lineaire_annulaire", _KEEPS_SLIDE),
-    ),
-    "verrou": (_Option("lineaire_annulaire", _KEEPS_AXIS),),
-    "cardan": (_Option("spherique"),),
-    "encastrement": (_Option("spherique"),),
-    "appui_plan": (_Option("point_surface", (("axis", "normal", "z"),)),),
-}
-_PLANAR: Mapping[str, tuple[_Option, ...]] = {
-    "rotoide": (_Option("point_courbe along x"), _Option("point_courbe along y")),
-    "encastrement": (_Option("rotoide"),),
-}
 
 
 # Ways looked at; then the best of them is told.
@@ -151,13 +120,13 @@ def _offers(liaison: Liaison, relations: Relations) -> Iterator[tuple[str, list[
         if not liaison.driven:
             yield "", []
         return
-    for option in (_PLANAR if planar else _SOFTER).get(liaison.kind.name, ()):
+    for option in liaison.kind.softer_in_plane if planar else liaison.kind.softer:
         yield option.kind, _relations(joint, _pairing(option, liaison.options, planar))
     if len(joint.locks) == 1:
         yield "", []
 
 
-def _pairing(option: _Option, given: Mapping[str, Expression], planar: bool) -> Pairing:
+def _pairing(option: Softer, given: Mapping[str, Expression], planar: bool) -> Pairing:
     axes = {new: given.get(old, default) for new, old, default in option.axes}
     axis = Axis(axes.get("axis", "z"))
     match option.kind.split(" "):

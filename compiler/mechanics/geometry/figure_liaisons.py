@@ -23,6 +23,7 @@ from frot.compiler.mechanics.liaisons.orientations import Attitude, Heading
 from frot.compiler.mechanics.liaisons.touching import NoSlip, Touching
 from frot.compiler.mechanics.liaisons.translations import FixedAlong, FixedDistance, Slide
 from frot.compiler.mechanics.values import Axis
+from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import Expression
 
 
@@ -164,8 +165,11 @@ _PLACED: Mapping[str, _Rule] = {
     "tige": _rod,
 }
 IN_SPACE = tuple(_PLACED)
-# In the plane the others are contacts, which may have friction.
-IN_PLANE = ("fil", "roulement", "tige")
+
+
+def in_plane() -> tuple[str, ...]:
+    """The kinds between figures in the plane; the others are contacts, which may have friction."""
+    return tuple(name for name in IN_SPACE if LIAISONS[name].in_plane == "figures")
 
 
 def pair(

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.mechanics.dynamics import Push, in_trees
-from frot.compiler.mechanics.forces import Action, Load, load
-from frot.compiler.mechanics.mechanism import Mechanism, is_unilateral
+from frot.compiler.mechanics.forces.force import Action, Given, Load
+from frot.compiler.mechanics.forces.force_models import FORCE_MODELS
+from frot.compiler.mechanics.laws.law_models import law_model
+from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.variables import Variables
 from frot.compiler.translate.expressions import Lowering
-from frot.dsl import Log
-from frot.dsl.checked import Law, Liaison
+from frot.dsl.checked import Liaison
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +44,12 @@ def applied_loads(
     `frictions` collects what these laws give.
     """
     kinematics = variables.kinematics
-    applied = [load(force, kinematics, moving, variables.effort) for force in mechanism.forces]
+    applied = [
+        FORCE_MODELS[force.kind.name].load(
+            Given(force.arguments, kinematics, moving, variables.effort)
+        )
+        for force in mechanism.forces
+    ]
     for flange in mechanism.model.flanges:
         assert moving.variable is not None
         unit, size = variables.effort(flange.liaison, flange.coordinate), flange.effort
@@ -51,30 +57,11 @@ def applied_loads(
         applied.append(Load((action,), None))
     for liaison in mechanism.model.liaisons:
         for law in liaison.laws:
-            if "tangential" in law.arguments:
-                force = moving.lower(law.arguments["tangential"])
-                _refuse_left_over(liaison, law, force, variables, moving.log)
-                frictions[liaison] = frictions.get(liaison, ca.SX(0)) + force
-                slip = variables.of_liaison(liaison, "slip")
-                applied.append(Load((Action(slip, force),), None))
+            model = law_model(law)
+            acts = model and model.action(liaison, law, variables, moving, frictions)
+            if acts:
+                applied.append(acts)
     return applied
-
-
-def _refuse_left_over(
-    liaison: Liaison, law: Law, force: ca.SX, variables: Variables, log: Log
-) -> None:
-    """What can part has no friction while it is apart, whatever the law gives."""
-    if not is_unilateral(liaison):
-        return
-    normal = variables.of_liaison(liaison, "normal_force")
-    apart = ca.simplify(ca.substitute(force, normal, ca.SX(0)))
-    if not apart.is_zero():
-        log.report(
-            "E0511",
-            f"the law '{law.kind.name}' of liaison '{liaison.name}' does not vanish with `normal`",
-            law.span,
-            help="multiply it by `normal`, or write `unilateral = false`",
-        )
 
 
 def sum_loads(

@@ -1,4 +1,4 @@
-"""Applied forces: what they drive, and their potential where they have one."""
+"""What every kind of force has in common: its arguments, what it does, where it acts."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from frot.compiler.mechanics.dynamics import Push
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.points import point_body
-from frot.compiler.mechanics.spatial import about_z, nowhere, whole
+from frot.compiler.mechanics.spatial import nowhere, whole
 from frot.compiler.mechanics.values import rate_by_time
 from frot.compiler.translate.expressions import Lowering
 from frot.compiler.translate.walk import is_fixed
-from frot.dsl.catalogue import FUNCTIONS
+from frot.dsl import Log
 from frot.dsl.checked import (
     Body,
     BodyPoint,
@@ -71,7 +71,7 @@ class Load:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _End:
+class End:
     """Where a point is, its velocity, and its body with the way there from G (None: the ground).
 
     `material`: velocity of what is there of the body, from which the place `walks` away.
@@ -90,18 +90,8 @@ class _End:
         return Action(self.material, force, self.walks, self.place, push)
 
 
-def load(
-    force: Force,
-    kinematics: Kinematics,
-    lowering: Lowering,
-    effort: Callable[[Liaison, str], Effort],
-) -> Load:
-    """Lower one force. `lowering` is that of the motion, so that its switches are located."""
-    return _LOADS[force.kind.name](_Given(force.arguments, kinematics, lowering, effort))
-
-
 @dataclass(frozen=True, slots=True, eq=False)
-class _Given:
+class Given:
     """The arguments of a force, and what lowers them."""
 
     arguments: Mapping[str, Argument]
@@ -111,25 +101,25 @@ class _Given:
 
     def value(self, name: str) -> ca.SX:
         """A number or a vector."""
-        return self.lowering.lower(_value(self.arguments[name]))
+        return self.lowering.lower(value_of(self.arguments[name]))
 
-    def end(self, name: str, rated: bool = False) -> _End:
+    def end(self, name: str, rated: bool = False) -> End:
         """A point of a body, or a place given by its coordinates: `rated` with its velocity."""
         argument = self.arguments[name]
         if not isinstance(argument, (BodyPoint, Frame)):
             place, rest = whole(self.value(name)), nowhere()
             velocity = self.rate(argument) if rated else rest
-            return _End(place, velocity, None, rest, rest, rest)
+            return End(place, velocity, None, rest, rest, rest)
         moving, body = self.kinematics.moving(argument), point_body(argument)
         local, own = self.kinematics.local_point(argument), self.kinematics.bodies[body]
         arm = own.pose.direction(local)
         walks = own.pose.direction(rate_by_time(local, self.kinematics.fixed.lower))
         material = own.shifted(arm).linear
-        return _End(moving.pose.origin, moving.linear, body, arm, material, walks)
+        return End(moving.pose.origin, moving.linear, body, arm, material, walks)
 
     def rate(self, argument: Argument) -> ca.SX:
         """The velocity (3) of a place given by its coordinates."""
-        if is_fixed(place := _value(argument)):
+        if is_fixed(place := value_of(argument)):
             return nowhere()
         return whole(self.lowering.lower(Derivative(place, place.type, place.span)))
 
@@ -139,95 +129,30 @@ class _Given:
         return all(is_fixed(a) for a in self.arguments.values() if isinstance(a, Expression))
 
 
-def _on(given: _Given) -> Load:
-    end = given.end("frame")
-    return Load((end.under(whole(given.value("value"))),), None)
+class ForceModel:
+    """A kind of force: each has a file and a class of its own."""
+
+    __slots__ = ()
+
+    def check(self, force: Force, log: Log) -> None:
+        """Report arguments that have no meaning together; by default there are none."""
+
+    def load(self, given: Given) -> Load:
+        """The actions of a force with these arguments, and its potential."""
+        raise NotImplementedError
 
 
-def _between(start: _End, end: _End, pull: ca.SX) -> tuple[Action, Action]:
+def between(start: End, end: End, pull: ca.SX) -> tuple[Action, Action]:
     """A force on the end, and its opposite on the start."""
     return end.under(pull), start.under(-pull)
 
 
-def _damper(given: _Given) -> Load:
-    start, end = given.end("a", rated=True), given.end("b", rated=True)
-    damping = given.value("c")
-    along = _unit(end.place - start.place)
-    rate = ca.dot(end.velocity - start.velocity, along)
-    return Load(_between(start, end, -damping * rate * along), None)
-
-
-def _attraction(given: _Given) -> Load:
-    start, end = given.end("centre"), given.end("point")
-    apart, stiffness = end.place - start.place, given.value("k")
-    energy = stiffness * ca.sumsqr(apart) / 2 if given.is_constant else None
-    return Load(_between(start, end, -stiffness * apart), energy)
-
-
-def _spring(given: _Given) -> Load:
-    """Where the ends meet it has no direction: the limit of the part without one is taken."""
-    start, end = given.end("a"), given.end("b")
-    apart, stiffness = end.place - start.place, given.value("k")
-    rest = given.value("length")
-    length = ca.sqrt(ca.sumsqr(apart))
-    slack = ca.SX(0)
-    if _literal(given.arguments["length"]) != 0:
-        slack = ca.if_else(length > 0, rest / length, ca.SX(0))
-    energy = stiffness * (length - rest) ** 2 / 2 if given.is_constant else None
-    return Load(_between(start, end, -stiffness * (1 - slack) * apart), energy)
-
-
-def _couple(given: _Given) -> Load:
-    """It drives the angle of a liaison, or a body (in the plane about z)."""
-    holder, kinematics, value = given.arguments["holder"], given.kinematics, given.value("value")
-    if isinstance(holder, Liaison):
-        return Load((Action(given.effort(holder, "angle").rate, value),), None)
-    assert isinstance(holder, BodyPoint)
-    turning = kinematics.angular_velocity(holder.body)
-    whole_couple = about_z(value) if kinematics.planar else ca.sparsify(value)
-    push = Push(holder.body, nowhere(), nowhere(), whole_couple)
-    turning = turning[2] if kinematics.planar else turning
-    return Load((Action(turning, value, push=push),), None)
-
-
-def _drag(given: _Given) -> Load:
-    """A force c |v|^exponent against v; the exponent is a number from 1 on."""
-    end = given.end("body")
-    velocity = end.velocity
-    factor = given.value("c")
-    exponent = _literal(given.arguments["exponent"])
-    assert isinstance(exponent, int | float)
-    size = FUNCTIONS["norm"].form
-    assert size is not None
-    if exponent == 2:
-        factor *= size(ca, velocity)
-    elif exponent != 1:
-        speed = size(ca, velocity)  # at rest a root has no slope
-        moving = speed > 0
-        factor *= ca.if_else(moving, ca.if_else(moving, speed, 1) ** (exponent - 1), 0)
-    return Load((end.under(-factor * velocity),), None)
-
-
-_LOADS: Mapping[str, Callable[[_Given], Load]] = {
-    "attraction": _attraction,
-    "couple": _couple,
-    "damper": _damper,
-    "drag": _drag,
-    "on": _on,
-    "spring": _spring,
-}
-
-
-def _unit(vector: ca.SX) -> ca.SX:
-    """The vector's direction; zero where it has none."""
-    length = ca.sqrt(ca.sumsqr(vector))
-    return ca.if_else(length > 0, vector / length, ca.SX.zeros(3))
-
-
-def _value(argument: Argument) -> Expression:
+def value_of(argument: Argument) -> Expression:
+    """The argument, which is an expression."""
     assert isinstance(argument, Expression)
     return argument
 
 
-def _literal(argument: Argument) -> object:
+def literal(argument: Argument) -> object:
+    """The number that is written, None where there is none."""
     return argument.value if isinstance(argument, Literal) else None

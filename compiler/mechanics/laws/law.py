@@ -1,0 +1,105 @@
+"""What every law of a liaison has in common: what it takes, and what it adds to a constraint.
+
+Free of CasADi, but for what a law is given to translate.
+"""
+
+from __future__ import annotations
+
+from frot.compiler.mechanics.constraint import Constraint, Friction
+from frot.compiler.mechanics.unsupported import refuse
+from frot.compiler.translate.walk import subexpressions
+from frot.dsl import Log
+from frot.dsl.checked import Law, Liaison, Quantity
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import casadi as ca
+    from frot.compiler.mechanics.forces.force import Load
+    from frot.compiler.mechanics.variables import Variables
+    from frot.compiler.translate.expressions import Lowering
+
+# What is solved for together with friction.
+REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
+# Rates that no coefficient may depend on.
+_RATES = (
+    "velocity",
+    "acceleration",
+    "slip",
+    "angular_velocity",
+    "angular_acceleration",
+    "speed",
+)
+
+
+class LawModel:
+    """A law of liaisons: each has a file and a class of its own.
+
+    `is_dry`: its friction is an element that the kernel solves for together with the reactions;
+    any other acts as a given force.
+    """
+
+    __slots__ = ()
+
+    is_dry = False
+
+    def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
+        """Report where the law is not supported; `known`: the kind of the liaison is."""
+        raise NotImplementedError
+
+    def fits(self, link: Constraint, law: Law, log: Log) -> bool:
+        """Whether the law has a meaning between the places of a constraint; else reported."""
+        return True
+
+    def element(self, link: Constraint, law: Law) -> Friction | None:
+        """The element of friction that the law adds to a constraint, if it is dry."""
+        return None
+
+    def action(
+        self,
+        liaison: Liaison,
+        law: Law,
+        variables: Variables,
+        motion: Lowering,
+        frictions: dict[Liaison, ca.SX],
+    ) -> Load | None:
+        """The given force of the law, if it is not dry; `frictions` gains it."""
+        return None
+
+
+class DryLaw(LawModel):
+    """A law of dry friction, bounded by a reaction times a coefficient."""
+
+    __slots__ = ()
+
+    is_dry = True
+
+    def unsupported_arguments(self, liaison: Liaison) -> tuple[str, ...]:
+        """Names of arguments that the law does not take in this liaison."""
+        return ()
+
+    def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
+        """In the plane the catalogue says which kinds take the law; coefficients follow places."""
+        name, kind = law.kind.name, liaison.kind
+        if not planar:
+            refuse(log, f"the law '{name}' in space", law.span, "planar models take it")
+            return
+        if (known or liaison.relations) and name not in kind.laws:
+            help_text = "`coulomb` of a rotoïde is"
+            refuse(log, f"the law '{name}' of a {kind.title}", law.span, help_text)
+            return
+        for argument in self.unsupported_arguments(liaison):
+            if argument in law.arguments:
+                refuse(log, f"'{argument}' of the law '{name}'", law.arguments[argument].span)
+        self.check_arguments(liaison, law, log)
+        for value in law.arguments.values():
+            for node in subexpressions(value):
+                if isinstance(node, Quantity) and node.name in (*_RATES, *REACTION):
+                    refuse(
+                        log,
+                        f"a coefficient that depends on '{node.name}'",
+                        node.span,
+                        "coefficients may depend on positions and time",
+                    )
+
+    def check_arguments(self, liaison: Liaison, law: Law, log: Log) -> None:
+        """Report what this law does not take of its own arguments; by default it takes all."""
