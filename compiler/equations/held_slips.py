@@ -100,9 +100,9 @@ def _slips(system: Assembled) -> Iterator[_Slip]:
     links, elements = reduced.mechanism.contacts, system.elements
     first = system.matrices.rate.numel() - len(elements)
     found = [
-        _Slip(system.matrices.rate[rows.tangent], k)
+        _Slip(system.matrices.rate[rows.tangent[0]], k)
         for k, (link, rows) in enumerate(zip(links, reduced.contact_rows, strict=True))
-        if rows.tangent >= 0 and any(not friction.rolling for friction in link.frictions)
+        if len(rows.tangent) == 1
     ]
     found += [
         _Slip(system.matrices.rate[first + k], len(links) + k, element)

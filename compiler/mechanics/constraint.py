@@ -29,8 +29,11 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Friction:
-    """Dry friction of a liaison, bounded by its reaction times `mu`, at rest times `mu_s`.
+class FrictionBlock:
+    """Rows of dry friction of a liaison, bounded by its reaction times `mu`, at rest times `mu_s`.
+
+    The motion has `components` rows, one in the plane; the norm of the friction along them is
+    bounded by the norm of one to three rows of the reaction.
 
     Of a contact |R_t| <= mu R_n (P. Painlevé 1895, p. 39), of what rolls a couple up to delta R_n
     (p. 106). A pin of radius r touches its bearing in one place, where R passes at the angle of
@@ -45,6 +48,7 @@ class Friction:
     mu_s: Expression
     arm: Expression | None = None
     rolling: bool = False
+    components: int = 1
 
     @property
     def coefficients(self) -> tuple[Expression, Expression]:
@@ -73,7 +77,7 @@ class Constraint:
     kinematic = False
     cancels = False
     turns = False
-    frictions: tuple[Friction, ...] = ()
+    frictions: tuple[FrictionBlock, ...] = ()
 
     @property
     def liaison(self) -> Liaison:
@@ -213,7 +217,7 @@ class JointParts(Constraint):
     motions: tuple[Motion, ...]
     locks: tuple[Lock, ...]
     reduced: bool = False
-    frictions: tuple[Friction, ...] = ()
+    frictions: tuple[FrictionBlock, ...] = ()
     carries: bool = True
     swapped: bool = False
     has_normal = False

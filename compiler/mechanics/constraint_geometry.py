@@ -12,19 +12,20 @@ from frot.compiler.mechanics.liaisons.actions import Effort
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """Rows of a link in the order of the kernel's arrays; -1 where there is none.
+    """Rows of a constraint in the order of the kernel's arrays.
 
-    `reaction` are the components of what it locks: of a contact the normal one.
+    `reaction` are the components of what it locks, of a contact the normal one; `tangent` and
+    `rolling` those along which dry friction acts.
     """
 
     reaction: tuple[int, ...]
-    tangent: int
-    rolling: int
+    tangent: tuple[int, ...] = ()
+    rolling: tuple[int, ...] = ()
 
     @property
     def all(self) -> tuple[int, ...]:
         """Every row."""
-        return (*self.reaction, *(r for r in (self.tangent, self.rolling) if r >= 0))
+        return (*self.reaction, *self.tangent, *self.rolling)
 
 
 class Geometry:

@@ -33,13 +33,12 @@ def link_rows(links: tuple[Constraint, ...]) -> tuple[Rows, ...]:
     for link in links:
         reaction = tuple(range(count, count + (link.readings or 1)))
         count += len(reaction)
-        tangent = rolling = -1
-        for friction in link.frictions:
-            if friction.rolling:
-                rolling, count = count, count + 1
-            else:
-                tangent, count = count, count + 1
-        rows.append(Rows(reaction, tangent, rolling))
+        along: dict[bool, tuple[int, ...]] = {}
+        for block in link.frictions:
+            own = along.get(block.rolling, ())
+            along[block.rolling] = (*own, *range(count, count + block.components))
+            count += block.components
+        rows.append(Rows(reaction, along.get(False, ()), along.get(True, ())))
     return tuple(rows)
 
 

@@ -36,8 +36,8 @@ class Switch:
 
     def laws(self) -> Iterator[tuple[int, ca.SX]]:
         """Each row of friction with the number that says how it moves."""
-        for row, kind in ((self.rows.tangent, FRICTION), (self.rows.rolling, ROLLING)):
-            if row >= 0:
+        for rows, kind in ((self.rows.tangent, FRICTION), (self.rows.rolling, ROLLING)):
+            for row in rows:
                 yield row, self.mode[kind]
 
 
@@ -68,7 +68,7 @@ def switches_of(system: Assembled) -> list[Switch]:
                 name=element.name,
                 mode=ca.SX.sym("m", len(PARTS)),
                 ruled=True,
-                rows=Rows((), row + k, -1),
+                rows=Rows((), (row + k,)),
                 free=False,
                 normal=ca.SX(1),
                 gap=None,
@@ -89,7 +89,7 @@ def _size(lam: ca.SX, rows: Rows) -> ca.SX:
 
 def _coefficient(system: Assembled, row: int, *, at_rest: bool) -> ca.SX:
     """The coefficient of the law whose motion is this row; of a `friction`, its bound."""
-    rows = [r for x in system.reduced.contact_rows for r in (x.tangent, x.rolling) if r >= 0]
+    rows = [r for x in system.reduced.contact_rows for r in (*x.tangent, *x.rolling)]
     rows += range(system.reduced.motion.matrices.rows.size1(), system.matrices.rows.size1())
     return system.matrices.coefficients[2 * rows.index(row) + at_rest]
 
@@ -122,7 +122,7 @@ def guards_of(system: Assembled, switches: list[Switch], conditions: ca.SX) -> I
         if w.gap is not None:
             guards["normal"] = ca.if_else(closed, w.normal, w.gap)
         for row, kind in w.laws():
-            name = "friction" if row == w.rows.tangent else "rolling"
+            name = "friction" if row in w.rows.tangent else "rolling"
             bound = _coefficient(system, row, at_rest=True) * w.normal
             lam, rate = system.lam[row], system.matrices.rate[row]
             slips = closed * ((kind == FORWARD) + (kind == BACKWARD))

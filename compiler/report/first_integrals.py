@@ -103,7 +103,7 @@ def find_first_integrals(reduced: Reduced, start: Posture | None) -> tuple[First
 def _energy_alone(reduced: Reduced) -> tuple[FirstIntegral, ...]:
     """The energy where nothing works: no friction, no load without potential, nothing driven."""
     mechanism = reduced.mechanism
-    dry = any(rows.tangent >= 0 or rows.rolling >= 0 for rows in reduced.contact_rows)
+    dry = any(rows.tangent or rows.rolling for rows in reduced.contact_rows)
     if (
         dry
         or mechanism.is_driven

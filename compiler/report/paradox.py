@@ -118,7 +118,7 @@ class _Watched:
         """The |c| of the liaison, times the radius of a pin."""
         (mass, rows), held = self.dynamics.masses(state), self.dynamics.held(self.used)
         nv = self.dynamics.reduced.symbols.v.numel()
-        push = rows[self.rows.tangent]
+        push = rows[self.rows.tangent[0]]
         solved = _response(mass[:nv, :nv], rows[held, :nv], push[:nv])
         if solved is None:
             return None

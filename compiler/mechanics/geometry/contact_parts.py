@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import Self
 
-from frot.compiler.mechanics.constraint import Constraint, Friction
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.constraint_geometry import Rows
 from frot.compiler.mechanics.geometry.figure import Figure, Placed
 from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
@@ -32,7 +32,7 @@ class ContactParts(Constraint):
     floor: bool
     unilateral: Expression = field()
     reduced: bool = False
-    frictions: tuple[Friction, ...] = ()
+    frictions: tuple[FrictionBlock, ...] = ()
     opens = True
 
     @property
@@ -98,6 +98,6 @@ class ContactParts(Constraint):
         name = self.liaison.name
         return (
             f"{name}.normal_force",
-            *([f"{name}.tangential_force"] if rows.tangent >= 0 else []),
-            *([f"{name}.rolling_couple"] if rows.rolling >= 0 else []),
+            *([f"{name}.tangential_force"] if rows.tangent else []),
+            *([f"{name}.rolling_couple"] if rows.rolling else []),
         )

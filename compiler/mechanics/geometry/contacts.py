@@ -115,9 +115,9 @@ class ContactGeometry(Geometry):
         normal = lam[rows.reaction[0]]
         tangent = ca.dot(reaction.drive[0], self.line.direction)
         friction = reaction.friction
-        friction += lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
+        friction += lam[rows.tangent[0]] if rows.tangent else ca.SX(0)
         tangent += friction
-        couple = lam[rows.rolling] if rows.rolling >= 0 else ca.SX(0)
+        couple = lam[rows.rolling[0]] if rows.rolling else ca.SX(0)
         on_second = 1 if self.contact.track_first else -1
         match name:
             case "normal_force":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from frot.compiler.mechanics.constraint import Constraint, Friction
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.laws.law import DryLaw
 from frot.compiler.mechanics.points import turns
 from frot.compiler.mechanics.unsupported import refuse
@@ -50,10 +50,10 @@ class Coulomb(DryLaw):
             return False
         return True
 
-    def element(self, link: Constraint, law: Law) -> Friction:
+    def element(self, link: Constraint, law: Law) -> FrictionBlock:
         """By the normal reaction of a contact, by the size of the reaction of a pin."""
         arm = None if link.has_normal else law.arguments["radius"]
-        return Friction(law.arguments["mu"], law.arguments["mu_s"], arm=arm)
+        return FrictionBlock(law.arguments["mu"], law.arguments["mu_s"], arm=arm)
 
 
 def _is_pin(liaison: Liaison) -> bool:

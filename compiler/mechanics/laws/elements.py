@@ -1,4 +1,4 @@
-"""Laws of friction as rows of one table: what slides, rolls, turns in a pin, slips in a clutch."""
+"""Elements of friction as rows of one table: sliding, rolling, pins, clutches."""
 
 from __future__ import annotations
 
@@ -20,32 +20,38 @@ class Bound(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """A law on one relative motion: the kernel's `frot_element`.
+    """A law on one relative motion of one to three components: the kernel's `frot_element`.
 
-    `contact` is the place of its liaison, or of the text's item, among the kernel's contacts; `row`
-    that of the motion, `bounded_by` those of the reaction that bounds it. `fixed`: its coefficients
-    depend on parameters only.
+    `contact` is the place of its liaison, or of the text's item, among the kernel's contacts.
+    `rows` are those of the motion, `bounded_by` the one to three of the reaction that bounds it.
+    `fixed`: its coefficients depend on parameters only.
     """
 
     contact: int
     bound: Bound
-    row: int
+    rows: tuple[int, ...]
     bounded_by: tuple[int, ...]
     rolling: bool
     fixed: bool
+
+    @property
+    def row(self) -> int:
+        """The one row of a scalar motion; the kernel takes no others yet."""
+        (row,) = self.rows
+        return row
 
 
 def link_elements(contact: int, link: Constraint, rows: Rows) -> list[Element]:
     """The elements of a liaison: sliding or turning, then rolling."""
     bound = Bound.NORMAL if link.has_normal else Bound.PIN
     found: list[Element] = []
-    for friction in link.frictions:
-        row = rows.rolling if friction.rolling else rows.tangent
-        fixed = all(is_fixed(x) for x in friction.coefficients)
-        found.append(Element(contact, bound, row, rows.reaction, friction.rolling, fixed))
+    for block in link.frictions:
+        own = rows.rolling if block.rolling else rows.tangent
+        fixed = all(is_fixed(x) for x in block.coefficients)
+        found.append(Element(contact, bound, own, rows.reaction, block.rolling, fixed))
     return found
 
 
 def text_element(contact: int, row: int) -> Element:
     """The element of a call of `friction` in the equations."""
-    return Element(contact, Bound.VALUE, row, (), False, False)
+    return Element(contact, Bound.VALUE, (row,), (), False, False)

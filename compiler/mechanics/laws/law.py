@@ -5,7 +5,7 @@ Free of CasADi, but for what a law is given to translate.
 
 from __future__ import annotations
 
-from frot.compiler.mechanics.constraint import Constraint, Friction
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.unsupported import refuse
 from frot.compiler.translate.walk import subexpressions
 from frot.dsl import Log
@@ -50,7 +50,7 @@ class LawModel:
         """Whether the law has a meaning between the places of a constraint; else reported."""
         return True
 
-    def element(self, link: Constraint, law: Law) -> Friction | None:
+    def element(self, link: Constraint, law: Law) -> FrictionBlock | None:
         """The element of friction that the law adds to a constraint, if it is dry."""
         return None
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from frot.compiler.mechanics.constraint import Constraint, Friction
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.laws.coulomb import Coulomb
 from frot.compiler.mechanics.laws.law import LawModel
 from frot.compiler.mechanics.laws.rolling_resistance import RollingResistance
@@ -62,10 +62,10 @@ def _refuse_many(liaison: Liaison, log: Log) -> None:
     )
 
 
-def frictions_of(link: Constraint, log: Log) -> tuple[Friction, ...] | None:
+def frictions_of(link: Constraint, log: Log) -> tuple[FrictionBlock, ...] | None:
     """The elements of friction of a constraint; None where a law does not fit it."""
     laws = {law.kind.name: law for law in link.liaison.laws}
-    found: list[Friction] = []
+    found: list[FrictionBlock] = []
     for name, model in LAW_MODELS.items():
         law = laws.get(name)
         if law is None:

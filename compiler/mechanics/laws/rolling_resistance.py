@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from frot.compiler.mechanics.constraint import Constraint, Friction
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.laws.law import DryLaw
 from frot.compiler.mechanics.points import point_body
 from frot.dsl import Log
@@ -27,7 +27,7 @@ class RollingResistance(DryLaw):
         )
         return False
 
-    def element(self, link: Constraint, law: Law) -> Friction:
+    def element(self, link: Constraint, law: Law) -> FrictionBlock:
         """The same length at rest and in motion."""
         length = law.arguments["delta"]
-        return Friction(length, length, rolling=True)
+        return FrictionBlock(length, length, rolling=True)

@@ -54,7 +54,7 @@ class Joint(JointParts):
     def labels(self, rows: Rows) -> tuple[str, ...]:
         """By the axes of the ground, where all locks push along these; then the couple of a pin."""
         name, count = self.liaison.name, len(rows.reaction)
-        couple = (f"{name}.torque",) if rows.tangent >= 0 else ()
+        couple = (f"{name}.torque",) if rows.tangent else ()
         axes = [lock.ground_axis for lock in self.locks if lock.ground_axis is not None]
         if len(axes) == count:
             return (*(f"{name}.force.{'xyz'[k]}" for k in axes), *couple)

@@ -95,14 +95,14 @@ class JointGeometry(Geometry):
         if rows is None:
             if self.actions:
                 raise KeyError(name)
-            rows = Rows((), -1, -1)  # nothing is locked
+            rows = Rows(())  # nothing is locked
         force, couple = (ca.densify(x) for x in reaction.drive)
         along = force
         for row, action, drives in zip(rows.reaction, self.actions, self.drives, strict=True):
             force += lam[row] * action.force
             couple += lam[row] * action.couple
             along += drives * lam[row] * action.force
-        friction = lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
+        friction = lam[rows.tangent[0]] if rows.tangent else ca.SX(0)
         force, couple = self.turned * force, self.turned * couple
         match name:
             case "force":
@@ -121,7 +121,7 @@ class JointGeometry(Geometry):
             case "tangential_force":
                 return self._beside(self.turned * along, planar)
             case "power":
-                return friction * self.speed if rows.tangent >= 0 else ca.SX(0)
+                return friction * self.speed if rows.tangent else ca.SX(0)
         raise KeyError(name)
 
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
