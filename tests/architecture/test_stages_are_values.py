@@ -24,7 +24,7 @@ SWITCHES = """model Switches
   Integer n(start = 0);
 equation
   der(x) = v;
-  2 kg * der(v) = -3 N/m * x - f + (if time > 0.5 s then 1 N else 0 N);
+  2 kg * der(v) = -3 N/m * x + f + (if time > 0.5 s then 1 N else 0 N);
   f = friction(v, 0.2 N, 0.3 N);
   when x < 0.3 m then
     n = pre(n) + 1;
