@@ -7,7 +7,10 @@ from typing import Any
 import pytest
 from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.laws.elements import link_elements
+from frot.compiler.mechanics.laws.law import DryLaw
+from frot.compiler.mechanics.laws.law_models import LAW_MODELS
 from frot.compiler.mechanics.make_symbols import link_rows
+from frot.dsl.catalogue import LAWS
 from frot.dsl.checked import Literal
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.quantities.dimensions import REAL
@@ -57,3 +60,14 @@ def test_the_kernel_takes_elements_of_one_component() -> None:
     assert sliding.row == 1
     with pytest.raises(ValueError, match="too many"):
         _ = rolling.row
+
+
+@pytest.mark.parametrize("name", LAW_MODELS)
+def test_the_catalogue_keeps_coefficients_from_being_negative(name: str) -> None:
+    model = LAW_MODELS[name]
+    assert isinstance(model, DryLaw)
+    signs = {a.name: a.sign for a in LAWS[name].arguments}
+    assert {signs[x] for x in model.coefficients} == {"nonnegative"}
+    below = {a.name: a.not_below for a in LAWS[name].arguments}
+    of_motion, of_rest = model.coefficients
+    assert of_motion == of_rest or below[of_rest] == of_motion

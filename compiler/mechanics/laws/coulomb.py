@@ -16,6 +16,8 @@ class Coulomb(DryLaw):
 
     __slots__ = ()
 
+    coefficients = ("mu", "mu_s")
+
     def unsupported_arguments(self, liaison: Liaison) -> tuple[str, ...]:
         """A contact has no radius, and nothing in the plane has a guide with a length."""
         return ("half_length",) if _is_pin(liaison) else ("radius", "half_length")
@@ -53,7 +55,7 @@ class Coulomb(DryLaw):
     def element(self, link: Constraint, law: Law) -> FrictionBlock:
         """By the normal reaction of a contact, by the size of the reaction of a pin."""
         arm = None if link.has_normal else law.arguments["radius"]
-        return FrictionBlock(law.arguments["mu"], law.arguments["mu_s"], arm=arm)
+        return FrictionBlock(*self.coefficients_of(law), arm=arm)
 
 
 def _is_pin(liaison: Liaison) -> bool:

@@ -9,7 +9,7 @@ from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.unsupported import refuse
 from frot.compiler.translate.walk import subexpressions
 from frot.dsl import Log
-from frot.dsl.checked import Law, Liaison, Quantity
+from frot.dsl.checked import Expression, Law, Liaison, Quantity
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -72,6 +72,15 @@ class DryLaw(LawModel):
     __slots__ = ()
 
     is_dry = True
+    # The arguments that are the coefficients of motion and of rest. The catalogue says that they
+    # are not negative: of literals when they are read, of parameters when a run begins; in the
+    # motion a negative one is no number (`friction_coefficients`).
+    coefficients: tuple[str, str]
+
+    def coefficients_of(self, law: Law) -> tuple[Expression, Expression]:
+        """The coefficients of motion and of rest."""
+        of_motion, of_rest = self.coefficients
+        return law.arguments[of_motion], law.arguments[of_rest]
 
     def unsupported_arguments(self, liaison: Liaison) -> tuple[str, ...]:
         """Names of arguments that the law does not take in this liaison."""

@@ -14,6 +14,8 @@ class RollingResistance(DryLaw):
 
     __slots__ = ()
 
+    coefficients = ("delta", "delta")
+
     def fits(self, link: Constraint, law: Law, log: Log) -> bool:
         """What touches turns."""
         moving = point_body(link.ends[1])
@@ -29,5 +31,4 @@ class RollingResistance(DryLaw):
 
     def element(self, link: Constraint, law: Law) -> FrictionBlock:
         """The same length at rest and in motion."""
-        length = law.arguments["delta"]
-        return FrictionBlock(length, length, rolling=True)
+        return FrictionBlock(*self.coefficients_of(law), rolling=True)
