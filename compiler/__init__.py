@@ -8,17 +8,17 @@ if TYPE_CHECKING:
     from frot.compiler.product.dae import Dae
     from frot.compiler.report.report import Report
     from frot.compiler.toolchain.cache import find_program, program_key
-    from frot.compiler.toolchain.chosen import Toolchain, find_toolchain
+    from frot.compiler.toolchain.compiler_choice import Toolchain, find_toolchain
     from frot.compiler.toolchain.targets import compile_libraries, possible_platforms
 
 _HOMES = {
     "Dae": "product.dae",
     "Report": "report.report",
-    "Toolchain": "toolchain.chosen",
+    "Toolchain": "toolchain.compiler_choice",
     "build": "driver",
     "compile_libraries": "toolchain.targets",
     "find_program": "toolchain.cache",
-    "find_toolchain": "toolchain.chosen",
+    "find_toolchain": "toolchain.compiler_choice",
     "make_dae": "driver",
     "make_report": "driver",
     "possible_platforms": "toolchain.targets",

@@ -14,8 +14,8 @@ from frot.dsl.messages.errors import FrotError, fail
 from frot.dsl.quantities.dimensions import Type
 
 if TYPE_CHECKING:
-    from frot.compiler.lowering.assembled import Assembled
-    from frot.compiler.lowering.listing import Listed
+    from frot.compiler.equations.assembled import Assembled
+    from frot.compiler.lowering.result_variables import Listed
     from frot.runtime.engine import Floats
     from frot.runtime.result import Result
 
@@ -169,7 +169,7 @@ def _owner_name(one: Asked) -> str:
 def _listed(system: Assembled, one: Asked) -> Iterator[Listed]:
     import casadi as ca
 
-    from frot.compiler.lowering.listing import Listed
+    from frot.compiler.lowering.result_variables import Listed
 
     owner = one.node.owner
     variables = system.reduced.variables

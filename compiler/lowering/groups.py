@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.lowering.trees import TreeTable, make_tree
 from frot.compiler.mechanics.dynamics import speeds_by_tree
-from frot.compiler.mechanics.elements import Element, link_elements, text_element
+from frot.compiler.mechanics.laws.elements import Element, link_elements, text_element
 from frot.compiler.symbolic.columns import dense
-from frot.compiler.symbolic.drawn import at_positive, at_random
+from frot.compiler.symbolic.random_tests import at_positive, at_random
 from numpy.typing import NDArray
 
 
@@ -98,7 +98,10 @@ def make_groups(system: Assembled) -> Grouping:
     ]
     first = n_rows - len(system.elements)
     elements += [text_element(len(joints) + k, first + k) for k in range(len(system.elements))]
-    matrix, rows, spread = (ca.sparsify(x) for x in (system.matrix, system.rows, system.spread))
+    matrix, rows, spread = (
+        ca.sparsify(x)
+        for x in (system.matrices.matrix, system.matrices.rows, system.matrices.spread)
+    )
     sets = Sets(nw + n_rows)
     for i, j in _entries(matrix):
         sets.join(i, j)
@@ -193,13 +196,13 @@ def pack_matrix(system: Assembled, groups: Sequence[Group]) -> ca.SX:
 def pack_rows(system: Assembled, groups: Sequence[Group]) -> ca.SX:
     """Their entries of J."""
     entries = [(g, *divmod(at, len(g.unknowns))) for g in groups for at in g.entries]
-    return _pack(system.rows[g.rows[i], g.unknowns[k]] for g, i, k in entries)
+    return _pack(system.matrices.rows[g.rows[i], g.unknowns[k]] for g, i, k in entries)
 
 
 def pack_spread(system: Assembled, groups: Sequence[Group]) -> tuple[ca.SX, ca.SX]:
     """Their columns of E, and their metrics."""
     return (
-        _pack(system.spread[list(g.unknowns), r] for g in groups for r in g.rows),
+        _pack(system.matrices.spread[list(g.unknowns), r] for g in groups for r in g.rows),
         _pack(_metric(system, g) for g in groups),
     )
 
@@ -208,7 +211,7 @@ def _matrix(system: Assembled, g: Group) -> ca.SX:
     """Of a mass matrix the columns of speeds, of readings, which do not move, the diagonal."""
     if g.tree:
         return g.tree.data
-    whole = system.matrix[list(g.unknowns), list(g.unknowns)]
+    whole = system.matrices.matrix[list(g.unknowns), list(g.unknowns)]
     if g.general:
         return whole
     return _pack([whole[:, : g.n_speeds], ca.diag(whole)[g.n_speeds :]])
@@ -217,7 +220,7 @@ def _matrix(system: Assembled, g: Group) -> ca.SX:
 def _metric(system: Assembled, g: Group) -> ca.SX:
     """That of the speeds; nobody reads it where the kernel goes along a tree."""
     speeds = list(g.unknowns[: g.n_speeds])
-    return ca.SX.zeros(g.tree.factor) if g.tree else system.metric[speeds, speeds]
+    return ca.SX.zeros(g.tree.factor) if g.tree else system.matrices.metric[speeds, speeds]
 
 
 def _entries(matrix: ca.SX) -> Iterable[tuple[int, int]]:
@@ -254,8 +257,8 @@ def _is_general(system: Assembled, unknowns: tuple[int, ...], rows: tuple[int, .
     places, own = list(unknowns), list(rows)
     if any(k >= system.nv + system.na for k in unknowns):
         return True
-    matrix, effect = system.matrix[places, places], system.spread[places, own]
-    moved = system.rows[own, places].T
+    matrix, effect = system.matrices.matrix[places, places], system.matrices.spread[places, own]
+    moved = system.matrices.rows[own, places].T
     if not places:
         return False
     own_speeds = [i for i, k in enumerate(places) if k < system.nv]

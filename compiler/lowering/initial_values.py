@@ -6,12 +6,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.equations.before import whole
-from frot.compiler.equations.chains import replace_known
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.equations.initial_rates import finds_places, given_speeds, holds_at_rest
-from frot.compiler.equations.text_symbols import scalars
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.guesses import (
     guessed_halves,
     guessed_places,
@@ -21,9 +17,13 @@ from frot.compiler.lowering.guesses import (
     move_by,
     values_of,
 )
-from frot.compiler.lowering.walk import is_fixed
-from frot.compiler.mechanics.link import Link
+from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.derivative_chains import replace_known
+from frot.compiler.translate.expressions import Lowering
+from frot.compiler.translate.previous_values import whole
+from frot.compiler.translate.text_symbols import scalars
+from frot.compiler.translate.walk import is_fixed
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation
 from frot.dsl.messages.source import Span
@@ -88,7 +88,7 @@ class _Residual:
 
 
 def lower_initial(
-    system: Assembled, looking: Lowering, explicit: Callable[[ca.SX], ca.SX], log: Log
+    system: Assembled, display: Lowering, explicit: Callable[[ca.SX], ca.SX], log: Log
 ) -> Initial:
     """Lower the statements; one that cannot hold for positions and velocities is reported.
 
@@ -101,10 +101,10 @@ def lower_initial(
     later = {x.element_hash() for part in solved for x in scalars_of(part)}
     for index, equation in enumerate(model.initial):
         if not equation.guess and not _sets_memory(equation, system):
-            found += _residuals(index, equation, system, looking, explicit, later, log)
+            found += _residuals(index, equation, system, display, explicit, later, log)
     direct, complete = _direct(found, system)
     found = _placed(found, direct, system, statements, log)
-    guesses = list_guesses(system, looking)
+    guesses = list_guesses(system, display)
     # values that are stated one by one are where the search begins, or all there is to find
     natural = _with(system.q, _natural(system), guessed_halves(system, guesses) | direct)
     natural = move_by(system, [g for g in guesses if g.start], system.q, natural, direct)
@@ -212,7 +212,7 @@ def _at(residual: _Residual, speeds: Mapping[int, ca.SX]) -> _Residual:
     return replace(residual, value=value, size=size)
 
 
-def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Link]]:
+def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Constraint]]:
     """Each counter with the angle it counts, which is within half a turn of it."""
     reduced = system.reduced
     mechanism, kinematics = reduced.mechanism, reduced.variables.kinematics
@@ -241,7 +241,7 @@ def _beginnings(system: Assembled) -> ca.SX:
 
 
 def _statement(equation: InitialEquation) -> Statement:
-    from frot.compiler.product.units import unit_of
+    from frot.compiler.lowering.units import unit_of
 
     text = " ".join(equation.span.text.split()).rstrip("; ")
     text = f"{text} {equation.place}".rstrip()
@@ -263,7 +263,7 @@ def _residuals(
     index: int,
     equation: InitialEquation,
     system: Assembled,
-    looking: Lowering,
+    display: Lowering,
     explicit: Callable[[ca.SX], ca.SX],
     later: set[int],
     log: Log,
@@ -281,8 +281,8 @@ def _residuals(
         )
         return []
     settled = system.reduced.variables.settled
-    left = system.resolve(settled(looking.lower(equation.left)))
-    right = system.resolve(settled(looking.lower(equation.right)))
+    left = system.resolve(settled(display.lower(equation.left)))
+    right = system.resolve(settled(display.lower(equation.right)))
     implicit = left - right
     solved = ca.depends_on(implicit, ca.vertcat(system.z, system.lam))
     left, right = explicit(left), explicit(right)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.lowering.groups import Group, Grouping
 from frot.compiler.symbolic.columns import column
 
@@ -128,8 +128,8 @@ def _of_motion(system: Assembled, grouping: Grouping, state: list[ca.SX]) -> Jac
 def _owned(system: Assembled, grouping: Grouping) -> list[ca.SX]:
     """What holds, by owners: the rates of q, the groups, the residuals of the early blocks."""
     matrix, force = system.in_full()
-    balance = matrix @ system.z - system.spread @ system.lam - force
-    motion = system.rows @ system.z + system.bias
+    balance = matrix @ system.z - system.matrices.spread @ system.lam - force
+    motion = system.matrices.rows @ system.z + system.matrices.bias
     parts = [system.rates]
     for g in grouping.groups:
         laws = [2 * e + k for e in g.elements for k in (0, 1)]
@@ -138,8 +138,8 @@ def _owned(system: Assembled, grouping: Grouping) -> list[ca.SX]:
         of_group = (
             (balance, g.unknowns),
             (motion, g.rows),
-            (system.coefficients, laws),
-            (system.rate, turning),
+            (system.matrices.coefficients, laws),
+            (system.matrices.rate, turning),
         )
         # nothing taken from a scalar would be a row of CasADi's
         parts.append(column(values[k] for values, places in of_group for k in places))
@@ -226,7 +226,7 @@ def may_be_stiff(system: Assembled) -> bool:
         return True
     if system.nv > reduced.symbols.v.numel():
         return True
-    loads = system.resolve(reduced.load_sizes)
+    loads = system.resolve(reduced.motion.load_sizes)
     return bool(loads.numel()) and bool(ca.depends_on(loads, ca.vertcat(system.q, system.v)))
 
 

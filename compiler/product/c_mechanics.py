@@ -8,7 +8,7 @@ import casadi as ca
 from frot.compiler.equations.text_slips import slip_names
 from frot.compiler.lowering.groups import Group, Grouping
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.mechanics.elements import Bound, Element
+from frot.compiler.mechanics.laws.elements import Bound, Element
 from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import place as _place
 from frot.compiler.product.c_tables import record as _record
@@ -56,7 +56,9 @@ def mechanical_arrays(lowered: Lowered) -> list[str]:
 def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
     """Those of the mechanism, then the items of the text in which something rubs."""
     reduced = lowered.reduced
-    sliding = {e.contact: k for k, e in enumerate(lowered.grouping.elements) if not (e.rolling or e.part)}
+    sliding = {
+        e.contact: k for k, e in enumerate(lowered.grouping.elements) if not (e.rolling or e.part)
+    }
 
     def one(name: str, span: Span | None, power: int, *fields: int) -> str:
         row, kept, slides, mode, kinematic, *rest = fields

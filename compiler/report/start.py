@@ -7,14 +7,15 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.lower import Beginning, state_arguments, unsolved
-from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.link import Link
-from frot.compiler.report.followed import Followed
+from frot.compiler.equations.assembled import Assembled
+from frot.compiler.lowering.initial_problem import InitialProblem
+from frot.compiler.lowering.state import state_arguments, unsolved
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.report.closest_numeric import Followed
 from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.report.relations import Posture, Relations
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.walk import as_number
 from frot.dsl import default_values, evaluate
 from numpy.typing import NDArray
 
@@ -41,19 +42,19 @@ class Start:
     found: bool
 
 
-def may_part(link: Link, values: object) -> bool:
+def may_part(link: Constraint, values: object) -> bool:
     """Whether a link is unilateral, at the default parameters."""
     return as_number(evaluate(link.unilateral, values)) != 0  # type: ignore[arg-type]
 
 
-def find_start(system: Assembled, beginning: Beginning) -> Start:
+def find_start(system: Assembled, problem: InitialProblem) -> Start:
     """The posture that the statements of `initial` and the relations leave nearest to the guesses.
 
     As the kernel finds it (initial_values.c), with fewer ways out: where it is not found,
     `found` is false.
     """
     reduced, symbols = system.reduced, system.reduced.symbols
-    explicit, initial = beginning.explicit, beginning.initial
+    explicit, initial = problem.explicit, problem.initial
     state = state_arguments(system)
     model = reduced.mechanism.model
     values = default_values(model, {})
@@ -69,11 +70,11 @@ def find_start(system: Assembled, beginning: Beginning) -> Start:
     links = reduced.mechanism.contacts
     parts = np.array([may_part(x, values) for x in links], dtype=bool)
     kept = np.array([x.has_gap for x in links], dtype=bool)
-    gap = system.resolve(reduced.gap)
+    gap = system.resolve(reduced.motion.matrices.gap)
     stated, slope, size, _ = initial.position
     outputs = [stated, slope.T, size, gap, ca.jacobian(gap, system.q)]
     located = unsolved(explicit(system.resolve(column(reduced.conditions.values))), system)
-    witness = system.resolve(reduced.witness)
+    witness = system.resolve(reduced.motion.witness)
     look = Numbers("look", state, (witness, located))
     function = Numbers("position", state, outputs)
     direct = np.array(initial.direct, dtype=bool)

@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from frot.compiler.toolchain.chosen import KERNEL_FLAGS, MODEL_FLAGS, Toolchain
-from frot.compiler.toolchain.hold import Hold, hold
+from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, MODEL_FLAGS, Toolchain
+from frot.compiler.toolchain.folder_lock import Hold, hold
 from frot.dsl.files.folders import cache_folder, room
 from frot.runtime.program import Program, read_program
 

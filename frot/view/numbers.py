@@ -12,7 +12,7 @@ from frot.dsl.checked import Expression
 from frot.view.outline import Array
 
 if TYPE_CHECKING:
-    from frot.compiler.lowering.assembled import Assembled
+    from frot.compiler.equations.assembled import Assembled
 
 
 class Numbers:

@@ -19,7 +19,7 @@ from frot.view.seen import Owner, body_of, key_of, owners_of
 from frot.view.symbols import JOINING, LIAISONS
 
 if TYPE_CHECKING:
-    from frot.compiler.lowering.assembled import Assembled
+    from frot.compiler.equations.assembled import Assembled
 
 FAR = 6.0  # travel over size from which the camera follows
 SMALL = 0.035  # size of symbols and points, of that of the mechanism

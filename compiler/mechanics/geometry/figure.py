@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.spatial import GROUND, Pose, cross, nowhere, whole
 from frot.compiler.mechanics.values import Axis, Lower
+from frot.compiler.translate.walk import is_fixed
 from frot.dsl.checked import BodyPoint, Expression, Frame
 
 Point = BodyPoint | Frame

@@ -7,14 +7,15 @@ from functools import partial
 from typing import TYPE_CHECKING, Self
 
 import casadi as ca
-from frot.compiler.lowering.symbols import Rows
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
+from frot.compiler.mechanics.constraint_geometry import Geometry, Reaction, Rows
+from frot.compiler.mechanics.geometry.closest_closed_form import Touch, is_closed, touch
+from frot.compiler.mechanics.geometry.closest_solved import on_side, track
 from frot.compiler.mechanics.geometry.figure import Figure, Placed
 from frot.compiler.mechanics.geometry.sides import gravity
-from frot.compiler.mechanics.geometry.touches import Touch, is_closed, touch
-from frot.compiler.mechanics.geometry.tracking import on_side, track
 from frot.compiler.mechanics.liaisons.actions import Effort
-from frot.compiler.mechanics.link import Friction, Geometry, Link, Point, Reaction, point_body
 from frot.compiler.mechanics.mechanism import is_thread
+from frot.compiler.mechanics.points import Point, point_body
 from frot.compiler.mechanics.spatial import beside_moving, cross
 from frot.dsl.checked import Expression, Liaison, World
 
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class SpaceContact(Link):
+class SpaceContact(Constraint):
     """Two figures in space that touch at one place, with the laws that bound their reaction.
 
     `first` is the figure whose normal counts, `second` the one that is on a side of it;
@@ -38,8 +39,9 @@ class SpaceContact(Link):
     floor: bool
     unilateral: Expression = field()
     exchanged: bool = False
-    frictions: tuple[Friction, ...] = ()
+    frictions: tuple[FrictionBlock, ...] = ()
     opens = True
+    slip_components = 2
 
     @property
     def ends(self) -> tuple[Point, Point]:
@@ -119,11 +121,11 @@ class SpaceContactGeometry(Geometry):
             found += [ca.dot(way, self._motion(friction)) for way in self._ways(friction)]
         return found
 
-    def _motion(self, friction: Friction) -> ca.SX:
+    def _motion(self, friction: FrictionBlock) -> ca.SX:
         """The velocity that a law opposes: of the points, or angular."""
         return self.turning if friction.turns else self.moves
 
-    def _ways(self, friction: Friction) -> tuple[ca.SX, ...]:
+    def _ways(self, friction: FrictionBlock) -> tuple[ca.SX, ...]:
         """The directions of its rows."""
         return (self.found.normal,) if friction.pivoting else self.tangents
 

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.lowering.symbols import Rows
-from frot.compiler.mechanics.geometry.touches import Touch
+from frot.compiler.mechanics.constraint import JointParts
+from frot.compiler.mechanics.constraint_geometry import Geometry, Reaction, Rows
+from frot.compiler.mechanics.geometry.closest_closed_form import Touch
+from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Action, Effort
-from frot.compiler.mechanics.link import Geometry, Reaction
+from frot.compiler.mechanics.liaisons.joint_places import between_places, joint_coordinate
 from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.liaisons.joint import Joint
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,7 +26,7 @@ class JointGeometry(Geometry):
     where no reaction is computed); `radius` of the pin or None.
     """
 
-    joint: Joint
+    joint: JointParts
     actions: tuple[Action, ...]
     turned: int
     touch: Touch | None
@@ -98,14 +95,14 @@ class JointGeometry(Geometry):
         if rows is None:
             if self.actions:
                 raise KeyError(name)
-            rows = Rows((), -1, -1)  # nothing is locked
+            rows = Rows(())  # nothing is locked
         force, couple = (ca.densify(x) for x in reaction.drive)
         along = force
         for row, action, drives in zip(rows.reaction, self.actions, self.drives, strict=True):
             force += lam[row] * action.force
             couple += lam[row] * action.couple
             along += drives * lam[row] * action.force
-        friction = lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
+        friction = lam[rows.tangent[0]] if rows.tangent else ca.SX(0)
         force, couple = self.turned * force, self.turned * couple
         match name:
             case "force":
@@ -124,7 +121,7 @@ class JointGeometry(Geometry):
             case "tangential_force":
                 return self._beside(self.turned * along, planar)
             case "power":
-                return friction * self.speed if rows.tangent >= 0 else ca.SX(0)
+                return friction * self.speed if rows.tangent else ca.SX(0)
         raise KeyError(name)
 
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
@@ -133,7 +130,7 @@ class JointGeometry(Geometry):
 
     def coordinate(self, index: int, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
         """As the bodies show it."""
-        return kinematics.coordinate(self.joint, index)
+        return joint_coordinate(self.joint, index, kinematics)
 
     def rate_of(self, coordinate: str, kinematics: Kinematics) -> ca.SX:
         """As the bodies move; of what is in touch the gap stays."""
@@ -165,9 +162,9 @@ class JointGeometry(Geometry):
             return Effort(self.rates_of["gap"], normal, couple)
         name = "u" if coordinate == "abscissa" else coordinate
         index = [motion.name for motion in joint.motions].index(name)
-        between = kinematics.between(joint, ca.SX(1))
+        between = between_places(joint, kinematics, ca.SX(1))
         force, couple = joint.motions[index].bare.wrench(between)
-        rate, auxiliary = kinematics.coordinate(joint, index)[1], kinematics.symbols.sw
+        rate, auxiliary = joint_coordinate(joint, index, kinematics)[1], kinematics.symbols.sw
         if auxiliary.numel():
             a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
             power = ca.dot(force, b.linear - a.velocity_of(b.pose.origin))
@@ -189,10 +186,10 @@ class JointGeometry(Geometry):
         return ca.SX(0) if self.way is None else ca.dot(vector, self.way)
 
 
-def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGeometry:
+def joint_geometry(joint: JointParts, kinematics: Kinematics, side: ca.SX) -> JointGeometry:
     """A joint, whether coordinates keep it or not."""
     a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
-    between = kinematics.between(joint, side)
+    between = between_places(joint, kinematics, side)
     coordinates: dict[str, ca.SX] = {}
     rates: dict[str, ca.SX] = {}
     touch: Touch | None = None
@@ -202,7 +199,7 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
             touch = near.touch
             coordinates[motion.name], rates[motion.name] = near.gap, near.rate(a, b)
         elif motion.name:
-            coordinates[motion.name], rates[motion.name] = kinematics.coordinate(joint, k)
+            coordinates[motion.name], rates[motion.name] = joint_coordinate(joint, k, kinematics)
     actions = tuple(lock.of_joint(joint, kinematics, side) for lock in joint.locks)
     measured = [x.measure for x in actions if x.measure is not None]
     if measured:
@@ -234,12 +231,12 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
     )
 
 
-def _radius(joint: Joint, kinematics: Kinematics) -> ca.SX | None:
+def _radius(joint: JointParts, kinematics: Kinematics) -> ca.SX | None:
     arms = (friction.arm for friction in joint.frictions)
     return next((kinematics.fixed.lower(arm) for arm in arms if arm is not None), None)
 
 
-def _way(joint: Joint, a: Pose, kinematics: Kinematics) -> ca.SX | None:
+def _way(joint: JointParts, a: Pose, kinematics: Kinematics) -> ca.SX | None:
     ways = (motion.bare.way(kinematics.fixed.lower) for motion in joint.motions)
     found = [way for way in ways if way is not None]
     return a.direction(found[0]) if kinematics.planar and len(found) == 1 else None
