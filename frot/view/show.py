@@ -108,20 +108,11 @@ def scene(result: Result, times: Any) -> Scene:
 
 def page(result: Result, *, curves: Sequence[str] | None = None, fault: str = "") -> str:
     """The page of a run as HTML."""
+    from frot.view.curves import curves_of
     from frot.view.moments import times_of
     from frot.view.page import page_of
 
-    return page_of(scene(result, times_of(result)), figure_of(result, curves), fault)
-
-
-def figure_of(result: Result, curves: Sequence[str] | None) -> Any:
-    """The curves beside the picture, as a figure of matplotlib."""
-    from frot.runtime.curves import draw_curves
-    from frot.runtime.plotting import draw
-
-    figure = draw_curves(result, curves) if curves else draw(result)
-    figure.set_size_inches(6.4, 0.85 * figure.get_size_inches()[1])
-    return figure
+    return page_of(scene(result, times_of(result)), curves_of(result, curves), fault)
 
 
 def model_of(result: Result) -> Model:
