@@ -42,7 +42,7 @@ class Model:
         self._program: Program | None = self._named(find_program(self._key))
 
     def __reduce__(self) -> tuple[object, tuple[str, str, str | None]]:
-        return Model, (self._text, self._file, self._chosen)
+        return Model, self.source
 
     def __repr__(self) -> str:
         return f"<Model {self.name} of {self._file}>"
@@ -90,6 +90,11 @@ class Model:
             if self._program is None:
                 raise FrotError(log)
         return self._program
+
+    @property
+    def source(self) -> tuple[str, str, str | None]:
+        """The text, its file, and which of its models was chosen."""
+        return self._text, self._file, self._chosen
 
     @property
     def file(self) -> str:
@@ -189,6 +194,26 @@ class Model:
         from frot.sweep import sweep
 
         return list(sweep(self, parameters, read, dask=dask, **options))
+
+    def view(
+        self,
+        path: str | Path | None = None,
+        *,
+        start: float | str | None = None,
+        parameters: Mapping[str, object] | None = None,
+        inputs: Mapping[str, object] | None = None,
+    ) -> Any:
+        """A page `.html` or a picture of the start, before any run.
+
+        Without a path the page is shown as that of `Result.view`.
+        """
+        from frot.view.page import page_of
+        from frot.view.show import show_page, start_scene, write_start
+
+        options = {"start": start, "parameters": parameters, "inputs": inputs}
+        if path is None:
+            return show_page(page_of(start_scene(self, **options)), self.name)
+        return write_start(self, Path(path), **options)  # type: ignore[arg-type]
 
     def report(self) -> Report:
         """Mobility, liaisons, first integrals; `str(report)` is what `frot check` prints."""

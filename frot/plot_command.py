@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from frot.options import add_model, add_run, add_settings, names
+from frot.options import add_model, add_run, add_settings, names, saved_run
 
 if TYPE_CHECKING:
     from frot.runtime.result import Result
@@ -13,7 +13,9 @@ if TYPE_CHECKING:
 
 def add_plot(parser: argparse.ArgumentParser) -> None:
     """The options of the command."""
-    parser.add_argument("files", metavar="FILE", nargs="+", help="a .frot file; several: compared")
+    parser.add_argument(
+        "files", metavar="FILE", nargs="+", help="a .frot file or a .frotrun; several: compared"
+    )
     add_model(parser)
     add_settings(parser)
     add_run(parser)
@@ -71,6 +73,7 @@ def outputs_of(result: Result) -> list[str]:
 def _runs(options: argparse.Namespace) -> dict[str, Result]:
     """The runs by what tells them apart."""
     from frot.commands import compiled
+    from frot.progress import run_watched
 
     values = [("", "")]
     name = ""
@@ -79,27 +82,15 @@ def _runs(options: argparse.Namespace) -> dict[str, Result]:
         values = [(f"{name} = {value}", value) for value in names(listed)]
     runs = {}
     for file in options.files:
+        saved = saved_run(options, file)
+        if saved is not None:
+            runs[file] = saved
+            continue
         options.file = file
         model = compiled(options)
         for label, value in values:
             settings = dict(options.set) | ({name: value} if label else {})
             many = len(options.files) > 1
             shown = ", ".join(x for x in (file if many else "", label) if x)
-            runs[shown] = _run(model, options, settings)
+            runs[shown] = run_watched(model, options, parameters=settings)
     return runs
-
-
-def _run(model: object, options: argparse.Namespace, settings: dict[str, str]) -> Result:
-    from frot.model import Model
-    from frot.progress import Progress
-
-    assert isinstance(model, Model)
-    with Progress(f"simulating {model.name}") as progress:
-        return model.simulate(
-            start=options.start,
-            stop=options.stop,
-            tolerance=options.tolerance,
-            parameters=settings,
-            inputs=dict(options.input),
-            watch=progress.watch(options.stop or model.program().experiment.stop),
-        )

@@ -7,7 +7,13 @@ import threading
 import time
 from collections.abc import Callable
 from types import TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import argparse
+
+    from frot.model import Model
+    from frot.runtime.result import Result
 
 PATIENCE = 0.7
 
@@ -105,3 +111,18 @@ class Busy:
             if not self._over:
                 self._shown = shown
                 shown.start()
+
+
+def run_watched(model: Model, options: argparse.Namespace, **changed: Any) -> Result:
+    """Run a model with the options of a command, and show how far it is."""
+    program = model.program()
+    given = {
+        "start": options.start,
+        "stop": options.stop,
+        "tolerance": options.tolerance,
+        "parameters": dict(options.set),
+        "inputs": dict(options.input),
+    } | changed
+    with Progress(f"simulating {program.name}") as progress:
+        watch = progress.watch(options.stop or program.experiment.stop)
+        return model.simulate(**given, watch=watch)
