@@ -9,8 +9,7 @@ from __future__ import annotations
 import csv
 import itertools
 import math
-import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,11 +17,9 @@ from frot.dsl.messages.errors import FrotError, fail
 
 if TYPE_CHECKING:
     from frot.model import Model
-    from frot.runtime.program import Program
 
 FORMATS = (".csv", ".parquet")
 MOST_RUNS = 10_000_000
-BATCH = 64  # runs that a process is given at once
 Row = dict[str, object]
 
 
@@ -45,30 +42,12 @@ def values_of(text: str) -> list[str]:
     return [repr(first + k * step) for k in range(round(count * (1 + 1e-12)) + 1)]
 
 
-def combinations(given: Mapping[str, Sequence[object]]) -> list[Row]:
-    """A row of parameters for each combination; the last name changes fastest."""
+def count_of(given: Mapping[str, Sequence[object]]) -> int:
+    """How many combinations there are; FrotError (E0806) for more than MOST_RUNS."""
     count = math.prod(len(values) for values in given.values())
     if count > MOST_RUNS:
         raise fail("E0806", f"a sweep of {count} runs is too long", help=f"at most {MOST_RUNS}")
-    return [dict(zip(given, values, strict=True)) for values in itertools.product(*given.values())]
-
-
-def run_rows(
-    program: Program, rows: Iterable[Row], read: Sequence[str], options: Mapping[str, Any]
-) -> list[Row]:
-    """The rows with what was read at the end of each run; failures are rows too."""
-    from frot.runtime.run import SimulationError, last_values
-
-    found = []
-    for row in rows:
-        values: dict[str, object] = dict.fromkeys(read, math.nan)
-        error = ""
-        try:
-            values |= last_values(program, read, parameters=row, **options)
-        except SimulationError as told:
-            error = told.diagnostics[0].message
-        found.append({**row, **values, "error": error})
-    return found
+    return count
 
 
 def sweep(
@@ -82,7 +61,7 @@ def sweep(
     watch: Callable[[int, int], None] | None = None,
     **options: Any,
 ) -> Iterator[Row]:
-    """The rows of a sweep in their order, as they are done.
+    """The rows of a sweep in their order, as they are done; the last name changes fastest.
 
     Args:
         model: The model.
@@ -92,97 +71,25 @@ def sweep(
         processes: How many work here; by default one for each core.
         done: Rows of a sweep that was stopped, which are not run again.
         watch: Called with the number of rows done, and that of all.
-        options: Those of `simulate`.
+        options: Start, stop, tolerance and inputs, as those of `simulate`.
 
     Raises:
-        FrotError: E0805, E0806: unknown parameters and variables; E0820: Dask is not installed.
+        FrotError: E0805, E0806: unknown parameters and variables, bad values; E0820: Dask is not
+            installed.
     """
-    program = model.program()
-    rows = combinations(given)
-    _check(program, rows, read)
-    rows = rows[len(done) :]
-    whole, count = len(rows) + len(done), len(done)
-    batches = [rows[k : k + BATCH] for k in range(0, len(rows), BATCH)]
-    work = (
-        _by_dask(dask, program, batches, read, options)
-        if dask
-        else _here(program, batches, read, options, processes)
-    )
-    for batch in work:
-        yield from batch
-        count += len(batch)
+    from frot.sweep_work import Work, by_dask, here
+
+    whole, count = count_of(given), len(done)
+    work = Work(model.program(), given, tuple(read), options)
+    parts = by_dask(dask, work, count, whole) if dask else here(work, count, whole, processes)
+    columns = (*given, *read, "error")
+    rows = itertools.islice(itertools.product(*given.values()), count, None)
+    for part in parts:
+        for values, error in part:
+            yield dict(zip(columns, (*next(rows), *values, error), strict=True))
+        count += len(part)
         if watch is not None:
             watch(count, whole)
-
-
-def _check(program: Program, rows: Sequence[Row], read: Sequence[str]) -> None:
-    """Names and values of the first row, before long work."""
-    from frot.runtime.settings import read_settings
-    from frot.runtime.showing import nearest
-
-    for row in rows[:1]:
-        read_settings(row, program.parameters, "parameter", program)
-    known = [v.name for v in program.variables]
-    for name in read:
-        if name not in known and name != "time":
-            raise fail(
-                "E0805",
-                f"the model '{program.name}' has no variable '{name}'",
-                help=nearest(name, known),
-            )
-
-
-def _here(
-    program: Program,
-    batches: Sequence[list[Row]],
-    read: Sequence[str],
-    options: Mapping[str, Any],
-    processes: int | None,
-) -> Iterator[list[Row]]:
-    """On the cores of this machine; a few rows need no other process."""
-    workers = min(processes or os.cpu_count() or 1, len(batches))
-    if workers <= 1:
-        for batch in batches:
-            yield run_rows(program, batch, read, options)
-        return
-    from concurrent.futures import ProcessPoolExecutor
-    from dataclasses import replace
-    from functools import partial
-
-    # the lock that keeps the program's folder stays in this process
-    sent = replace(program, hold=None)
-    with ProcessPoolExecutor(workers) as pool:
-        yield from pool.map(partial(_batch, sent, tuple(read), dict(options)), batches)
-
-
-def _batch(
-    program: Program, read: Sequence[str], options: Mapping[str, Any], rows: list[Row]
-) -> list[Row]:
-    return run_rows(program, rows, read, options)
-
-
-def _by_dask(
-    address: str,
-    program: Program,
-    batches: Sequence[list[Row]],
-    read: Sequence[str],
-    options: Mapping[str, Any],
-) -> Iterator[list[Row]]:
-    """On the workers of a cluster, which see the same files."""
-    try:
-        from distributed import Client
-    except ImportError:
-        raise fail(
-            "E0820", "Dask is not installed", help="pip install 'dask[distributed]'"
-        ) from None
-    from dataclasses import replace
-    from functools import partial
-
-    sent = replace(program, hold=None)
-    with Client(address) as client:
-        work = client.map(partial(_batch, sent, tuple(read), dict(options)), batches, pure=False)
-        for one in work:
-            yield one.result()
 
 
 def read_done(path: Path, names: Sequence[str]) -> list[Row]:
@@ -213,4 +120,4 @@ def write_rows(path: Path, rows: Sequence[Mapping[str, object]]) -> None:
         raise fail("E0820", "a .parquet needs pyarrow", help="pip install pyarrow") from None
 
 
-__all__ = ["FORMATS", "FrotError", "combinations", "read_done", "sweep", "values_of", "write_rows"]
+__all__ = ["FORMATS", "FrotError", "count_of", "read_done", "sweep", "values_of", "write_rows"]

@@ -5,10 +5,13 @@ from __future__ import annotations
 import argparse
 import csv
 import itertools
+import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from frot.options import add_file, add_model, add_run, assignment, names
+
+KEPT = 0.2  # s after which rows are in the file
 
 
 def add_sweep(parser: argparse.ArgumentParser) -> None:
@@ -41,7 +44,7 @@ def sweep(options: argparse.Namespace) -> int:
     from frot.commands import compiled
     from frot.dsl.files.writing import check_target
     from frot.progress import Busy
-    from frot.sweep import FORMATS, combinations, read_done, sweep, values_of, write_rows
+    from frot.sweep import FORMATS, count_of, read_done, sweep, values_of, write_rows
 
     target = None if options.output is None else check_target(options.output, FORMATS)
     given = {name: values_of(text) for name, text in options.set}
@@ -52,7 +55,7 @@ def sweep(options: argparse.Namespace) -> int:
     done = read_done(target, columns) if options.resume and by_row else []
     run = {"start": options.start, "stop": options.stop, "tolerance": options.tolerance}
     kept = []
-    with Busy(f"{len(combinations(given))} runs of {model.name}") as busy:
+    with Busy(f"{count_of(given)} runs of {model.name}") as busy:
         rows = sweep(
             model,
             given,
@@ -69,12 +72,15 @@ def sweep(options: argparse.Namespace) -> int:
         first = next(rows, None)  # names and values are checked before the file is touched
         with open(target, "a" if done else "w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, columns)
+            written = time.monotonic()
             if not done:
                 writer.writeheader()
             for row in itertools.chain([] if first is None else [first], rows):
                 writer.writerow(row)
-                file.flush()
                 kept.append(row)
+                if time.monotonic() > written + KEPT:
+                    file.flush()
+                    written = time.monotonic()
     return _tell(target, [*done, *kept])
 
 
