@@ -254,7 +254,7 @@ def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
 
 def _simulate(options: argparse.Namespace) -> int:
     from frot.dsl.files.writing import DATA, PICTURES, check_target
-    from frot.progress import run_watched
+    from frot.progress import Busy, run_watched
     from frot.runtime import Interrupted, SimulationError
 
     for target, formats in ((options.output, DATA), (options.plot, PICTURES)):
@@ -269,11 +269,11 @@ def _simulate(options: argparse.Namespace) -> int:
         result, failure = error.result, error
     if result is not None:
         if options.output is not None:
-            result.save(options.output, units=options.units)
+            with Busy(f"writing {options.output}"):
+                result.save(options.output, units=options.units)
         if options.plot is not None:
-            from frot.runtime import plot
-
-            plot(result, options.plot)
+            with Busy(f"drawing {options.plot}"):
+                result.plot(options.plot)
         if not options.quiet:
             print(result.summary())
             for target in filter(None, (options.output, options.plot)):

@@ -39,6 +39,7 @@ def plot(options: argparse.Namespace) -> int:
     """Run the models and draw the curves."""
     from frot.dsl.files.writing import PICTURES, check_target
     from frot.dsl.messages.errors import fail
+    from frot.progress import Busy
     from frot.runtime.curves import plot_curves
     from frot.runtime.plotting import plot as plot_choice
 
@@ -50,12 +51,13 @@ def plot(options: argparse.Namespace) -> int:
     first = next(iter(runs.values()))
     target = options.output or f"{first.program.name}.png"
     chosen = options.xy or options.curves
-    if chosen:
-        plot_curves(runs if len(runs) > 1 else first, target, chosen, xy=bool(options.xy))
-    elif len(runs) > 1:
-        plot_curves(runs, target, outputs_of(first))
-    else:
-        plot_choice(first, target)
+    with Busy(f"drawing {target}"):
+        if chosen:
+            plot_curves(runs if len(runs) > 1 else first, target, chosen, xy=bool(options.xy))
+        elif len(runs) > 1:
+            plot_curves(runs, target, outputs_of(first))
+        else:
+            plot_choice(first, target)
     print(f"  written: {target}")
     return 0
 

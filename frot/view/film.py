@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import shutil
+import subprocess
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -38,12 +40,20 @@ def write_film(scene: Scene, path: Path, watch: Callable[[int, int], None] | Non
     with tempfile.TemporaryDirectory() as folder:
         made = Path(folder) / f"film{path.suffix.lower()}"
         writer = _writer(path)
-        with writer.saving(picture.figure, str(made), DOTS):
+        writer.setup(picture.figure, str(made), DOTS)
+        try:
             for k in range(len(scene.times)):
                 picture.draw(k)
                 writer.grab_frame()
                 if watch is not None:
                     watch(k + 1, len(scene.times))
+        except BaseException:
+            # Ctrl-C: a .gif is written when it is finished, ffmpeg ends when it is
+            if path.suffix.lower() != ".gif":
+                with contextlib.suppress(subprocess.CalledProcessError, OSError):
+                    writer.finish()
+            raise
+        writer.finish()
         write_whole(path, made.read_bytes())
 
 
