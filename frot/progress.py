@@ -126,3 +126,17 @@ def run_watched(model: Model, options: argparse.Namespace, **changed: Any) -> Re
     with Progress(f"simulating {program.name}") as progress:
         watch = progress.watch(options.stop or program.experiment.stop)
         return model.simulate(**given, watch=watch)
+
+
+def run_as_far(
+    model: Model, options: argparse.Namespace, **changed: Any
+) -> tuple[Result, BaseException | None]:
+    """The run, as far as it went, and what ended it."""
+    from frot.runtime import Interrupted, SimulationError
+
+    try:
+        return run_watched(model, options, **changed), None
+    except (SimulationError, Interrupted) as error:
+        if error.result is None:
+            raise
+        return error.result, error

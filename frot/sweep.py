@@ -26,12 +26,12 @@ Row = dict[str, object]
 def values_of(text: str) -> list[str]:
     """`0:0.5:0.01` as its values, both ends in it, or `1 kg,2 kg` as they are."""
     parts = text.split(":")
-    if len(parts) != 3:
+    if len(parts) == 1:
         from frot.options import names
 
         return names(text)
     try:
-        first, last, step = (float(x) for x in parts)
+        first, last, step = map(float, parts)
         count = (last - first) / step
     except (ValueError, ZeroDivisionError):
         count = math.nan
@@ -77,10 +77,12 @@ def sweep(
         FrotError: E0805, E0806: unknown parameters and variables, bad values; E0820: Dask is not
             installed.
     """
+    from frot.ask import reading_program
     from frot.sweep_work import Work, by_dask, here
 
     whole, count = count_of(given), len(done)
-    work = Work(model.program(), given, tuple(read), options)
+    program, names = reading_program(model, read)
+    work = Work(program, given, tuple(names), options)
     parts = by_dask(dask, work, count, whole) if dask else here(work, count, whole, processes)
     columns = (*given, *read, "error")
     rows = itertools.islice(itertools.product(*given.values()), count, None)
@@ -107,17 +109,34 @@ def read_done(path: Path, names: Sequence[str]) -> list[Row]:
         return [dict(row) for row in reader if all(row.get(name) is not None for name in names)]
 
 
-def write_rows(path: Path, rows: Sequence[Mapping[str, object]]) -> None:
-    """All rows at once, as `.parquet` or `.csv`."""
-    try:
-        import pandas
-    except ImportError:
-        raise fail("E0820", "a .parquet needs pandas and pyarrow", help="write a .csv") from None
-    frame = pandas.DataFrame(rows)
-    try:
-        frame.to_parquet(path)
-    except ImportError:
-        raise fail("E0820", "a .parquet needs pyarrow", help="pip install pyarrow") from None
+def check_table() -> None:
+    """FrotError (E0820) where no `.parquet` can be written; called before long work."""
+    from importlib.util import find_spec
+
+    if not (find_spec("pandas") and find_spec("pyarrow")):
+        raise fail(
+            "E0820",
+            "a .parquet needs pandas and pyarrow",
+            help="pip install 'frot[sweep]', or write a .csv",
+        )
 
 
-__all__ = ["FORMATS", "FrotError", "count_of", "read_done", "sweep", "values_of", "write_rows"]
+def write_table(path: Path, rows: Path) -> None:
+    """All rows of a `.csv` at once as a `.parquet`; what is a number in all of them is a number."""
+    import pandas
+
+    columns = {"error": str}
+    frame = pandas.read_csv(rows, dtype=columns, keep_default_na=False, na_values=["nan"])
+    frame.to_parquet(path)
+
+
+__all__ = [
+    "FORMATS",
+    "FrotError",
+    "check_table",
+    "count_of",
+    "read_done",
+    "sweep",
+    "values_of",
+    "write_table",
+]

@@ -33,18 +33,9 @@ class Work:
         read: tuple[str, ...],
         options: Mapping[str, Any],
     ) -> None:
-        """FrotError (E0805, E0806) for unknown parameters and variables, and for bad values."""
+        """FrotError (E0805, E0806) for unknown parameters, and for bad values."""
         from frot.runtime.settings import read_each
-        from frot.runtime.showing import nearest
 
-        known = [v.name for v in program.variables]
-        for name in read:
-            if name not in known and name != "time":
-                raise fail(
-                    "E0805",
-                    f"the model '{program.name}' has no variable '{name}'",
-                    help=nearest(name, known),
-                )
         # the lock that keeps the program's folder stays in this process
         self.program, self.read, self.options = replace(program, hold=None), read, dict(options)
         self.settings = [

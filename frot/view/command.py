@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from frot.options import add_file, add_model, add_run, add_settings, names, number, time
 
 if TYPE_CHECKING:
-    from frot.model import Model
     from frot.runtime.result import Result
 
 
@@ -50,6 +49,7 @@ def view(options: argparse.Namespace) -> int:
     """Run the model, or read a saved run, and write the picture."""
     from frot.commands import compiled
     from frot.options import saved_run
+    from frot.progress import run_as_far
     from frot.view.film import PAGE, STILL
     from frot.view.show import check_view, open_page, write_start
 
@@ -67,7 +67,7 @@ def view(options: argparse.Namespace) -> int:
                 inputs=dict(options.input),
             )
         else:
-            result, failure = _run(model, options)
+            result, failure = run_as_far(model, options)
     target = target or check_view(f"{result.program.name}.html") if result else target
     assert target is not None
     if result is not None:
@@ -78,19 +78,6 @@ def view(options: argparse.Namespace) -> int:
     if failure is not None:
         raise failure
     return 0
-
-
-def _run(model: Model, options: argparse.Namespace) -> tuple[Result, BaseException | None]:
-    """The run, as far as it went, and what ended it."""
-    from frot.progress import run_watched
-    from frot.runtime import Interrupted, SimulationError
-
-    try:
-        return run_watched(model, options), None
-    except (SimulationError, Interrupted) as error:
-        if error.result is None:
-            raise
-        return error.result, error
 
 
 def _write(result: Result, target: Path, options: argparse.Namespace) -> None:
