@@ -271,12 +271,14 @@ def _simulate(options: argparse.Namespace) -> int:
         if options.output is not None:
             with Busy(f"writing {options.output}"):
                 result.save(options.output, units=options.units)
-        if options.plot is not None:
+        # a picture takes longer than one waits after Ctrl-C
+        drawn = options.plot is not None and not isinstance(failure, KeyboardInterrupt)
+        if drawn:
             with Busy(f"drawing {options.plot}"):
                 result.plot(options.plot)
         if not options.quiet:
             print(result.summary())
-            for target in filter(None, (options.output, options.plot)):
+            for target in filter(None, (options.output, options.plot if drawn else None)):
                 print(f"  written: {target}")
     if failure is not None:
         raise failure

@@ -115,6 +115,4 @@ def _runs(options: argparse.Namespace) -> tuple[dict[str, Result], BaseException
             shown = ", ".join(x for x in (file if many else "", label) if x)
             runs[shown], ended = run_as_far(model, options, parameters=settings)
             failure = failure or ended
-            if isinstance(ended, KeyboardInterrupt):
-                return runs, failure
     return runs, failure

@@ -131,12 +131,12 @@ def run_watched(model: Model, options: argparse.Namespace, **changed: Any) -> Re
 def run_as_far(
     model: Model, options: argparse.Namespace, **changed: Any
 ) -> tuple[Result, BaseException | None]:
-    """The run, as far as it went, and what ended it."""
-    from frot.runtime import Interrupted, SimulationError
+    """The run, as far as it went, and what ended it; Ctrl-C is raised."""
+    from frot.runtime import SimulationError
 
     try:
         return run_watched(model, options, **changed), None
-    except (SimulationError, Interrupted) as error:
+    except SimulationError as error:
         if error.result is None:
             raise
         return error.result, error

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from frot.dsl.files.writing import write_whole
 from frot.dsl.messages.errors import fail
+from frot.dsl.messages.interrupts import DeferredInterrupts, raise_noted_interrupt
 from frot.view.picture import Picture
 
 if TYPE_CHECKING:
@@ -42,11 +43,13 @@ def write_film(scene: Scene, path: Path, watch: Callable[[int, int], None] | Non
         writer = _writer(path)
         writer.setup(picture.figure, str(made), DOTS)
         try:
-            for k in range(len(scene.times)):
-                picture.draw(k)
-                writer.grab_frame()
-                if watch is not None:
-                    watch(k + 1, len(scene.times))
+            with DeferredInterrupts():
+                for k in range(len(scene.times)):
+                    picture.draw(k)
+                    writer.grab_frame()
+                    if watch is not None:
+                        watch(k + 1, len(scene.times))
+                    raise_noted_interrupt()
         except BaseException:
             # Ctrl-C: a .gif is written when it is finished, ffmpeg ends when it is
             if path.suffix.lower() != ".gif":
