@@ -129,24 +129,27 @@ class Model:
         inputs: Mapping[str, object] | None = None,
         watch: Callable[[float], bool] | None = None,
     ) -> Result:
-        """Run the model; see `frot.runtime.run.simulate`.
+        """Run the model; see `frot.runtime.run.simulate`. In a notebook long runs show progress.
 
         Of `inputs` a scalar one may be given over time: by (times, values), (times, values, way)
         with way `held`, `linear` or `cubic`, an array of two columns, a pandas Series, a function
         of time, or the text `FILE.csv:COLUMN`; see docs/inputs.md.
         """
+        from frot.progress import shown_in_notebook
+
         program, constants, tables = self._with_inputs(inputs, start, stop)
-        return self.run(
-            program,
-            stop=stop,
-            start=start,
-            tolerance=tolerance,
-            interval=interval,
-            parameters=parameters,
-            inputs=constants,
-            watch=watch,
-            tables=tables,
-        )
+        with shown_in_notebook(program, stop, watch) as told:
+            return self.run(
+                program,
+                stop=stop,
+                start=start,
+                tolerance=tolerance,
+                interval=interval,
+                parameters=parameters,
+                inputs=constants,
+                watch=told,
+                tables=tables,
+            )
 
     def _with_inputs(
         self,

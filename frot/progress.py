@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
@@ -13,9 +14,16 @@ if TYPE_CHECKING:
     import argparse
 
     from frot.model import Model
+    from frot.runtime.program import Program
     from frot.runtime.result import Result
 
 PATIENCE = 0.7
+
+
+def in_notebook() -> bool:
+    """Whether cells of a notebook are being run."""
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    return hasattr(shell, "kernel")
 
 
 class Progress:
@@ -42,7 +50,7 @@ class Progress:
 
     def watch(self, stop: float | None) -> Callable[[float], bool]:
         """A function for `simulate(watch=...)` that shows the time reached out of `stop`."""
-        visible = sys.stderr.isatty()
+        visible = sys.stderr.isatty() or in_notebook()
 
         def watch(reached: float) -> bool:
             if visible and time.monotonic() - self._begun > PATIENCE:
@@ -56,7 +64,7 @@ class Progress:
             from rich.console import Console
             from rich.progress import Progress as Bar
 
-            self._bar = Bar(console=Console(stderr=True), transient=True)
+            self._bar = Bar(console=Console(stderr=not in_notebook()), transient=True)
             self._bar.start()
             self._task = self._bar.add_task(self._title, total=stop)
         self._bar.update(self._task, completed=reached)
@@ -140,3 +148,16 @@ def run_as_far(
         if error.result is None:
             raise
         return error.result, error
+
+
+@contextlib.contextmanager
+def shown_in_notebook(
+    program: Program, stop: object, watch: Callable[[float], bool] | None
+) -> Iterator[Callable[[float], bool] | None]:
+    """What a run calls: `watch`, or in a notebook a bar where there is none."""
+    if watch is not None or not in_notebook():
+        yield watch
+        return
+    end = stop if isinstance(stop, (int, float)) else program.experiment.stop
+    with Progress(f"simulating {program.name}") as progress:
+        yield progress.watch(end)

@@ -156,15 +156,25 @@ def start_scene(model: Model, **options: Any) -> Scene:
     return scene_of(model.checked(), start_of(model, **options))
 
 
+class Shown:
+    """What a notebook shows as HTML."""
+
+    def __init__(self, html: str) -> None:
+        self._html = html
+
+    def _repr_html_(self) -> str:
+        return self._html
+
+
 def show_page(html: str, name: str) -> Any:
     """Show a page: in a notebook below its cell, else as `NAME.html` in a browser.
 
     Returns what the notebook shows, or the path of the file.
     """
-    if _in_notebook():
-        from IPython.display import HTML
+    from frot.progress import in_notebook
 
-        return HTML(framed(html))  # type: ignore[no-untyped-call]
+    if in_notebook():
+        return Shown(framed(html))
     target = Path(f"{name}.html")
     write_whole(target, html.encode("utf-8"))
     open_page(target)
@@ -189,13 +199,6 @@ def framed(html: str) -> str:
 
     text = escape(html, quote=True)
     return f'<iframe srcdoc="{text}" style="width: 100%; height: 620px; border: 0"></iframe>'
-
-
-def _in_notebook() -> bool:
-    import sys
-
-    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
-    return hasattr(shell, "kernel")
 
 
 def start_html(model: Model) -> str:

@@ -183,4 +183,16 @@ def test_fifty_bodies_are_moved_thirty_times_a_second(browser: Any, tmp_path: Pa
         "spent.push(performance.now() - began); } frotView.k3d.render = render; return spent"
     )
     assert np.median(spent) < 1000 / 30
+    # without a graphics card, beside other work: 22 to 30
+    browser.execute_script("document.querySelector('footer select').selectedIndex = 0")
+    play = (
+        "const done = arguments[0], began = performance.now(), before = frotView.frames();"
+        "frotView.toggle(); setTimeout(() => {"
+        "const rate = (frotView.frames() - before)/(performance.now() - began)*1000;"
+        "frotView.toggle(); const drawer = frotView.k3d.getWorld().renderer;"
+        "done([rate, drawer.getPixelRatio()]); }, 1500)"
+    )
+    rate, dots = max(browser.execute_async_script(play) for _ in range(2))
+    assert rate > 8
+    assert dots == browser.execute_script("return window.devicePixelRatio")
     assert not faults(browser)

@@ -158,3 +158,14 @@ def test_without_a_path_a_page_is_written_here(
     result = result_of("backspin_hoop", stop=0.1)
     assert result.view() == Path("BackspinHoop.html")
     assert (tmp_path / "BackspinHoop.html").is_file()
+
+
+def test_in_a_notebook_a_page_is_shown_below_its_cell(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No file is written; the cell gets the page as HTML."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("frot.progress.in_notebook", lambda: True)
+    shown = result_of("backspin_hoop", stop=0.1).view()
+    assert shown._repr_html_().startswith('<iframe srcdoc="')
+    assert not list(tmp_path.iterdir())
