@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 # What is not there to be evaluated at an instant: a mode is listed wherever there is one.
 _LISTED_ALONE = "mode"
+_SLIPS = ("slip", "tangential_force")
+_STILL = ("encastrement", "fil", "libre", "rotoide", "tige")
 ALIKE = 1e-4  # part of its size to which a second run may differ from the first
 ASKED = "asked:"
 
@@ -58,11 +60,17 @@ def members_of(model: checked.Model) -> Iterator[tuple[str, Any, Mapping[str, Ty
 def names_of(model: checked.Model) -> list[str]:
     """All that can be asked, as scalars."""
     found = []
-    for owner, _, members in members_of(model):
+    for owner, thing, members in members_of(model):
         for name, kind in members.items():
-            if name != _LISTED_ALONE:
+            if name != _LISTED_ALONE and not (name in _SLIPS and _has_no_slip(model, thing)):
                 found += [f"{owner}.{name}{tail}" for tail in _tails(kind)]
     return found
+
+
+def _has_no_slip(model: checked.Model, thing: Any) -> bool:
+    """Whether it is a joint of the plane without friction, at whose place nothing slips."""
+    joint = model.planar and isinstance(thing, checked.Liaison)
+    return joint and not thing.laws and thing.kind.name in _STILL
 
 
 def _tails(kind: Type) -> list[str]:
@@ -90,6 +98,14 @@ def find(model: checked.Model, name: str) -> Asked | None:
             if kind.shape and plain[len(head) :] in tails:
                 return Asked(plain, node, tails.index(plain[len(head) :]))
     return None
+
+
+def components_of(model: checked.Model, name: str) -> list[str]:
+    """The components of a vector; the name itself of anything else."""
+    found = find(model, name)
+    if found is None or found.item >= 0:
+        return [name]
+    return [f"{found.name}{tail}" for tail in _tails(found.node.type)]
 
 
 def unit_of_asked(asked: Asked) -> str:

@@ -83,6 +83,17 @@ class Showing(Mapping[str, "Floats"]):
         own = {x: at if x == "time" else listed[x] for x in names if x not in others}
         return {name: found[name] if name in found else own[name] for name in names}
 
+    def numbers(self, names: Sequence[str]) -> list[str]:
+        """The variables, each vector as its components."""
+        from frot.ask import components_of
+
+        checked = None if self.model is None else self.model.checked
+        return [
+            one
+            for name in names
+            for one in ([name] if name in self or not checked else components_of(checked(), name))
+        ]
+
     def unit(self, name: str) -> str:
         """The SI unit of a variable, `1` for a number."""
         found = {v.name: v.unit.name for v in self.program.variables}

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frot.dsl.messages.errors import fail
 from frot.runtime.curves import unit_of
 from frot.runtime.panels import choose
 from frot.runtime.plotting import COLOURS, FINE
@@ -30,20 +29,15 @@ def curves_of(result: Result, chosen: Sequence[str] | None = None) -> dict[str, 
     for a name that no variable has.
     """
     variables = result.program.variables
+    chosen = result.numbers(chosen or ())
     names = [v.name for v in variables if "@" not in v.name]
-    names += [name for name in chosen or () if name not in names and name != "time"]
+    names += [name for name in chosen if name not in names and name != "time"]
     times = grid_of(result, len(names))
     values = result.take(names, times)
     kinds = {v.name: v for v in variables}
     curves = []
     for name in names:
         found = np.asarray(values[name], dtype=float)
-        if found.ndim > 1:
-            raise fail(
-                "E0805",
-                f"'{name}' is a vector, and a curve is of one number",
-                help=f"name a component, as '{name}.x'",
-            )
         info = kinds.get(name)
         steps: Sequence[str] = ()
         if info is not None and info.type == "mode":
@@ -85,6 +79,8 @@ def _panels(result: Result, chosen: Sequence[str] | None) -> list[list[str]]:
     if chosen:
         groups: dict[str, list[str]] = {}
         for name in chosen:
+            if name == "time":
+                continue
             groups.setdefault(unit_of(result, name), []).append(name)
         return list(groups.values())
     choice = choose(result)
