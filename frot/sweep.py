@@ -9,6 +9,7 @@ from __future__ import annotations
 import csv
 import itertools
 import math
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -94,19 +95,35 @@ def sweep(
             watch(count, whole)
 
 
-def read_done(path: Path, names: Sequence[str]) -> list[Row]:
-    """The rows of a sweep that is in the file already, if they are of the same columns."""
+def read_done(path: Path, names: Sequence[str], given: Mapping[str, Sequence[object]]) -> list[Row]:
+    """The rows of a sweep that is in the file already, if it is the same sweep."""
     if not path.is_file():
         return []
+    content = path.read_bytes()
+    if not content.endswith(b"\n"):
+        # part of a row, of a machine that stopped
+        os.truncate(path, content.rfind(b"\n") + 1)
     with open(path, encoding="utf-8", newline="") as file:
         reader = csv.DictReader(file)
-        if reader.fieldnames is None or list(reader.fieldnames) != list(names):
-            raise fail(
-                "E0806",
-                f"'{path}' has other columns than this sweep",
-                help="name another file, or remove it",
-            )
-        return [dict(row) for row in reader if all(row.get(name) is not None for name in names)]
+        if reader.fieldnames is None:
+            return []
+        if list(reader.fieldnames) != list(names):
+            raise _other(path, "columns")
+        done: list[Row] = [dict(row) for row in reader]
+    every = itertools.product(*given.values())
+    for row in done:
+        values = next(every, None)
+        if values is None or [str(x) for x in values] != [row[name] for name in given]:
+            raise _other(path, "values of parameters")
+    return done
+
+
+def _other(path: Path, what: str) -> Exception:
+    return fail(
+        "E0806",
+        f"'{path}' has other {what} than this sweep",
+        help="name another file, or remove it",
+    )
 
 
 def check_table() -> None:

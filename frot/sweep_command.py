@@ -57,7 +57,7 @@ def sweep(options: argparse.Namespace) -> int:
     whole = target.suffix.lower() != ".csv"
     kept = target.with_name(f"{target.name}.csv") if whole else target
     columns = [*given, *options.read, "error"]
-    done = read_done(kept, columns) if options.resume else []
+    done = read_done(kept, columns, given) if options.resume else []
     run = {"start": options.start, "stop": options.stop, "tolerance": options.tolerance}
     with Busy(f"compiling {model.name}"):
         reading_program(model, options.read)

@@ -119,6 +119,10 @@ def test_the_shell_goes_on_where_a_sweep_was_stopped(tmp_path: Path) -> None:
     assert (tmp_path / "s.csv").read_text().splitlines() == lines
     other = shell(tmp_path, "--set", "r=1:2:1", "--read", "time", "-o", "s.csv", "--resume")
     assert other.returncode == 1 and "other columns" in other.stderr
+    changed = [x.replace("0.05", "0.1") for x in words]
+    other = shell(tmp_path, *changed, "--resume")
+    assert other.returncode == 1 and "other values" in other.stderr
+    assert (tmp_path / "s.csv").read_text().splitlines() == lines
 
 
 def test_a_table_of_columns_is_written(tmp_path: Path) -> None:
