@@ -100,9 +100,6 @@ def read_done(path: Path, names: Sequence[str], given: Mapping[str, Sequence[obj
     if not path.is_file():
         return []
     content = path.read_bytes()
-    if not content.endswith(b"\n"):
-        # part of a row, of a machine that stopped
-        os.truncate(path, content.rfind(b"\n") + 1)
     with open(path, encoding="utf-8", newline="") as file:
         reader = csv.DictReader(file)
         if reader.fieldnames is None:
@@ -110,6 +107,10 @@ def read_done(path: Path, names: Sequence[str], given: Mapping[str, Sequence[obj
         if list(reader.fieldnames) != list(names):
             raise _other(path, "columns")
         done: list[Row] = [dict(row) for row in reader]
+    if not content.endswith(b"\n"):
+        # part of a row, of a machine that stopped
+        done = done[:-1]
+        os.truncate(path, content.rfind(b"\n") + 1)
     every = itertools.product(*given.values())
     for row in done:
         values = next(every, None)
