@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from frot.model import Model, compile, load
     from frot.runtime.result import Event, Result
     from frot.runtime.run import Interrupted, SimulationError
+    from frot.runtime.run_files import load_result
 
 _HOMES = {
     "Event": "frot.runtime.result",
@@ -26,6 +27,7 @@ _HOMES = {
     "SimulationError": "frot.runtime.run",
     "compile": "frot.model",
     "load": "frot.model",
+    "load_result": "frot.runtime.run_files",
 }
 __all__ = [
     "Event",
@@ -36,6 +38,7 @@ __all__ = [
     "SimulationError",
     "compile",
     "load",
+    "load_result",
 ]
 
 

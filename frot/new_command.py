@@ -107,16 +107,11 @@ def _saved(path: Path) -> int | None:
 
 def _run(options: argparse.Namespace) -> None:
     from frot.commands import compiled
+    from frot.progress import Busy, run_watched
 
-    model = compiled(options)
-    result = model.simulate(
-        start=options.start,
-        stop=options.stop,
-        tolerance=options.tolerance,
-        parameters=dict(options.set),
-        inputs=dict(options.input),
-    )
+    result = run_watched(compiled(options), options)
     print(result.summary())
     if options.plot is not None:
-        result.plot(options.plot)
+        with Busy(f"drawing {options.plot}"):
+            result.plot(options.plot)
         print(f"  written: {options.plot}")

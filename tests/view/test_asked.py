@@ -150,3 +150,12 @@ def test_a_series_of_pandas_is_an_input_over_time() -> None:
     one = model.simulate(inputs={"F": series})
     two = model.simulate(inputs={"F": ([0, 0.5, 1], [0, 10, 5])})
     assert np.array_equal(one["stick.angle"], two["stick.angle"])
+
+
+@pytest.mark.parametrize("name", ["bell_and_clapper", "slack_threads", "rolling_cone"])
+def test_all_that_is_offered_can_be_asked(name: str) -> None:
+    result = result_of(name, stop=0.2)
+    names = result._ipython_key_completions_()
+    assert len(names) > 40
+    values = result.ask(names)
+    assert [x for x in names if not np.all(np.isfinite(values[x]))] == []
