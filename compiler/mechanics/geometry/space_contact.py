@@ -87,8 +87,8 @@ class SpaceContactGeometry(Geometry):
     `found` is how the figures stand, its normal from the first to the second. `moves` is the
     velocity of the material point of the second from that of the first, `turning` the relative
     angular velocity, `tangents` two unit vectors beside the normal. `turned` is -1 where the first
-    figure is the second place of the liaison. `left` is the gap that the
-    text reads; of a cord it is what is left of it, `length` the way between its ends.
+    figure is the second place of the liaison. `remaining` is the gap that the
+    text reads; of a cord it is the rest of its length, `length` the way between its ends.
     """
 
     contact: SpaceContact
@@ -101,7 +101,7 @@ class SpaceContactGeometry(Geometry):
     gap: ca.SX
     witness: ca.SX
     reach: ca.SX
-    left: ca.SX
+    remaining: ca.SX
     length: ca.SX | None = None
 
     @property
@@ -147,7 +147,7 @@ class SpaceContactGeometry(Geometry):
     def variable(self, name: str, reaction: Reaction) -> ca.SX:
         """A variable of the contact; the reaction is that of the first place on the second."""
         if name == "gap":
-            return self.left
+            return self.remaining
         if name == "length" and self.length is not None:
             return self.length
         if name == "slip":
@@ -193,10 +193,10 @@ def _geometry(
         found = on_side(kinematics.track(contact.liaison, make).touch, side)
     first, second = kinematics.moving(a.point), kinematics.moving(b.point)
     moves = second.velocity_of(found.place) - first.velocity_of(found.place)
-    left, length = found.gap, None
+    remaining, length = found.gap, None
     if is_thread(contact.liaison):
         length = ca.norm_2(at[1].origin - at[0].origin)
-        left = lower(contact.liaison.options["length"]) - length
+        remaining = lower(contact.liaison.options["length"]) - length
     sizes = kinematics.lengths_between(
         (point_body(a.point), kinematics.local_point(a.point)),
         (point_body(b.point), kinematics.local_point(b.point)),
@@ -210,7 +210,7 @@ def _geometry(
         tangents=_tangents(contact, found, kinematics),
         turned=-1 if contact.exchanged else 1,
         gap=found.gap,
-        left=left,
+        remaining=remaining,
         length=length,
         witness=_witness(contact, found, side, kinematics, world),
         reach=found.size + ca.dot(ca.fabs(found.normal), sizes),

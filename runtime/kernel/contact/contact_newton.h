@@ -3,7 +3,7 @@
 #ifndef FROT_CONTACT_NEWTON_H
 #define FROT_CONTACT_NEWTON_H
 
-/* What is asked of one or more rows with reactions x and accelerations a = b + W x:
+/* The rule of one or more rows with reactions x and accelerations a = b + W x:
  * ABSENT  x = 0
  * HELD    a = 0
  * READS   x = a: a reaction that other reactions give
