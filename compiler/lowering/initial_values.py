@@ -218,7 +218,7 @@ def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Constraint]]:
     mechanism, kinematics = reduced.mechanism, reduced.variables.kinematics
     for (link, k), counter in zip(mechanism.counters, kinematics.counters.values(), strict=True):
         angle, _ = reduced.variables.coordinate(link.liaison, k)
-        yield counter, reduced.variables.settled(angle), link
+        yield counter, reduced.variables.without_auxiliary(angle), link
 
 
 def _natural(system: Assembled) -> ca.SX:
@@ -280,9 +280,9 @@ def _residuals(
             help="state a coordinate, a speed or a state, or leave it out",
         )
         return []
-    settled = system.reduced.variables.settled
-    left = system.resolve(settled(display.lower(equation.left)))
-    right = system.resolve(settled(display.lower(equation.right)))
+    without_auxiliary = system.reduced.variables.without_auxiliary
+    left = system.resolve(without_auxiliary(display.lower(equation.left)))
+    right = system.resolve(without_auxiliary(display.lower(equation.right)))
     implicit = left - right
     solved = ca.depends_on(implicit, ca.vertcat(system.z, system.lam))
     left, right = explicit(left), explicit(right)
