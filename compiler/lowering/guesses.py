@@ -245,3 +245,22 @@ def values_of(symbols: ca.SX, values: ca.SX) -> dict[int, ca.SX]:
     return {
         s.element_hash(): x for s, x in zip(scalars_of(symbols), scalars_of(values), strict=True)
     }
+
+
+def natural_places(system: Assembled) -> ca.SX:
+    """Where the search begins without a guess: no turn, and zero; what rolls, at the origin."""
+    start = ca.SX.zeros(system.q.shape)
+    for turn in system.reduced.symbols.turns:
+        start[turn.coordinate] = 1
+    for place, value in system.reduced.variables.kinematics.starts.items():
+        start[place] = replace_known(value, values_of(system.q, start))
+    return start
+
+
+def natural_unknowns(system: Assembled) -> ca.SX:
+    """Where the search for the unknowns of the blocks begins without a guess, at these places."""
+    start = ca.SX.zeros(system.y.shape)
+    for block in system.blocks:
+        if block.start is not None:
+            start[block.first : block.first + block.start.numel()] = block.start
+    return start
