@@ -146,11 +146,10 @@ def _here(
             yield run_rows(program, batch, read, options)
         return
     from concurrent.futures import ProcessPoolExecutor
-    from dataclasses import replace
     from functools import partial
 
     # the lock that keeps the program's folder stays in this process
-    sent = replace(program, hold=None)
+    sent = program.without_lock()
     with ProcessPoolExecutor(workers) as pool:
         yield from pool.map(partial(_batch, sent, tuple(read), dict(options)), batches)
 
@@ -175,10 +174,9 @@ def _by_dask(
         raise fail(
             "E0820", "Dask is not installed", help="pip install 'dask[distributed]'"
         ) from None
-    from dataclasses import replace
     from functools import partial
 
-    sent = replace(program, hold=None)
+    sent = program.without_lock()
     with Client(address) as client:
         work = client.map(partial(_batch, sent, tuple(read), dict(options)), batches, pure=False)
         for one in work:
