@@ -10,7 +10,6 @@ the program from the last. A pass gives None for what the text is to blame for, 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 from frot.compiler.mechanics.check_support import refuse_unknown
@@ -19,7 +18,7 @@ from frot.dsl import Log, dump
 from frot.dsl.checked import Model
 from frot.dsl.data.collection import without_collection
 from frot.dsl.messages.interrupts import raise_noted_interrupt
-from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, read_program
+from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, load_program, read_program
 
 # What reads a report must not wait for CasADi: it is loaded where equations are formed.
 TYPE_CHECKING = False
@@ -222,7 +221,7 @@ def build(
         write_manifest(describe(lowered, file, key, toolchain, folder), folder)
 
     kept = store("programs", key, fill)
-    return replace(read_program(kept.folder), hold=kept.hold)
+    return load_program(read_program(kept.folder), kept.hold)
 
 
 def make_dae(model: Model, log: Log) -> Dae | None:

@@ -195,7 +195,7 @@ def compiled(options: argparse.Namespace) -> Model:
 
 
 def _check(options: argparse.Namespace) -> int:
-    from frot.stages import check_data, emit_stage, report_file
+    from frot.check_command import check_data, emit_stage, report_file
 
     if options.json:
         import json
@@ -215,7 +215,7 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _fmt(options: argparse.Namespace) -> int:
-    from frot.format_files import format_file
+    from frot.format_command import format_file
 
     def form(file: str) -> int:
         changes = format_file(file, options.check, options.diff)
@@ -232,7 +232,7 @@ def _explain(options: argparse.Namespace) -> int:
 
 
 def _cache(options: argparse.Namespace) -> int:
-    from frot.cache_room import tell_cache
+    from frot.cache_command import tell_cache
 
     print(tell_cache(options.limit, options.clear))
     return 0

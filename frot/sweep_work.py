@@ -6,7 +6,6 @@ import math
 import os
 import time
 from collections.abc import Generator, Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from frot.dsl.messages.errors import fail
@@ -37,7 +36,7 @@ class Work:
         from frot.runtime.settings import read_each
 
         # the lock that keeps the program's folder stays in this process
-        self.program, self.read, self.options = replace(program, hold=None), read, dict(options)
+        self.program, self.read, self.options = program.without_lock(), read, dict(options)
         self.settings = [
             read_each(name, values, program.parameters, "parameter", program)
             for name, values in given.items()

@@ -33,7 +33,7 @@ def carried_bodies(system: Assembled) -> tuple[Carried, ...]:
         pose = reduced.variables.kinematics.pose(coordinates.body)
         carried = _carrier_velocity(coordinates, system)
         place = ca.densify(ca.vertcat(pose.origin, _turn(pose), carried))
-        value = system.resolve(reduced.variables.settled(place))
+        value = system.resolve(reduced.variables.without_auxiliary(place))
         if outside.numel() and ca.depends_on(value, outside):
             liaison = None if coordinates.link is None else coordinates.link.liaison
             span = coordinates.body.span if liaison is None else liaison.span

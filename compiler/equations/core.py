@@ -75,15 +75,10 @@ def make_core(
     lam = ca.vertcat(s.lam, column(e.force for e in elements))
     left_over = dict(zip(explicit.numbers, explicit.residuals.values, strict=True))
     user = _in_order_of([*states.accelerations[count:], *algebraic], found, core, left_over)
-    coupling = reduced.motion.matrices.matrix[:, count:] @ auxiliary
-    equations = ca.vertcat(
-        column(left_over[i] for i in range(count)) + coupling[:count],
-        column(user),
-        replace_known(newton[count:], known) + coupling[count:],
+    own = [left_over[i] for i in range(count)]
+    equations = _ordered_equations(
+        reduced, own, user, replace_known(newton[count:], known), auxiliary, nv
     )
-    order = [*range(count), *range(count, nv), *range(count + len(user), count + len(user) + na)]
-    order += list(range(nv, count + len(user)))
-    equations = equations[order] if order else equations
     matrix, spread = ca.jacobian(equations, z), -ca.jacobian(equations, lam)
     for place in reduced.motion.tree.large:
         if place < count:
@@ -109,9 +104,6 @@ def make_core(
         resolve_all(reduced.motion.matrices.force_size, chains, left.resolver), known
     )
     sizes = ca.substitute(sizes, both, zero) if both.numel() else sizes
-    # as lists: what is left of one scalar behind it is a row of one more to CasADi
-    told, own = scalars_of(sizes), scalars_of(ca.fabs(force))
-    size = column([*told[:count], *own[count:nv], *told[count : count + na], *own[nv + na :]])
     return Core(
         q=ca.vertcat(s.q, column(states.q)),
         v=column(states.v),
@@ -124,7 +116,7 @@ def make_core(
         matrices=SystemMatrices(
             matrix=matrix,
             force=force,
-            force_size=size,
+            force_size=_force_sizes(sizes, force, count, nv, na),
             spread=spread,
             metric=_metric(reduced, nv, na),
             rows=rows,
@@ -137,6 +129,32 @@ def make_core(
         known=explicit.resolver.known,
         pivots=tuple(explicit.pivots),
     )
+
+
+def _ordered_equations(
+    reduced: Reduced,
+    own: list[ca.SX],
+    user: list[ca.SX],
+    auxiliary_rows: ca.SX,
+    auxiliary: ca.SX,
+    nv: int,
+) -> ca.SX:
+    """The equations in the order of z: `own` of the mechanism, `user` of the text."""
+    count, na = len(own), int(auxiliary.numel())
+    coupling = reduced.motion.matrices.matrix[:, count:] @ auxiliary
+    equations = ca.vertcat(
+        column(own) + coupling[:count], column(user), auxiliary_rows + coupling[count:]
+    )
+    order = [*range(count), *range(count, nv), *range(count + len(user), count + len(user) + na)]
+    order += list(range(nv, count + len(user)))
+    return equations[order] if order else equations
+
+
+def _force_sizes(sizes: ca.SX, force: ca.SX, count: int, nv: int, na: int) -> ca.SX:
+    """The sizes of the mechanism's forces, of other entries their values."""
+    # as lists: what is left of one scalar behind it is a row of one more to CasADi
+    known, own = scalars_of(sizes), scalars_of(ca.fabs(force))
+    return column([*known[:count], *own[count:nv], *known[count : count + na], *own[nv + na :]])
 
 
 def _remove_algebraic(

@@ -120,18 +120,20 @@ def make_reduced(
     motion: MotionEquations,
 ) -> Reduced:
     """All of these as one value, auxiliary speeds at zero; nothing changes it later."""
-    settled, mechanism = reading.variables.settled, placed.mechanism
+    without_auxiliary, mechanism = reading.variables.without_auxiliary, placed.mechanism
     variables = replace(reading.variables, modes=gathered.modes, frictions=dict(reading.frictions))
     equations = gathered.equations
     return Reduced(
         mechanism=mechanism,
         symbols=_with_counters(placed.symbols, mechanism, variables),
         text=reading.text.finish(),
-        equations=replace(equations, values=tuple(settled(x) for x in equations.values)),
+        equations=replace(equations, values=tuple(without_auxiliary(x) for x in equations.values)),
         events=gathered.events,
         contact_rows=link_rows(mechanism.contacts),
         variables=variables,
-        conditions=placed.conditions.finish([settled(x) for x in placed.conditions.values]),
+        conditions=placed.conditions.finish(
+            [without_auxiliary(x) for x in placed.conditions.values]
+        ),
         motion=motion,
         plain=is_plain(placed, reading, applied),
     )
@@ -141,7 +143,7 @@ def _faults(variables: Variables, motion: Lowering) -> Iterator[tuple[ca.SX, str
     """That what cannot part comes to the end of a curve."""
     for one in find_leaving(variables):
         kept = ca.SX(1) if one.parts is None else 1 - motion.lower(one.parts)
-        value = variables.settled(one.value)
+        value = variables.without_auxiliary(one.value)
         yield ca.if_else(kept, value, -1), one.text, one.liaison.span
 
 
@@ -150,4 +152,4 @@ def _with_counters(symbols: Symbols, mechanism: Mechanism, variables: Variables)
     if not mechanism.counters:
         return symbols
     seen = (variables.coordinate(link.liaison, k)[1] for link, k in mechanism.counters)
-    return replace(symbols, rates=column((symbols.rates, *map(variables.settled, seen))))
+    return replace(symbols, rates=column((symbols.rates, *map(variables.without_auxiliary, seen))))

@@ -1,8 +1,8 @@
 """Initial statements on accelerations and reactions, as statements on places or on speeds.
 
-Accelerations and reactions are formulas of the state (`explicit.py`). A statement on them finds
-places where other statements leave places open (an equilibrium: the speeds are then those stated,
-or zero), else speeds (the pace at which a wire carries a given force).
+Accelerations and reactions are formulas of the state (`explicit_reactions.py`). A statement on
+them finds places where other statements leave places open (an equilibrium: the speeds are then
+those stated, or zero), else speeds (the pace at which a wire carries a given force).
 """
 
 from __future__ import annotations

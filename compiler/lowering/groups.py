@@ -102,25 +102,12 @@ def make_groups(system: Assembled) -> Grouping:
         ca.sparsify(x)
         for x in (system.matrices.matrix, system.matrices.rows, system.matrices.spread)
     )
-    sets = Sets(nw + n_rows)
-    for i, j in _entries(matrix):
-        sets.join(i, j)
-    tree = system.tree
-    for places in speeds_by_tree([step.node for step in tree.steps]):
-        for place in places[1:]:
-            sets.join(places[0], place)
     moved: dict[int, list[int]] = {}
     for r, k in _entries(rows):
-        sets.join(nw + r, k)
         moved.setdefault(r, []).append(k)
     _share_entries(moved, elements)
-    for k, r in _entries(spread):
-        sets.join(nw + r, k)
-    owners: dict[int, int] = {}
-    for i, found in enumerate(reduced.contact_rows):
-        owners.update(dict.fromkeys(found.all, i))
-        for r in found.all[1:]:
-            sets.join(nw + found.all[0], nw + r)
+    sets, tree = _joined(system, matrix, rows, spread), system.tree
+    owners = {r: i for i, found in enumerate(reduced.contact_rows) for r in found.all}
     owners.update({first + k: len(joints) + k for k in range(len(system.elements))})
     members: dict[int, list[int]] = {}
     for item in range(nw + n_rows):
@@ -161,6 +148,25 @@ def _share_entries(moved: dict[int, list[int]], elements: list[Element]) -> None
             rows = range(e.row, e.row + e.parts)
             both = sorted({k for r in rows for k in moved.get(r, ())})
             moved.update(dict.fromkeys(rows, both))
+
+
+def _joined(system: Assembled, matrix: ca.SX, rows: ca.SX, spread: ca.SX) -> Sets:
+    """Unknowns, then rows, in sets of those that act on each other."""
+    nw = int(system.z.numel())
+    sets = Sets(nw + int(system.lam.numel()))
+    for i, j in _entries(matrix):
+        sets.join(i, j)
+    for places in speeds_by_tree([step.node for step in system.tree.steps]):
+        for place in places[1:]:
+            sets.join(places[0], place)
+    for r, k in _entries(rows):
+        sets.join(nw + r, k)
+    for k, r in _entries(spread):
+        sets.join(nw + r, k)
+    for found in system.reduced.contact_rows:
+        for r in found.all[1:]:
+            sets.join(nw + found.all[0], nw + r)
+    return sets
 
 
 def reorder_groups(system: Assembled, grouping: Grouping, order: Sequence[int]) -> Grouping:

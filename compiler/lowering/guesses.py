@@ -46,7 +46,10 @@ def list_guesses(system: Assembled, display: Lowering) -> list[Guess]:
 
     A `guess` is stronger than a `start`, and a guess on a state than one on what follows from it.
     """
-    model, settled = system.reduced.mechanism.model, system.reduced.variables.settled
+    model, without_auxiliary = (
+        system.reduced.mechanism.model,
+        system.reduced.variables.without_auxiliary,
+    )
     starts: list[Guess] = []
     for variable in model.variables:
         if variable.start is not None and not variable.discrete and is_fixed(variable.start):
@@ -59,14 +62,14 @@ def list_guesses(system: Assembled, display: Lowering) -> list[Guess]:
     for index, equation in enumerate(model.initial):
         if equation.guess:
             left, right = (
-                scalars(system.resolve(settled(display.lower(side))))
+                scalars(system.resolve(without_auxiliary(display.lower(side))))
                 for side in (equation.left, equation.right)
             )
             of = equation.left.type.dimension
             right = _nearer_turn(equation.left, left, right)
             whole = column(left) - column(right)
             if isinstance(equation.left, Element):
-                whole = system.resolve(settled(display.lower(equation.left.operand)))
+                whole = system.resolve(without_auxiliary(display.lower(equation.left.operand)))
             guesses += [
                 Guess(a, b, of, False, whole, index) for a, b in zip(left, right, strict=True)
             ]
@@ -242,3 +245,22 @@ def values_of(symbols: ca.SX, values: ca.SX) -> dict[int, ca.SX]:
     return {
         s.element_hash(): x for s, x in zip(scalars_of(symbols), scalars_of(values), strict=True)
     }
+
+
+def natural_places(system: Assembled) -> ca.SX:
+    """Where the search begins without a guess: no turn, and zero; what rolls, at the origin."""
+    start = ca.SX.zeros(system.q.shape)
+    for turn in system.reduced.symbols.turns:
+        start[turn.coordinate] = 1
+    for place, value in system.reduced.variables.kinematics.starts.items():
+        start[place] = replace_known(value, values_of(system.q, start))
+    return start
+
+
+def natural_unknowns(system: Assembled) -> ca.SX:
+    """Where the search for the unknowns of the blocks begins without a guess, at these places."""
+    start = ca.SX.zeros(system.y.shape)
+    for block in system.blocks:
+        if block.start is not None:
+            start[block.first : block.first + block.start.numel()] = block.start
+    return start

@@ -28,10 +28,10 @@ class InitialProblem:
 def pose_initial_problem(system: Assembled, log: Log) -> InitialProblem:
     """Translate the statements of `initial`; those that contradict each other are reported."""
     reduced, explicit = system.reduced, make_explicit(system)
-    chains, settled = reduced.text.chains, reduced.variables.settled
+    chains, without_auxiliary = reduced.text.chains, reduced.variables.without_auxiliary
 
     def formula(value: ca.SX) -> ca.SX:
-        return explicit(system.resolve(settled(value)))
+        return explicit(system.resolve(without_auxiliary(value)))
 
     display = Lowering(
         reduced.symbols,

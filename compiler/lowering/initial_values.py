@@ -15,6 +15,8 @@ from frot.compiler.lowering.guesses import (
     guessed_states,
     list_guesses,
     move_by,
+    natural_places,
+    natural_unknowns,
     values_of,
 )
 from frot.compiler.mechanics.constraint import Constraint
@@ -106,7 +108,7 @@ def lower_initial(
     found = _placed(found, direct, system, statements, log)
     guesses = list_guesses(system, display)
     # values that are stated one by one are where the search begins, or all there is to find
-    natural = _with(system.q, _natural(system), guessed_halves(system, guesses) | direct)
+    natural = _with(system.q, natural_places(system), guessed_halves(system, guesses) | direct)
     natural = move_by(system, [g for g in guesses if g.start], system.q, natural, direct)
     stated = direct | guessed_states(system, guesses, direct)
     natural = _with(system.q, natural, stated)
@@ -120,7 +122,38 @@ def lower_initial(
     relations = turns or not kept or system.invariants.origins
     if complete and not relations:
         found = []
-    for turn in turns:
+    found += _kept_by_states(system, statements)
+    moving = [_depends(r.value, system, system.v) for r in found]
+    position = [r for r, m in zip(found, moving, strict=True) if not m]
+    velocity = [r for r, m in zip(found, moving, strict=True) if m]
+    known |= values_of(system.v, v)
+    y_start = move_by(system, guesses, system.y, natural_unknowns(system), known)
+    discrete = column(d.start for d in system.reduced.text.memory)
+    return Initial(
+        start=[natural, discrete],
+        beginning=[v, y_start],
+        position=_outputs(position, system.q, system.y),
+        velocity=_outputs(velocity, system.v, system.y),
+        statements=tuple(statements),
+        position_statement=tuple(r.statement for r in position),
+        velocity_statement=tuple(r.statement for r in velocity),
+        direct=tuple(r.statement < 0 or r.direct for r in position),
+        kinds=tuple(r.kind for r in position),
+        guessed=guessed,
+        vectors=vectors,
+        guessed_speeds=moved,
+        guessed_dimensions=dimensions,
+    )
+
+
+def _kept_by_states(system: Assembled, statements: list[Statement]) -> list[_Residual]:
+    """What states keep by themselves: lengths of quaternions, counted turns, invariants.
+
+    `statements` gains their words.
+    """
+    model = system.reduced.mechanism.model
+    found: list[_Residual] = []
+    for turn in system.reduced.symbols.turns:
         unit = system.q[turn.coordinate : turn.coordinate + 4]
         found.append(_Residual(ca.sumsqr(unit) - 1, ca.sumsqr(unit) + 1, ~len(statements)))
         name = unit[0].name().removesuffix("[1]")
@@ -140,27 +173,7 @@ def lower_initial(
     ):
         found.append(_Residual(value, _size(value, system), len(statements)))
         statements.append(Statement(origin.text, origin.span, "1"))
-    moving = [_depends(r.value, system, system.v) for r in found]
-    position = [r for r, m in zip(found, moving, strict=True) if not m]
-    velocity = [r for r, m in zip(found, moving, strict=True) if m]
-    known |= values_of(system.v, v)
-    y_start = move_by(system, guesses, system.y, _beginnings(system), known)
-    discrete = column(d.start for d in system.reduced.text.memory)
-    return Initial(
-        start=[natural, discrete],
-        beginning=[v, y_start],
-        position=_outputs(position, system.q, system.y),
-        velocity=_outputs(velocity, system.v, system.y),
-        statements=tuple(statements),
-        position_statement=tuple(r.statement for r in position),
-        velocity_statement=tuple(r.statement for r in velocity),
-        direct=tuple(r.statement < 0 or r.direct for r in position),
-        kinds=tuple(r.kind for r in position),
-        guessed=guessed,
-        vectors=vectors,
-        guessed_speeds=moved,
-        guessed_dimensions=dimensions,
-    )
+    return found
 
 
 def _placed(
@@ -218,26 +231,7 @@ def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Constraint]]:
     mechanism, kinematics = reduced.mechanism, reduced.variables.kinematics
     for (link, k), counter in zip(mechanism.counters, kinematics.counters.values(), strict=True):
         angle, _ = reduced.variables.coordinate(link.liaison, k)
-        yield counter, reduced.variables.settled(angle), link
-
-
-def _natural(system: Assembled) -> ca.SX:
-    """Where the search begins without a guess: no turn, and zero; what rolls, at the origin."""
-    start = ca.SX.zeros(system.q.shape)
-    for turn in system.reduced.symbols.turns:
-        start[turn.coordinate] = 1
-    for place, value in system.reduced.variables.kinematics.starts.items():
-        start[place] = replace_known(value, values_of(system.q, start))
-    return start
-
-
-def _beginnings(system: Assembled) -> ca.SX:
-    """Where the search for the unknowns of the blocks begins without a guess, at these places."""
-    start = ca.SX.zeros(system.y.shape)
-    for block in system.blocks:
-        if block.start is not None:
-            start[block.first : block.first + block.start.numel()] = block.start
-    return start
+        yield counter, reduced.variables.without_auxiliary(angle), link
 
 
 def _statement(equation: InitialEquation) -> Statement:
@@ -280,9 +274,9 @@ def _residuals(
             help="state a coordinate, a speed or a state, or leave it out",
         )
         return []
-    settled = system.reduced.variables.settled
-    left = system.resolve(settled(display.lower(equation.left)))
-    right = system.resolve(settled(display.lower(equation.right)))
+    without_auxiliary = system.reduced.variables.without_auxiliary
+    left = system.resolve(without_auxiliary(display.lower(equation.left)))
+    right = system.resolve(without_auxiliary(display.lower(equation.right)))
     implicit = left - right
     solved = ca.depends_on(implicit, ca.vertcat(system.z, system.lam))
     left, right = explicit(left), explicit(right)

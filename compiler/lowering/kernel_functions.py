@@ -170,14 +170,14 @@ def _of_places(
     beginnings: list[ca.SX],
 ) -> Iterator[Named]:
     """Where figures touch and bodies are, and what figures may lose."""
-    state, settled = state_arguments(system), system.reduced.variables.settled
+    state, without_auxiliary = state_arguments(system), system.reduced.variables.without_auxiliary
     if beginnings:
         yield "beginnings", state, beginnings
     if carried:
         yield "places", state, [column(body.value for body in carried)]
     if lost:
         found = column(x.distance for x in lost), ca.horzcat(*(x.where for x in lost))
-        yield "vanishing", state, [system.resolve(settled(x)) for x in found]
+        yield "vanishing", state, [system.resolve(without_auxiliary(x)) for x in found]
 
 
 def _of_sizes(system: Assembled) -> Iterator[Named]:

@@ -77,8 +77,8 @@ def lower(
     """Build every function; what cannot be built is reported."""
     reduced, s = system.reduced, system.reduced.symbols
     checks = parameter_checks(reduced.mechanism, s.parameters, system.pivots)
-    settled = reduced.variables.settled
-    values = system.at_rest(system.resolve(settled(column(v.value for v in variables))))
+    without_auxiliary = reduced.variables.without_auxiliary
+    values = system.at_rest(system.resolve(without_auxiliary(column(v.value for v in variables))))
     if log.failed or not _is_known(values, system, variables, log):
         return None
     islands: tuple[Island, ...] = ()

@@ -32,9 +32,9 @@ def lower_update(system: Assembled, log: Log) -> tuple[Assembled, list[ca.SX] | 
     place = {x.element_hash(): k for k, x in enumerate(states)}
     after = list(states)
     actives: dict[int, list[tuple[ca.SX, Span]]] = {}
-    settled = system.reduced.variables.settled
+    without_auxiliary = system.reduced.variables.without_auxiliary
     for active, jump in events.jumps:
-        target = system.resolve(settled(jump.target))
+        target = system.resolve(without_auxiliary(jump.target))
         inside = [x for x in ca.symvar(target) if x.element_hash() in place]
         slope = ca.jacobian(target, inside[0]) if len(inside) == 1 else None
         if slope is None or ca.depends_on(slope, inside[0]):
@@ -46,7 +46,7 @@ def lower_update(system: Assembled, log: Log) -> tuple[Assembled, list[ca.SX] | 
             )
             continue
         rest = ca.substitute(target, inside[0], ca.SX(0))
-        value = (system.at_rest(system.resolve(settled(jump.value))) - rest) / slope
+        value = (system.at_rest(system.resolve(without_auxiliary(jump.value))) - rest) / slope
         k = place[inside[0].element_hash()]
         after[k] = ca.if_else(active, value, after[k])
         actives.setdefault(k, []).append((active, jump.span))
@@ -59,8 +59,8 @@ def lower_update(system: Assembled, log: Log) -> tuple[Assembled, list[ca.SX] | 
     update = [
         column(after[:nq]),
         column(after[nq:]),
-        system.at_rest(system.resolve(settled(column(events.values)))),
-        system.at_rest(system.resolve(settled(column(asked)))),
+        system.at_rest(system.resolve(without_auxiliary(column(events.values)))),
+        system.at_rest(system.resolve(without_auxiliary(column(asked)))),
     ]
     events = replace(events, outcomes=tuple(outcomes), asked=tuple(asked))
     return replace(system, reduced=replace(system.reduced, events=events)), update

@@ -67,7 +67,7 @@ def watch_numbers(system: Assembled) -> tuple[ca.SX, list[Watched]]:
     risky = _risky([value for value, _ in everything])
     values = column(everything[k][0] for k in risky)
     inside = column(ca.symvar(values))
-    known = system.resolve(system.reduced.variables.settled(inside))
+    known = system.resolve(system.reduced.variables.without_auxiliary(inside))
     guarded = ca.if_else(ca.fabs(known) < _LARGEST, known, 1)
     watched = ca.substitute(values, inside, guarded) if inside.numel() else values
     return watched, [everything[k][1] for k in risky]

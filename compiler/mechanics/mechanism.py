@@ -70,8 +70,8 @@ class Mechanism:
     `coordinates` has one entry a body, each after the bodies it hangs on. `contacts` are the
     liaisons whose reactions are computed, because a law or an expression reads them or because they
     close a loop, these relation by relation; `ideal` are those kept by coordinates alone. `halves`
-    are the bodies added to the model's, each with the one it is a part of (halves.py); `corners`
-    the liaisons that one of faces stands for (faces.py).
+    are the bodies added to the model's, each with the one it is a part of (split_bodies.py);
+    `corners` the liaisons that one of faces stands for (faces.py).
     """
 
     model: Model

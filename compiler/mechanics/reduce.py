@@ -140,7 +140,7 @@ def reduce_motion(
 ) -> MotionEquations:
     """The equations of the motion under the loads `applied`; `large` are speeds of large trees."""
     mechanism, kinematics, geometry = placed.mechanism, placed.kinematics, placed.geometry
-    symbols, settled = placed.symbols, variables.settled
+    symbols, without_auxiliary = placed.symbols, variables.without_auxiliary
     rates = column(rate for g in geometry for rate in g.rates(kinematics))
     speeds = ca.vertcat(symbols.v, symbols.sw)
     loads = sum_loads(mechanism, variables, applied, large)
@@ -148,35 +148,35 @@ def reduce_motion(
     motion = write_out(steps, symbols.v.numel(), speeds.numel(), large)
     if not large:
         refuse_idle_spins(mechanism, variables, motion.mass, log)
-    rows = rows_without_rounding(settled(ca.jacobian(rates, speeds)), mechanism, geometry)
-    biases = settled(_biases(mechanism.contacts, geometry, rates, variables))
-    mass = settled(motion.mass)
+    rows = rows_without_rounding(without_auxiliary(ca.jacobian(rates, speeds)), mechanism, geometry)
+    biases = without_auxiliary(_biases(mechanism.contacts, geometry, rates, variables))
+    mass = without_auxiliary(motion.mass)
     kinetic = (variables.of_body(b, "kinetic_energy") for b in mechanism.model.bodies)
     return MotionEquations(
         matrices=SystemMatrices(
             matrix=mass,
-            force=settled(motion.force + loads.force),
-            force_size=settled(motion.size + loads.size),
+            force=without_auxiliary(motion.force + loads.force),
+            force_size=without_auxiliary(motion.size + loads.size),
             spread=rows.T,
             metric=mass,
             rows=rows,
             bias=biases_without_rounding(biases, rows, mechanism, geometry),
-            rate=settled(rates),
-            gap=settled(column(g.gap for g in geometry)),
-            coefficients=settled(coefficients),
-            power=settled(loads.power),
+            rate=without_auxiliary(rates),
+            gap=without_auxiliary(column(g.gap for g in geometry)),
+            coefficients=without_auxiliary(coefficients),
+            power=without_auxiliary(loads.power),
         ),
-        load_sizes=settled(column(loads.sizes)),
-        drives=settled(sizes_of_drives(mechanism, kinematics, geometry)),
-        witness=settled(column(g.witness for g in geometry)),
-        reach=settled(column(g.reach for g in geometry)),
-        tree=BodyTrees(_settled_steps(steps, large, settled), large),
+        load_sizes=without_auxiliary(column(loads.sizes)),
+        drives=without_auxiliary(sizes_of_drives(mechanism, kinematics, geometry)),
+        witness=without_auxiliary(column(g.witness for g in geometry)),
+        reach=without_auxiliary(column(g.reach for g in geometry)),
+        tree=BodyTrees(_steps_without_auxiliary(steps, large, without_auxiliary), large),
         carried=ca.substitute(
             heaviest_loads(steps, symbols.v.numel()), symbols.v, ca.SX.zeros(symbols.v.shape)
         ),
-        kinetic=settled(sum(kinetic, ca.SX(0))),
-        potential=settled(potential + loads.potential),
-        energy_terms=settled(terms + loads.terms),
+        kinetic=without_auxiliary(sum(kinetic, ca.SX(0))),
+        potential=without_auxiliary(potential + loads.potential),
+        energy_terms=without_auxiliary(terms + loads.terms),
     )
 
 
@@ -193,20 +193,21 @@ def _biases(
         if g.still is not None
     }
     moved = [slips[k][0] if k in slips else rates[k] for k in range(rates.numel())]
-    found = variables.kinematics.rate(variables.settled(column(moved)))
+    found = variables.kinematics.rate(variables.without_auxiliary(column(moved)))
     ends = itertools.accumulate((x.numel() for x in moved), initial=0)
     parts = (found[first : first + x.numel()] for first, x in zip(ends, moved, strict=False))
     return column(ca.dot(slips[k][1], part) if k in slips else part for k, part in enumerate(parts))
 
 
-def _settled_steps(
-    steps: tuple[Step, ...], large: frozenset[int], settled: Callable[[ca.SX], ca.SX]
+def _steps_without_auxiliary(
+    steps: tuple[Step, ...], large: frozenset[int], without_auxiliary: Callable[[ca.SX], ca.SX]
 ) -> tuple[Step, ...]:
     """Those of large trees with auxiliary speeds at zero; only forces hold speeds."""
     if not large:
         return ()
     return tuple(
-        replace(step, force=settled(step.force), couple=settled(step.couple)) for step in steps
+        replace(step, force=without_auxiliary(step.force), couple=without_auxiliary(step.couple))
+        for step in steps
     )
 
 

@@ -44,7 +44,7 @@ def refuse_idle_spins(mechanism: Mechanism, variables: Variables, mass: ca.SX, l
         spins.append(ca.jacobian(along, symbols.v).T)
         sizes.append(inertia_of(rod, False, kinematics.fixed.lower)[1, 1])
     own = ca.horzcat(*spins) @ ca.diag(ca.sqrt(ca.vertcat(*sizes)))
-    looked = ca.veccat(variables.settled(mass[:count, :count]), own)
+    looked = ca.veccat(variables.without_auxiliary(mass[:count, :count]), own)
     known = dict(_values(symbols, model))
     arguments = ca.symvar(looked)
     given = [known.get(x.element_hash(), _other(k)) for k, x in enumerate(arguments)]

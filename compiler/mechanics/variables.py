@@ -95,9 +95,9 @@ class Variables:
 
     def rate(self, value: ca.SX) -> ca.SX:
         """d/dt of a function of time, coordinates, speeds and variables of the text."""
-        return self.chains.rate(self.settled(value))
+        return self.chains.rate(self.without_auxiliary(value))
 
-    def settled(self, value: ca.SX) -> ca.SX:
+    def without_auxiliary(self, value: ca.SX) -> ca.SX:
         """The value with auxiliary speeds at zero."""
         auxiliary = self.symbols.sw
         if not auxiliary.numel():

@@ -67,10 +67,13 @@ def list_candidates(reduced: Reduced) -> Candidates:
         named += found
         twists.append(twist)
     named += _of_coordinates(reduced)
-    settled = reduced.variables.settled
+    without_auxiliary = reduced.variables.without_auxiliary
     return Candidates(
-        tuple(replace(c, value=settled(c.value)) for c in named),
-        tuple(replace(t, momentum=settled(t.momentum), angular=settled(t.angular)) for t in twists),
+        tuple(replace(c, value=without_auxiliary(c.value)) for c in named),
+        tuple(
+            replace(t, momentum=without_auxiliary(t.momentum), angular=without_auxiliary(t.angular))
+            for t in twists
+        ),
     )
 
 

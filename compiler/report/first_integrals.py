@@ -111,7 +111,7 @@ def _energy_alone(reduced: Reduced) -> tuple[FirstIntegral, ...]:
         or not reduced.motion.matrices.power.is_zero()
     ):
         return ()
-    energy = reduced.variables.settled(reduced.motion.kinetic + reduced.motion.potential)
+    energy = reduced.variables.without_auxiliary(reduced.motion.kinetic + reduced.motion.potential)
     return (FirstIntegral("energy", energy, ENERGY, True),)
 
 

@@ -13,10 +13,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from frot.compiler import driver
 from frot.compiler.mechanics.forces.force_models import FORCE_MODELS
 from frot.compiler.mechanics.laws.law_models import LAW_MODELS
+from frot.compiler.mechanics.mechanism import relations_of
+from frot.compiler.mechanics.points import Point, is_particle, point_body
 from frot.compiler.mechanics.shapes import SHAPES as SHAPE_MODELS
-from frot.dsl import CODES, Log, compile_text
+from frot.dsl import CODES, Log, compile_text, load
 from frot.dsl.catalogue import FORCES, FUNCTIONS, LAWS, LIAISONS, SHAPES
 
 import frot
@@ -179,8 +182,6 @@ end Refused;
     log = Log()
     model = compile_text(text, log)
     assert model is not None, list(log)
-    from frot.compiler import driver
-
     assert driver.mechanism_of(model, log) is None
     assert [x.code for x in log] == ["E0701"]
     assert f"'{name}'" in next(iter(log)).message
@@ -222,3 +223,32 @@ def test_a_command_is_in_the_manual_and_has_a_test(name: str) -> None:
     assert re.search(rf"frot {name}\b", documents)
     called = re.compile(rf"[\"'\[(]{name}[\"']")
     assert any(called.search(p.read_text("utf-8")) for p in (ROOT / "tests").rglob("*.py"))
+
+
+def _counted(path: Path) -> Iterator[tuple[str, bool, int]]:
+    """Kind, planar or not, and number of relations of each liaison that is not driven.
+
+    Those of particles, which do not turn, are left out.
+    """
+    log = Log()
+    model = load(path, log)
+    if model is None or not model.liaisons:
+        return
+    mechanism = driver.mechanism_of(model, log)
+    assert mechanism is not None
+    driven = {x.liaison for x in model.flanges}
+    for liaison, count in relations_of(mechanism).items():
+        ends = (point_body(x) for x in (liaison.a, liaison.b) if isinstance(x, Point))
+        if liaison.driven or liaison.relations or liaison in driven or any(map(is_particle, ends)):
+            continue
+        if liaison.kind.name in LIAISONS:
+            yield liaison.kind.name, model.planar, count
+
+
+def test_the_catalogue_counts_relations_as_the_mechanics_does() -> None:
+    texts = [*(ROOT / "models").glob("*.frot"), *RUN]
+    found = {one for path in texts for one in _counted(path)}
+    assert len(found) >= 14
+    for name, planar, count in found - {("appui_faces", True, 2)}:  # each corner has its own
+        kind = LIAISONS[name]
+        assert count == (kind.relations_planar if planar else kind.relations_space), name

@@ -45,8 +45,8 @@ def _places(path: Path) -> tuple[dict[str, float], dict[str, bool]] | None:
     start = find_start(system, problem)
     assert start.found
     variables = list_variables(system, problem.display)
-    settled = system.reduced.variables.settled
-    values = [system.resolve(settled(v.value)) for v in variables]
+    without_auxiliary = system.reduced.variables.without_auxiliary
+    values = [system.resolve(without_auxiliary(v.value)) for v in variables]
     state = state_arguments(system)
     unknown = ca.vertcat(system.v, system.z, system.lam, system.reduced.symbols.energy)
     known = [

@@ -1,6 +1,6 @@
 """Where what cannot part comes to the end of a curve or a face: a fault, told by name.
 
-What can part leaves it there, or stays on the end itself (`ended.py`).
+What can part leaves it there, or stays on the end itself (`curves_with_ends.py`).
 """
 
 from __future__ import annotations

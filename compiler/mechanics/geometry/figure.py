@@ -1,8 +1,8 @@
 """What a figure knows of itself: its points, the function that is zero on it, how far it reaches.
 
 A figure is given in the axes of a point of its body, which is its centre, or a point of it where it
-has none. How two figures touch stands in `touches.py`, and where no formula says it in
-`tracking.py`; both ask the figures.
+has none. How two figures touch stands in `closest_closed_form.py`, and where no formula says it in
+`closest_solved.py`; both ask the figures.
 """
 
 from __future__ import annotations

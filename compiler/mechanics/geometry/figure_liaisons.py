@@ -1,7 +1,7 @@
 """The table of liaisons between figures: points, curves and surfaces of bodies.
 
 Each gives a pairing of the first figure with the second, or None where there is none; the caller
-tries both orders. Which figures touch in closed form stands in `touches.py`.
+tries both orders. Which figures touch in closed form stands in `closest_closed_form.py`.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ from frot.dsl.checked import Expression
 class Touching(Lock):
     """A figure at a and one at b touch, or stay `apart`, which time may change.
 
-    `followed`: where they do is solved for (tracking.py).
+    `followed`: where they do is solved for (closest_solved.py).
     """
 
     a: Figure
