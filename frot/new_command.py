@@ -106,7 +106,7 @@ def _saved(path: Path) -> int | None:
 
 
 def _run(options: argparse.Namespace) -> None:
-    """One run; that which ends in an error is told and drawn up to there."""
+    """One run: its summary and its picture, up to the error where it ends in one."""
     from frot.commands import compiled
     from frot.progress import Busy, run_as_far
 
