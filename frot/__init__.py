@@ -43,8 +43,8 @@ __all__ = [
 
 
 def __dir__() -> list[str]:
-    """What there is, loaded or not."""
-    return sorted({*globals(), *__all__, "__version__"})
+    """What there is for users, loaded or not."""
+    return sorted({*(name for name in globals() if name[:2] == "__"), *__all__, "__version__"})
 
 
 def __getattr__(name: str) -> object:

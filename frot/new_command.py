@@ -106,12 +106,15 @@ def _saved(path: Path) -> int | None:
 
 
 def _run(options: argparse.Namespace) -> None:
+    """One run: its summary and its picture, up to the error where it ends in one."""
     from frot.commands import compiled
-    from frot.progress import Busy, run_watched
+    from frot.progress import Busy, run_as_far
 
-    result = run_watched(compiled(options), options)
+    result, failure = run_as_far(compiled(options), options)
     print(result.summary())
     if options.plot is not None:
         with Busy(f"drawing {options.plot}"):
             result.plot(options.plot)
         print(f"  written: {options.plot}")
+    if failure is not None:
+        raise failure

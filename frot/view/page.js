@@ -241,6 +241,7 @@ for (const event of frot.events) {
   mark.addEventListener("click", there);
   line.addEventListener("click", there);
 }
+if (frot.unlisted) make("div", happened, {}, `${frot.unlisted} later events are not listed`);
 if (!frot.events.length) { strip.remove(); happened.remove(); }
 const choose = (name, words) => {
   const one = make("label", legend);

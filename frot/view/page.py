@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 FIELD = 22.0  # degrees of the camera's field: nearly parallel rays
+MOST_EVENTS = 2000  # of a page
 SERIES = 60  # shapes of a part that time changes
 
 
@@ -54,7 +55,8 @@ def page_of(scene: Scene, curves: Mapping[str, Any] | None = None, fault: str = 
         "follow": scene.follow,
         "small": scene.small,
         "camera": _camera(scene),
-        "events": [{"time": e.time, "text": e.text} for e in scene.events],
+        "events": [{"time": e.time, "text": e.text} for e in scene.events[:MOST_EVENTS]],
+        "unlisted": max(len(scene.events) - MOST_EVENTS, 0),
     }
     content |= curves or {"grid": [0.0], "curves": [], "panels": []}
     # nothing in it may end the script that it stands in

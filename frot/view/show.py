@@ -111,8 +111,10 @@ def page(result: Result, *, curves: Sequence[str] | None = None, fault: str = ""
     from frot.view.curves import curves_of
     from frot.view.moments import times_of
     from frot.view.page import page_of
+    from frot.view.seen import owners_of
 
-    return page_of(scene(result, times_of(result)), curves_of(result, curves), fault)
+    drawn = len(owners_of(model_of(result).checked()))
+    return page_of(scene(result, times_of(result, drawn)), curves_of(result, curves), fault)
 
 
 def model_of(result: Result) -> Model:

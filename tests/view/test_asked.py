@@ -130,6 +130,8 @@ def test_columns_of_a_file_carry_their_units(tmp_path: Path) -> None:
 def test_the_version_and_the_names_of_the_package() -> None:
     assert frot.__version__ == "0.1.0"  # type: ignore[attr-defined]
     assert {"load", "compile", "Model", "Result", "__version__"} <= set(dir(frot))
+    shown = [name for name in dir(frot) if not name.startswith("_")]
+    assert sorted(shown) == sorted(frot.__all__)
 
 
 def test_a_frame_of_pandas_has_the_grid_as_its_index() -> None:

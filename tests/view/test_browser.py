@@ -183,7 +183,7 @@ def test_fifty_bodies_are_moved_thirty_times_a_second(browser: Any, tmp_path: Pa
         "spent.push(performance.now() - began); } frotView.k3d.render = render; return spent"
     )
     assert np.median(spent) < 1000 / 30
-    # without a graphics card, beside other work: 22 to 30
+    # without a graphics card, beside other work: 18 to 30
     browser.execute_script("document.querySelector('footer select').selectedIndex = 0")
     play = (
         "const done = arguments[0], began = performance.now(), before = frotView.frames();"
