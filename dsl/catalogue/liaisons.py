@@ -214,7 +214,7 @@ _ROWS = (
         ("curves_tangent",),
         CURVE,
         CURVE,
-        (2, 1),
+        (3, 1),
         doc="Two curves stay tangent.",
     ),
     _liaison(
