@@ -18,8 +18,6 @@
 #define MANY_SWEEPS 400
 /* Part of the accelerations of its terms from which on what departs moves. */
 #define MOVES 1e-9
-/* Part of its bound by which friction is below it where a rest has ended that no guard located. */
-#define AT_BOUND 1e-6
 /* The time after which the beginnings of motions are told apart, as a part of the usual step, and
  * that as a part of the longest step at least. */
 #define LATER 1e-3
@@ -140,29 +138,28 @@ static int departs(const search *p, const frot_contact_block *one, const double 
   return one->rule == FROT_ROW_BALL && length_in(one, a) > MOVES * size;
 }
 
-/* Whether the reactions in which a group rested have ended at this instant, and the friction x of a
- * block is at its bound in those that are left. */
-static int ends_at_bound(const search *p, const frot_contact_block *one, const double *x) {
+/* Whether the reactions in which a group rested have ended at this instant, which no guard located.
+ */
+static int has_ended(const search *p) {
   const frot_state *s = p->in->s;
-  if (s->jammed_at != p->in->t || s->jammed != p->in->m->contact_group[p->chosen[0]]) return 0;
-  double bound = one->ratio * (one->n_bounding ? fabs(x[one->bounding]) : 1);
-  return length_in(one, x) >= (1 - AT_BOUND) * bound;
+  return s->jammed_at == p->in->t && s->jammed == p->in->m->contact_group[p->chosen[0]];
 }
 
 /* Give what departs the coefficient of motion. Returns whether anything is another now; *ended:
- * whether a rest has ended at its bound without an acceleration. */
+ * whether a rest has ended at its bound without an acceleration, or a reaction has come to zero. */
 static int change_departed(const search *p, const double *x, const double *a, int *ended) {
   const frot_instant *in = p->in;
   int changed = 0;
-  *ended = 0;
+  *ended = has_ended(p);
+  for (int c = 0; c < p->count; c++)
+    *ended |= in->fired[p->chosen[c]] != 0 && in->w->search.before[p->chosen[c]].closed;
   for (int k = 0; k < p->blocks; k++) {
     frot_contact_block *one = &in->w->search.blocks[k];
     int e = in->w->search.block_of[k];
     if (e < 0 || one->rule != FROT_ROW_BALL) continue;
     const double *coefficient = in->w->core.coefficient + 2 * e;
     int rested = frot_element_mode(in->m, in->w->search.before, e)->friction == FROT_STICK;
-    int fired =
-        rested && (in->fired[frot_element_guard(in->m, e)] != 0 || ends_at_bound(p, one, x));
+    int fired = rested && in->fired[frot_element_guard(in->m, e)] != 0;
     int moves = departs(p, one, x, a);
     if ((moves || fired) && one->ratio != coefficient[0]) {
       one->ratio = coefficient[0], changed = 1;
@@ -194,7 +191,8 @@ static int solve_later(const search *p, double *x, double *a) {
 static void set_contact(const search *p, int at, int i, const double *x, const double *a) {
   frot_contact_mode *mode = &p->in->w->search.best[i];
   int part = p->in->unilateral[i] != 0 && !p->in->m->contacts[i].reduced;
-  if (part && !(x[at] > 0) && a[at] > 0) {
+  double own = p->in->w->search.problem[at * p->rows + at];
+  if (part && own * x[at] < a[at]) { /* as the natural map decides */
     frot_open(p->in->m, p->in->w->search.best, i);
     return;
   }

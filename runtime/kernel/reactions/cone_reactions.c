@@ -7,6 +7,7 @@
 #include "evaluation/slip_frames.h"
 #include "reactions/force_problem.h"
 #include "reactions/reactions.h"
+#include "reactions/switching_functions.h"
 
 #define TOLERANCE 1e-12
 /* Part of a bound by which reactions may pass it: rounding of theirs. */
@@ -31,7 +32,9 @@ static void list_bounds(const frot_problem *p, frot_cone_problem *problem) {
   problem->n_cones = problem->n_balls = 0;
   for (int i = 0; i < p->g->n_contacts; i++) {
     int contact = p->g->contacts[i], at = -1;
-    if (frot_is_loaded(m, p->modes, contact)) at = place_of(p, m->contacts[contact].row_n);
+    int presses = p->w->span.unilateral[contact] != 0 || frot_sign_matters(m, p->modes, contact);
+    if (presses && frot_is_loaded(m, p->modes, contact))
+      at = place_of(p, m->contacts[contact].row_n);
     if (at >= 0) r->cones[problem->n_cones++].at = at;
     for (int k = 0; k < p->g->n_elements; k++) {
       int e = p->g->elements[k];
@@ -76,7 +79,7 @@ int frot_keep_within_bounds(const frot_problem *p, double *x) {
   if (!w->core.frame) return 0;
   frot_cone_problem problem = {.n = n, .rows = rows, .tolerance = TOLERANCE};
   list_bounds(p, &problem);
-  if (problem.n_balls == 0 || is_inside(p, &problem, x)) return 0;
+  if (is_inside(p, &problem, x)) return 0;
   double *a = w->reactions.cone_rows, *b = a + n * rows, *y = b + rows, *found = y + rows,
          *scratch = found + n;
   for (int r = 0; r < rows; r++) {
