@@ -99,7 +99,7 @@ def _elements(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
     for e in lowered.grouping.elements:
         yield _record(
             *(e.contact, e.bound.value, e.row),
-            _record(*(*e.bounded_by, -1, -1)[:2]),
+            _record(*(*e.bounded_by, -1, -1, -1)[:3]),
             *(int(e.rolling), int(e.fixed), int(e.row in lowered.grouping.prescribed)),
             _record(*(-1 if e.rolling else places.get(x, -1) for x in shown(e))),
             *(e.part, e.parts),

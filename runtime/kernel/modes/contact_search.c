@@ -200,7 +200,8 @@ static void set_contact(const search *p, int at, int i, const double *x, const d
   *mode = (frot_contact_mode){.closed = 1, .side = (signed char)side};
 }
 
-/* The modes and directions that the solution says, into w->search.best and the state's `along`. */
+/* The modes and directions that the solution says, into w->search.best and the state's
+ * `heading`. */
 static void set_modes(const search *p, const double *x, const double *a) {
   const frot_instant *in = p->in;
   const frot_model *m = in->m;
@@ -212,10 +213,10 @@ static void set_modes(const search *p, const double *x, const double *a) {
       if (m->contacts[i].row_n == row) set_contact(p, one->at, i, x, a);
     if (e < 0 || !best[m->elements[e].contact].closed) continue;
     int parts = m->elements[e].parts, moves = departs(p, one, x, a);
-    double size = length_in(one, a), *along = in->s->data + in->l.along + 2 * e;
+    double size = length_in(one, a), *heading = in->s->data + in->l.heading + e;
     for (int i = 0; i < parts && moves; i++) {
       double d = a[one->at + i] / size;
-      if (parts > 1) along[2 * i] = d;
+      if (parts > 1) heading[i] = d;
       best[m->n_contacts + e + i] =
           (frot_contact_mode){.friction = i > 0                ? FROT_NONE
                                           : parts > 1 || d > 0 ? FROT_SLIP_FORWARD
