@@ -67,13 +67,18 @@ static frot_contact_block *add_block(search *p, int rule, int at, int n) {
 static void add_element(search *p, int e, int normal) {
   const frot_instant *in = p->in;
   const frot_element *element = &in->m->elements[e];
-  int slides = !in->zero[e], n = slides ? 1 : element->parts, at = p->rows;
+  int slides = !in->zero[e], n = slides ? 1 : element->parts, read = p->rows, count = 0;
+  for (int k = 0; k < FROT_BOUNDING && element->bound == FROT_BY_PIN; k++)
+    if (element->bounded_by[k] >= 0)
+      add_block(p, FROT_ROW_READS, add_row(p, element->bounded_by[k]), 1), count++;
+  int at = p->rows;
   for (int k = 0; k < n; k++) add_row(p, element->row + k);
   frot_contact_block *one = add_block(p, slides ? FROT_ROW_SLIDES : FROT_ROW_BALL, at, n);
   p->in->w->search.block_of[p->blocks - 1] = e;
   const double *coefficient = in->w->core.coefficient + 2 * e;
   one->ratio = coefficient[!slides];
-  if (element->bound != FROT_BY_VALUE) one->bounding = normal, one->n_bounding = 1;
+  if (element->bound == FROT_BY_NORMAL) one->bounding = normal, one->n_bounding = 1;
+  if (element->bound == FROT_BY_PIN) one->bounding = read, one->n_bounding = count;
   int friction = frot_element_mode(in->m, in->w->search.best, e)->friction;
   one->d[0] = friction == FROT_SLIP_BACKWARD ? -1 : 1;
 }
