@@ -213,7 +213,7 @@ def _check_before(build: Build) -> None:
 
 
 def _constants(build: Build) -> list[Entity]:
-    """The constants of packages that were asked for."""
+    """The constants of packages that a text uses."""
     return [
         entity
         for package in build.packages.values()

@@ -1,4 +1,4 @@
-"""Warnings: what is surely not meant, told once a model is without faults."""
+"""Warnings: what is surely not meant, reported once a model is without faults."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ def __dir__() -> list[str]:
 
 
 def __getattr__(name: str) -> object:
-    """Load a name when it is asked for, so that `frot --help` loads nothing heavy."""
+    """Load a name when it is first used, so that `frot --help` loads nothing heavy."""
     import importlib
 
     if name == "__version__":

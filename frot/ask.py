@@ -54,7 +54,7 @@ def members_of(model: checked.Model) -> Iterator[tuple[str, Any, Mapping[str, Ty
 
 
 def names_of(model: checked.Model) -> list[str]:
-    """All that can be asked, as scalars."""
+    """All variables that can be read, as scalars."""
     found = []
     for owner, _, members in members_of(model):
         for name, kind in members.items():
@@ -91,7 +91,7 @@ def find(model: checked.Model, name: str) -> Asked | None:
 
 
 def unit_of_asked(asked: Asked) -> str:
-    """The SI unit of what is asked."""
+    """The SI unit of the variable."""
     kind = asked.node.type
     return "1" if kind.dimension.is_one else kind.dimension.unit
 

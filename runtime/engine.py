@@ -89,7 +89,7 @@ def _interrupts_noted(noted: list[BaseException]) -> Iterator[None]:
 
 
 class NoValues(FrotError):
-    """Variables of a run have no value at a time that was asked for: `time`, in s."""
+    """Variables of a run have no value at a given time: `time`, in s."""
 
     def __init__(self, log: Log, time: float) -> None:
         super().__init__(log)

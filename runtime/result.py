@@ -63,8 +63,8 @@ class Event:
 class Balance:
     """Energy at the end: `residual` of kinetic + potential + dissipated - work, in J.
 
-    `scale` is the largest of the energies that took part, and no less than what can be told from
-    their terms, the forces times the places they act at; `relative` the quotient of both.
+    `scale` is the largest of the energies that took part, and no less than the rounding
+    of their terms, the forces times the places they act at; `relative` the quotient of both.
     """
 
     residual: float

@@ -96,7 +96,7 @@ def _at(words: str, span: Span | None) -> tuple[str, str]:
 
 
 def _whole(values: Iterable[int]) -> list[str]:
-    """Whole numbers; what holds or not is 1 or 0."""
+    """Whole numbers; Booleans are 1 or 0."""
     return [str(int(x)) for x in values]
 
 

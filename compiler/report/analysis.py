@@ -81,7 +81,7 @@ class Analysis:
 
     `independent` relations in general position near the start, `independent_at_start` there;
     `touching` contacts touch at the start, `touching_independent` of them independently.
-    `holonomic` of the liaisons with relations between velocities: None where it was not looked at.
+    `holonomic` of the liaisons with relations between velocities: None where it was not examined.
     """
 
     missing: str

@@ -53,7 +53,7 @@ class Candidates:
 
 
 def list_candidates(reduced: Reduced) -> Candidates:
-    """All that is looked at."""
+    """All candidates."""
     mechanism = reduced.mechanism
     bodies = [b for b in mechanism.model.bodies if b.shape is not None]
     named: list[Candidate] = []

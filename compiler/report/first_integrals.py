@@ -68,8 +68,8 @@ def find_first_integrals(reduced: Reduced, start: Posture | None) -> tuple[First
 
     Beside the candidates with names, combinations: momenta along and about any axis of the ground,
     and the energy in a frame that turns or moves steadily (P. Painlevé 1895; C. Jacobi). Of more
-    speeds than `MOST_SPEEDS` only the energy is looked at, for which no start is needed, and where
-    states tell of nothing, as about a start from which the mechanism goes on in several ways.
+    speeds than `MOST_SPEEDS` only the energy is examined, for which no start is needed, and where
+    states tell of nothing, as about a start from which the mechanism continues in several ways.
     """
     if not reduced.symbols.v.numel():
         return ()

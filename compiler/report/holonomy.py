@@ -35,7 +35,7 @@ _NEW = 1e-6
 def non_holonomic(relations: Relations, posture: Posture) -> dict[Liaison, bool | None]:
     """For each liaison with relations between velocities, whether some are not holonomic.
 
-    None where there are too many freedoms to tell. Each is looked at at a posture in general
+    None where there are too many freedoms to tell. Each is examined at a posture in general
     position.
     """
     held = np.flatnonzero(relations.holds)

@@ -52,7 +52,7 @@ class Paradox:
 def find_paradoxes(reduced: Reduced, start: Posture) -> tuple[Paradox, ...]:
     """Liaisons with friction in which a paradox is possible, each with the others frictionless.
 
-    Contacts that may part are looked at one by one, the others open.
+    Contacts that may part are examined one by one, the others open.
     """
     links = reduced.mechanism.contacts
     dry = [k for k, x in enumerate(links) if any(not f.rolling for f in x.frictions)]

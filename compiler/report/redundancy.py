@@ -33,7 +33,7 @@ _ENOUGH = 2
 class Loop:
     """Liaisons that keep what others of them keep, `degree` relations too many.
 
-    `spare` tells of each liaison how many components of its reaction are not determined. `bodies`
+    `spare`: of each liaison how many components of its reaction are not determined. `bodies`
     are those they join.
     """
 

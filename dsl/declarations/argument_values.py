@@ -148,7 +148,7 @@ def _word(argument: Argument, node: tree.Expression, scope: Scope) -> checked.Ex
 
 
 def word(node: tree.Expression, words: Sequence[str], name: str, scope: Scope) -> str | None:
-    """The option word written at a place; another one is told."""
+    """The option word written at a place; another one is reported."""
     if isinstance(node, tree.Name) and node.text in words:
         return node.text
     close = near(node.span.text, words)

@@ -357,7 +357,7 @@ def _mechanical(
 
 
 def _add(name: tree.Word, pending: Pending, scope: Scope) -> bool:
-    """Give a name its declaration; a name of the language or one used twice is told."""
+    """Give a name its declaration; a name of the language or one used twice is reported."""
     instance = scope.instance
     if name.text in BUILT_IN or name.text in RESERVED:
         message = f"{name.text!r} is a word of the language; choose another name"

@@ -299,7 +299,7 @@ def _is_a(
     node: tree.Expression,
     scope: Scope,
 ) -> bool:
-    """Whether a place is what the argument is declared as; told where it is not."""
+    """Whether a place is what the argument is declared as; reported where it is not."""
     wanted = told if told in ("curve", "surface") else "point"
     if nature_of(found) == wanted:
         return True

@@ -76,7 +76,7 @@ def expand(of: Class, node: tree.Call, scope: Scope) -> checked.Expression | Rec
 
 
 def _read(of: Class, scope: Scope) -> _Function:
-    """Sort what stands in a function; faults are told."""
+    """Sort what stands in a function; faults are reported."""
     known = scope.build.functions.get(id(of.definition))
     if known is None:
         known = _sorted(of, scope)

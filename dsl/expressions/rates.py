@@ -144,7 +144,7 @@ def all_alike(items: Sequence[checked.Expression], scope: Scope) -> list[checked
 
 
 def _converted(node: checked.Expression, factor: float) -> checked.Expression | None:
-    """Numbers with their units in the other rate; None for what holds anything else."""
+    """Numbers with their units in the other rate; None for any other."""
     if isinstance(node, checked.Literal):
         unit = "Hz" if factor < 1 else "rad/s"
         return replace(node, value=float(node.value) * factor, unit=unit)

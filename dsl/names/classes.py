@@ -52,7 +52,7 @@ class Namespace:
     owner: Class | None = None
 
     def knows(self, name: str) -> bool:
-        """Whether a name that is not found must be told."""
+        """Whether a name that is not found must be reported."""
         space: Namespace | None = self
         while space is not None:
             if space.open or name in space.lost:
@@ -114,9 +114,9 @@ class Namespace:
 
 @dataclass(slots=True, eq=False, repr=False)
 class Imported:
-    """An import: what it names, None where it was not found (that was told).
+    """An import: what it names, None where it was not found (that was reported).
 
-    `clashes` are names asked for that an earlier `import P.*;` gives too.
+    `clashes` are names in use that an earlier `import P.*;` gives too.
     """
 
     target: Class | None

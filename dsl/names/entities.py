@@ -41,7 +41,7 @@ class Instance:
     `name` is dotted. `of` is its class, `around` the classes of what it is in and its own, `parts`
     the identities of the definitions it is made of, with what modifies them. `flows` names the flow
     variables of a connector. `open`: names may come from a base that was not found, so that missing
-    ones are not told. `written` tells where each name is declared.
+    ones are not reported. `written`: where each name is declared.
     """
 
     name: str

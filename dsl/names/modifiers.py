@@ -42,7 +42,7 @@ class Modifier:
 
 
 def read_modifiers(arguments: Iterable[tree.Argument], scope: Scope) -> dict[str, Modifier]:
-    """The modifiers of a list; what is none is told."""
+    """The modifiers of a list; what is none is reported."""
     found: dict[str, Modifier] = {}
     for argument in arguments:
         one = _read(argument, scope)

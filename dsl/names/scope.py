@@ -60,7 +60,7 @@ class Scope:
         return self.build.values
 
     def knows(self, name: str) -> bool:
-        """Whether a missing name must be told: not if its declaration could not be read."""
+        """Whether a missing name must be reported: not if its declaration could not be read."""
         return not self.instance.open and self.space.knows(name)
 
     def dotted(self, name: str) -> str:

@@ -234,7 +234,7 @@ def attributes_of(kind: Type) -> tuple[str, ...]:
 
 
 def unit_of(text: str, span: Span, scope: Scope) -> Unit | None:
-    """The unit written at a place; an unknown one is told."""
+    """The unit written at a place; an unknown one is reported."""
     try:
         return parse_unit(text)
     except UnknownUnit as error:

@@ -73,7 +73,7 @@ def statement(leaf: Leaf, sink: Sink) -> None:
 
 
 def _guarded(made: checked.Assertion, guard: checked.Expression | None) -> checked.Assertion:
-    """The assertion of a branch: it is asked for only where the branch holds."""
+    """The assertion of a branch: it counts only where the branch is taken."""
     if guard is None:
         return made
     outside = checked.Unary("not", guard, BOOLEAN, made.span)

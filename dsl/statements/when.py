@@ -37,7 +37,7 @@ def mark_discrete(element: tree.When, scope: Scope) -> None:
 def _assigned(
     node: tree.Expression, scope: Scope
 ) -> tuple[checked.Variable, tuple[int, ...], Type] | None:
-    """The variable on the left of an assignment, with the indices of its item; None is told."""
+    """The variable left of an assignment and the indices of its item; None after a message."""
     if isinstance(node, tree.Name | tree.Member | tree.Index):
         found = resolve(node, scope, "value")
         if found is None:

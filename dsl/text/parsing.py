@@ -1,4 +1,4 @@
-"""Text to tree. A mistake gives one message; reading goes on at the next statement.
+"""Text to tree. A mistake gives one message; reading continues at the next statement.
 
 The LALR automaton is driven here, token by token. Before the first token of each statement the
 stacks are kept; at an error the missing `;` or `)` is put in if what follows then fits, and else
@@ -192,7 +192,7 @@ class _Reader:
     # -------------------------------------------------------------- repairs
 
     def _repair(self, token: Lexeme) -> bool:
-        """Put in a missing `)` or `;` where `token` then fits; True if it was done and told."""
+        """Put in a missing `)` or `;` where `token` then fits; True if it was done and reported."""
         if not self.statement or self.previous is None or not self._in_block():
             return False
         place = self.previous.end
@@ -293,7 +293,7 @@ class _Reader:
         return inside
 
     def _resume(self, token: Lexeme) -> int:
-        """Forget the statement and give the offset at which reading goes on."""
+        """Forget the statement and give the offset at which reading continues."""
         text = self.source.text
         for lost in self.statement:
             if lost.type == "IDENT":
