@@ -40,7 +40,7 @@ __all__ = [
 
 
 def __dir__() -> list[str]:
-    """What there is, loaded or not."""
+    """Names of the package, loaded or not."""
     return sorted({*globals(), *__all__, "__version__"})
 
 

@@ -64,7 +64,7 @@ def names_of(model: checked.Model) -> list[str]:
 
 
 def _tails(kind: Type) -> list[str]:
-    """What components are called: `.x`, `.y`, `.z`, or `[1]` and so on."""
+    """Suffixes of components: `.x`, `.y`, `.z`, or `[1]` and so on."""
     if kind.is_scalar:
         return [""]
     count = kind.count

@@ -1,4 +1,4 @@
-"""What `frot cache` does: tell where compiled models are kept and how large they are, make room."""
+"""`frot cache`: the folder of compiled models, its size, and its clearing."""
 
 from __future__ import annotations
 

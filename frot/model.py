@@ -270,7 +270,7 @@ class Model:
 
 
 def _sentence(error: BaseException) -> str:
-    """What ended a run, in one line."""
+    """The cause of the end of a run, in one line."""
     if isinstance(error, FrotError):
         return "; ".join(one.message for one in error.diagnostics)
     return str(error)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def keep(result: Result) -> tuple[Any, ...]:
-    """What a result is made from; TypeError where its model is not known.
+    """The data from which a result is made again; TypeError where its model is not known.
 
     Options of the run that Python cannot write, as functions of time, are left out.
     """

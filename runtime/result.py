@@ -99,7 +99,7 @@ class Drift:
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """What the run took: accepted and rejected steps, evaluations, wall time of the kernel (s).
+    """Statistics of the run: accepted and rejected steps, evaluations, wall time of the kernel (s).
 
     `unsearched`: instants with so many possible modes that one motion was found, and others were
     not looked for. `crossings`: steps through postures in which the relations of a loop depend on
@@ -225,7 +225,7 @@ class Result(Showing):
 
     @property
     def first_integrals(self) -> dict[str, Drift]:
-        """What the motion keeps, by its name in the report, with its drift on the output grid.
+        """First integrals, by their names in the report, with its drift on the output grid.
 
         Integrals that are known for the default parameters only are left out where these differ.
         """

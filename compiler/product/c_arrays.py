@@ -91,7 +91,7 @@ def tables_of(
 
 
 def _at(words: str, span: Span | None) -> tuple[str, str]:
-    """What is said, and of which place."""
+    """A text with the place that it describes."""
     return text(words), text(place(span))
 
 

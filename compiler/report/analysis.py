@@ -1,4 +1,4 @@
-"""What numbers tell of a mechanism: freedoms, redundant relations, integrals, paradoxes."""
+"""Numerical analysis of a mechanism: freedoms, redundant relations, integrals, paradoxes."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class ParadoxLine:
 
 @dataclass(frozen=True, slots=True)
 class Analysis:
-    """What is found; `missing`: why little is said, or "".
+    """Results of the analysis; `missing`: why some are missing, or "".
 
     `uncounted`: parts of too many relations, by their first liaison, with that number: all are
     taken as independent. `energy_alone`: the number of speeds where they are so many that no other
@@ -135,7 +135,7 @@ def analyse(system: Assembled) -> Analysis:
 
 @dataclass(slots=True)
 class _Found:
-    """What the parts of a mechanism add up to."""
+    """Sums over the parts of a mechanism."""
 
     dependent: int = 0
     dependent_at_start: int = 0

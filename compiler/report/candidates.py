@@ -1,4 +1,4 @@
-"""What may be constant in a motion: energy, momenta of bodies and of coordinates."""
+"""Candidates for first integrals: energy, momenta of bodies and of coordinates."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Twist:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Candidates:
-    """Those with names, the most telling first, and the twists whose combinations are searched."""
+    """Named candidates, the most significant first, and twists whose combinations are searched."""
 
     named: tuple[Candidate, ...]
     twists: tuple[Twist, ...]

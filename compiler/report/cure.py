@@ -1,4 +1,4 @@
-"""What would make a loop isostatic: liaisons that lock less, and still let nothing else move."""
+"""Isostatic replacements in a loop: liaisons that lock less with the same mobility."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Cure:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Option:
-    """What a liaison may become, and the options of the other whose axis it keeps."""
+    """A replacement of a liaison, and the options of the other whose axis it keeps."""
 
     kind: str
     axes: tuple[tuple[str, str, str], ...] = ()
@@ -145,7 +145,7 @@ class _Soften:
 
 
 def _offers(liaison: Liaison, relations: Relations) -> Iterator[tuple[str, list[Link]]]:
-    """What may take the place of a liaison, best first, with its relations."""
+    """Replacements of a liaison, best first, with their relations."""
     link = next(x for x in relations.links if x.liaison is liaison)
     joint, planar = link.joint, relations.mechanism.model.planar
     if liaison.driven or joint is None:

@@ -42,7 +42,7 @@ _NONE = 1e-7
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FirstIntegral:
-    """What stays constant, in words, with its value as an expression of the reduced system.
+    """A first integral in words, with its value as an expression of the reduced system.
 
     `always`: whatever the parameters are; else at their defaults.
     """
@@ -54,7 +54,7 @@ class FirstIntegral:
 
 
 def first_integrals_of(system: Assembled, beginning: Beginning) -> tuple[FirstIntegral, ...]:
-    """Those about the start of a system; of more than `MOST_SPEEDS` the energy at most."""
+    """First integrals near the start of a system; of more than `MOST_SPEEDS` the energy at most."""
     reduced = system.reduced
     if not reduced.mechanism.model.bodies:
         return ()
@@ -124,7 +124,7 @@ def _energy_alone(reduced: Reduced) -> tuple[FirstIntegral, ...]:
 
 
 def _new(values: Floats, order: Iterable[int]) -> Iterator[int]:
-    """Those that neither a constant nor those before them give linearly."""
+    """Integrals that are no linear combination of a constant and those before them."""
     count = values.shape[0]
     basis = np.ones((count, 1)) / np.sqrt(count)
     for k in order:

@@ -110,7 +110,7 @@ class _Watched:
         )
 
     def coefficient(self, state: State) -> float:
-        """That of the text."""
+        """The coefficient of the text."""
         value, radius = (float(x) for x in self._numbers(*self.dynamics.numbers(state)))
         return value / radius if radius else float("nan")
 

@@ -24,7 +24,7 @@ Bound = checked.Expression | checked.Place | checked.SurfacePlace | checked.Liai
 def argument_value(
     argument: Argument, node: tree.Expression, what: str, scope: Scope, constants: bool
 ) -> Bound | None:
-    """What is written for an argument of `what`; None after a message.
+    """The value written for an argument of `what`; None after a message.
 
     `constants` asks that it depends on parameters only.
     """

@@ -148,7 +148,7 @@ def _bounds(kind: Kind, scope: Scope) -> Bounds | None:
 
 
 def _spread(given: Modifier, kind: Kind) -> None:
-    """One number may stand for all items of an array."""
+    """The items of an array; one number may stand for all of them."""
     if given.value is None or not kind.type.shape or "spread" in given.memo:
         return
     found = given.memo["spread"] = expression(given.value, given.scope)

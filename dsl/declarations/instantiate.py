@@ -160,7 +160,7 @@ def _declaration(
 
 @dataclass(slots=True)
 class _Clause:
-    """What a component clause says, the same in every component of its class with one role."""
+    """The content of a component clause, the same in every component of its class with one role."""
 
     type: Kind | Class | None
     sizes: tuple[tree.Expression, ...]
@@ -225,7 +225,7 @@ def _modifier(
     modifiers: Mapping[str, Modifier] | None,
     scope: Scope,
 ) -> Modifier | None:
-    """What is said of a name from outside and where it is declared, the outer first."""
+    """Modifiers of a name from outside and at its declaration, the outer first."""
     outer = modifiers.get(item.name.text) if modifiers else None
     if not (item.modifiers or final):
         return outer

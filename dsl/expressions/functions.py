@@ -40,7 +40,7 @@ class _Function:
 
 
 def expand(of: Class, node: tree.Call, scope: Scope) -> checked.Expression | Record | None:
-    """What a call of a function gives; None after a message."""
+    """The value of a call of a function; None after a message."""
     build = scope.build
     if of in build.calls:
         path = " -> ".join(c.name for c in (*build.calls, of))

@@ -30,7 +30,7 @@ _MODES = tuple(f"Mode.{name}" for name in MODES)
 
 
 def resolve(node: tree.Expression, scope: Scope, want: str) -> Thing | None:
-    """What a name, a member or an item stands for; None after a message, or where silence is due.
+    """The entity of a name, a member or an item; None after a message, or where silence is due.
 
     `want` is `place` or `value` and only chooses the words of messages.
     """

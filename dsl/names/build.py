@@ -1,4 +1,4 @@
-"""What all scopes of one check share, and the checking of what waits."""
+"""State shared by all scopes of one check, and the checking of pending entities."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Checks:
 
 @dataclass(slots=True, repr=False)
 class Build:
-    """What all scopes of one check share: the log, the values known so far, what was gathered.
+    """State shared by all scopes of one check: log, known values, gathered entities.
 
     `named` are the connectors whose variables a component's text names. `used` are the identities
     of what was named. `before` are the calls of `pre` and `change`, to be judged at the end.

@@ -167,7 +167,7 @@ def _said(thing: Thing) -> str:
 
 
 def _differences(a: Instance, b: Instance) -> list[str]:
-    """What two connectors of different definitions have not in common, in words."""
+    """The differences of two connectors of different definitions, in words."""
     found = []
     for one, other in ((a, b), (b, a)):
         missing = [n for n in one.names if n not in other.names]

@@ -152,7 +152,7 @@ def _zero(kind: Type, span: Span) -> checked.Expression:
 
 
 def as_expression(entity: Entity, span: Span) -> checked.Expression:
-    """What stands for a variable of a connector in an equation."""
+    """The expression of a variable of a connector in an equation."""
     if isinstance(entity, checked.Expression):
         return entity
     return checked.Reference(entity, entity.type, span)

@@ -109,7 +109,7 @@ def _tell_twice(action: checked.Assign, other: Span, scope: Scope) -> None:
 
 
 def _conditions(node: tree.Expression | None, scope: Scope) -> tuple[checked.Expression, ...]:
-    """One condition, or those of a tuple `(a, b)`."""
+    """The conditions of a `when`: one, or those of a tuple `(a, b)`."""
     assert node is not None
     items = node.items if isinstance(node, tree.Tuple) and not node.unit else (node,)
     found = [expect(item, BOOLEAN, scope) for item in items]

@@ -376,7 +376,7 @@ class _Reader:
         return re.match(r"\s*end\b", last) is not None
 
     def _open_block(self) -> str:
-        """What the innermost open block's `end` is followed by."""
+        """The word after the `end` of the innermost open block."""
         from lark import Token
 
         stack = self.state.value_stack

@@ -1,4 +1,4 @@
-"""What `frot view`, `model.view` and `result.view` do: a page, a picture or a film of a run."""
+"""`frot view`, `model.view` and `result.view`: a page, a picture or a film of a run."""
 
 from __future__ import annotations
 
