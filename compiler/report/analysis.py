@@ -225,7 +225,7 @@ def _look(part: list[Liaison], system: Assembled, start: Start, found: _Found) -
             LoopLine(
                 loop.degree,
                 tuple(_path(loop)),
-                tuple((x.name, n) for x, n in zip(loop.liaisons, loop.spare, strict=True)),
+                tuple((x.name, n) for x, n in zip(loop.liaisons, loop.undetermined, strict=True)),
                 tuple((x.liaison.name, x.kind) for x in cure.changes),
                 cure.left,
             )

@@ -146,8 +146,8 @@ class Report:
             more = m.freedoms - m.independent_at_start
             yield f"  singular start          {more} degrees of freedom there"
         if m.touching > m.touching_independent:
-            spare = m.touching - m.touching_independent
-            yield f"  hyperstatic contacts    {spare} of the {m.touching} that touch at the start"
+            extra = m.touching - m.touching_independent
+            yield f"  hyperstatic contacts    {extra} of the {m.touching} that touch at the start"
 
     def _counts(self) -> list[str]:
         """The line on the text's own equations, where there are some."""
