@@ -46,7 +46,7 @@ _CHUNK, _LARGEST_CHUNK = 2**13, 2**24
 _BEGIN = 3
 # Events that the first chunk has room for.
 _EVENTS = 2**8
-# Bytes of recorded steps after which a run is told to be too long.
+# Bytes of recorded steps after which a run is reported as too long.
 MOST_MEMORY = 2**30
 # Events of a run.
 MOST_EVENTS = 1_000_000

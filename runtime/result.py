@@ -18,7 +18,7 @@ from frot.runtime.program import IntegralInfo, Program
 from frot.runtime.rounding_lines import rounding_lines
 from frot.runtime.showing import Showing, nearest
 
-# Loaded where values are asked for.
+# Loaded where values are read.
 if TYPE_CHECKING:
     from frot.runtime.engine import Floats
 

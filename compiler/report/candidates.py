@@ -17,7 +17,7 @@ from frot.dsl.quantities.dimensions import Dimension, dimension
 
 AXES = "xyz"
 ENERGY, MOMENTUM, TURNING = (dimension(k, 1, -j) for k, j in ((2, 2), (1, 1), (2, 1)))
-# Beyond so many bodies they are looked at together only, beyond so many speeds no coordinate is.
+# Beyond so many bodies they are examined together only, beyond so many speeds no coordinate is.
 _FEW_BODIES = 6
 _FEW_SPEEDS = 20
 _MOST_POINTS = 3

@@ -64,7 +64,7 @@ _PLANAR: Mapping[str, tuple[_Option, ...]] = {
 }
 
 
-# Ways looked at; then the best of them is told.
+# Replacements examined; then the best of them is reported.
 _TRIES = 300
 
 

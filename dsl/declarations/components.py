@@ -120,7 +120,7 @@ def _attribute(
         return None, "", True
     if given.parts or not given.has_value:
         name, _, inside = given.span.text.partition("(")
-        if given.parts or inside.strip(" )") == "":  # what is no modifier was told
+        if given.parts or inside.strip(" )") == "":  # what is no modifier was reported
             help_text = f"write '{name.strip()} = ...'"
             scope.log.report("E0204", f"{what} in brackets", given.span, help=help_text)
         return None, "", False

@@ -14,7 +14,7 @@ from frot.dsl.checked.arrays import total, zero
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import Type
 
-# What a connector that nobody connects is told by.
+# The message on a connector without a connection.
 UNCONNECTED = "nothing is connected to "
 
 # A variable of a connector, and whether its connector is seen from the model around it.

@@ -67,7 +67,7 @@ def statement(leaf: Leaf, sink: Sink) -> None:
             scope.build.assertions.append(_guarded(made, sink.guard))
     elif name in ("reinit", "terminate"):
         scope.log.report("E0501", f"{name!r} stands in 'when' only", element.span)
-    elif name != "experiment" or not scope.log.failed:  # else the missing 'end if' was told
+    elif name != "experiment" or not scope.log.failed:  # else the missing 'end if' was reported
         what = f"{name!r} is not a statement" if name else "this is not a statement"
         scope.log.report("E0501", what, element.span, help="an equation is written 'left = right;'")
 

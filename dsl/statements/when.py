@@ -139,7 +139,7 @@ def _action(leaf: tree.Equation | tree.When | tree.IfEquation, scope: Scope) -> 
             case "assert":
                 return assertion(call, scope)
     if name == "experiment" and scope.log.failed:
-        return None  # the 'end when' that is missing before it was told
+        return None  # the 'end when' that is missing before it was reported
     what = f"{name!r}" if name else "this"
     scope.log.report(
         "E0518",

@@ -96,7 +96,7 @@ class _Reader:
                 messages.blocks_too_deep(self.log, self._span(token), BLOCKS)
                 return None
             if self._ends_nothing(token):
-                if not self.reported:  # else its beginning was lost with a fault that was told
+                if not self.reported:  # else its beginning was lost with a fault that was reported
                     messages.closes_nothing(self.log, self.source, token)
                     self.reported += 1
                 offset = self._resume(token)
