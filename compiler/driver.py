@@ -1,7 +1,7 @@
 """The passes and their order, from checked model to compiled program: nothing else calls one.
 
-    Model -- mechanize --> Mechanism -- reduce --> Reduced -- assemble --> Assembled
-          -- group --> Grouping -- lower --> Lowered -- generate --> C -- compile --> Program
+    Model -- mechanize --> Mechanism -- reduced_of --> Reduced -- assembled_of --> Assembled
+          -- lowered_of --> Lowered -- generate --> C -- compile --> Program
 
 Every product is made from one of these stages: what `frot check` prints from the first, the DAE and
 the program from the last. A pass gives None for what the text is to blame for, told in the log.
@@ -10,28 +10,26 @@ the program from the last. A pass gives None for what the text is to blame for, 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
+from frot.compiler.mechanics.check_support import refuse_unknown
 from frot.compiler.mechanics.mechanism import Mechanism
-from frot.compiler.mechanics.refuse import refuse_unknown
 from frot.dsl import Log, dump
 from frot.dsl.checked import Model
 from frot.dsl.data.collection import without_collection
 from frot.dsl.messages.interrupts import raise_noted_interrupt
-from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, read_program
+from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, load_program, read_program
 
 # What reads a report must not wait for CasADi: it is loaded where equations are formed.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from frot.compiler.lowering.assembled import Assembled
-    from frot.compiler.lowering.listing import Listed
+    from frot.compiler.equations.assembled import Assembled
+    from frot.compiler.equations.reduced import Reduced
     from frot.compiler.lowering.lower import Lowered
-    from frot.compiler.mechanics.reduce import Reduced
+    from frot.compiler.lowering.result_variables import FirstIntegral, Listed
     from frot.compiler.product.dae import Dae
-    from frot.compiler.report.first_integrals import FirstIntegral
     from frot.compiler.report.report import Report
-    from frot.compiler.toolchain.chosen import Toolchain
+    from frot.compiler.toolchain.compiler_choice import Toolchain
 
     # Variables of an assembled system that are listed after the others.
     Extra = Callable[[Assembled], tuple[Listed, ...]]
@@ -64,27 +62,68 @@ def reduced_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) ->
     """
     _begin("the mechanism", tell)
     mechanism = mechanism_of(model, log)
-    if mechanism is None:
-        return None
-    from frot.compiler.lowering.checks import refuse_values
-    from frot.compiler.mechanics.reduce import reduce
+    return None if mechanism is None else reduce(mechanism, log, tell)
+
+
+def reduce(mechanism: Mechanism, log: Log, tell: Callable[[str], None] = _silent) -> Reduced | None:
+    """The equations of a mechanism and of its text."""
+    from frot.compiler.equations.gather_text import (
+        apply_loads,
+        gather_text,
+        large_trees,
+        make_reduced,
+    )
+    from frot.compiler.equations.parameter_checks import refuse_values
+    from frot.compiler.equations.read_text import read_text
+    from frot.compiler.mechanics.reduce import place_mechanism, reduce_motion
 
     refuse_values(mechanism, log)
     if log.failed:
         return None
     _begin("the equations of motion", tell)
-    return reduce(mechanism, log)
+    placed = place_mechanism(mechanism)
+    reading = read_text(placed, log)
+    applied = apply_loads(placed, reading, log)
+    gathered = gather_text(placed, reading, log)
+    if gathered is None:
+        return None
+    large = large_trees(placed, reading, applied, gathered)
+    loads, coefficients = applied.loads, applied.coefficients
+    motion = reduce_motion(placed, reading.variables, loads, coefficients, large, log)
+    return make_reduced(placed, reading, applied, gathered, motion)
 
 
 def assembled_of(model: Model, log: Log, tell: Callable[[str], None] = _silent) -> Assembled | None:
     """The one system that the kernel solves."""
     reduced = reduced_of(model, log, tell)
-    if reduced is None:
-        return None
-    from frot.compiler.lowering.assemble import assemble
+    return None if reduced is None else assemble(reduced, log, tell)
+
+
+def assemble(reduced: Reduced, log: Log, tell: Callable[[str], None] = _silent) -> Assembled | None:
+    """The system of the reduced equations, with slips at zero where friction holds them."""
+    from frot.compiler.equations.assembled import plain_system
+    from frot.compiler.equations.held_slips import hold_slips
 
     _begin("the order of the equations", tell)
-    return assemble(reduced, log)
+    system = plain_system(reduced) if reduced.plain else _solved(reduced, log)
+    return None if system is None else hold_slips(system)
+
+
+def _solved(reduced: Reduced, log: Log) -> Assembled | None:
+    """The system of a mechanism and the equations of its text."""
+    from frot.compiler.equations.solve_equations import (
+        order_equations,
+        pose_equations,
+        remove_definitions,
+        solve_in_order,
+    )
+
+    posed = pose_equations(reduced, log)
+    left = None if posed is None else remove_definitions(posed, log)
+    if posed is None or left is None:
+        return None
+    ordered = order_equations(posed, left, log)
+    return None if ordered is None else solve_in_order(posed, left, ordered, log)
 
 
 def lowered_of(
@@ -101,21 +140,38 @@ def lowered_of(
     gives variables that are listed after the others.
     """
     system = assembled_of(model, log, tell)
-    if system is None:
-        return None
-    from frot.compiler.lowering.groups import make_groups
-    from frot.compiler.lowering.lower import begin, lower
+    return None if system is None else lower_system(system, log, tell, search, extra)
 
-    beginning = begin(system, log)
+
+def lower_system(
+    system: Assembled,
+    log: Log,
+    tell: Callable[[str], None] = _silent,
+    search: bool = True,
+    extra: Extra | None = None,
+) -> Lowered | None:
+    """The functions of a system: see `lowered_of`."""
+    from frot.compiler.lowering.groups import make_groups
+    from frot.compiler.lowering.initial_problem import pose_initial_problem
+    from frot.compiler.lowering.lower import lower
+    from frot.compiler.lowering.result_variables import list_variables
+    from frot.compiler.lowering.sort_conditions import sort_conditions
+    from frot.compiler.lowering.switches import lower_switches
+
+    problem = pose_initial_problem(system, log)
     integrals: tuple[FirstIntegral, ...] = ()
     if search and not log.failed:
         from frot.compiler.report.first_integrals import first_integrals_of
 
         _begin("the first integrals", tell)
-        integrals = first_integrals_of(system, beginning)
+        integrals = first_integrals_of(system, problem)
     _begin("the functions", tell)
     listed = () if extra is None else extra(system)
-    return lower(system, beginning, make_groups(system), log, integrals, listed)
+    grouping = make_groups(system)
+    variables = (*list_variables(system, problem.display, integrals), *listed)
+    system, values = sort_conditions(system, problem.explicit)
+    system, switches = lower_switches(system, values, log)
+    return lower(system, problem, switches, grouping, variables, integrals, log)
 
 
 def text_of(lowered: Lowered, key: str) -> str:
@@ -142,10 +198,10 @@ def build(
     program that are listed after the others; its first integrals are then not searched for.
     """
     from frot.compiler.product.describe import describe
-    from frot.compiler.toolchain.chosen import MODEL_FLAGS
+    from frot.compiler.toolchain.cache_store import store, write_manifest
+    from frot.compiler.toolchain.compiler_choice import MODEL_FLAGS
     from frot.compiler.toolchain.compilers import compile_objects, link_library
     from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_objects
-    from frot.compiler.toolchain.storing import store, write_manifest
 
     with without_collection():
         lowered = lowered_of(model, log, tell, search=extra is None, extra=extra)
@@ -165,15 +221,22 @@ def build(
         write_manifest(describe(lowered, file, key, toolchain, folder), folder)
 
     kept = store("programs", key, fill)
-    return replace(read_program(kept.folder), hold=kept.hold)
+    return load_program(read_program(kept.folder), kept.hold)
 
 
 def make_dae(model: Model, log: Log) -> Dae | None:
     """The DAE with its switching, from the same functions as the program."""
+    from frot.compiler.lowering.jacobian import slips_in_space
+    from frot.compiler.mechanics.unsupported import refuse
     from frot.compiler.product.dae import dae_of
 
     lowered = lowered_of(model, log, search=False)
-    return None if lowered is None else dae_of(lowered)
+    if lowered is None:
+        return None
+    if slips_in_space(lowered.system):
+        refuse(log, "a DAE with friction on contacts in space", None, "run it by `simulate`")
+        return None
+    return dae_of(lowered)
 
 
 def make_report(model: Model, log: Log) -> Report | None:
@@ -185,11 +248,16 @@ def make_report(model: Model, log: Log) -> Report | None:
         return None
     if not model.bodies:
         return report_of(mechanism, None)
+    from frot.compiler.lowering.initial_problem import pose_initial_problem
     from frot.compiler.report.analysis import analyse
 
     system = assembled_of(model, log)
     raise_noted_interrupt()
-    return None if system is None else report_of(mechanism, analyse(system))
+    if system is None:
+        return None
+    own = Log()  # of a start that cannot be posed the report says so itself
+    problem = pose_initial_problem(system, own)
+    return report_of(mechanism, analyse(system, None if own.failed else problem))
 
 
 def _balanced(model: Model, log: Log) -> Mechanism | None:

@@ -13,7 +13,7 @@ from frot.dsl.declarations.settle import entities, settle_all
 from frot.dsl.expressions.rules import RULES
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
-from frot.dsl.names.build import Build, Checks, TooLarge
+from frot.dsl.names.check_state import Build, Checks, TooLarge
 from frot.dsl.names.choose import choose
 from frot.dsl.names.classes import Class, Namespace
 from frot.dsl.names.entities import Array, Entity, Instance

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
@@ -121,8 +121,7 @@ class Program:
     `fixed` are parameters that decide the structure, each with what it decides.
     `file` is the name the text had when it was compiled, which places in the library begin with;
     `shown` is the one its user gives it now. `holders` are the liaisons that always hold, none
-    where drives, time or the text move what they hold. `hold` keeps the folder while this object
-    lives.
+    where drives, time or the text move what they hold.
     """
 
     name: str
@@ -145,7 +144,6 @@ class Program:
     first_integrals: tuple[IntegralInfo, ...] = ()
     shown: str = ""
     holders: tuple[str, ...] = ()
-    hold: object = field(default=None, compare=False, repr=False)
 
     @property
     def library(self) -> Path:
@@ -157,6 +155,10 @@ class Program:
         """The generated C of the model; exports `const frot_model frot_the_model`."""
         return self.folder / MODEL_SOURCE
 
+    def without_lock(self) -> Program:
+        """The program alone, for another process."""
+        return self
+
     def place(self, compiled: str) -> str:
         """A place of the library, `file:line:column`, in the words of the user."""
         head = f"{self.file}:"
@@ -165,15 +167,29 @@ class Program:
     def to_json(self) -> str:
         """The manifest: valid wherever the program lies and whatever its file is called."""
         data = _fields(self)
-        for name in ("folder", "shown", "hold"):
+        for name in ("folder", "shown"):
             del data[name]
         # Large texts have ten thousand variables: what indents, or copies first, takes seconds.
         return json.dumps(data, default=_fields, ensure_ascii=False)
 
 
-def _fields(of: Any) -> dict[str, Any]:
-    from dataclasses import fields
+@dataclass(frozen=True, slots=True)
+class LoadedProgram(Program):
+    """A program with the lock that keeps its folder while this object lives."""
 
+    hold: object = field(default=None, compare=False, repr=False)
+
+    def without_lock(self) -> Program:
+        """The program alone, for another process."""
+        return Program(**{one.name: getattr(self, one.name) for one in fields(Program)})
+
+
+def load_program(program: Program, hold: object) -> LoadedProgram:
+    """The program with the lock of its folder."""
+    return LoadedProgram(**_fields(program), hold=hold)
+
+
+def _fields(of: Any) -> dict[str, Any]:
     return {one.name: getattr(of, one.name) for one in fields(of)}
 
 

@@ -11,7 +11,7 @@ import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
-from frot.compiler.toolchain.chosen import KERNEL_FLAGS, find_toolchain
+from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, find_toolchain
 from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_sources
 from frot.runtime.fmi.sources import flat
 from made_once import made_once

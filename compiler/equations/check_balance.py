@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from frot.compiler.equations.index import find_unbalanced, report_unbalanced
-from frot.compiler.equations.origins import Origin, Unknown
-from frot.compiler.lowering.walk import subexpressions
+from frot.compiler.equations.structure.index import find_unbalanced, report_unbalanced
 from frot.compiler.mechanics.mechanism import Mechanism
+from frot.compiler.translate.origins import Origin, Unknown
+from frot.compiler.translate.walk import subexpressions
 from frot.dsl import Log
 from frot.dsl.checked import (
     Element,

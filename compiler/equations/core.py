@@ -5,12 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.equations.chains import Chains, replace_known
-from frot.compiler.equations.differentiate import Differentiated
-from frot.compiler.equations.eliminate import Eliminated, Pivot, Residuals, eliminate, resolve_all
-from frot.compiler.equations.given import Given
-from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.equations.reduced import Reduced
+from frot.compiler.equations.structure.differentiate import Differentiated
+from frot.compiler.equations.structure.eliminate import (
+    Eliminated,
+    Pivot,
+    Residuals,
+    eliminate,
+    resolve_all,
+)
+from frot.compiler.equations.structure.parameter_defaults import Given
+from frot.compiler.mechanics.reduce import SystemMatrices
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.derivative_chains import Chains, replace_known
 from frot.dsl import Log
 from frot.dsl.messages.source import Span
 
@@ -27,15 +34,7 @@ class Core:
     q_speed: tuple[int, ...]
     rates: ca.SX
     nc: int
-    matrix: ca.SX
-    force: ca.SX
-    force_size: ca.SX
-    spread: ca.SX
-    metric: ca.SX
-    rows: ca.SX
-    bias: ca.SX
-    rate: ca.SX
-    coefficients: ca.SX
+    matrices: SystemMatrices
     known: dict[int, ca.SX]
     pivots: tuple[Pivot, ...]
 
@@ -76,17 +75,12 @@ def make_core(
     lam = ca.vertcat(s.lam, column(e.force for e in elements))
     left_over = dict(zip(explicit.numbers, explicit.residuals.values, strict=True))
     user = _in_order_of([*states.accelerations[count:], *algebraic], found, core, left_over)
-    coupling = reduced.mass[:, count:] @ auxiliary
-    equations = ca.vertcat(
-        column(left_over[i] for i in range(count)) + coupling[:count],
-        column(user),
-        replace_known(newton[count:], known) + coupling[count:],
+    own = [left_over[i] for i in range(count)]
+    equations = _ordered_equations(
+        reduced, own, user, replace_known(newton[count:], known), auxiliary, nv
     )
-    order = [*range(count), *range(count, nv), *range(count + len(user), count + len(user) + na)]
-    order += list(range(nv, count + len(user)))
-    equations = equations[order] if order else equations
     matrix, spread = ca.jacobian(equations, z), -ca.jacobian(equations, lam)
-    for place in reduced.tree.large:
+    for place in reduced.motion.tree.large:
         if place < count:
             matrix[place, place] -= 1
     matrix = ca.sparsify(matrix)
@@ -106,11 +100,10 @@ def make_core(
         return None
     zero = ca.SX.zeros(both.shape)
     force = -ca.substitute(equations, both, zero) if both.numel() else -equations
-    sizes = replace_known(resolve_all(reduced.force_size, chains, left.resolver), known)
+    sizes = replace_known(
+        resolve_all(reduced.motion.matrices.force_size, chains, left.resolver), known
+    )
     sizes = ca.substitute(sizes, both, zero) if both.numel() else sizes
-    # as lists: what is left of one scalar behind it is a row of one more to CasADi
-    told, own = scalars_of(sizes), scalars_of(ca.fabs(force))
-    size = column([*told[:count], *own[count:nv], *told[count : count + na], *own[nv + na :]])
     return Core(
         q=ca.vertcat(s.q, column(states.q)),
         v=column(states.v),
@@ -120,18 +113,48 @@ def make_core(
         q_speed=_speeds(s.q_speed, states),
         rates=ca.vertcat(s.rates, column(states.rates)),
         nc=nc,
-        matrix=matrix,
-        force=force,
-        force_size=size,
-        spread=spread,
-        metric=_metric(reduced, nv, na),
-        rows=rows,
-        bias=bias,
-        rate=rate,
-        coefficients=coefficients,
+        matrices=SystemMatrices(
+            matrix=matrix,
+            force=force,
+            force_size=_force_sizes(sizes, force, count, nv, na),
+            spread=spread,
+            metric=_metric(reduced, nv, na),
+            rows=rows,
+            bias=bias,
+            rate=rate,
+            gap=ca.vertcat(reduced.motion.matrices.gap, ca.SX.ones(len(elements))),
+            coefficients=coefficients,
+            power=reduced.motion.matrices.power,
+        ),
         known=explicit.resolver.known,
         pivots=tuple(explicit.pivots),
     )
+
+
+def _ordered_equations(
+    reduced: Reduced,
+    own: list[ca.SX],
+    user: list[ca.SX],
+    auxiliary_rows: ca.SX,
+    auxiliary: ca.SX,
+    nv: int,
+) -> ca.SX:
+    """The equations in the order of z: `own` of the mechanism, `user` of the text."""
+    count, na = len(own), int(auxiliary.numel())
+    coupling = reduced.motion.matrices.matrix[:, count:] @ auxiliary
+    equations = ca.vertcat(
+        column(own) + coupling[:count], column(user), auxiliary_rows + coupling[count:]
+    )
+    order = [*range(count), *range(count, nv), *range(count + len(user), count + len(user) + na)]
+    order += list(range(nv, count + len(user)))
+    return equations[order] if order else equations
+
+
+def _force_sizes(sizes: ca.SX, force: ca.SX, count: int, nv: int, na: int) -> ca.SX:
+    """The sizes of the mechanism's forces, of other entries their values."""
+    # as lists: what is left of one scalar behind it is a row of one more to CasADi
+    known, own = scalars_of(sizes), scalars_of(ca.fabs(force))
+    return column([*known[:count], *own[count:nv], *known[count : count + na], *own[nv + na :]])
 
 
 def _remove_algebraic(
@@ -230,11 +253,11 @@ def _rows(
 ) -> tuple[ca.SX, ca.SX, ca.SX]:
     """Rows over z, what their accelerations have beside, and their speeds."""
     s, chains, elements = reduced.symbols, reduced.text.chains, reduced.text.elements
-    count, n = s.v.numel(), reduced.rows.size1()
+    count, n = s.v.numel(), reduced.motion.matrices.rows.size1()
     mechanical = ca.SX.zeros(n, z.numel())
     if n:
-        mechanical[:, :count] = reduced.rows[:, :count]
-        mechanical[:, nv : nv + na] = reduced.rows[:, count:]
+        mechanical[:, :count] = reduced.motion.matrices.rows[:, :count]
+        mechanical[:, nv : nv + na] = reduced.motion.matrices.rows[:, count:]
     slips = resolve_all(column(e.slip for e in elements), chains, left.resolver)
     rate = resolve_all(column(e.acceleration for e in elements), chains, left.resolver)
     slips, rate = replace_known(slips, known), replace_known(rate, known)
@@ -242,8 +265,8 @@ def _rows(
     free = ca.substitute(rate, z, ca.SX.zeros(z.shape)) if z.numel() else rate
     return (
         ca.vertcat(mechanical, own),
-        ca.vertcat(reduced.bias, free),
-        ca.vertcat(reduced.rate, slips),
+        ca.vertcat(reduced.motion.matrices.bias, free),
+        ca.vertcat(reduced.motion.matrices.rate, slips),
     )
 
 
@@ -256,7 +279,7 @@ def _coefficients(reduced: Reduced, left: Eliminated, known: dict[int, ca.SX]) -
             ca.if_else(e.bound_at_rest >= e.bound, e.bound_at_rest, ca.SX.nan()),
         )
     )
-    whole = ca.vertcat(reduced.coefficients, bounds)
+    whole = ca.vertcat(reduced.motion.matrices.coefficients, bounds)
     resolved = replace_known(resolve_all(whole, reduced.text.chains, left.resolver), known)
     return column(ca.if_else(x >= 0, x, ca.SX.nan()) for x in ca.vertsplit(resolved))
 
@@ -290,7 +313,7 @@ def _metric(reduced: Reduced, nv: int, na: int) -> ca.SX:
     order = [*range(count), *range(nv, nv + na)]
     for a, i in enumerate(order):
         for b, j in enumerate(order):
-            metric[i, j] = reduced.mass[a, b]
+            metric[i, j] = reduced.motion.matrices.matrix[a, b]
     return metric
 
 

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from graphlib import CycleError, TopologicalSorter
 
 import casadi as ca
-from frot.compiler.equations.before import Before
-from frot.compiler.equations.text_symbols import TextSymbols, scalars
-from frot.compiler.lowering.expressions import NEVER, RISING, Conditions, Lowering
-from frot.compiler.lowering.symbols import shaped
 from frot.compiler.symbolic.columns import column
+from frot.compiler.translate.conditions import NEVER, RISING, ConditionTable
+from frot.compiler.translate.expressions import Lowering
+from frot.compiler.translate.previous_values import Before
+from frot.compiler.translate.symbols import shaped
+from frot.compiler.translate.text_symbols import TextTable, scalars
 from frot.dsl import Log
 from frot.dsl.checked import (
     Assertion,
@@ -50,7 +51,7 @@ class Jump:
     span: Span
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False)
 class Events:
     """Conditions that fire (indices into the located conditions), and what follows.
 
@@ -59,45 +60,50 @@ class Events:
     is 1 where outcome k is.
     """
 
-    fired: list[ca.SX] = field(default_factory=list)
-    before: list[ca.SX] = field(default_factory=list)
-    conditions: list[int] = field(default_factory=list)
-    at_start: list[bool] = field(default_factory=list)
-    values: list[ca.SX] = field(default_factory=list)
-    jumps: list[tuple[ca.SX, Jump]] = field(default_factory=list)
-    outcomes: list[Outcome] = field(default_factory=list)
-    asked: list[ca.SX] = field(default_factory=list)
+    fired: tuple[ca.SX, ...]
+    before: tuple[ca.SX, ...]
+    conditions: tuple[int, ...]
+    at_start: tuple[bool, ...]
+    values: tuple[ca.SX, ...]
+    jumps: tuple[tuple[ca.SX, Jump], ...]
+    outcomes: tuple[Outcome, ...]
+    asked: tuple[ca.SX, ...]
 
 
 class _Gatherer:
-    """Lowers the `when`s: `moving` locates the conditions, `looking` reads values at an event."""
+    """Lowers the `when`s: `motion` locates the conditions, `display` reads values at an event."""
 
     def __init__(
-        self, text: TextSymbols, conditions: Conditions, moving: Lowering, looking: Lowering
+        self, text: TextTable, conditions: ConditionTable, motion: Lowering, display: Lowering
     ) -> None:
         self.text, self.conditions = text, conditions
-        self.moving, self.looking = moving, looking
-        self.events = Events()
+        self.motion, self.display = motion, display
+        self.fired: list[ca.SX] = []
+        self.firing: list[int] = []  # the condition of each
+        self.at_start: list[bool] = []
+        self.jumps: list[tuple[ca.SX, Jump]] = []
+        self.outcomes: list[Outcome] = []
+        self.asked: list[ca.SX] = []
         self.before: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value before
         self.after: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value after
         self.new: dict[int, ca.SX] = {}  # discrete symbol -> its value after, in those symbols
 
     def fire(self, condition: ca.SX, at_start: bool, text: str, span: Span) -> ca.SX:
         """A symbol that is 1 at the event at which `condition`, 0 or 1, comes to hold."""
-        symbol = ca.SX.sym(f"fired_{len(self.events.fired)}")
+        symbol = ca.SX.sym(f"fired_{len(self.fired)}")
         index = next(
             (i for i, f in enumerate(self.conditions.flags) if ca.is_equal(f, condition)), -1
         )
         if index < 0:
             flag = self.conditions.add(condition - 0.5, True, self._told(text), span, NEVER)
             index = next(i for i, f in enumerate(self.conditions.flags) if ca.is_equal(f, flag))
-        self.events.fired.append(symbol)
-        self.events.conditions.append(index)
-        self.events.at_start.append(at_start)
+        self.fired.append(symbol)
+        self.firing.append(index)
+        self.at_start.append(at_start)
         return symbol
 
     def _told(self, text: str) -> str:
-        return f"{self.moving.owner}: {text}" if self.moving.owner else text
+        return f"{self.motion.owner}: {text}" if self.motion.owner else text
 
     def condition(self, expression: Expression) -> ca.SX:
         """What fires for one condition of a `when`."""
@@ -105,7 +111,7 @@ class _Gatherer:
         if len(joined) > 1 and any(is_instant(c) for c in joined):
             # the others need only hold at that instant
             return _product(
-                [self.condition(c) if is_instant(c) else self.looking.lower(c) for c in joined]
+                [self.condition(c) if is_instant(c) else self.display.lower(c) for c in joined]
             )
         if isinstance(expression, Call) and expression.function == "edge":
             expression = expression.arguments[0]
@@ -113,11 +119,11 @@ class _Gatherer:
             return self._sample(expression)
         if isinstance(expression, Call) and expression.function == "initial":
             return self._once(expression)
-        return self.fire(self.moving.lower(expression), False, words(expression), expression.span)
+        return self.fire(self.motion.lower(expression), False, words(expression), expression.span)
 
     def _sample(self, call: Call) -> ca.SX:
-        first, interval = (self.moving.lower(a) for a in call.arguments)
-        time = self.moving.symbols.t
+        first, interval = (self.motion.lower(a) for a in call.arguments)
+        time = self.motion.symbols.t
         count = ca.SX.sym(f"samples_{len(self.text.discrete)}")
         # the first sample at or after the start of the run
         start = ca.fmax(ca.ceil((time - first) / interval - 1e-9), 0)
@@ -154,7 +160,7 @@ class _Gatherer:
         """One `when` with its branches; the first that fires excludes the others."""
         free = ca.SX(1)
         for conditions, actions in when.branches:
-            self.moving.owner = when.owner
+            self.motion.owner = when.owner
             fired = [self.condition(c) for c in conditions]
             some = 1 - _product([1 - f for f in fired])
             active = some * free
@@ -165,7 +171,7 @@ class _Gatherer:
     def _act(self, action: Assign | Reinit | Terminate | Assertion, active: ca.SX) -> None:
         match action:
             case Assign():
-                value = self.looking.lower(action.value)
+                value = self.display.lower(action.value)
                 whole = self.text.values[action.variable]
                 rows = whole[action.item[0], :].T if action.item else whole
                 targets = scalars(rows[action.item[1]] if len(action.item) > 1 else rows)
@@ -175,26 +181,26 @@ class _Gatherer:
                 for symbol, item in zip(targets, values, strict=True):
                     self.set(symbol, active, item)
             case Reinit():
-                targets = scalars(self.looking.lower(action.target))
+                targets = scalars(self.display.lower(action.target))
                 for target, value in zip(
-                    targets, scalars(self.looking.lower(action.value)), strict=True
+                    targets, scalars(self.display.lower(action.value)), strict=True
                 ):
-                    self.events.jumps.append((active, Jump(target, value, action.span)))
+                    self.jumps.append((active, Jump(target, value, action.span)))
             case Terminate():
                 self._ask(Outcome(TERMINATE, action.message, action.span), active)
             case Assertion():
-                holds = self.looking.lower(action.condition)
+                holds = self.display.lower(action.condition)
                 kind = WARN if action.level == "warning" else FAIL
                 self._ask(Outcome(kind, action.message, action.span), active * (1 - holds))
 
     def _ask(self, outcome: Outcome, active: ca.SX) -> None:
-        self.events.outcomes.append(outcome)
-        self.events.asked.append(active)
+        self.outcomes.append(outcome)
+        self.asked.append(active)
 
     def assertion(self, assertion: Assertion) -> None:
         """A condition that must always hold: it is watched."""
-        self.moving.owner = assertion.owner
-        broken = 1 - self.moving.lower(assertion.condition)
+        self.motion.owner = assertion.owner
+        broken = 1 - self.motion.lower(assertion.condition)
         kind = WARN if assertion.level == "warning" else FAIL
         fired = self.fire(broken, True, words(assertion.condition), assertion.span)
         self._ask(Outcome(kind, assertion.message, assertion.span), fired)
@@ -207,23 +213,30 @@ class _Gatherer:
 
 def gather_events(
     model: Model,
-    text: TextSymbols,
+    text: TextTable,
     modes: Iterable[ca.SX],
-    conditions: Conditions,
+    conditions: ConditionTable,
     faults: Iterable[tuple[ca.SX, str, Span]],
     *,
-    moving: Lowering,
-    looking: Lowering,
+    motion: Lowering,
+    display: Lowering,
     log: Log,
-) -> Events:
-    """Lower every `when` and `assert`. `looking` is given the discrete values after the event.
+) -> Events | None:
+    """Lower every `when` and `assert`. Actions read discrete values after the event.
 
     `modes` are discrete values that no `when` sets; `faults` are values that fail once they are
     positive, each with what is told and where.
     """
-    gatherer = _Gatherer(text, conditions, moving, looking)
     after: dict[Variable, ca.SX] = {}
     before: dict[Variable, ca.SX] = {}
+    assert motion.before is not None
+    at_event = replace(
+        display,
+        variable=lambda v: after[v] if v.discrete else text.values[v],
+        before=Before(text, motion.before.first, before.__getitem__),
+        known=conditions,
+    )
+    gatherer = _Gatherer(text, conditions, motion, at_event)
     for variable in model.variables:
         if not variable.discrete:
             continue
@@ -234,10 +247,6 @@ def gather_events(
         for symbol, new, old in zip(scalars(text.values[variable]), news, olds, strict=True):
             gatherer.after[symbol.element_hash()] = new
             gatherer.before[symbol.element_hash()] = old
-    looking.variable = lambda v: after[v] if v.discrete else text.values[v]
-    assert moving.before is not None
-    looking.before = Before(text, moving.before.first, before.__getitem__)
-    looking.known = conditions
     for mode in modes:
         gatherer.before[mode.element_hash()] = ca.SX.sym(f"{mode.name()} before")
     for when in model.whens:
@@ -246,18 +255,14 @@ def gather_events(
         gatherer.assertion(assertion)
     for value, told, span in faults:
         gatherer.fault(value, told, span)
-    _settle(gatherer, log, model)
-    return gatherer.events
+    return _settle(gatherer, log, model)
 
 
-def _settle(gatherer: _Gatherer, log: Log, model: Model) -> None:
+def _settle(gatherer: _Gatherer, log: Log, model: Model) -> Events | None:
     """Put the new discrete values into each other, in the order in which they need each other."""
-    text, events = gatherer.text, gatherer.events
+    text = gatherer.text
     symbols = [d.symbol for d in text.discrete]
     keys = [s.element_hash() for s in symbols]
-    events.before = [gatherer.before[k] for k in keys] + [
-        ca.SX.sym(f"{h.name} before") for h in text.held
-    ]
     own = {gatherer.after[k].element_hash(): k for k in keys if k in gatherer.after}
     value = {k: gatherer.new.get(k, gatherer.before[k]) for k in keys}
     needs = {
@@ -275,16 +280,26 @@ def _settle(gatherer: _Gatherer, log: Log, model: Model) -> None:
             model.whens[0].span,
             help="use 'pre(...)' for the value before the event",
         )
-        return
+        return None
     settled: dict[int, ca.SX] = {}
     for k in order:
         settled[k] = _put(value[k], gatherer.after, settled)
-    events.values = [settled[k] for k in keys] + [h.value for h in text.held]
-    events.asked = [_put(a, gatherer.after, settled) for a in events.asked]
-    events.jumps = [
-        (active, Jump(j.target, _put(j.value, gatherer.after, settled), j.span))
-        for active, j in events.jumps
-    ]
+
+    def put(value: ca.SX) -> ca.SX:
+        return _put(value, gatherer.after, settled)
+
+    jumps = ((active, replace(jump, value=put(jump.value))) for active, jump in gatherer.jumps)
+    held = [ca.SX.sym(f"{h.name} before") for h in text.held]
+    return Events(
+        fired=tuple(gatherer.fired),
+        before=(*(gatherer.before[k] for k in keys), *held),
+        conditions=tuple(gatherer.firing),
+        at_start=tuple(gatherer.at_start),
+        values=(*(settled[k] for k in keys), *(h.value for h in text.held)),
+        jumps=tuple(jumps),
+        outcomes=tuple(gatherer.outcomes),
+        asked=tuple(put(a) for a in gatherer.asked),
+    )
 
 
 def _put(value: ca.SX, after: dict[int, ca.SX], settled: dict[int, ca.SX]) -> ca.SX:

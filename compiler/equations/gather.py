@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import casadi as ca
-from frot.compiler.equations.eliminate import Residuals
-from frot.compiler.equations.origins import Origin
-from frot.compiler.equations.text_symbols import scalars
-from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.equations.structure.eliminate import Residuals
+from frot.compiler.translate.expressions import Lowering
+from frot.compiler.translate.origins import Origin
+from frot.compiler.translate.text_symbols import scalars
 from frot.dsl import Log
 from frot.dsl.checked import Equation, IfEquations
 from frot.dsl.expressions.expression import is_whole
@@ -17,12 +17,10 @@ from frot.dsl.expressions.expression import is_whole
 
 def gather(equations: Sequence[Equation | IfEquations], lowering: Lowering, log: Log) -> Residuals:
     """One residual for every scalar equation."""
-    found = Residuals([], [])
-    for equation in equations:
-        for left, right, origin in _sides(equation, lowering, log):
-            found.values.append(left - right)
-            found.origins.append(origin)
-    return found
+    found = [sides for equation in equations for sides in _sides(equation, lowering, log)]
+    return Residuals(
+        tuple(left - right for left, right, _ in found), tuple(origin for _, _, origin in found)
+    )
 
 
 def _sides(

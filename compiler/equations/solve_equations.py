@@ -10,16 +10,23 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import casadi as ca
-from frot.compiler.equations.chains import Chains, replace_known
-from frot.compiler.equations.combine import combine
+from frot.compiler.equations.assembled import (
+    Assembled,
+    Block,
+    Invariants,
+    Solution,
+    followed_blocks,
+)
 from frot.compiler.equations.core import Core, make_core
-from frot.compiler.equations.differentiate import (
+from frot.compiler.equations.reduced import Reduced
+from frot.compiler.equations.structure.combine import combine
+from frot.compiler.equations.structure.differentiate import (
     Differentiated,
     differentiate,
     find_incidence,
     is_balanced,
 )
-from frot.compiler.equations.eliminate import (
+from frot.compiler.equations.structure.eliminate import (
     Eliminated,
     Entries,
     Pivot,
@@ -27,24 +34,18 @@ from frot.compiler.equations.eliminate import (
     eliminate,
     resolve_all,
 )
-from frot.compiler.equations.floating import is_tied_down
-from frot.compiler.equations.given import Given
-from frot.compiler.equations.index import reduce_index
-from frot.compiler.equations.order import Component, closure
-from frot.compiler.equations.origins import Origin
-from frot.compiler.equations.roots import Roots
-from frot.compiler.equations.tear import tear
-from frot.compiler.lowering.assembled import (
-    Assembled,
-    Block,
-    Invariants,
-    Solution,
-    followed_blocks,
-)
-from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.reduce import Reduced, Tree
+from frot.compiler.equations.structure.index import Index, reduce_index
+from frot.compiler.equations.structure.order import Component, closure
+from frot.compiler.equations.structure.parameter_defaults import Given
+from frot.compiler.equations.structure.roots import Roots
+from frot.compiler.equations.structure.tear import tear
+from frot.compiler.equations.structure.undetermined_potentials import is_tied_down
+from frot.compiler.mechanics.reduce import BodyTrees
 from frot.compiler.symbolic.columns import column, scalars_of
 from frot.compiler.symbolic.slopes import without_what_cancels
+from frot.compiler.translate.derivative_chains import Chains, replace_known
+from frot.compiler.translate.origins import Origin
+from frot.compiler.translate.walk import as_number
 from frot.dsl import Log, default_values, evaluate
 
 
@@ -60,13 +61,45 @@ class Solving:
     divisors: list[Pivot] = field(default_factory=list)
 
 
-def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
-    """The kernel's system of a mechanism and the equations of its text; faults are reported."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Posed:
+    """The equations of motion and of the text with their index, as they are to be solved.
+
+    `newton` are the first of them, auxiliary rows beside; `given` the parameters with defaults.
+    """
+
+    reduced: Reduced
+    given: Given
+    newton: ca.SX
+    index: Index
+
+    @property
+    def count(self) -> int:
+        """The number of equations of motion, auxiliary ones left out."""
+        return int(self.reduced.symbols.v.numel())
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ordered:
+    """Equations in the order in which they are solved.
+
+    `forces` are the equations of motion with the removed unknowns replaced; `core` and `late` are
+    the components that friction acts on, and those that follow from these.
+    """
+
+    forces: ca.SX
+    found: Differentiated
+    core: set[int]
+    late: set[int]
+
+
+def pose_equations(reduced: Reduced, log: Log) -> Posed | None:
+    """The equations with their index; those that cannot be balanced are reported."""
     chains, s = reduced.text.chains, reduced.symbols
     values = default_values(reduced.mechanism.model, {})
     given = Given(s.p, [as_number(evaluate(p.value, values)) for p in s.parameters])
     newton, count = _newton(reduced), s.v.numel()
-    own = [Origin(reduced.mechanism.model.span, "the equations of motion", "")] * count
+    own = motion_origins(reduced)
     raw = Residuals(
         [*(ca.vertsplit(newton[:count]) if count else ()), *reduced.equations.values],
         [*own, *reduced.equations.origins],
@@ -77,7 +110,13 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
         return None
     if not is_tied_down(raw.values, chains, reduced.mechanism.model, log):
         return None
-    index = reduce_index(incidence, len(everything))
+    return Posed(reduced, given, newton, reduce_index(incidence, len(everything)))
+
+
+def remove_definitions(posed: Posed, log: Log) -> Eliminated | None:
+    """Remove the unknowns that an equation defines; what is left must be equations."""
+    reduced, index = posed.reduced, posed.index
+    chains = reduced.text.chains
 
     def may_define(i: int, j: int, entries: Entries) -> bool:
         """States only where the equation is differentiated as often; other unknowns if aliases.
@@ -89,37 +128,55 @@ def solve_equations(reduced: Reduced, log: Log) -> Assembled | None:
         if not real and not reduced.equations.origins[i].discrete:
             return False
         alias = len(entries) <= 2 and not any(entries.values())
-        return index.equations[count + i] == states and (states > 0 or alias)
+        return index.equations[posed.count + i] == states and (states > 0 or alias)
 
-    left = eliminate(reduced.equations, may_define, chains, given)
-    if not _are_equations(left, chains, log):
-        return None
-    forces = resolve_all(newton, chains, left.resolver)
+    left = eliminate(reduced.equations, may_define, chains, posed.given)
+    return left if _are_equations(left, chains, log) else None
+
+
+def order_equations(posed: Posed, left: Eliminated, log: Log) -> Ordered | None:
+    """Differentiate what hides the derivatives of states; find the components and the core."""
+    reduced, count = posed.reduced, posed.count
+    chains = reduced.text.chains
+    forces = resolve_all(posed.newton, chains, left.resolver)
+    residuals = left.residuals
     system = Residuals(
-        [*ca.vertsplit(forces[:count]), *left.residuals.values] if count else left.residuals.values,
-        [*own, *left.residuals.origins],
+        [*ca.vertsplit(forces[:count]), *residuals.values] if count else residuals.values,
+        [*motion_origins(reduced), *residuals.origins],
     )
-    unknowns = [j for j in everything if j not in left.removed]
-    system = combine(system, count, chains, unknowns)
-    found = differentiate(system, count, chains, left.removed, log)
+    unknowns = [j for j in range(len(chains.items)) if j not in left.removed]
+    found = differentiate(
+        combine(system, count, chains, unknowns), count, chains, left.removed, log
+    )
     if found is None:
         return None
-    core, late = _core_components(found, reduced)
+    return Ordered(forces, found, *_core_components(found, reduced))
+
+
+def solve_in_order(posed: Posed, left: Eliminated, ordered: Ordered, log: Log) -> Assembled | None:
+    """The kernel's system: what comes before the core, the core, and what follows from it."""
+    reduced, found, given = posed.reduced, ordered.found, posed.given
     y, blocks = followed_blocks(reduced)
     conditions = reduced.conditions
     roots = Roots(conditions.flags, conditions.values, given, left.resolver)
     solving = Solving(roots, y=scalars_of(y), blocks=list(blocks))
     for k, component in enumerate(found.components):
-        if k not in core and k not in late:
+        if k not in ordered.core and k not in ordered.late:
             _solve(component, found, solving, False, given)
-    built = make_core(reduced, left, found, core, forces, solving.known, given, log)
+    built = make_core(reduced, left, found, ordered.core, ordered.forces, solving.known, given, log)
     if built is None:
         return None
     solving.known.update(built.known)
     for k, component in enumerate(found.components):
-        if k in late:
+        if k in ordered.late:
             _solve(component, found, solving, True, given)
-    return _finish(reduced, left, found, solving, built, log)
+    return _finish(reduced, left, found, solving, built)
+
+
+def motion_origins(reduced: Reduced) -> list[Origin]:
+    """The origins of the equations of motion, auxiliary ones left out."""
+    span, count = reduced.mechanism.model.span, int(reduced.symbols.v.numel())
+    return [Origin(span, "the equations of motion", "")] * count
 
 
 def _newton(reduced: Reduced) -> ca.SX:
@@ -130,9 +187,14 @@ def _newton(reduced: Reduced) -> ca.SX:
     s = reduced.symbols
     accelerations = ca.vertcat(s.a, ca.SX.zeros(s.sw.shape))
     alone = ca.SX.zeros(accelerations.shape)
-    for place in reduced.tree.large:
+    for place in reduced.motion.tree.large:
         alone[place] = accelerations[place]
-    return reduced.mass @ accelerations + alone - reduced.force - reduced.rows.T @ s.lam
+    return (
+        reduced.motion.matrices.matrix @ accelerations
+        + alone
+        - reduced.motion.matrices.force
+        - reduced.motion.matrices.rows.T @ s.lam
+    )
 
 
 def _are_equations(left: Eliminated, chains: Chains, log: Log) -> bool:
@@ -232,15 +294,15 @@ def _finish(
     found: Differentiated,
     solving: Solving,
     core: Core,
-    log: Log,
 ) -> Assembled:
+    """The system with all that was found; what may switch is settled."""
     chains, s = reduced.text.chains, reduced.symbols
 
     solution = Solution(chains, left.resolver, solving.known)
     for key, value in left.resolver.known.items():
         if solving.roots.may_switch(value):
             left.resolver.known[key] = solving.roots.settle(solution.of(value), solving.known)
-    rates, power = solution.of(core.rates), solution.of(reduced.power)
+    rates, power = solution.of(core.rates), solution.of(reduced.motion.matrices.power)
     y, early = column(solving.y), sum(b.residual.numel() for b in solving.blocks if not b.late)
     later = ca.vertcat(core.z, core.lam, y[early:])
     late = bool(later.numel()) and any(
@@ -262,27 +324,17 @@ def _finish(
         nc=core.nc,
         late=late,
         rates=rates,
-        matrix=core.matrix,
-        force=core.force,
-        force_size=core.force_size,
-        spread=core.spread,
-        metric=core.metric,
-        rows=core.rows,
-        bias=core.bias,
-        rate=core.rate,
-        gap=ca.vertcat(reduced.gap, ca.SX.ones(len(reduced.text.elements))),
-        coefficients=core.coefficients,
-        power=power,
+        matrices=replace(core.matrices, power=power),
         blocks=tuple(solving.blocks),
         invariants=Invariants(invariants, tuple(found.invariant_origins)),
         pivots=(*left.pivots, *solving.pivots, *core.pivots),
         divisors=tuple(solving.divisors),
         solution=solution,
-        tree=_renumbered(reduced.tree, s.v.numel(), core.v.numel(), solution),
+        tree=_renumbered(reduced.motion.tree, s.v.numel(), core.v.numel(), solution),
     )
 
 
-def _renumbered(tree: Tree, count: int, nv: int, solution: Solution) -> Tree:
+def _renumbered(tree: BodyTrees, count: int, nv: int, solution: Solution) -> BodyTrees:
     """Its places among all unknowns, where auxiliary speeds follow those of the text."""
     if not tree.large:
         return tree
@@ -299,4 +351,4 @@ def _renumbered(tree: Tree, count: int, nv: int, solution: Solution) -> Tree:
         )
         for step in tree.steps
     )
-    return Tree(steps, frozenset(map(place, tree.large)))
+    return BodyTrees(steps, frozenset(map(place, tree.large)))

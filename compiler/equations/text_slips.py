@@ -6,13 +6,20 @@ from the mode, which the kernel writes among the discrete values.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, MutableSequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import casadi as ca
-from frot.compiler.equations.events import Events
-from frot.compiler.equations.text_symbols import Discrete, FrictionElement, TextSymbols, scalars
-from frot.compiler.mechanics.variables import Sense, Variables
+from frot.compiler.equations.reduced import Reduced
+from frot.compiler.mechanics.variables import ModeOwner, Modes, Sense
+from frot.compiler.translate.text_symbols import (
+    Discrete,
+    FrictionElement,
+    TextSymbols,
+    TextTable,
+    scalars,
+)
 from frot.dsl.checked.arrays import component_names
 
 
@@ -33,39 +40,64 @@ def slip_names(text: TextSymbols) -> Mapping[str, str]:
     return found
 
 
-def give_slip_modes(variables: Variables, text: TextSymbols, first: int) -> None:
-    """The modes of all elements; `first` is the kernel's number of the first element."""
+def slip_modes(modes: Modes, text: TextTable, first: int) -> Modes:
+    """The modes with those of all elements; `first` is the kernel's number of the first element."""
+    found = dict(modes.of)
     for k, element in enumerate(text.elements):
         symbol = ca.SX.sym(f"{element.name}.mode")
-        place = len(variables.modes)  # the modes are the first discrete values
-        variables.modes[element] = first + k, symbol
+        place = len(found)  # the modes are the first discrete values
+        found[element] = first + k, symbol
         text.discrete.insert(place, Discrete(symbol.name(), symbol, ca.SX(0)))
+    return Modes(found, modes.located)
 
 
-def follow_mode(
-    variables: Variables, text: TextSymbols, events: Events, owner: FrictionElement | Sense
-) -> None:
-    """Let conditions and equations follow a mode or a sense: it becomes one of the first."""
-    if owner in variables.felt:
-        return
-    old, new = list(variables.modes).index(owner), len(variables.felt)
-    order = list(variables.modes.items())
-    columns: tuple[MutableSequence[Any], ...] = (order, text.discrete)
-    for items in (*columns, events.before, events.values):
-        items.insert(new, items.pop(old))
-    variables.modes.clear()
-    variables.modes.update(order)
-    variables.felt.append(owner)
+class ModeBook:
+    """The modes of a model while conditions and equations are made to follow more of them."""
 
+    def __init__(self, reduced: Reduced) -> None:
+        """Begin with the modes that `reduced` has; it stays as it is."""
+        self._reduced = reduced
+        self._modes = list(reduced.variables.modes.of.items())
+        self._located = reduced.variables.modes.located
+        self._discrete = list(reduced.text.discrete)
+        self._before = list(reduced.events.before)
+        self._values = list(reduced.events.values)
 
-def sense_of(variables: Variables, text: TextSymbols, events: Events, contact: int) -> ca.SX:
-    """The symbol of the sense of a contact, which conditions follow."""
-    sense = Sense(contact)
-    if sense not in variables.modes:
-        symbol, place = ca.SX.sym(f"sense_{contact}"), len(variables.modes)
-        variables.modes[sense] = contact, symbol
-        text.discrete.insert(place, Discrete(symbol.name(), symbol, ca.SX(0)))
-        events.before.insert(place, ca.SX.sym(f"{symbol.name()} before"))
-        events.values.insert(place, events.before[place])
-        follow_mode(variables, text, events, sense)
-    return variables.modes[sense][1]
+    def _place(self, owner: ModeOwner) -> int:
+        return next((k for k, (x, _) in enumerate(self._modes) if x == owner), -1)
+
+    def follow(self, owner: FrictionElement | Sense) -> None:
+        """Let conditions and equations follow a mode or a sense: it becomes one of the first."""
+        old, new = self._place(owner), self._located
+        if old < new:
+            return
+        columns: tuple[list[Any], ...] = (self._modes, self._discrete, self._before, self._values)
+        for items in columns:
+            items.insert(new, items.pop(old))
+        self._located += 1
+
+    def sense(self, contact: int) -> ca.SX:
+        """The symbol of the sense of a contact, which conditions follow."""
+        sense = Sense(contact)
+        if self._place(sense) < 0:
+            symbol, place = ca.SX.sym(f"sense_{contact}"), len(self._modes)
+            self._modes.append((sense, (contact, symbol)))
+            self._discrete.insert(place, Discrete(symbol.name(), symbol, ca.SX(0)))
+            before = ca.SX.sym(f"{symbol.name()} before")
+            self._before.insert(place, before)
+            self._values.insert(place, before)
+            self.follow(sense)
+        return self._modes[self._place(sense)][1][1]
+
+    def reduced(self, conditions: Sequence[ca.SX]) -> Reduced:
+        """The reduced equations with these modes, and these values of the conditions."""
+        old = self._reduced
+        modes = Modes(dict(self._modes), self._located)
+        events = replace(old.events, before=tuple(self._before), values=tuple(self._values))
+        return replace(
+            old,
+            variables=replace(old.variables, modes=modes),
+            text=replace(old.text, discrete=tuple(self._discrete)),
+            events=events,
+            conditions=old.conditions.with_values(conditions),
+        )

@@ -7,16 +7,16 @@ What switches an unknown and is switched by it, as in `abs(x) = 2`, may be so in
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.equations.chains import replace_known
-from frot.compiler.equations.sparse import strong_components
-from frot.compiler.equations.text_symbols import scalars
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.expressions import Lowering
-from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.equations.assembled import Assembled
+from frot.compiler.equations.structure.sparse import strong_components
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.derivative_chains import replace_known
+from frot.compiler.translate.expressions import Lowering
+from frot.compiler.translate.text_symbols import scalars
+from frot.compiler.translate.walk import is_fixed
 
 
-def first_conditions(system: Assembled, looking: Lowering, values: ca.SX) -> ca.SX:
+def first_conditions(system: Assembled, display: Lowering, values: ca.SX) -> ca.SX:
     """The conditions, which have these `values`, with starts for what follows from themselves."""
     conditions = system.reduced.conditions
     flags = column(conditions.flags)
@@ -29,14 +29,14 @@ def first_conditions(system: Assembled, looking: Lowering, values: ca.SX) -> ca.
         return values
     _, circle = strong_components(reads)
     circles = [i for i, read in enumerate(reads) if circle[i] in (circle[j] for j in read)]
-    starts = _starts(system, looking, flags)
+    starts = _starts(system, display, flags)
     found = scalars_of(values)
     for i in circles:
         found[i] = system.resolve(replace_known(conditions.values[i], starts))
     return column(found)
 
 
-def _starts(system: Assembled, looking: Lowering, flags: ca.SX) -> dict[int, ca.SX]:
+def _starts(system: Assembled, display: Lowering, flags: ca.SX) -> dict[int, ca.SX]:
     """The starts of the unknowns that follow from conditions, zero where none is given."""
     text = system.reduced.text
     starts: dict[int, ca.SX] = {}
@@ -46,7 +46,7 @@ def _starts(system: Assembled, looking: Lowering, flags: ca.SX) -> dict[int, ca.
         own = scalars(text.values[variable])
         given = [ca.SX(0)]
         if variable.start is not None and is_fixed(variable.start):
-            given = scalars(looking.lower(variable.start))
+            given = scalars(display.lower(variable.start))
         given = given * len(own) if len(given) == 1 else given
         for symbol, value in zip(own, given, strict=True):
             if symbol.is_symbolic() and ca.depends_on(system.resolve(symbol), flags):

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.lowering.trees import TreeTable, make_tree
 from frot.compiler.mechanics.dynamics import speeds_by_tree
-from frot.compiler.mechanics.elements import Element, link_elements, text_element
+from frot.compiler.mechanics.laws.elements import Element, link_elements, text_element
 from frot.compiler.symbolic.columns import dense
-from frot.compiler.symbolic.drawn import at_positive, at_random
+from frot.compiler.symbolic.random_tests import at_positive, at_random
 from numpy.typing import NDArray
 
 
@@ -98,25 +98,16 @@ def make_groups(system: Assembled) -> Grouping:
     ]
     first = n_rows - len(system.elements)
     elements += [text_element(len(joints) + k, first + k) for k in range(len(system.elements))]
-    matrix, rows, spread = (ca.sparsify(x) for x in (system.matrix, system.rows, system.spread))
-    sets = Sets(nw + n_rows)
-    for i, j in _entries(matrix):
-        sets.join(i, j)
-    tree = system.tree
-    for places in speeds_by_tree([step.node for step in tree.steps]):
-        for place in places[1:]:
-            sets.join(places[0], place)
+    matrix, rows, spread = (
+        ca.sparsify(x)
+        for x in (system.matrices.matrix, system.matrices.rows, system.matrices.spread)
+    )
     moved: dict[int, list[int]] = {}
     for r, k in _entries(rows):
-        sets.join(nw + r, k)
         moved.setdefault(r, []).append(k)
-    for k, r in _entries(spread):
-        sets.join(nw + r, k)
-    owners: dict[int, int] = {}
-    for i, found in enumerate(reduced.contact_rows):
-        owners.update(dict.fromkeys(found.all, i))
-        for r in found.all[1:]:
-            sets.join(nw + found.all[0], nw + r)
+    _share_entries(moved, elements)
+    sets, tree = _joined(system, matrix, rows, spread), system.tree
+    owners = {r: i for i, found in enumerate(reduced.contact_rows) for r in found.all}
     owners.update({first + k: len(joints) + k for k in range(len(system.elements))})
     members: dict[int, list[int]] = {}
     for item in range(nw + n_rows):
@@ -148,6 +139,34 @@ def make_groups(system: Assembled) -> Grouping:
             )
         )
     return _grouping(system, groups, elements, frozenset(range(n_rows)) - moved.keys())
+
+
+def _share_entries(moved: dict[int, list[int]], elements: list[Element]) -> None:
+    """Give the rows of one law the entries of them all: the kernel turns them among each other."""
+    for e in elements:
+        if e.part == 0 and e.parts > 1:
+            rows = range(e.row, e.row + e.parts)
+            both = sorted({k for r in rows for k in moved.get(r, ())})
+            moved.update(dict.fromkeys(rows, both))
+
+
+def _joined(system: Assembled, matrix: ca.SX, rows: ca.SX, spread: ca.SX) -> Sets:
+    """Unknowns, then rows, in sets of those that act on each other."""
+    nw = int(system.z.numel())
+    sets = Sets(nw + int(system.lam.numel()))
+    for i, j in _entries(matrix):
+        sets.join(i, j)
+    for places in speeds_by_tree([step.node for step in system.tree.steps]):
+        for place in places[1:]:
+            sets.join(places[0], place)
+    for r, k in _entries(rows):
+        sets.join(nw + r, k)
+    for k, r in _entries(spread):
+        sets.join(nw + r, k)
+    for found in system.reduced.contact_rows:
+        for r in found.all[1:]:
+            sets.join(nw + found.all[0], nw + r)
+    return sets
 
 
 def reorder_groups(system: Assembled, grouping: Grouping, order: Sequence[int]) -> Grouping:
@@ -183,13 +202,13 @@ def pack_matrix(system: Assembled, groups: Sequence[Group]) -> ca.SX:
 def pack_rows(system: Assembled, groups: Sequence[Group]) -> ca.SX:
     """Their entries of J."""
     entries = [(g, *divmod(at, len(g.unknowns))) for g in groups for at in g.entries]
-    return _pack(system.rows[g.rows[i], g.unknowns[k]] for g, i, k in entries)
+    return _pack(system.matrices.rows[g.rows[i], g.unknowns[k]] for g, i, k in entries)
 
 
 def pack_spread(system: Assembled, groups: Sequence[Group]) -> tuple[ca.SX, ca.SX]:
     """Their columns of E, and their metrics."""
     return (
-        _pack(system.spread[list(g.unknowns), r] for g in groups for r in g.rows),
+        _pack(system.matrices.spread[list(g.unknowns), r] for g in groups for r in g.rows),
         _pack(_metric(system, g) for g in groups),
     )
 
@@ -198,7 +217,7 @@ def _matrix(system: Assembled, g: Group) -> ca.SX:
     """Of a mass matrix the columns of speeds, of readings, which do not move, the diagonal."""
     if g.tree:
         return g.tree.data
-    whole = system.matrix[list(g.unknowns), list(g.unknowns)]
+    whole = system.matrices.matrix[list(g.unknowns), list(g.unknowns)]
     if g.general:
         return whole
     return _pack([whole[:, : g.n_speeds], ca.diag(whole)[g.n_speeds :]])
@@ -207,7 +226,7 @@ def _matrix(system: Assembled, g: Group) -> ca.SX:
 def _metric(system: Assembled, g: Group) -> ca.SX:
     """That of the speeds; nobody reads it where the kernel goes along a tree."""
     speeds = list(g.unknowns[: g.n_speeds])
-    return ca.SX.zeros(g.tree.factor) if g.tree else system.metric[speeds, speeds]
+    return ca.SX.zeros(g.tree.factor) if g.tree else system.matrices.metric[speeds, speeds]
 
 
 def _entries(matrix: ca.SX) -> Iterable[tuple[int, int]]:
@@ -244,8 +263,8 @@ def _is_general(system: Assembled, unknowns: tuple[int, ...], rows: tuple[int, .
     places, own = list(unknowns), list(rows)
     if any(k >= system.nv + system.na for k in unknowns):
         return True
-    matrix, effect = system.matrix[places, places], system.spread[places, own]
-    moved = system.rows[own, places].T
+    matrix, effect = system.matrices.matrix[places, places], system.matrices.spread[places, own]
+    moved = system.matrices.rows[own, places].T
     if not places:
         return False
     own_speeds = [i for i, k in enumerate(places) if k < system.nv]

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.equations.chains import replace_known
-from frot.compiler.equations.text_symbols import scalars
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.expressions import Lowering
-from frot.compiler.lowering.walk import is_fixed
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.derivative_chains import replace_known
+from frot.compiler.translate.expressions import Lowering
+from frot.compiler.translate.text_symbols import scalars
+from frot.compiler.translate.walk import is_fixed
 from frot.dsl.checked import Element, Expression, Quantity
 from frot.dsl.quantities.dimensions import Dimension
 
@@ -41,17 +41,20 @@ class Guess:
         return self.left - self.right
 
 
-def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
+def list_guesses(system: Assembled, display: Lowering) -> list[Guess]:
     """The guesses of a model, the strongest first.
 
     A `guess` is stronger than a `start`, and a guess on a state than one on what follows from it.
     """
-    model, settled = system.reduced.mechanism.model, system.reduced.variables.settled
+    model, without_auxiliary = (
+        system.reduced.mechanism.model,
+        system.reduced.variables.without_auxiliary,
+    )
     starts: list[Guess] = []
     for variable in model.variables:
         if variable.start is not None and not variable.discrete and is_fixed(variable.start):
             left = scalars(system.resolve(system.reduced.text.values[variable]))
-            right = scalars(looking.lower(variable.start))
+            right = scalars(display.lower(variable.start))
             right = right * len(left) if len(right) == 1 else right
             of = variable.start.type.dimension
             starts += [Guess(a, b, of, True, a) for a, b in zip(left, right, strict=True)]
@@ -59,14 +62,14 @@ def list_guesses(system: Assembled, looking: Lowering) -> list[Guess]:
     for index, equation in enumerate(model.initial):
         if equation.guess:
             left, right = (
-                scalars(system.resolve(settled(looking.lower(side))))
+                scalars(system.resolve(without_auxiliary(display.lower(side))))
                 for side in (equation.left, equation.right)
             )
             of = equation.left.type.dimension
             right = _nearer_turn(equation.left, left, right)
             whole = column(left) - column(right)
             if isinstance(equation.left, Element):
-                whole = system.resolve(settled(looking.lower(equation.left.operand)))
+                whole = system.resolve(without_auxiliary(display.lower(equation.left.operand)))
             guesses += [
                 Guess(a, b, of, False, whole, index) for a, b in zip(left, right, strict=True)
             ]
@@ -242,3 +245,22 @@ def values_of(symbols: ca.SX, values: ca.SX) -> dict[int, ca.SX]:
     return {
         s.element_hash(): x for s, x in zip(scalars_of(symbols), scalars_of(values), strict=True)
     }
+
+
+def natural_places(system: Assembled) -> ca.SX:
+    """Where the search begins without a guess: no turn, and zero; what rolls, at the origin."""
+    start = ca.SX.zeros(system.q.shape)
+    for turn in system.reduced.symbols.turns:
+        start[turn.coordinate] = 1
+    for place, value in system.reduced.variables.kinematics.starts.items():
+        start[place] = replace_known(value, values_of(system.q, start))
+    return start
+
+
+def natural_unknowns(system: Assembled) -> ca.SX:
+    """Where the search for the unknowns of the blocks begins without a guess, at these places."""
+    start = ca.SX.zeros(system.y.shape)
+    for block in system.blocks:
+        if block.start is not None:
+            start[block.first : block.first + block.start.numel()] = block.start
+    return start

@@ -6,12 +6,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.equations.before import whole
-from frot.compiler.equations.chains import replace_known
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.equations.initial_rates import finds_places, given_speeds, holds_at_rest
-from frot.compiler.equations.text_symbols import scalars
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.lowering.guesses import (
     guessed_halves,
     guessed_places,
@@ -19,11 +15,17 @@ from frot.compiler.lowering.guesses import (
     guessed_states,
     list_guesses,
     move_by,
+    natural_places,
+    natural_unknowns,
     values_of,
 )
-from frot.compiler.lowering.walk import is_fixed
-from frot.compiler.mechanics.link import Link
+from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.derivative_chains import replace_known
+from frot.compiler.translate.expressions import Lowering
+from frot.compiler.translate.previous_values import whole
+from frot.compiler.translate.text_symbols import scalars
+from frot.compiler.translate.walk import is_fixed
 from frot.dsl import Log
 from frot.dsl.checked import InitialEquation
 from frot.dsl.messages.source import Span
@@ -88,7 +90,7 @@ class _Residual:
 
 
 def lower_initial(
-    system: Assembled, looking: Lowering, explicit: Callable[[ca.SX], ca.SX], log: Log
+    system: Assembled, display: Lowering, explicit: Callable[[ca.SX], ca.SX], log: Log
 ) -> Initial:
     """Lower the statements; one that cannot hold for positions and velocities is reported.
 
@@ -101,12 +103,12 @@ def lower_initial(
     later = {x.element_hash() for part in solved for x in scalars_of(part)}
     for index, equation in enumerate(model.initial):
         if not equation.guess and not _sets_memory(equation, system):
-            found += _residuals(index, equation, system, looking, explicit, later, log)
+            found += _residuals(index, equation, system, display, explicit, later, log)
     direct, complete = _direct(found, system)
     found = _placed(found, direct, system, statements, log)
-    guesses = list_guesses(system, looking)
+    guesses = list_guesses(system, display)
     # values that are stated one by one are where the search begins, or all there is to find
-    natural = _with(system.q, _natural(system), guessed_halves(system, guesses) | direct)
+    natural = _with(system.q, natural_places(system), guessed_halves(system, guesses) | direct)
     natural = move_by(system, [g for g in guesses if g.start], system.q, natural, direct)
     stated = direct | guessed_states(system, guesses, direct)
     natural = _with(system.q, natural, stated)
@@ -120,7 +122,38 @@ def lower_initial(
     relations = turns or not kept or system.invariants.origins
     if complete and not relations:
         found = []
-    for turn in turns:
+    found += _kept_by_states(system, statements)
+    moving = [_depends(r.value, system, system.v) for r in found]
+    position = [r for r, m in zip(found, moving, strict=True) if not m]
+    velocity = [r for r, m in zip(found, moving, strict=True) if m]
+    known |= values_of(system.v, v)
+    y_start = move_by(system, guesses, system.y, natural_unknowns(system), known)
+    discrete = column(d.start for d in system.reduced.text.memory)
+    return Initial(
+        start=[natural, discrete],
+        beginning=[v, y_start],
+        position=_outputs(position, system.q, system.y),
+        velocity=_outputs(velocity, system.v, system.y),
+        statements=tuple(statements),
+        position_statement=tuple(r.statement for r in position),
+        velocity_statement=tuple(r.statement for r in velocity),
+        direct=tuple(r.statement < 0 or r.direct for r in position),
+        kinds=tuple(r.kind for r in position),
+        guessed=guessed,
+        vectors=vectors,
+        guessed_speeds=moved,
+        guessed_dimensions=dimensions,
+    )
+
+
+def _kept_by_states(system: Assembled, statements: list[Statement]) -> list[_Residual]:
+    """What states keep by themselves: lengths of quaternions, counted turns, invariants.
+
+    `statements` gains their words.
+    """
+    model = system.reduced.mechanism.model
+    found: list[_Residual] = []
+    for turn in system.reduced.symbols.turns:
         unit = system.q[turn.coordinate : turn.coordinate + 4]
         found.append(_Residual(ca.sumsqr(unit) - 1, ca.sumsqr(unit) + 1, ~len(statements)))
         name = unit[0].name().removesuffix("[1]")
@@ -140,27 +173,7 @@ def lower_initial(
     ):
         found.append(_Residual(value, _size(value, system), len(statements)))
         statements.append(Statement(origin.text, origin.span, "1"))
-    moving = [_depends(r.value, system, system.v) for r in found]
-    position = [r for r, m in zip(found, moving, strict=True) if not m]
-    velocity = [r for r, m in zip(found, moving, strict=True) if m]
-    known |= values_of(system.v, v)
-    y_start = move_by(system, guesses, system.y, _beginnings(system), known)
-    discrete = column(d.start for d in system.reduced.text.memory)
-    return Initial(
-        start=[natural, discrete],
-        beginning=[v, y_start],
-        position=_outputs(position, system.q, system.y),
-        velocity=_outputs(velocity, system.v, system.y),
-        statements=tuple(statements),
-        position_statement=tuple(r.statement for r in position),
-        velocity_statement=tuple(r.statement for r in velocity),
-        direct=tuple(r.statement < 0 or r.direct for r in position),
-        kinds=tuple(r.kind for r in position),
-        guessed=guessed,
-        vectors=vectors,
-        guessed_speeds=moved,
-        guessed_dimensions=dimensions,
-    )
+    return found
 
 
 def _placed(
@@ -212,36 +225,17 @@ def _at(residual: _Residual, speeds: Mapping[int, ca.SX]) -> _Residual:
     return replace(residual, value=value, size=size)
 
 
-def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Link]]:
+def _counted(system: Assembled) -> Iterator[tuple[ca.SX, ca.SX, Constraint]]:
     """Each counter with the angle it counts, which is within half a turn of it."""
     reduced = system.reduced
     mechanism, kinematics = reduced.mechanism, reduced.variables.kinematics
     for (link, k), counter in zip(mechanism.counters, kinematics.counters.values(), strict=True):
         angle, _ = reduced.variables.coordinate(link.liaison, k)
-        yield counter, reduced.variables.settled(angle), link
-
-
-def _natural(system: Assembled) -> ca.SX:
-    """Where the search begins without a guess: no turn, and zero; what rolls, at the origin."""
-    start = ca.SX.zeros(system.q.shape)
-    for turn in system.reduced.symbols.turns:
-        start[turn.coordinate] = 1
-    for place, value in system.reduced.variables.kinematics.starts.items():
-        start[place] = replace_known(value, values_of(system.q, start))
-    return start
-
-
-def _beginnings(system: Assembled) -> ca.SX:
-    """Where the search for the unknowns of the blocks begins without a guess, at these places."""
-    start = ca.SX.zeros(system.y.shape)
-    for block in system.blocks:
-        if block.start is not None:
-            start[block.first : block.first + block.start.numel()] = block.start
-    return start
+        yield counter, reduced.variables.without_auxiliary(angle), link
 
 
 def _statement(equation: InitialEquation) -> Statement:
-    from frot.compiler.product.units import unit_of
+    from frot.compiler.lowering.units import unit_of
 
     text = " ".join(equation.span.text.split()).rstrip("; ")
     text = f"{text} {equation.place}".rstrip()
@@ -263,7 +257,7 @@ def _residuals(
     index: int,
     equation: InitialEquation,
     system: Assembled,
-    looking: Lowering,
+    display: Lowering,
     explicit: Callable[[ca.SX], ca.SX],
     later: set[int],
     log: Log,
@@ -280,9 +274,9 @@ def _residuals(
             help="state a coordinate, a speed or a state, or leave it out",
         )
         return []
-    settled = system.reduced.variables.settled
-    left = system.resolve(settled(looking.lower(equation.left)))
-    right = system.resolve(settled(looking.lower(equation.right)))
+    without_auxiliary = system.reduced.variables.without_auxiliary
+    left = system.resolve(without_auxiliary(display.lower(equation.left)))
+    right = system.resolve(without_auxiliary(display.lower(equation.right)))
     implicit = left - right
     solved = ca.depends_on(implicit, ca.vertcat(system.z, system.lam))
     left, right = explicit(left), explicit(right)

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.lowering.groups import (
     Group,
     Grouping,
@@ -105,7 +105,7 @@ def divide(
     """
     if len(grouping.groups) < 2 or system.late or system.invariants.origins:
         return grouping, ()
-    scene = _Scene(system, grouping, conditions, tuple(_terms(system.power)), tuple(state))
+    scene = _Scene(system, grouping, conditions, tuple(_terms(system.matrices.power)), tuple(state))
     nodes = scene.nodes
     sets = Sets(nodes.of_terms.stop)
     awake = {nodes.blocks, *_join(scene, sets)}
@@ -134,7 +134,7 @@ def _join(scene: _Scene, sets: Sets) -> set[int]:
     for k, group in zip(nodes.of_groups, scene.grouping.groups, strict=True):
         for z in group.unknowns[: group.n_speeds]:
             sets.join(k, nodes.nq + z)
-        parts = [*dynamics_of(system, (group,)), system.force_size[list(group.unknowns)]]
+        parts = [*dynamics_of(system, (group,)), system.matrices.force_size[list(group.unknowns)]]
         parts += pack_spread(system, (group,)) if group.general else ()
         own = [x for part in parts for x in _split(part)]
         values += own
@@ -183,7 +183,7 @@ def _make_island(scene: _Scene, items: list[int], groups: range, sleeps: bool) -
             *(system.rates[q], matrix, force, rows, bias, rate, gap),
             *(scene.conditions[located], coefficients, sum(terms, ca.SX(0))),
         ],
-        "sizes": [system.force_size[unknowns]],
+        "sizes": [system.matrices.force_size[unknowns]],
     }
     if any(g.general for g in own):
         results["spread"] = list(pack_spread(system, own))
@@ -222,12 +222,12 @@ def dynamics_of(system: Assembled, groups: Sequence[Group]) -> list[ca.SX]:
     laws = [2 * e + k for g in groups for e in g.elements for k in (0, 1)]
     return [
         pack_matrix(system, groups),
-        system.force[unknowns],
+        system.matrices.force[unknowns],
         pack_rows(system, groups),
-        system.bias[rows],
-        system.rate[rows],
-        system.gap[contacts],
-        system.coefficients[laws],
+        system.matrices.bias[rows],
+        system.matrices.rate[rows],
+        system.matrices.gap[contacts],
+        system.matrices.coefficients[laws],
     ]
 
 

@@ -8,28 +8,33 @@ values before (`pre`) stay. So a condition that reads what a `when` sets is deci
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import casadi as ca
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.equations.events import FAULT, Outcome
-from frot.compiler.lowering.assembled import Assembled
 from frot.compiler.symbolic.columns import column
 from frot.dsl import Log
 from frot.dsl.messages.source import Span
 
 
-def lower_update(system: Assembled, log: Log) -> list[ca.SX] | None:
-    """Q and v after the event, the discrete values, the outcomes asked for; None if none can be."""
+def lower_update(system: Assembled, log: Log) -> tuple[Assembled, list[ca.SX] | None]:
+    """The values of the kernel's `update`, None where no event changes anything.
+
+    These are q and v after the event, the discrete values, the outcomes asked for. The system has
+    an outcome more for each state that two `reinit`s may set.
+    """
     events = system.reduced.events
     if not events.fired and not system.reduced.text.held:
-        return None
+        return system, None
+    outcomes, asked = list(events.outcomes), list(events.asked)
     states = [x for part in (system.q, system.v) if part.numel() for x in ca.vertsplit(part)]
     place = {x.element_hash(): k for k, x in enumerate(states)}
     after = list(states)
     actives: dict[int, list[tuple[ca.SX, Span]]] = {}
-    settled = system.reduced.variables.settled
+    without_auxiliary = system.reduced.variables.without_auxiliary
     for active, jump in events.jumps:
-        target = system.resolve(settled(jump.target))
+        target = system.resolve(without_auxiliary(jump.target))
         inside = [x for x in ca.symvar(target) if x.element_hash() in place]
         slope = ca.jacobian(target, inside[0]) if len(inside) == 1 else None
         if slope is None or ca.depends_on(slope, inside[0]):
@@ -41,22 +46,24 @@ def lower_update(system: Assembled, log: Log) -> list[ca.SX] | None:
             )
             continue
         rest = ca.substitute(target, inside[0], ca.SX(0))
-        value = (system.at_rest(system.resolve(settled(jump.value))) - rest) / slope
+        value = (system.at_rest(system.resolve(without_auxiliary(jump.value))) - rest) / slope
         k = place[inside[0].element_hash()]
         after[k] = ca.if_else(active, value, after[k])
         actives.setdefault(k, []).append((active, jump.span))
     for k, jumps in actives.items():
         if len(jumps) > 1:
             told = f"two `reinit`s give '{system.names[k]}' a value at one instant"
-            events.outcomes.append(Outcome(FAULT, told, jumps[-1][1]))
-            events.asked.append(sum((a for a, _ in jumps), ca.SX(0)) > 1)
+            outcomes.append(Outcome(FAULT, told, jumps[-1][1]))
+            asked.append(sum((a for a, _ in jumps), ca.SX(0)) > 1)
     nq = system.q.numel()
-    return [
+    update = [
         column(after[:nq]),
         column(after[nq:]),
-        system.at_rest(system.resolve(settled(column(events.values)))),
-        system.at_rest(system.resolve(settled(column(events.asked)))),
+        system.at_rest(system.resolve(without_auxiliary(column(events.values)))),
+        system.at_rest(system.resolve(without_auxiliary(column(asked)))),
     ]
+    events = replace(events, outcomes=tuple(outcomes), asked=tuple(asked))
+    return replace(system, reduced=replace(system.reduced, events=events)), update
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,8 +107,15 @@ def _hash(symbol: ca.SX) -> int:
 def _solved(system: Assembled) -> list[tuple[ca.SX, ca.SX]]:
     """What blocks and the core solve for, each with all that decides it."""
     force = (x for step in system.tree.steps for x in (step.force, step.couple))
-    core = [system.matrix, system.force, system.spread, system.rows, system.bias, *force]
-    core += [system.coefficients]
+    core = [
+        system.matrices.matrix,
+        system.matrices.force,
+        system.matrices.spread,
+        system.matrices.rows,
+        system.matrices.bias,
+        *force,
+    ]
+    core += [system.matrices.coefficients]
     blocks = [(system.y[b.first : b.first + b.residual.numel()], b.residual) for b in system.blocks]
     return [*blocks, (ca.vertcat(system.z, system.lam), column(ca.vec(x) for x in core))]
 
@@ -126,7 +140,7 @@ def _levels(needs: list[list[int]], steps: range) -> list[int]:
     """How many of `steps` lie one after the other before each node, circles counted once."""
     if not any(k in steps for row in needs for k in row):
         return [0] * len(needs)
-    from frot.compiler.equations.order import find_components
+    from frot.compiler.equations.structure.order import find_components
 
     count = len(needs)
     levels, components = [0] * count, find_components(needs, range(count))

@@ -5,16 +5,16 @@ from __future__ import annotations
 import functools
 
 import casadi as ca
-from frot.compiler.equations.chains import replace_known
-from frot.compiler.equations.text_symbols import scalars
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.checks import Check
-from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.equations.assembled import Assembled
+from frot.compiler.equations.parameter_checks import Check
+from frot.compiler.equations.reduced import Reduced
 from frot.compiler.lowering.groups import Group, Grouping
-from frot.compiler.lowering.symbols import Symbols
-from frot.compiler.lowering.walk import subexpressions
-from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.symbolic.columns import column
+from frot.compiler.translate.derivative_chains import replace_known
+from frot.compiler.translate.expressions import Lowering
+from frot.compiler.translate.symbols import Symbols
+from frot.compiler.translate.text_symbols import scalars
+from frot.compiler.translate.walk import subexpressions
 from frot.dsl.checked import Parameter, Reference, Variable
 from frot.dsl.checked.order import in_order
 
@@ -30,7 +30,7 @@ def parameters_needed(parameter: Parameter, symbols: Symbols) -> list[Parameter]
 
 
 def lower_parameters(
-    looking: Lowering,
+    display: Lowering,
     checks: tuple[Check, ...],
     system: Assembled,
     grouping: Grouping,
@@ -51,12 +51,12 @@ def lower_parameters(
         i = place[name]
         value = given[i]
         if needs[name]:
-            dependent = replace_known(looking.lower(s.parameters[i].value), known)
+            dependent = replace_known(display.lower(s.parameters[i].value), known)
             value = ca.if_else(is_set[i] != 0, given[i], dependent)
         known[s.p[i].element_hash()] = value
     experiment = reduced.mechanism.model.experiment
     times = [
-        ca.SX.nan() if e is None else looking.lower(e)
+        ca.SX.nan() if e is None else display.lower(e)
         for e in (
             experiment.start,
             experiment.stop,
@@ -65,9 +65,9 @@ def lower_parameters(
             experiment.max_step,
         )
     ]
-    values = [c.value if isinstance(c.value, ca.SX) else looking.lower(c.value) for c in checks]
-    nominal = _nominal_sizes(system.q, reduced, looking)
-    unilateral = [looking.lower(c.unilateral) for c in reduced.mechanism.contacts]
+    values = [c.value if isinstance(c.value, ca.SX) else display.lower(c.value) for c in checks]
+    nominal = _nominal_sizes(system.q, reduced, display)
+    unilateral = [display.lower(c.unilateral) for c in reduced.mechanism.contacts]
     none = [ca.SX(0)] * len(system.elements)
     outputs = [column(values), column([*unilateral, *none]), column(times)]
     outputs += [column(nominal), column(_most_carried(g, reduced) for g in grouping.groups)]
@@ -82,13 +82,13 @@ def _most_carried(group: Group, reduced: Reduced) -> ca.SX:
     found = {
         load.element_hash(): load
         for z in group.unknowns[: group.n_speeds]
-        if group.composite and z < reduced.carried.numel()
-        for load in [reduced.carried[z]]
+        if group.composite and z < reduced.motion.carried.numel()
+        for load in [reduced.motion.carried[z]]
     }
     return functools.reduce(ca.fmax, found.values(), ca.SX(0))
 
 
-def _nominal_sizes(q: ca.SX, reduced: Reduced, looking: Lowering) -> list[ca.SX]:
+def _nominal_sizes(q: ca.SX, reduced: Reduced, display: Lowering) -> list[ca.SX]:
     """The usual size of each state: of a unit quaternion 1, else by its author, or zero.
 
     What rolls along a plane is as large at least as that is.
@@ -118,6 +118,6 @@ def _nominal_sizes(q: ca.SX, reduced: Reduced, looking: Lowering) -> list[ca.SX]
         elif variable is None or variable.nominal is None or order > 0:
             sizes.append(ca.SX(0))
         else:
-            items = scalars(looking.lower(variable.nominal))
+            items = scalars(display.lower(variable.nominal))
             sizes.append(ca.fabs(items[index - first[variable]]))
     return sizes

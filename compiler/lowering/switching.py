@@ -8,9 +8,9 @@ the block is solved with such conditions as its own unknowns say.
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.equations.chains import replace_known
-from frot.compiler.lowering.assembled import Assembled, Block
+from frot.compiler.equations.assembled import Assembled, Block
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.derivative_chains import replace_known
 
 # Above this a slope is none.
 _LARGEST = 1e100

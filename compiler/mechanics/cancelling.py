@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import casadi as ca
-from frot.compiler.lowering.symbols import link_rows
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint_geometry import Geometry
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.link import Geometry, Link
+from frot.compiler.mechanics.make_symbols import link_rows
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.values import pace_of
 from frot.compiler.symbolic.columns import column
@@ -19,7 +20,7 @@ _ROUNDING = 64 * 2.0**-52
 
 def _closing(
     mechanism: Mechanism, geometry: Sequence[Geometry]
-) -> Iterator[tuple[int, Link, Geometry]]:
+) -> Iterator[tuple[int, Constraint, Geometry]]:
     """The row, the relation and the geometry of each lock that closes a loop."""
     rows = link_rows(mechanism.contacts)
     for x, link, own in zip(rows, mechanism.contacts, geometry, strict=True):

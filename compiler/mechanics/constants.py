@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import casadi as ca
-from frot.compiler.lowering.expressions import Lowering
-from frot.compiler.lowering.symbols import Symbols
+from frot.compiler.translate.expressions import Lowering
+from frot.compiler.translate.symbols import Symbols
 from frot.dsl import Log
 from frot.dsl.checked import Expression, Quantity, Variable
 

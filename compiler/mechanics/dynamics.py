@@ -16,8 +16,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import casadi as ca
-from frot.compiler.mechanics.hang import Node
-from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.kinematics import Kinematics, Node
 from frot.compiler.mechanics.spatial import cross, nowhere, size_of_cross
 from frot.compiler.symbolic.columns import column as stacked
 from frot.dsl.checked import Body

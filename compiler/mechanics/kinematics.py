@@ -8,27 +8,15 @@ differentiated.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.lowering.expressions import NEVER, Conditions
-from frot.compiler.lowering.symbols import Symbols, counters_of, reading_places
 from frot.compiler.mechanics.constants import Constants
+from frot.compiler.mechanics.geometry.closest_solved import Track
 from frot.compiler.mechanics.geometry.figure import Placed
-from frot.compiler.mechanics.geometry.tracking import Track
-from frot.compiler.mechanics.hang import Node, hang
-from frot.compiler.mechanics.liaisons.actions import Between, Part
-from frot.compiler.mechanics.liaisons.motion import counted, seen
-from frot.compiler.mechanics.liaisons.moves import carried, turned_by_time
-from frot.compiler.mechanics.liaisons.roll import Spotted
-from frot.compiler.mechanics.link import Link, Point, point_body
-from frot.compiler.mechanics.mechanism import (
-    Hanging,
-    Mechanism,
-    turns,
-)
+from frot.compiler.mechanics.liaisons.moves import Column, carried, turned_by_time
+from frot.compiler.mechanics.points import Point, point_body, turns
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.solve import solve_in_units
 from frot.compiler.mechanics.spatial import (
@@ -36,17 +24,16 @@ from frot.compiler.mechanics.spatial import (
     Moving,
     Pose,
     Z,
+    counted,
     cross,
     nowhere,
     turn_about,
     whole,
 )
 from frot.compiler.mechanics.values import unit_vector
+from frot.compiler.translate.conditions import NEVER, ConditionTable
+from frot.compiler.translate.symbols import Symbols
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.geometry.contact import Contact
-    from frot.compiler.mechanics.liaisons.joint import Joint
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,6 +43,46 @@ class Line:
     through: ca.SX
     direction: ca.SX
     normal: ca.SX
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Node:
+    """A step of the tree: what the speeds `places` (of v, then auxiliary) move beyond it.
+
+    `arm` (3) goes from the origin of the node before to its own. `columns` are velocities of the
+    axes and of their origin there. `faces_ground`: what is
+    beyond keeps its orientation whatever carries it, and only its places follow. `above`: the node
+    before, -1 for the ground.
+    """
+
+    above: int
+    arm: ca.SX
+    faces_ground: bool
+    places: tuple[int, ...]
+    columns: tuple[Column, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TakenAlong:
+    """The rate of a coordinate that what rolls takes along, and the size of that."""
+
+    rate: ca.SX
+    size: ca.SX
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Carried:
+    """How coordinates carry a body.
+
+    `constraint` is the one built into them, None of a free body; `motions` are, in the order from
+    the base, the first coordinate, the first speed and the names of the coordinates of each.
+    `carries_b`: the body is that of the second place.
+    """
+
+    constraint: object
+    liaison: Liaison | None
+    motions: tuple[tuple[int, int, tuple[str, ...]], ...]
+    carries_b: bool
 
 
 class Kinematics:
@@ -74,50 +101,45 @@ class Kinematics:
 
     def __init__(
         self,
-        mechanism: Mechanism,
         symbols: Symbols,
         fixed: Constants,
-        conditions: Conditions | None = None,
+        ground: Body,
+        *,
+        planar: bool,
+        still: frozenset[Body],
+        readings: dict[Liaison, int],
+        counters: dict[tuple[Liaison, int], ca.SX],
+        numbers: dict[Liaison, int],
+        sides: dict[Liaison, ca.SX],
+        conditions: ConditionTable | None = None,
     ) -> None:
-        """`fixed` gives what no motion changes; into `conditions` go the ends of figures."""
+        """`fixed` gives what no motion changes; into `conditions` go the ends of figures.
+
+        `readings`: the first auxiliary speed of each liaison that has some. `numbers` and `sides`
+        are those of the contacts.
+        """
         self._conditions = conditions
-        self._numbers = {link.liaison: k for k, link in enumerate(mechanism.contacts)}
+        self._numbers = numbers
         self.symbols = symbols
         self.fixed = fixed
-        self.planar = mechanism.model.planar
-        self.still = mechanism.fixed
-        self.bodies: dict[Body, Moving] = {mechanism.model.ground: AT_REST}
-        self.readings, _ = reading_places(mechanism)
+        self.planar = planar
+        self.still = still
+        self.bodies: dict[Body, Moving] = {ground: AT_REST}
+        self.readings = readings
         self.nodes: list[Node] = []
-        self.node_of: dict[Body, int] = {mechanism.model.ground: -1}
-        self.beyond: dict[Body, ca.SX] = {mechanism.model.ground: nowhere()}
-        self.arms: dict[Body, tuple[tuple[Body, ca.SX], ...]] = {mechanism.model.ground: ()}
-        self.hangs: dict[Body, Hanging] = {}
-        self.places: dict[Body, tuple[int, int]] = {}
+        self.node_of: dict[Body, int] = {ground: -1}
+        self.beyond: dict[Body, ca.SX] = {ground: nowhere()}
+        self.arms: dict[Body, tuple[tuple[Body, ca.SX], ...]] = {ground: ()}
+        self.carried: dict[Body, Carried] = {}
         self.tangents: dict[Liaison, ca.SX] = {}
-        self.counters = counters_of(mechanism, symbols.q)
+        self.counters = counters
         self.tracks: dict[Liaison, Track] = {}
         self.track_rates: dict[Liaison, ca.SX] = {}
-        self.spots: dict[int, Spotted] = {}
+        self.spots: dict[int, TakenAlong] = {}
         self.starts: dict[int, ca.SX] = {}
         # of points and frames, each beside the motion of the body that it is of
         self._moving: dict[Frame | BodyPoint, tuple[Moving, Moving]] = {}
-        self.sides = {
-            link.liaison: symbols.sides[k]
-            for k, link in enumerate(mechanism.contacts)
-            if link.first
-        }
-        nq = nv = 0
-        for hanging in mechanism.coordinates:
-            self.hangs[hanging.body] = hanging
-            self.places[hanging.body] = (nq, nv)
-            hang(self, hanging, nq, nv, mechanism.model.ground)
-            nq, nv = nq + len(hanging.names), nv + len(hanging.speeds)
-        if self.spots:
-            own = ca.SX(symbols.rates)
-            for place, spot in self.spots.items():
-                own[place] = spot.rate
-            self.symbols = replace(symbols, rates=own)
+        self.sides = sides
 
     # ------------------------------------------------------------------ axes and points
 
@@ -216,17 +238,17 @@ class Kinematics:
         direction = pose.direction(axis.unit(self.fixed.lower))
         return Line(pose.origin, direction, cross(Z, direction))
 
-    def curve_at(self, contact: Contact) -> Line:
-        """The tangent of the curve that carries a point, there."""
-        tangent = self.tangents[contact.liaison]
+    def curve_at(self, liaison: Liaison, point: Point) -> Line:
+        """The tangent of the curve by which a liaison carries a point, there."""
+        tangent = self.tangents[liaison]
         direction = tangent / ca.norm_2(tangent)
-        return Line(self.position(contact.point), direction, cross(Z, direction))
+        return Line(self.position(point), direction, cross(Z, direction))
 
-    def normal(self, contact: Contact) -> ca.SX:
+    def normal(self, liaison: Liaison, track: Placed) -> ca.SX:
         """The left normal of the curve or line that carries a point, there."""
-        if contact.track.figure.plane is not None:
-            return self.line(contact.track).normal
-        tangent = self.tangents[contact.liaison]
+        if track.figure.plane is not None:
+            return self.line(track).normal
+        tangent = self.tangents[liaison]
         return cross(Z, tangent / ca.norm_2(tangent))
 
     # ------------------------------------------------------------------ rates
@@ -262,68 +284,30 @@ class Kinematics:
         number, text = self._numbers[liaison], f"{liaison.name}: beyond an end"
         return partial(
             self._conditions.add,
-            strict=True, text=text, span=liaison.span, told=NEVER, contact=number,
+            strict=True, text=text, span=liaison.span, report_rule=NEVER, contact=number,
         )  # fmt: skip
-
-    def track_of(self, joint: Joint) -> Track | None:
-        """What is followed where the figures of a joint touch, or where a point is on its curve."""
-        if joint.liaison in self.tangents:
-            return None
-        parts: tuple[Part, ...] = (*joint.locks, *joint.motions)
-        for part in parts:
-            if part.is_followed:
-                at, lower = (self.pose(joint.a), self.pose(joint.b)), self.fixed.lower
-                return self.track(joint.liaison, partial(part.find, at, lower, self.planar))
-        return None
-
-    def between(self, joint: Joint, side: ca.SX) -> Between:
-        """The places of a joint, with what is known there; `side` as of figures that touch."""
-        return Between(
-            self.pose(joint.a),
-            self.pose(joint.b),
-            self.fixed.lower,
-            side=side,
-            tangent=self.tangents.get(joint.liaison),
-            track=self.track_of(joint),
-        )
 
     def angular_velocity(self, owner: Body | Frame | BodyPoint) -> ca.SX:
         """Angular velocity (3) of the axes."""
         return self.moving(owner).angular
 
-    # ------------------------------------------------------------------ coordinates of joints
+    # ------------------------------------------------------------------ coordinates of liaisons
 
-    def coordinate(self, joint: Joint, index: int) -> tuple[ca.SX, ca.SX]:
-        """A coordinate of a joint that can be counted, of b relative to a, and its rate."""
-        motion = joint.motions[index]
-        hanging = self._hanging_by(joint)
-        if hanging is not None and len(hanging.motions) == len(joint.motions):
-            k = index if hanging.carries_b else len(joint.motions) - 1 - index
-            nq, nv = self.places[hanging.body]
-            nq += sum(len(m.coordinates) for m in hanging.motions[:k])
-            nv += sum(m.speed_count for m in hanging.motions[:k])
-            if motion.coordinates and hanging.motions[k].coordinates == motion.coordinates:
-                return self.symbols.q[nq], self.symbols.v[nv]
-        if motion.curve is not None and joint.liaison in self.tracks:
-            return self.tracks[joint.liaison].unknowns[0], self.track_rates[joint.liaison][0]
-        a, b = self.moving(joint.a), self.moving(joint.b)
-        value, rate = seen(motion, a, b, self.fixed.lower)
-        return self.counted(joint, index, value), rate
-
-    def counted(self, link: Link, index: int, angle: ca.SX) -> ca.SX:
+    def counted(self, liaison: Liaison, index: int, angle: ca.SX) -> ca.SX:
         """The angle of a motion with the turns that its counter has seen, if it has one."""
-        counter = self.counters.get((link.liaison, index))
+        counter = self.counters.get((liaison, index))
         return angle if counter is None else counted(angle, counter)
 
     def parameter(self, liaison: Liaison) -> tuple[ca.SX, ca.SX]:
         """The parameter of the curve by which a liaison carries a body, and its rate."""
-        hanging = next(h for h in self.hangs.values() if h.link and h.link.liaison is liaison)
-        nq, nv = self.places[hanging.body]
+        carried = next(c for c in self.carried.values() if c.liaison is liaison)
+        nq, nv, _ = carried.motions[0]
         return self.symbols.q[nq], self.symbols.v[nv]
 
-    def _hanging_by(self, joint: Joint) -> Hanging | None:
-        for place in (joint.a, joint.b):
-            hanging = self.hangs.get(point_body(place))
-            if hanging is not None and hanging.link is joint:
-                return hanging
+    def carried_by(self, constraint: object, places: tuple[Point, ...]) -> Carried | None:
+        """How a constraint of these places carries the body of one of them, if it does."""
+        for place in places:
+            carried = self.carried.get(point_body(place))
+            if carried is not None and carried.constraint is constraint:
+                return carried
         return None

@@ -8,8 +8,9 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from frot.compiler.lowering.walk import has_time, is_fixed
-from frot.compiler.mechanics.link import Link, Point, point_body
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.points import Point, point_body
+from frot.compiler.translate.walk import has_time, is_fixed
 from frot.dsl.checked import (
     Body,
     BodyPoint,
@@ -23,7 +24,7 @@ from frot.dsl.checked import (
     Surface,
 )
 
-# What has no bodies is told without CasADi.
+# What has no bodies is reported without CasADi.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from frot.compiler.mechanics.liaisons.motion import Motion
@@ -40,7 +41,7 @@ class Hanging:
     """
 
     body: Body
-    link: Link | None
+    link: Constraint | None
     base: Point | None
     own: Point | None
     motions: tuple[Motion, ...]
@@ -53,7 +54,9 @@ class Hanging:
         return self.link is not None and self.own is self.link.ends[1]
 
 
-def relinked(coordinates: Iterable[Hanging], links: Mapping[Liaison, Link]) -> tuple[Hanging, ...]:
+def relinked(
+    coordinates: Iterable[Hanging], links: Mapping[Liaison, Constraint]
+) -> tuple[Hanging, ...]:
     """The same coordinates by these links, which stand for those of the same liaisons."""
     return tuple(
         h if h.link is None else replace(h, link=links[h.link.liaison]) for h in coordinates
@@ -67,20 +70,20 @@ class Mechanism:
     `coordinates` has one entry a body, each after the bodies it hangs on. `contacts` are the
     liaisons whose reactions are computed, because a law or an expression reads them or because they
     close a loop, these relation by relation; `ideal` are those kept by coordinates alone. `halves`
-    are the bodies added to the model's, each with the one it is a part of (halves.py); `corners`
-    the liaisons that one of faces stands for (faces.py).
+    are the bodies added to the model's, each with the one it is a part of (split_bodies.py);
+    `corners` the liaisons that one of faces stands for (faces.py).
     """
 
     model: Model
     coordinates: tuple[Hanging, ...]
-    contacts: tuple[Link, ...]
-    ideal: tuple[Link, ...]
+    contacts: tuple[Constraint, ...]
+    ideal: tuple[Constraint, ...]
     forces: tuple[Force, ...]
     halves: Mapping[Body, Body]
     corners: Mapping[Liaison, tuple[Liaison, ...]]
 
     @property
-    def counters(self) -> tuple[tuple[Link, int], ...]:
+    def counters(self) -> tuple[tuple[Constraint, int], ...]:
         """Angles that no coordinate counts: those of liaisons that close loops, seen within a turn.
 
         Each with the place of its motion; in the plane the angles of bodies count the turns.
@@ -190,13 +193,3 @@ def prescribed(mechanism: Mechanism) -> Counter[Liaison]:
     return Counter(
         x.liaison for x in flanges if x.effort.name.startswith(f"{x.liaison.name}.drive.")
     )
-
-
-def is_particle(body: Body) -> bool:
-    """Whether the body has no orientation."""
-    return body.shape is not None and not body.shape.turns
-
-
-def turns(body: Body) -> bool:
-    """Whether the body can have an angular velocity: neither the ground nor a particle."""
-    return body.shape is not None and body.shape.turns

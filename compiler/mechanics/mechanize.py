@@ -5,45 +5,43 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from frot.compiler.lowering.walk import read_quantities, subexpressions
+from frot.compiler.mechanics.check_support import refuse_unknown
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.geometry.closest_solved import can_touch
 from frot.compiler.mechanics.geometry.contact import Contact
 from frot.compiler.mechanics.geometry.faces import part_faces
 from frot.compiler.mechanics.geometry.figure import Placed
+from frot.compiler.mechanics.geometry.figure_liaisons import IN_SPACE, in_plane, pair
 from frot.compiler.mechanics.geometry.figures import figure_of
-from frot.compiler.mechanics.geometry.placed import IN_PLANE, IN_SPACE, pair
-from frot.compiler.mechanics.geometry.plain import Dot, Tether
-from frot.compiler.mechanics.geometry.tracking import can_touch
+from frot.compiler.mechanics.geometry.planes import CordCircle, PointFigure
+from frot.compiler.mechanics.geometry.space_contact import SpaceContact
+from frot.compiler.mechanics.laws.law import REACTION
+from frot.compiler.mechanics.laws.law_models import frictions_of
 from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
-from frot.compiler.mechanics.liaisons.freed import OF_PLACES, OF_SPEEDS, is_row
-from frot.compiler.mechanics.liaisons.halves import halve
 from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, make_joint
+from frot.compiler.mechanics.liaisons.kinematic_relations import OF_PLACES, OF_SPEEDS, is_row
 from frot.compiler.mechanics.liaisons.lock import Lock
-from frot.compiler.mechanics.liaisons.stated import Stated
-from frot.compiler.mechanics.link import Friction, Link, Point, point_body
+from frot.compiler.mechanics.liaisons.split_bodies import halve
+from frot.compiler.mechanics.liaisons.user_liaisons import Stated
 from frot.compiler.mechanics.mechanism import (
     Mechanism,
     is_thread,
     is_unilateral,
     relinked,
-    turns,
 )
-from frot.compiler.mechanics.refuse import (
-    REACTION,
-    refuse,
-    refuse_places,
-    refuse_unknown,
-    spelled,
-)
+from frot.compiler.mechanics.points import Point
 from frot.compiler.mechanics.spanning import span
+from frot.compiler.mechanics.unsupported import refuse, refuse_places
+from frot.compiler.translate.walk import read_quantities, subexpressions
 from frot.dsl import Log
 from frot.dsl.checked import (
     CurvePlace,
-    Law,
     Liaison,
     Literal,
     Model,
     Quantity,
+    SurfacePlace,
 )
 
 
@@ -53,7 +51,7 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     if log.failed:
         return None
     model = faced.model
-    refuse_unknown(model, (*JOINTS, *(IN_PLANE if model.planar else IN_SPACE)), log)
+    refuse_unknown(model, (*JOINTS, *(in_plane() if model.planar else IN_SPACE)), log)
     if log.failed:
         return None
     model = free_drives(model)
@@ -65,8 +63,8 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     tree = span(replace(model, bodies=(*model.bodies, *halved.halves)), halved.links)
     read = _read_liaisons(model)
     read |= {corner for x in read for corner in faced.corners.get(x, ())}
-    chosen: list[Link] = []
-    ideal: list[Link] = []
+    chosen: list[Constraint] = []
+    ideal: list[Constraint] = []
     for whole in halved.links:
         link = whole.kept(whole.liaison in tree.kept)
         silent = not link.frictions and link.liaison not in read
@@ -94,23 +92,18 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
     )
 
 
-def _refuse_lost(link: Link, rows: tuple[Link, ...], log: Log) -> None:
+def _refuse_lost(link: Constraint, rows: tuple[Constraint, ...], log: Log) -> None:
     """Friction that a liaison would lose where it is kept relation by relation."""
     if link.frictions and not any(row.frictions for row in rows):
         refuse(
             log,
-            f"friction in a {spelled(link.liaison)} that closes a loop",
+            f"friction in a {link.liaison.kind.title} that closes a loop",
             link.liaison.span,
             "all liaisons of a loop cannot have friction: leave it out of one of them",
         )
 
 
-def _law(liaison: Liaison, kind: str) -> Law | None:
-    """The law of this kind; a liaison has each kind once at most."""
-    return next((law for law in liaison.laws if law.kind.name == kind), None)
-
-
-def link_of(liaison: Liaison, planar: bool, log: Log) -> Link | None:
+def link_of(liaison: Liaison, planar: bool, log: Log) -> Constraint | None:
     """What a liaison joins and how, kept by nothing yet; None where that is reported."""
     if liaison.relations:
         return _stated(liaison, planar, log)
@@ -118,14 +111,17 @@ def link_of(liaison: Liaison, planar: bool, log: Log) -> Link | None:
         return _joint(liaison, planar, log)
     if planar and is_thread(liaison):
         return _thread(liaison, log)
-    if liaison.kind.name in (IN_PLANE if planar else IN_SPACE) or "gap" in liaison.driven:
+    figures = in_plane() if planar else IN_SPACE
+    if not planar and liaison.kind.name in IN_SPACE and parts_or_rubs(liaison):
+        return _space_contact(liaison, log)
+    if liaison.kind.name in figures or "gap" in liaison.driven:
         return _placed(liaison, planar, log)
     return _contact(liaison, log)
 
 
 def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     a, b, unilateral = liaison.a, liaison.b, liaison.options["unilateral"]
-    name, told = liaison.kind.name, spelled(liaison)
+    name, told = liaison.kind.name, liaison.kind.title
     for place in (a, b):
         if not isinstance(place, Point):
             refuse_places(liaison, log)
@@ -142,28 +138,8 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     joint = make_joint(
         liaison, a, b, JOINTS[name](liaison.options, planar), told_by_time(liaison, planar)
     )
-    law = _law(liaison, "coulomb")
-    if law is None:
-        return joint
-    if not (turns(point_body(a)) or turns(point_body(b))):
-        log.report(
-            "E0511",
-            f"'coulomb' of '{liaison.name}', a pin of two bodies that do not turn",
-            law.span,
-            help="a particle has no angle: use a rod, a disc or a ring",
-        )
-        return None
-    if "radius" not in law.arguments:
-        log.report(
-            "E0204",
-            f"'coulomb' of the {told} '{liaison.name}' needs radius",
-            law.span,
-            notes=("radius: radius of the pin; its friction couple is mu*radius*norm(R)",),
-            help="write `coulomb(..., radius = 8 mm)`",
-        )
-        return None
-    mu, mu_s, radius = (law.arguments[key] for key in ("mu", "mu_s", "radius"))
-    return replace(joint, frictions=(Friction(mu, mu_s, arm=radius),))
+    frictions = frictions_of(joint, log)
+    return None if frictions is None else replace(joint, frictions=frictions)
 
 
 def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
@@ -203,7 +179,7 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     if is_unilateral(liaison):
         refuse(
             log,
-            f"a {spelled(liaison)} that can part" + ("" if planar else " in space"),
+            f"a {liaison.kind.title} that can part" + ("" if planar else " in space"),
             unilateral.span if isinstance(unilateral, Literal) else liaison.span,
             "write `unilateral = false` where it keeps what it joins",
         )
@@ -222,6 +198,54 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     return make_joint(liaison, first, second, pairing, told, swapped=swapped)
 
 
+def parts_or_rubs(liaison: Liaison) -> bool:
+    """Whether a liaison between figures may part, or has friction."""
+    return is_unilateral(liaison) or bool(liaison.laws)
+
+
+def _space_contact(liaison: Liaison, log: Log) -> SpaceContact | None:
+    """Two figures in space that touch at one place; a cord is the inside of a sphere."""
+    a, b = _cord(liaison), figure_of(liaison.b, False)
+    if not is_thread(liaison):
+        a = figure_of(liaison.a, False)
+    exchanged = False
+    if a is None or b is None:
+        refuse_places(liaison, log)
+        return None
+    if not can_touch(a.figure, b.figure, False):
+        a, b, exchanged = b, a, True
+    if not can_touch(a.figure, b.figure, False):
+        refuse_places(liaison, log)
+        return None
+    if any(figure.figure.has_ends or figure.figure.borders for figure in (a, b)):
+        refuse(
+            log,
+            f"a {liaison.kind.title} in space that can part, on a face or curve with ends",
+            liaison.span,
+            "use a `surface`: a plane or a sphere has no edge",
+        )
+        return None
+    place = liaison.b if exchanged else liaison.a
+    floor = isinstance(place, SurfacePlace) and place.surface.span is None
+    contact = SpaceContact(
+        liaison=liaison,
+        a=a,
+        b=b,
+        floor=floor or is_thread(liaison),
+        unilateral=liaison.options["unilateral"],
+        exchanged=exchanged,
+    )
+    frictions = frictions_of(contact, log)
+    return None if frictions is None else replace(contact, frictions=frictions)
+
+
+def _cord(liaison: Liaison) -> Placed | None:
+    """The place and the reach of a cord, None of other liaisons."""
+    if not is_thread(liaison) or not isinstance(liaison.a, Point):
+        return None
+    return Placed(liaison.a, CordCircle(liaison.options["length"]))
+
+
 def _contact(liaison: Liaison, log: Log) -> Contact | None:
     places = (liaison.a, liaison.b)
     figures = [figure_of(place, True) for place in places]
@@ -231,24 +255,8 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
         return None
     track, rim = figures[first], figures[1 - first]
     assert track is not None and rim is not None
-    coulomb = _law(liaison, "coulomb")
-    rolling = _law(liaison, "rolling_resistance")
-    moving = point_body(rim.point)
-    if rolling is not None and moving.shape is not None and not moving.shape.turns:
-        log.report(
-            "E0511",
-            f"rolling resistance on '{moving.name}', which does not turn",
-            rolling.span,
-            help="a particle has no angle; use a disc or a ring",
-        )
-    frictions: list[Friction] = []
-    if coulomb is not None:
-        frictions.append(Friction(coulomb.arguments["mu"], coulomb.arguments["mu_s"]))
-    if rolling is not None:
-        length = rolling.arguments["delta"]
-        frictions.append(Friction(length, length, rolling=True))
     place = places[first]
-    return Contact(
+    contact = Contact(
         liaison=liaison,
         point=rim.point,
         figure=rim.figure,
@@ -256,8 +264,9 @@ def _contact(liaison: Liaison, log: Log) -> Contact | None:
         track_first=first == 0,
         floor=isinstance(place, CurvePlace) and place.curve.span is None,
         unilateral=liaison.options["unilateral"],
-        frictions=tuple(frictions),
     )
+    frictions = frictions_of(contact, log)
+    return None if frictions is None else replace(contact, frictions=frictions)
 
 
 def _thread(liaison: Liaison, log: Log) -> Contact | None:
@@ -277,8 +286,8 @@ def _thread(liaison: Liaison, log: Log) -> Contact | None:
     return Contact(
         liaison=liaison,
         point=b,
-        figure=Dot(),
-        track=Placed(a, Tether(length)),
+        figure=PointFigure(),
+        track=Placed(a, CordCircle(length)),
         track_first=True,
         floor=False,
         unilateral=liaison.options["unilateral"],
@@ -304,7 +313,7 @@ def _read_liaisons(model: Model) -> set[Liaison]:
     }
 
 
-def _refuse_surface(model: Model, links: Iterable[Link], log: Log) -> None:
+def _refuse_surface(model: Model, links: Iterable[Constraint], log: Log) -> None:
     """In the plane slip has a sign where there is one way to slip: at the surface of a pin, ..."""
     plain = {e.liaison for e in links if model.planar and not e.slips}
     for node in read_quantities(model):

@@ -5,26 +5,26 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from frot.compiler.mechanics.liaisons.facing import Attitude, Heading, Pointing, Steady
-from frot.compiler.mechanics.liaisons.joint import Joint
+from frot.compiler.mechanics.constraint import Constraint, JointParts
 from frot.compiler.mechanics.liaisons.motion import Motion
-from frot.compiler.mechanics.liaisons.places import Slide
-from frot.compiler.mechanics.link import Link, Point, point_body
-from frot.compiler.mechanics.mechanism import Hanging, is_driven, is_slender, turns
-from frot.compiler.mechanics.rolling import can_roll
+from frot.compiler.mechanics.liaisons.orientations import Attitude, Heading, Pointing, Steady
+from frot.compiler.mechanics.liaisons.rolling_by_coordinates import can_roll
+from frot.compiler.mechanics.liaisons.translations import Slide
+from frot.compiler.mechanics.mechanism import Hanging, is_driven, is_slender
+from frot.compiler.mechanics.points import Point, point_body, turns
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Body, Liaison, Model
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Tree:
+class SpanningTree:
     """Coordinates, each body after the one it hangs on; the liaisons they keep."""
 
     coordinates: tuple[Hanging, ...]
     kept: frozenset[Liaison]
 
 
-def span(model: Model, links: Iterable[Link]) -> Tree:
+def span(model: Model, links: Iterable[Constraint]) -> SpanningTree:
     """Let joints join bodies to groups, and a point on a line carry a group that has no ground.
 
     Joints with friction come first, then those that lock most, then the order of the text: what
@@ -34,14 +34,14 @@ def span(model: Model, links: Iterable[Link]) -> Tree:
     links = tuple(links)
     bodies = (model.ground, *model.bodies)
     groups = Groups(bodies)
-    branches: dict[Body, list[tuple[Joint, Body]]] = {b: [] for b in bodies}
+    branches: dict[Body, list[tuple[JointParts, Body]]] = {b: [] for b in bodies}
     for joint in in_order(links):
         a, b = point_body(joint.a), point_body(joint.b)
         if groups.join(a, b):
             branches[a].append((joint, b))
             branches[b].append((joint, a))
     closing = [x for x in links if not any(x is joint for b in branches.values() for joint, _ in b)]
-    carried: dict[Body, Link] = {}
+    carried: dict[Body, Constraint] = {}
     for link in closing:
         if link.can_carry or _can_roll(link, closing, groups, model):
             base, own = link.bodies
@@ -57,16 +57,20 @@ def span(model: Model, links: Iterable[Link]) -> Tree:
             if group not in done:
                 done.add(group)
                 ordered += builder.hang(group)
-    return Tree(tuple(ordered), frozenset(h.link.liaison for h in ordered if h.link is not None))
+    return SpanningTree(
+        tuple(ordered), frozenset(h.link.liaison for h in ordered if h.link is not None)
+    )
 
 
-def in_order(links: Iterable[Link]) -> list[Joint]:
+def in_order(links: Iterable[Constraint]) -> list[JointParts]:
     """The joints in the order in which they join bodies."""
     joints = (x.joint for x in links if x.joint is not None and x.joint.carries)
     return sorted(joints, key=lambda x: (not x.frictions, -len(x.locks)))
 
 
-def _can_roll(link: Link, closing: Iterable[Link], groups: Groups, model: Model) -> bool:
+def _can_roll(
+    link: Constraint, closing: Iterable[Constraint], groups: Groups, model: Model
+) -> bool:
     """Whether it rolls, and no other row keeps a place of the bodies that it would carry."""
     if link.joint is None or not can_roll(link.joint) or is_driven(model):
         return False
@@ -79,8 +83,8 @@ def _can_roll(link: Link, closing: Iterable[Link], groups: Groups, model: Model)
 class _Builder:
     model: Model
     groups: Groups
-    branches: dict[Body, list[tuple[Joint, Body]]]
-    carried: dict[Body, Link]
+    branches: dict[Body, list[tuple[JointParts, Body]]]
+    carried: dict[Body, Constraint]
 
     def hang(self, group: Body) -> Iterator[Hanging]:
         """Coordinates of a group, from its root outwards."""
@@ -109,7 +113,7 @@ class _Builder:
                     yield self._jointed(other, joint, joint.b, joint.a, back)
 
     def _jointed(
-        self, body: Body, joint: Joint, base: Point, own: Point, motions: tuple[Motion, ...]
+        self, body: Body, joint: JointParts, base: Point, own: Point, motions: tuple[Motion, ...]
     ) -> Hanging:
         """Of a body in a joint: a particle has only the ways that the joint leaves."""
         ends = (point_body(base), body)
@@ -124,7 +128,7 @@ class _Builder:
     def _hanging(
         self,
         body: Body,
-        link: Link | None,
+        link: Constraint | None,
         base: Point | None,
         own: Point | None,
         ways: tuple[Motion, ...],
@@ -143,7 +147,7 @@ class _Builder:
     def _named(
         self,
         body: Body,
-        link: Link | None,
+        link: Constraint | None,
         base: Point | None,
         own: Point | None,
         motions: tuple[Motion, ...],
@@ -160,7 +164,7 @@ class _Builder:
         return Hanging(body, link, base, own, motions, tuple(names), tuple(speeds))
 
 
-def _carriers(group: Body, carried: dict[Body, Link], groups: Groups) -> list[Body]:
+def _carriers(group: Body, carried: dict[Body, Constraint], groups: Groups) -> list[Body]:
     """The group and those its coordinates hang on, one after another."""
     chain = [group]
     while group in carried:

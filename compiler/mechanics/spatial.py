@@ -188,3 +188,9 @@ class Moving:
 
 
 AT_REST = Moving(GROUND, nowhere(), nowhere(), nowhere(), nowhere())
+
+
+def counted(angle: ca.SX, about: ca.SX) -> ca.SX:
+    """An angle known but for whole turns: the one that is less than half a turn from `about`."""
+    apart = angle - about
+    return about + ca.atan2(ca.sin(apart), ca.cos(apart))

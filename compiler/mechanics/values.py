@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.lowering.walk import follows_time, has_time
 from frot.compiler.mechanics.spatial import X, Y, Z, beside, cross, whole
+from frot.compiler.translate.walk import follows_time, has_time
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Expression, Literal, Time
 from frot.dsl.messages.source import Source, Span

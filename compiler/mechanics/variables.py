@@ -6,16 +6,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import casadi as ca
-from frot.compiler.equations.chains import Chains
-from frot.compiler.equations.text_symbols import FrictionElement
-from frot.compiler.lowering.symbols import Rows, Symbols
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint_geometry import Geometry, Reaction, Rows
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Effort
-from frot.compiler.mechanics.liaisons.freed import numbered
-from frot.compiler.mechanics.liaisons.stated import Reader, unit_of
-from frot.compiler.mechanics.link import Geometry, Link, Reaction, point_body
+from frot.compiler.mechanics.liaisons.kinematic_relations import numbered
+from frot.compiler.mechanics.liaisons.user_liaisons import Reader, unit_of
+from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import nowhere
+from frot.compiler.translate.derivative_chains import Chains
+from frot.compiler.translate.symbols import Symbols
+from frot.compiler.translate.text_symbols import FrictionElement
 from frot.dsl.catalogue import MODES
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity, Variable
 
@@ -35,6 +37,20 @@ class Sense:
     contact: int
 
 
+ModeOwner = Liaison | FrictionElement | Sense
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Modes:
+    """The modes that are read: of each owner the number of its contact, and a symbol.
+
+    Changes of the first `located` are events; outputs alone read the others.
+    """
+
+    of: Mapping[ModeOwner, tuple[int, ca.SX]]
+    located: int
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Variables:
     """Gives the value of a variable by its owner and name.
@@ -42,22 +58,20 @@ class Variables:
     `geometry` and `links` hold every liaison, `reactions` the rows of those whose reaction is
     computed, `drives` the efforts that keep prescribed coordinates, by their names; `corners` the
     liaisons that one of faces stands for, `values` are those of the text, `frictions` is what
-    laws of the user give on the body, `modes` those that are read: numbers of contacts, symbols;
-    the first of them are `felt`, for something follows them, the others are only looked at.
+    laws of the user give on the body, `modes` are those that are read.
     """
 
     symbols: Symbols
     chains: Chains
     kinematics: Kinematics
     geometry: dict[Liaison, Geometry]
-    links: dict[Liaison, Link]
+    links: dict[Liaison, Constraint]
     reactions: dict[Liaison, Rows]
     drives: dict[Liaison, list[tuple[str, ca.SX]]]
     corners: Mapping[Liaison, tuple[Liaison, ...]]
     values: Mapping[Variable, ca.SX]
-    frictions: dict[Liaison, ca.SX] = field(default_factory=dict)
-    modes: dict[Liaison | FrictionElement | Sense, tuple[int, ca.SX]] = field(default_factory=dict)
-    felt: list[Liaison | FrictionElement | Sense] = field(default_factory=list)
+    frictions: Mapping[Liaison, ca.SX]
+    modes: Modes
     _inertias: dict[Body, ca.SX] = field(default_factory=dict, repr=False)
 
     def quantity(self, node: Quantity) -> ca.SX:
@@ -72,7 +86,7 @@ class Variables:
             return ca.SX(0)
         assert isinstance(node.owner, Liaison)
         owner = self.corners.get(node.owner, (node.owner,))[0]
-        return self.of_liaison(owner, "mode") == STICK if owner in self.modes else ca.SX(0)
+        return self.of_liaison(owner, "mode") == STICK if owner in self.modes.of else ca.SX(0)
 
     def at_rest(self, node: Quantity) -> ca.SX:
         """As `quantity`, but a motion that friction holds is zero to the last bit."""
@@ -81,9 +95,9 @@ class Variables:
 
     def rate(self, value: ca.SX) -> ca.SX:
         """d/dt of a function of time, coordinates, speeds and variables of the text."""
-        return self.chains.rate(self.settled(value))
+        return self.chains.rate(self.without_auxiliary(value))
 
-    def settled(self, value: ca.SX) -> ca.SX:
+    def without_auxiliary(self, value: ca.SX) -> ca.SX:
         """The value with auxiliary speeds at zero."""
         auxiliary = self.symbols.sw
         if not auxiliary.numel():
@@ -191,7 +205,7 @@ class Variables:
                 return ca.mmax(ca.vertcat(*parts))
             return parts[0] if name == "slip" else sum(parts[1:], parts[0])
         if name == "mode":
-            return self.modes.get(liaison, (-1, ca.SX(0)))[1] + 1  # literals count from 1
+            return self.modes.of.get(liaison, (-1, ca.SX(0)))[1] + 1  # literals count from 1
         return self.geometry[liaison].variable(name, self._reaction(liaison))
 
     def _reaction(self, liaison: Liaison) -> Reaction:

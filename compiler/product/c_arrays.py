@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import casadi as ca
-from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.lowering.jacobian import alike
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.mechanics.variables import Sense
@@ -23,7 +23,8 @@ def tables_of(
     reduced, system = lowered.reduced, lowered.system
     conditions, events = reduced.conditions, reduced.events
     told = zip(
-        *(conditions.texts, conditions.told, conditions.spans, conditions.contacts), strict=True
+        *(conditions.texts, conditions.report_rules, conditions.spans, conditions.contacts),
+        strict=True,
     )
     return {
         "p_default": ("double", [number(x) for x in defaults]),
@@ -31,39 +32,39 @@ def tables_of(
         "checks": ("frot_check", [record(x.rule, *_at(x.subject, x.span)) for x in lowered.checks]),
         "carried": (
             "frot_carried",
-            [record(text(x.body), *_at(x.by, x.span)) for x in lowered.carried],
+            [record(text(x.body), *_at(x.by, x.span)) for x in lowered.whole.carried],
         ),
         "statements": (
             "frot_statement",
-            [record(*_at(x.text, x.span), text(x.unit)) for x in lowered.statements],
+            [record(*_at(x.text, x.span), text(x.unit)) for x in lowered.initial.statements],
         ),
         "loads": ("frot_load", [record(*_at(x.name, x.span)) for x in reduced.mechanism.forces]),
         "equations": (
             "frot_watched",
             [
                 record(*_at(x.origin.text, x.origin.span), text(x.lacks) if x.lacks else "NULL")
-                for x in lowered.watched
+                for x in lowered.switches.sources
             ],
         ),
         "vanishings": (
             "frot_vanishing",
             [
                 record(text(x.text), text(_where(x.names)), text(place(x.liaison.span)))
-                for x in lowered.vanishing
+                for x in lowered.whole.vanishing
             ],
         ),
         "held": (
             "frot_held",
             [
                 record(*_at(x.name, x.span), rank)
-                for x, rank in zip(reduced.text.held, lowered.ranks.held, strict=True)
+                for x, rank in zip(reduced.text.held, lowered.switches.ranks.held, strict=True)
             ],
         ),
         "states": ("frot_load", [record(*x) for x in _states(system)]),
-        "position_direct": ("unsigned char", _whole(lowered.direct)),
-        "position_kind": ("unsigned char", _whole(lowered.kinds_of_places)),
-        "position_statement": ("int", _whole(lowered.position_statement)),
-        "velocity_statement": ("int", _whole(lowered.velocity_statement)),
+        "position_direct": ("unsigned char", _whole(lowered.initial.direct)),
+        "position_kind": ("unsigned char", _whole(lowered.initial.kinds)),
+        "position_statement": ("int", _whole(lowered.initial.position_statement)),
+        "velocity_statement": ("int", _whole(lowered.initial.velocity_statement)),
         "p_dependent": ("int", _whole(lowered.dependent)),
         "p_type": ("int", [str(_TYPES[p.type.base]) for p in reduced.symbols.parameters]),
         "row_depends": ("unsigned char", _whole(x for row in lowered.row_depends for x in row)),
@@ -76,11 +77,11 @@ def tables_of(
         "q_alike": ("int", _whole(alike(system))),
         "blocks": ("frot_block", _blocks(lowered)),
         "when_condition": ("int", _whole(events.conditions)),
-        "when_rank": ("int", _whole(lowered.ranks.whens)),
-        "mode_contact": ("int", _whole(k for k, _ in reduced.variables.modes.values())),
+        "when_rank": ("int", _whole(lowered.switches.ranks.whens)),
+        "mode_contact": ("int", _whole(k for k, _ in reduced.variables.modes.of.values())),
         "mode_sense": (
             "unsigned char",
-            _whole(isinstance(x, Sense) for x in reduced.variables.modes),
+            _whole(isinstance(x, Sense) for x in reduced.variables.modes.of),
         ),
         "when_at_start": ("unsigned char", _whole(events.at_start)),
         "outcomes": (
@@ -107,7 +108,9 @@ def _blocks(lowered: Lowered) -> list[str]:
             *(b.first, b.residual.numel(), int(b.linear), int(b.late), int(b.followed)),
             *_at(b.name, b.span),
         )
-        for b, f, g in zip(lowered.system.blocks, lowered.blocks, lowered.switching, strict=True)
+        for b, f, g in zip(
+            lowered.system.blocks, lowered.switches.blocks, lowered.switches.switching, strict=True
+        )
     ]
 
 

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.assembled import Assembled
+from frot.compiler.equations.assembled import Assembled
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.lowering.walk import as_number
 from frot.compiler.product.dae_switching import (
     GUARDS,
     PARTS,
@@ -20,6 +19,7 @@ from frot.compiler.product.dae_switching import (
     switches_of,
 )
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.walk import as_number
 from frot.dsl import default_values, evaluate
 
 NEWTON_STEPS = 10
@@ -105,10 +105,10 @@ class Dae:
 def _start(lowered: Lowered, state: list[ca.SX]) -> tuple[ca.SX, ca.SX, ca.SX]:
     """Where the search for q, v and y begins, the conditions taken not to hold."""
     t, _, _, u, p, d, y = state
-    q, discrete = lowered.functions["start"].call([t, u, p])
+    q, discrete = lowered.whole.functions["start"].call([t, u, p])
     known = ca.vertcat(ca.SX.zeros(d.numel() - discrete.numel()), discrete)
     speeds = ca.SX.zeros(lowered.system.v.shape)
-    v, guess, _ = lowered.functions["beginning"].call(
+    v, guess, _ = lowered.whole.functions["beginning"].call(
         [t, q, speeds, u, p, known, ca.SX.zeros(y.shape)]
     )
     return q, v, guess
@@ -130,7 +130,7 @@ def dae_of(lowered: Lowered) -> Dae:
     sideless = ca.SX.zeros(len(system.elements))
     d = ca.vertcat(flags, s.sides, sideless, system.discrete)
     state = [s.t, system.q, system.v, s.u, s.p, d, system.y]
-    conditions = lowered.conditions
+    conditions = lowered.switches.conditions
     q, v, guess = _start(lowered, state)
     values = default_values(reduced.mechanism.model, {})
     places = {"t": s.t, "x": x, "z": z, "u": s.u, "p": s.p, "mode": mode}
@@ -157,14 +157,14 @@ def dae_of(lowered: Lowered) -> Dae:
         )
 
     matrix, force = system.in_full()
-    balance = matrix @ system.z - force - system.spread @ system.lam
+    balance = matrix @ system.z - force - system.matrices.spread @ system.lam
     blocks = (block.residual for block in system.blocks)
     alg = function("alg", ("alg", ca.vertcat(balance, *laws_of(system, switches), *blocks)))
     update = None
-    if "update" in lowered.functions:
+    if "update" in lowered.whole.functions:
         fired = ca.SX.sym("fired", len(reduced.events.fired))
         places["fired"] = fired
-        after = lowered.functions["update"].call(
+        after = lowered.whole.functions["update"].call(
             [*state, system.z, system.lam, fired, system.discrete]
         )
         update = function(

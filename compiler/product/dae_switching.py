@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.symbols import Rows
+from frot.compiler.equations.assembled import Assembled
+from frot.compiler.mechanics.constraint_geometry import Rows
 from frot.compiler.symbolic.columns import scalars_of
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)
@@ -36,8 +36,8 @@ class Switch:
 
     def laws(self) -> Iterator[tuple[int, ca.SX]]:
         """Each row of friction with the number that says how it moves."""
-        for row, kind in ((self.rows.tangent, FRICTION), (self.rows.rolling, ROLLING)):
-            if row >= 0:
+        for rows, kind in ((self.rows.tangent, FRICTION), (self.rows.rolling, ROLLING)):
+            for row in rows:
                 yield row, self.mode[kind]
 
 
@@ -57,18 +57,18 @@ def switches_of(system: Assembled) -> list[Switch]:
                 rows=rows,
                 free=not link.reduced,
                 normal=mode[SIDE] * lam[rows.reaction[0]] if link.opens else _size(lam, rows),
-                gap=None if link.reduced or not link.opens else system.gap[i],
+                gap=None if link.reduced or not link.opens else system.matrices.gap[i],
                 labels=link.labels(rows),
             )
         )
-    row = reduced.rows.size1()
+    row = reduced.motion.matrices.rows.size1()
     for k, element in enumerate(system.elements):
         found.append(
             Switch(
                 name=element.name,
                 mode=ca.SX.sym("m", len(PARTS)),
                 ruled=True,
-                rows=Rows((), row + k, -1),
+                rows=Rows((), (row + k,)),
                 free=False,
                 normal=ca.SX(1),
                 gap=None,
@@ -89,14 +89,18 @@ def _size(lam: ca.SX, rows: Rows) -> ca.SX:
 
 def _coefficient(system: Assembled, row: int, *, at_rest: bool) -> ca.SX:
     """The coefficient of the law whose motion is this row; of a `friction`, its bound."""
-    rows = [r for x in system.reduced.contact_rows for r in (x.tangent, x.rolling) if r >= 0]
-    rows += range(system.reduced.rows.size1(), system.rows.size1())
-    return system.coefficients[2 * rows.index(row) + at_rest]
+    rows = [r for x in system.reduced.contact_rows for r in (*x.tangent, *x.rolling)]
+    rows += range(system.reduced.motion.matrices.rows.size1(), system.matrices.rows.size1())
+    return system.matrices.coefficients[2 * rows.index(row) + at_rest]
 
 
 def laws_of(system: Assembled, switches: list[Switch]) -> Iterator[ca.SX]:
     """One equation a row that no auxiliary acceleration balances."""
-    acceleration = system.rows @ system.z + system.bias if system.lam.numel() else ca.SX.zeros(0)
+    acceleration = (
+        system.matrices.rows @ system.z + system.matrices.bias
+        if system.lam.numel()
+        else ca.SX.zeros(0)
+    )
     for w in switches:
         closed = w.mode[CLOSED]
         for row in w.rows.reaction if w.free else ():
@@ -118,9 +122,9 @@ def guards_of(system: Assembled, switches: list[Switch], conditions: ca.SX) -> I
         if w.gap is not None:
             guards["normal"] = ca.if_else(closed, w.normal, w.gap)
         for row, kind in w.laws():
-            name = "friction" if row == w.rows.tangent else "rolling"
+            name = "friction" if row in w.rows.tangent else "rolling"
             bound = _coefficient(system, row, at_rest=True) * w.normal
-            lam, rate = system.lam[row], system.rate[row]
+            lam, rate = system.lam[row], system.matrices.rate[row]
             slips = closed * ((kind == FORWARD) + (kind == BACKWARD))
             stuck = closed * (kind == STICK)
             along = ca.if_else(kind == FORWARD, rate, -rate)
@@ -146,9 +150,9 @@ def reset_of(system: Assembled, switches: list[Switch]) -> ca.SX:
             holds[row] = w.mode[CLOSED]
         for row, kind in w.laws():
             holds[row] = w.mode[CLOSED] * (kind == STICK)
-    active = ca.diag(holds) @ system.rows[:, :nv]
-    metric = system.tree.in_full(system.metric, system.v, nv)[0]
+    active = ca.diag(holds) @ system.matrices.rows[:, :nv]
+    metric = system.tree.in_full(system.matrices.metric, system.v, nv)[0]
     spread = ca.solve(metric[:nv, :nv], active.T)
     matrix = active @ spread + ca.diag(1 - holds)
-    moved = system.v - spread @ ca.solve(matrix, holds * system.rate)
+    moved = system.v - spread @ ca.solve(matrix, holds * system.matrices.rate)
     return ca.vertcat(system.q, moved)

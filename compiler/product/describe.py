@@ -8,14 +8,13 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from frot.compiler.lowering.listing import integral_name, listed_integrals
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.lowering.walk import as_number
+from frot.compiler.lowering.result_variables import FirstIntegral, integral_name, listed_integrals
+from frot.compiler.lowering.units import unit_of
 from frot.compiler.mechanics.mechanism import is_unilateral, relations_of
 from frot.compiler.product.influence import influence_of
-from frot.compiler.product.units import unit_of
-from frot.compiler.report.first_integrals import FirstIntegral
-from frot.compiler.toolchain.chosen import MODEL_FLAGS, Toolchain
+from frot.compiler.toolchain.compiler_choice import MODEL_FLAGS, Toolchain
+from frot.compiler.translate.walk import as_number
 from frot.dsl import default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
 from frot.dsl.messages.source import escaped

@@ -16,15 +16,15 @@ from frot.compiler.product.c_tables import callable_record as _callable
 from frot.compiler.product.c_tables import record as _record
 from frot.compiler.product.c_tables import text as _text
 from frot.compiler.product.casadi_text import straightened
-from frot.compiler.product.islands import (
+from frot.compiler.product.extended_precision import WIDE, wide_names, wide_record, write_wide
+from frot.compiler.product.implicit_cost import price_of_implicit
+from frot.compiler.product.shared_parts import (
     island_arrays,
     part_arrays,
     read_numbers,
     shared_functions,
 )
-from frot.compiler.product.price import price_of_implicit
 from frot.compiler.product.split import split_functions
-from frot.compiler.product.wide import WIDE, wide_names, wide_record, write_wide
 from frot.compiler.symbolic.columns import column
 
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
@@ -41,7 +41,7 @@ def generate(lowered: Lowered, key: str, defaults: list[float], inputs: list[flo
     """The C text. `key` identifies it; `defaults` and `inputs` are start values in SI."""
     model = lowered.reduced.mechanism.model
     tables = tables_of(lowered, defaults, inputs)
-    functions = dict(lowered.functions)
+    functions = dict(lowered.whole.functions)
     wide = functions.pop(WIDE, None)
     text, names = _functions(lowered)
     arrays = [
@@ -91,15 +91,15 @@ def _counts(lowered: Lowered) -> dict[str, float | str]:
         "n_elements": len(lowered.grouping.elements),
         "n_turns": len(symbols.turns),
         "n_groups": len(lowered.grouping.groups),
-        "n_islands": len(lowered.islands),
+        "n_islands": len(lowered.shared.islands),
         **packed_sizes(lowered),
         "n_discrete": system.discrete.numel(),
-        "n_watched": len(lowered.watched),
-        "n_vanishing": len(lowered.vanishing),
+        "n_watched": len(lowered.switches.sources),
+        "n_vanishing": len(lowered.whole.vanishing),
         "n_held": len(reduced.text.held),
-        "n_ranks": lowered.ranks.count,
-        "n_modes": len(reduced.variables.modes),
-        "n_felt": len(reduced.variables.felt),
+        "n_ranks": lowered.switches.ranks.count,
+        "n_modes": len(reduced.variables.modes.of),
+        "n_felt": reduced.variables.modes.located,
         "n_located": reduced.conditions.located,
         "n_sensed": reduced.conditions.sensed,
         "n_timed": reduced.conditions.timed,
@@ -108,7 +108,7 @@ def _counts(lowered: Lowered) -> dict[str, float | str]:
         "n_whens": len(reduced.events.fired),
         "n_outcomes": len(reduced.events.outcomes),
         "method": _METHODS[reduced.mechanism.model.experiment.method],
-        "has_jacobian": int(lowered.jacobian is not None),
+        "has_jacobian": int(lowered.whole.jacobian is not None),
         "implicit_price": price_of_implicit(lowered),
         "pattern": _pattern(lowered),
         "lines": _lines(lowered),
@@ -116,24 +116,24 @@ def _counts(lowered: Lowered) -> dict[str, float | str]:
         "late_rates": int(system.late),
         "n_conditions": len(reduced.conditions.flags),
         "time_dependent": int(_depends_on_time(lowered)),
-        "n_carried": len(lowered.carried),
+        "n_carried": len(lowered.whole.carried),
         "n_paced": _n_paced(lowered),
         "n_checks": len(lowered.checks),
-        "n_position": len(lowered.position_statement),
-        "n_velocity": len(lowered.velocity_statement),
+        "n_position": len(lowered.initial.position_statement),
+        "n_velocity": len(lowered.initial.velocity_statement),
         "n_guessed": lowered.n_guessed,
-        "n_parts": len(lowered.parts),
-        "n_speed_parts": len(lowered.speed_parts),
-        "n_guessed_speeds": sum(len(x.guessed) for x, _ in lowered.speed_parts),
-        "n_followed": lowered.n_followed,
-        "n_statements": len(lowered.statements),
+        "n_parts": len(lowered.shared.parts),
+        "n_speed_parts": len(lowered.shared.speed_parts),
+        "n_guessed_speeds": sum(len(x.guessed) for x, _ in lowered.shared.speed_parts),
+        "n_followed": lowered.whole.n_followed,
+        "n_statements": len(lowered.initial.statements),
         "n_variables": len(lowered.variables),
         "n_loads": len(reduced.mechanism.forces),
     }
 
 
 def _pattern(lowered: Lowered) -> str:
-    jacobian = lowered.jacobian
+    jacobian = lowered.whole.jacobian
     if jacobian is None or jacobian.factors is None:
         return "{0}"
     order = len(jacobian.factors.order)
@@ -141,7 +141,7 @@ def _pattern(lowered: Lowered) -> str:
 
 
 def _pattern_arrays(lowered: Lowered) -> list[str]:
-    jacobian = lowered.jacobian
+    jacobian = lowered.whole.jacobian
     if jacobian is None:
         return []
     arrays = []
@@ -160,7 +160,7 @@ def _pattern_arrays(lowered: Lowered) -> list[str]:
 
 
 def _lines(lowered: Lowered) -> str:
-    lines = lowered.jacobian.lines if lowered.jacobian else None
+    lines = lowered.whole.jacobian.lines if lowered.whole.jacobian else None
     if lines is None:
         return "{0}"
     return _record(lines.n_directions, *(f"lines_{name}" for name in _LINES))
@@ -180,13 +180,13 @@ def _depends_on_time(lowered: Lowered) -> bool:
     located = reduced.conditions.values[: reduced.conditions.located]
     moved = (
         *(
-            system.force,
-            system.matrix,
+            system.matrices.force,
+            system.matrices.matrix,
             lowered.grouping.matrix,
-            system.rows,
-            system.bias,
-            system.coefficients,
-            system.gap,
+            system.matrices.rows,
+            system.matrices.bias,
+            system.matrices.coefficients,
+            system.matrices.gap,
         ),
         *(system.rates, system.resolve(column(located))),
         *(b.residual for b in system.blocks),
@@ -195,16 +195,16 @@ def _depends_on_time(lowered: Lowered) -> bool:
 
 
 def _n_paced(lowered: Lowered) -> int:
-    pace = lowered.functions.get("pace")
+    pace = lowered.whole.functions.get("pace")
     return 0 if pace is None else int(pace.numel_out(0))
 
 
 def _functions(lowered: Lowered) -> tuple[str, dict[str, str]]:
     """Their C, and what those in wide numbers are called there."""
-    every = [*lowered.functions.items(), *shared_functions(lowered)]
+    every = [*lowered.whole.functions.items(), *shared_functions(lowered)]
     wide = [f for name, f in every if name == WIDE]
     plain = [f for name, f in every if name != WIDE]
-    plain += [*lowered.blocks, *(f for f in lowered.switching if f is not None)]
+    plain += [*lowered.switches.blocks, *(f for f in lowered.switches.switching if f is not None)]
     text = split_functions(read_numbers(write_c(plain), lowered))
     names: dict[str, str] = {}
     if wide:

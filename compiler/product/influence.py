@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import casadi as ca
 from frot.compiler.lowering.groups import Group, pack_spread
 from frot.compiler.lowering.islands import dynamics_of
-from frot.compiler.lowering.lower import Lowered, state_arguments
+from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.lower_parameters import parameters_needed
+from frot.compiler.lowering.state import state_arguments
 from frot.compiler.symbolic.columns import column
 
 TIME = "time"
@@ -92,7 +93,7 @@ class _Graph:
         numbered = enumerate(self._groups, self._first_group)
         self._of_contact = {k: number for number, group in numbered for k in group.contacts}
         self._reach = self._closed([*self._blocks(), *self._cores(), self._switches()])
-        (values,) = self._of(lowered.functions["variables"])
+        (values,) = self._of(lowered.whole.functions["variables"])
         self._values = self._all(values)
 
     def _nodes_of_symbols(self) -> list[int]:
@@ -123,8 +124,10 @@ class _Graph:
 
     def _switches(self) -> ca.SX:
         """Conditions, and what events of the text do."""
-        update = self._lowered.functions.get("update")
-        return column([self._lowered.conditions, *(() if update is None else self._of(update))])
+        update = self._lowered.whole.functions.get("update")
+        return column(
+            [self._lowered.switches.conditions, *(() if update is None else self._of(update))]
+        )
 
     def _of(self, function: ca.Function) -> list[ca.SX]:
         """The results of a function of the solution."""
@@ -155,7 +158,7 @@ class _Graph:
             behind.append({node for _, nodes in rows for node in nodes})
         # Modes that the text reads are among the discrete values.
         behind[self._discrete] |= {
-            self._of_contact[k] for k, _ in self._lowered.reduced.variables.modes.values()
+            self._of_contact[k] for k, _ in self._lowered.reduced.variables.modes.of.values()
         }
         changed = True
         while changed:
@@ -185,7 +188,7 @@ class _Graph:
     def in_motion(self) -> int:
         """The knowns that act on anything once the motion has begun."""
         system = self._lowered.system
-        others = [system.rates, system.power, system.invariants.values]
+        others = [system.rates, system.matrices.power, system.invariants.values]
         return _union([*self._reach, *self._values, *self._all(column(ca.vec(x) for x in others))])
 
 

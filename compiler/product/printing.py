@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from frot.compiler.equations.reduced import Reduced
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.symbolic.columns import scalars_of
 
 
 def print_reduced(reduced: Reduced) -> str:
     """The mechanism's own equations, and the residuals of the text."""
     s = reduced.symbols
-    mass, force = reduced.tree.in_full(reduced.mass, reduced.force, s.v.numel())
+    mass, force = reduced.motion.tree.in_full(
+        reduced.motion.matrices.matrix, reduced.motion.matrices.force, s.v.numel()
+    )
     lines = [f"{reduced.mechanism.model.name}: M a = h + J' lam, rows accelerate by J a + c"]
     parts = {
         "q": s.q,
@@ -18,13 +20,13 @@ def print_reduced(reduced: Reduced) -> str:
         "der(q)": s.rates,
         "M": mass,
         "h": force,
-        "J": reduced.rows,
-        "c": reduced.bias,
-        "rate": reduced.rate,
-        "gap": reduced.gap,
-        "coefficients": reduced.coefficients,
-        "kinetic": reduced.kinetic,
-        "potential": reduced.potential,
+        "J": reduced.motion.matrices.rows,
+        "c": reduced.motion.matrices.bias,
+        "rate": reduced.motion.matrices.rate,
+        "gap": reduced.motion.matrices.gap,
+        "coefficients": reduced.motion.matrices.coefficients,
+        "kinetic": reduced.motion.kinetic,
+        "potential": reduced.motion.potential,
     }
     lines += [f"  {name} = {value}" for name, value in parts.items()]
     for value, origin in zip(reduced.equations.values, reduced.equations.origins, strict=True):
@@ -41,11 +43,13 @@ def print_cost(lowered: Lowered) -> str:
     """The operations of each generated function, and the sizes of the system."""
     system = lowered.system
     lines = [f"{lowered.reduced.mechanism.model.name}: operations of the generated functions"]
-    counted = [*lowered.functions.items(), *((f.name(), f) for f in lowered.blocks)]
+    counted = [*lowered.whole.functions.items(), *((f.name(), f) for f in lowered.switches.blocks)]
     lines += [f"  {name:<18}{f.n_instructions():>6}" for name, f in counted]
-    for k, kind in enumerate(lowered.kinds):
-        islands = sum(member.kind == k for _, member in lowered.islands)
-        parts = sum(member.kind == k for _, member in (*lowered.parts, *lowered.speed_parts))
+    for k, kind in enumerate(lowered.shared.kinds):
+        islands = sum(member.kind == k for _, member in lowered.shared.islands)
+        parts = sum(
+            member.kind == k for _, member in (*lowered.shared.parts, *lowered.shared.speed_parts)
+        )
         counts = ", ".join(f"{name} {f.n_instructions()}" for name, f in kind.functions.items())
         what = "islands" if islands else "parts of the start"
         if counts:
@@ -84,14 +88,14 @@ def print_equations(lowered: Lowered) -> str:
             "z": system.z,
             "M": matrix,
             "h": force,
-            "J": system.rows,
-            "c": system.bias,
-            "rate": system.rate,
-            "gap": system.gap,
-            "coefficients": system.coefficients,
+            "J": system.matrices.rows,
+            "c": system.matrices.bias,
+            "rate": system.matrices.rate,
+            "gap": system.matrices.gap,
+            "coefficients": system.matrices.coefficients,
         }
         if not lowered.grouping.is_mass_matrix:
-            parts["in place of J'"] = system.spread
+            parts["in place of J'"] = system.matrices.spread
         lines += [f"    {name} = {value}" for name, value in parts.items()]
     for variable in reduced.mechanism.model.variables:
         if not variable.discrete:

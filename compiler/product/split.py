@@ -20,8 +20,8 @@ from frot.compiler.product.casadi_text import (
     RESULT,
     VARIABLE,
 )
-from frot.compiler.product.pieces import write_pieces
-from frot.compiler.product.roll import roll
+from frot.compiler.product.outline import write_pieces
+from frot.compiler.product.reroll import roll
 
 # Statements of a piece. GCC takes least for some hundreds; a call costs nothing beside them.
 LONGEST = 500

@@ -5,26 +5,26 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.lower import begin
-from frot.compiler.mechanics.free import free
-from frot.compiler.mechanics.liaisons.stated import bodies_of
-from frot.compiler.mechanics.link import Link
+from frot.compiler.equations.assembled import Assembled
+from frot.compiler.equations.reduced import Reduced
+from frot.compiler.lowering.initial_problem import InitialProblem
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.free_bodies import free
+from frot.compiler.mechanics.liaisons.user_liaisons import bodies_of
 from frot.compiler.mechanics.mechanism import (
     Mechanism,
     is_unilateral,
     relations_of,
 )
-from frot.compiler.mechanics.reduce import Reduced
 from frot.compiler.report.candidates import place_body
-from frot.compiler.report.cure import find_cure
 from frot.compiler.report.first_integrals import MOST_SPEEDS, find_first_integrals
 from frot.compiler.report.holonomy import non_holonomic
+from frot.compiler.report.isostatic_alternatives import find_cure
 from frot.compiler.report.paradox import find_paradoxes
 from frot.compiler.report.redundancy import Loop, find_loops, find_ranks
 from frot.compiler.report.relations import make_relations
 from frot.compiler.report.start import Start, find_start, may_part, posture_of
-from frot.dsl import Log, default_values
+from frot.dsl import default_values
 from frot.dsl.checked import Body, Liaison
 from frot.dsl.messages.interrupts import raise_noted_interrupt
 
@@ -102,14 +102,12 @@ class Analysis:
         return not self.missing
 
 
-def analyse(system: Assembled) -> Analysis:
-    """Look at the mechanism of a system."""
+def analyse(system: Assembled, problem: InitialProblem | None) -> Analysis:
+    """What the mechanism of a system allows; `problem` is None where it could not be posed."""
     reduced = system.reduced
     mechanism = reduced.mechanism
     whole = _count(mechanism)
-    log = Log()
-    beginning = begin(system, log)
-    start = None if log.failed else find_start(system, beginning)
+    start = None if problem is None else find_start(system, problem)
     if start is None or not start.found:
         return Analysis("the start was not found", whole, whole, 0, 0, (), ())
     found = _Found()
@@ -234,7 +232,7 @@ def _look(part: list[Liaison], system: Assembled, start: Start, found: _Found) -
         found.holonomic.append((one.name, None if broken is None else not broken))
 
 
-def _parting(mechanism: Mechanism) -> dict[Link, bool]:
+def _parting(mechanism: Mechanism) -> dict[Constraint, bool]:
     values = default_values(mechanism.model, {})
     return {x: may_part(x, values) for x in mechanism.contacts}
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import casadi as ca
-from frot.compiler.lowering.walk import is_fixed
-from frot.compiler.mechanics.link import owner_body, point_body
-from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.equations.reduced import Reduced
+from frot.compiler.mechanics.points import owner_body, point_body
 from frot.compiler.mechanics.spatial import cross, nowhere, whole
 from frot.compiler.symbolic.columns import scalars_of
+from frot.compiler.translate.walk import is_fixed
 from frot.dsl.checked import Body, BodyGeometry, BodyPoint, CurvePlace, Frame, Place, SurfacePlace
 from frot.dsl.quantities.dimensions import Dimension, dimension
 
@@ -58,7 +58,7 @@ def list_candidates(reduced: Reduced) -> Candidates:
     bodies = [b for b in mechanism.model.bodies if b.shape is not None]
     named: list[Candidate] = []
     twists: list[Twist] = []
-    energy = reduced.kinetic + reduced.potential
+    energy = reduced.motion.kinetic + reduced.motion.potential
     if bodies:
         named.append(Candidate("energy", energy, ENERGY))
     for group in _groups(reduced, bodies):
@@ -67,10 +67,13 @@ def list_candidates(reduced: Reduced) -> Candidates:
         named += found
         twists.append(twist)
     named += _of_coordinates(reduced)
-    settled = reduced.variables.settled
+    without_auxiliary = reduced.variables.without_auxiliary
     return Candidates(
-        tuple(replace(c, value=settled(c.value)) for c in named),
-        tuple(replace(t, momentum=settled(t.momentum), angular=settled(t.angular)) for t in twists),
+        tuple(replace(c, value=without_auxiliary(c.value)) for c in named),
+        tuple(
+            replace(t, momentum=without_auxiliary(t.momentum), angular=without_auxiliary(t.angular))
+            for t in twists
+        ),
     )
 
 
@@ -190,7 +193,9 @@ def _of_coordinates(reduced: Reduced) -> Iterator[Candidate]:
     s = reduced.symbols
     if s.v.numel() > _FEW_SPEEDS:
         return
-    mass, _ = reduced.tree.in_full(reduced.mass, reduced.force, s.v.numel())
+    mass, _ = reduced.motion.tree.in_full(
+        reduced.motion.matrices.matrix, reduced.motion.matrices.force, s.v.numel()
+    )
     speeds = scalars_of(s.v)
     momenta = scalars_of(mass[: len(speeds), : len(speeds)] @ s.v) if speeds else []
     names = scalars_of(s.q)

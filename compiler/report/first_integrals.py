@@ -9,13 +9,13 @@ say so (the height of what rolls on a plane) is none.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.lower import Beginning
-from frot.compiler.mechanics.reduce import Reduced
+from frot.compiler.equations.assembled import Assembled
+from frot.compiler.equations.reduced import Reduced
+from frot.compiler.lowering.initial_problem import InitialProblem
+from frot.compiler.lowering.result_variables import FirstIntegral
 from frot.compiler.report.candidates import (
     ENERGY,
     MOMENTUM,
@@ -24,7 +24,7 @@ from frot.compiler.report.candidates import (
     Twist,
     list_candidates,
 )
-from frot.compiler.report.dynamics import make_dynamics
+from frot.compiler.report.numeric_dynamics import make_dynamics
 from frot.compiler.report.relations import Floats, Posture
 from frot.compiler.report.search import Looked, Search
 from frot.compiler.report.start import find_start
@@ -40,27 +40,14 @@ _NEW = 1e-7
 _NONE = 1e-7
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class FirstIntegral:
-    """A first integral in words, with its value as an expression of the reduced system.
-
-    `always`: whatever the parameters are; else at their defaults.
-    """
-
-    text: str
-    value: ca.SX
-    dimension: Dimension
-    always: bool
-
-
-def first_integrals_of(system: Assembled, beginning: Beginning) -> tuple[FirstIntegral, ...]:
+def first_integrals_of(system: Assembled, problem: InitialProblem) -> tuple[FirstIntegral, ...]:
     """First integrals near the start of a system; of more than `MOST_SPEEDS` the energy at most."""
     reduced = system.reduced
     if not reduced.mechanism.model.bodies:
         return ()
     if reduced.symbols.v.numel() > MOST_SPEEDS:
         return find_first_integrals(reduced, None)
-    return find_first_integrals(reduced, find_start(system, beginning).posture)
+    return find_first_integrals(reduced, find_start(system, problem).posture)
 
 
 def find_first_integrals(reduced: Reduced, start: Posture | None) -> tuple[FirstIntegral, ...]:
@@ -116,10 +103,15 @@ def find_first_integrals(reduced: Reduced, start: Posture | None) -> tuple[First
 def _energy_alone(reduced: Reduced) -> tuple[FirstIntegral, ...]:
     """The energy where nothing works: no friction, no load without potential, nothing driven."""
     mechanism = reduced.mechanism
-    dry = any(rows.tangent >= 0 or rows.rolling >= 0 for rows in reduced.contact_rows)
-    if dry or mechanism.is_driven or not reduced.plain or not reduced.power.is_zero():
+    dry = any(rows.tangent or rows.rolling for rows in reduced.contact_rows)
+    if (
+        dry
+        or mechanism.is_driven
+        or not reduced.plain
+        or not reduced.motion.matrices.power.is_zero()
+    ):
         return ()
-    energy = reduced.variables.settled(reduced.kinetic + reduced.potential)
+    energy = reduced.variables.without_auxiliary(reduced.motion.kinetic + reduced.motion.potential)
     return (FirstIntegral("energy", energy, ENERGY, True),)
 
 

@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
+from frot.compiler.equations.reduced import Reduced
 from frot.compiler.mechanics.mechanism import is_unilateral
-from frot.compiler.mechanics.reduce import Reduced
-from frot.compiler.report.dynamics import Dynamics, State, make_dynamics
+from frot.compiler.report.numeric_dynamics import Dynamics, State, make_dynamics
 from frot.compiler.report.relations import Floats, Posture
 from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl.checked import Liaison
@@ -55,7 +55,11 @@ def find_paradoxes(reduced: Reduced, start: Posture) -> tuple[Paradox, ...]:
     Contacts that may part are examined one by one, the others open.
     """
     links = reduced.mechanism.contacts
-    dry = [k for k, x in enumerate(links) if any(not f.rolling for f in x.frictions)]
+    dry = [
+        k
+        for k, x in enumerate(links)
+        if any(f.components == 1 and not f.turns for f in x.frictions)
+    ]
     if not (dry and reduced.symbols.v.numel()):
         return ()
     dynamics = make_dynamics(reduced)
@@ -106,7 +110,7 @@ class _Watched:
         self._numbers = ca.Function(
             "coefficient",
             dynamics.arguments,
-            [reduced.coefficients[2 * before], self.radius],
+            [reduced.motion.matrices.coefficients[2 * before], self.radius],
         )
 
     def coefficient(self, state: State) -> float:
@@ -118,7 +122,7 @@ class _Watched:
         """The |c| of the liaison, times the radius of a pin."""
         (mass, rows), held = self.dynamics.masses(state), self.dynamics.held(self.used)
         nv = self.dynamics.reduced.symbols.v.numel()
-        push = rows[self.rows.tangent]
+        push = rows[self.rows.tangent[0]]
         solved = _response(mass[:nv, :nv], rows[held, :nv], push[:nv])
         if solved is None:
             return None

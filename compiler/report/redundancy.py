@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
-from frot.compiler.mechanics.link import Link
+from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.report.relations import (
     Floats,
     Posture,
@@ -61,7 +61,7 @@ class Ranks:
 
 
 def find_ranks(
-    relations: Relations, start: Posture, touching: Mapping[Link, bool], seed: int = 1
+    relations: Relations, start: Posture, touching: Mapping[Constraint, bool], seed: int = 1
 ) -> Ranks:
     """Ranks at the start and beside it."""
     random = np.random.default_rng(seed)

@@ -7,14 +7,16 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.symbols import Symbols, make_symbols
 from frot.compiler.mechanics.constants import Constants
+from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.motion import Motion
-from frot.compiler.mechanics.link import Link
+from frot.compiler.mechanics.make_symbols import make_symbols
 from frot.compiler.mechanics.mechanism import Mechanism
-from frot.compiler.report.followed import Followed
+from frot.compiler.mechanics.tree_step import place_bodies
+from frot.compiler.report.closest_numeric import Followed
 from frot.compiler.symbolic.columns import column
+from frot.compiler.translate.symbols import Symbols
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
@@ -41,7 +43,7 @@ class Posture:
 
 
 @dataclass(frozen=True, slots=True)
-class Rows:
+class RelationRows:
     """The relations at a posture: gaps, rows (one a relation) by speeds, rates at rest, N(q)."""
 
     gap: Floats
@@ -63,7 +65,7 @@ class Relations:
     mechanism: Mechanism
     symbols: Symbols
     kinematics: Kinematics
-    links: tuple[Link, ...]
+    links: tuple[Constraint, ...]
     holds: NDArray[np.bool_]
     geometric: NDArray[np.bool_]
     turning: NDArray[np.bool_]
@@ -77,11 +79,11 @@ class Relations:
         """Where figures touch that no formula tells."""
         return self.followed.at(posture.t, posture.q, posture.u, posture.p)
 
-    def at(self, posture: Posture) -> Rows:
+    def at(self, posture: Posture) -> RelationRows:
         """Evaluate the rows."""
         found = self.function(*posture.arguments, self.places(posture))
         gap, rows, own, moves, *_ = (np.array(x) for x in found)
-        return Rows(gap.ravel(), rows, own.ravel(), moves)
+        return RelationRows(gap.ravel(), rows, own.ravel(), moves)
 
     def scaled(self, rows: Floats) -> Floats:
         """Rows of one size in speeds of one size: angular ones times the length."""
@@ -195,10 +197,10 @@ def null_space(rows: Floats) -> Floats:
     return np.asarray(right[kept:].T)
 
 
-def make_relations(mechanism: Mechanism, unilateral: Mapping[Link, bool]) -> Relations:
+def make_relations(mechanism: Mechanism, unilateral: Mapping[Constraint, bool]) -> Relations:
     """The relations of a mechanism without laws; `unilateral` tells which links may part."""
     symbols = make_symbols(mechanism)
-    kinematics = Kinematics(mechanism, symbols, Constants(symbols))
+    kinematics = place_bodies(mechanism, symbols, Constants(symbols))
     world = mechanism.model.world
     links = mechanism.contacts
     found = [x.geometry(kinematics, symbols.sides[k], world) for k, x in enumerate(links)]

@@ -6,14 +6,14 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from frot.compiler.lowering.walk import has_time, subexpressions
-from frot.compiler.mechanics.liaisons.freed import is_row
+from frot.compiler.mechanics.liaisons.kinematic_relations import is_row
 from frot.compiler.mechanics.mechanism import (
     Mechanism,
     freedoms_of,
     is_unilateral,
     relations_of,
 )
+from frot.compiler.translate.walk import has_time, subexpressions
 from frot.dsl.checked import (
     Body,
     BodyGeometry,

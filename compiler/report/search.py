@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.walk import as_number
-from frot.compiler.report.dynamics import Dynamics, State
 from frot.compiler.report.numbers import Floats, Numbers
+from frot.compiler.report.numeric_dynamics import Dynamics, State
 from frot.compiler.report.relations import Posture, turning_speeds
 from frot.compiler.symbolic.columns import scalars_of
+from frot.compiler.translate.walk import as_number
 from frot.dsl import default_values, evaluate
 from frot.dsl.messages.interrupts import raise_noted_interrupt
 from numpy.typing import NDArray

@@ -7,14 +7,15 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from frot.compiler.lowering.assembled import Assembled
-from frot.compiler.lowering.lower import Beginning, state_arguments, unsolved
-from frot.compiler.lowering.walk import as_number
-from frot.compiler.mechanics.link import Link
-from frot.compiler.report.followed import Followed
+from frot.compiler.equations.assembled import Assembled
+from frot.compiler.lowering.initial_problem import InitialProblem
+from frot.compiler.lowering.state import state_arguments, unsolved
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.report.closest_numeric import Followed
 from frot.compiler.report.numbers import Floats, Numbers
 from frot.compiler.report.relations import Posture, Relations
 from frot.compiler.symbolic.columns import column, scalars_of
+from frot.compiler.translate.walk import as_number
 from frot.dsl import default_values, evaluate
 from numpy.typing import NDArray
 
@@ -41,129 +42,143 @@ class Start:
     found: bool
 
 
-def may_part(link: Link, values: object) -> bool:
+def may_part(link: Constraint, values: object) -> bool:
     """Whether a link is unilateral, at the default parameters."""
     return as_number(evaluate(link.unilateral, values)) != 0  # type: ignore[arg-type]
 
 
-def find_start(system: Assembled, beginning: Beginning) -> Start:
+def find_start(system: Assembled, problem: InitialProblem) -> Start:
     """The posture that the statements of `initial` and the relations leave nearest to the guesses.
 
     As the kernel finds it (initial_values.c), with fewer ways out: where it is not found,
-    `found` is false.
+    `found` is false. tests/report/test_start_of_the_report.py compares both.
     """
-    reduced, symbols = system.reduced, system.reduced.symbols
-    explicit, initial = beginning.explicit, beginning.initial
-    state = state_arguments(system)
-    model = reduced.mechanism.model
-    values = default_values(model, {})
-    u = _numbers(evaluate(i.start, values) for i in symbols.inputs)
-    p = _numbers(evaluate(k.value, values) for k in symbols.parameters)
-    begin = model.experiment.start
-    t = 0.0 if begin is None else as_number(evaluate(begin, values))
-    begin_at = Numbers("start", [symbols.t, symbols.u, symbols.p], initial.start)
-    q, discrete = (x.ravel() for x in begin_at(t, u, p))
-    v, y = np.zeros(system.nv), np.zeros(system.y.numel())
-    values_at = Numbers("beginning", state, initial.beginning)
+    search = _StartSearch(system, problem)
+    return search.found()
 
-    links = reduced.mechanism.contacts
-    parts = np.array([may_part(x, values) for x in links], dtype=bool)
-    kept = np.array([x.has_gap for x in links], dtype=bool)
-    gap = system.resolve(reduced.gap)
-    stated, slope, size, _ = initial.position
-    outputs = [stated, slope.T, size, gap, ca.jacobian(gap, system.q)]
-    located = unsolved(explicit(system.resolve(column(reduced.conditions.values))), system)
-    witness = system.resolve(reduced.witness)
-    look = Numbers("look", state, (witness, located))
-    function = Numbers("position", state, outputs)
-    direct = np.array(initial.direct, dtype=bool)
-    if initial.guessed:
-        missed, slopes, _ = initial.guessed
-        guesses = Numbers("guessed", state, [missed, slopes.T])
-    flags = np.zeros(len(reduced.conditions.flags))
-    sides = np.ones(len(links))
-    none = np.ones(len(system.elements))
 
-    tracks = reduced.variables.kinematics.tracks.values()
-    known = [system.reduced.symbols.t, system.q, system.reduced.symbols.u, symbols.p]
-    followed = Followed(tracks, known, system.resolve, reduced.conditions)
+class _StartSearch:
+    """The state of the search: `q`, `v`, `y`, flags and sides are those of the last try."""
 
-    def arguments() -> list[float | Floats]:
-        y[: followed.unknowns.numel()] = followed.at(t, q, u, p)
-        return [t, q, v, u, p, np.concatenate([flags, sides, none, discrete]), y]
+    def __init__(self, system: Assembled, problem: InitialProblem) -> None:
+        reduced, initial = system.reduced, problem.initial
+        symbols, links = reduced.symbols, reduced.mechanism.contacts
+        model, state = reduced.mechanism.model, state_arguments(system)
+        values = default_values(model, {})
+        self._system = system
+        self.u = _numbers(evaluate(i.start, values) for i in symbols.inputs)
+        self.p = _numbers(evaluate(k.value, values) for k in symbols.parameters)
+        start = model.experiment.start
+        self.t = 0.0 if start is None else as_number(evaluate(start, values))
+        first = Numbers("start", [symbols.t, symbols.u, symbols.p], initial.start)
+        self.q, self.discrete = (x.ravel() for x in first(self.t, self.u, self.p))
+        self.v, self.y = np.zeros(system.nv), np.zeros(system.y.numel())
+        self.flags = np.zeros(len(reduced.conditions.flags))
+        self.sides, self._none = np.ones(len(links)), np.ones(len(system.elements))
+        self._parts = np.array([may_part(x, values) for x in links], dtype=bool)
+        self._kept = np.array([x.has_gap for x in links], dtype=bool)
+        self._direct = np.array(initial.direct, dtype=bool)
+        gap = system.resolve(reduced.motion.matrices.gap)
+        stated, slope, size, _ = initial.position
+        outputs = [stated, slope.T, size, gap, ca.jacobian(gap, system.q)]
+        self._position = Numbers("position", state, outputs)
+        conditions = problem.explicit(system.resolve(column(reduced.conditions.values)))
+        witness = system.resolve(reduced.motion.witness)
+        self._look = Numbers("look", state, (witness, unsolved(conditions, system)))
+        self._beginning = Numbers("beginning", state, initial.beginning)
+        self._guesses = None
+        if initial.guessed:
+            missed, slopes, _ = initial.guessed
+            self._guesses = Numbers("guessed", state, [missed, slopes.T])
+        tracks = reduced.variables.kinematics.tracks.values()
+        known = [symbols.t, system.q, symbols.u, symbols.p]
+        self._followed = Followed(tracks, known, system.resolve, reduced.conditions)
 
-    def settle(used: NDArray[np.bool_]) -> bool:
-        nonlocal q
-        if not q.size:
+    def found(self) -> Start:
+        """The start, whether all hold there or not."""
+        if self._guesses is not None:
+            self._meet_guesses(self._guesses)
+        self.v, self.y = (x.ravel() for x in self._beginning(*self._state()))
+        self._settle(np.zeros(len(self.sides), dtype=bool))
+        self._choose_sides()
+        used = self._kept & ~self._parts
+        self._settle_from_elsewhere(used)
+        self._choose_sides()
+        lengths = 1 + np.max(np.abs(self.q), initial=0.0)
+        for _ in range(len(self.sides) + 1):
+            found = self._settle_from_elsewhere(used)
+            below = self._kept & ~used & (self._gaps() < -_TOUCHES * lengths)
+            if not below.any():
+                break
+            used |= below
+        self.flags = (self._look(*self._state())[1].ravel() > 0).astype(float)
+        closed = self._kept & (np.abs(self._gaps()) <= _TOUCHES * lengths)
+        symbols = self._system.reduced.symbols
+        own = Numbers("own", state_arguments(self._system), [self._system.resolve(symbols.q)])
+        q = own(*self._state())[0].ravel()
+        posture = Posture(self.t, q, self.u, self.p, self.sides)
+        return Start(posture, self.q, self.flags, self.discrete, self.y, closed, found)
+
+    def _state(self) -> list[float | Floats]:
+        """The arguments of the kernel's functions, with figures where they touch."""
+        self.y[: self._followed.unknowns.numel()] = self._followed.at(
+            self.t, self.q, self.u, self.p
+        )
+        d = np.concatenate([self.flags, self.sides, self._none, self.discrete])
+        return [self.t, self.q, self.v, self.u, self.p, d, self.y]
+
+    def _gaps(self) -> Floats:
+        return self._position(*self._state())[3].ravel()
+
+    def _settle(self, used: NDArray[np.bool_]) -> bool:
+        """Let statements and the gaps `used` hold, by the shortest steps; whether they do."""
+        if not self.q.size:
             return True
         for _ in range(_STEPS):
-            value, slopes, sizes, gaps, rows = function(*arguments())
+            value, slopes, sizes, gaps, rows = self._position(*self._state())
             short = np.concatenate([value.ravel(), gaps.ravel()[used]])
-            down = np.vstack([slopes.reshape(-1, q.size), rows[used].reshape(-1, q.size)])
-            scale = np.concatenate([sizes.ravel(), np.abs(rows[used]) @ (np.abs(q) + 1)])
+            down = np.vstack([slopes.reshape(-1, self.q.size), rows[used].reshape(-1, self.q.size)])
+            scale = np.concatenate([sizes.ravel(), np.abs(rows[used]) @ (np.abs(self.q) + 1)])
             if not (np.all(np.isfinite(short)) and np.all(np.isfinite(down))):
                 return False
             if np.all(np.abs(short) <= _HOLDS * (scale + _SLIGHT)):
                 return True
             step = np.linalg.lstsq(down, -short, rcond=1e-10)[0]
-            longest = np.max(np.abs(step) / (1 + np.abs(q)), initial=0.0)
-            q = q + step / max(1.0, longest / 0.7)
+            longest = np.max(np.abs(step) / (1 + np.abs(self.q)), initial=0.0)
+            self.q = self.q + step / max(1.0, longest / 0.7)
         return False
 
-    def settle_from_elsewhere(used: NDArray[np.bool_]) -> bool:
+    def _settle_from_elsewhere(self, used: NDArray[np.bool_]) -> bool:
         """From places aside too: where rods lie in a line no small step closes their loop."""
-        nonlocal q
-        begun, aside = q.copy(), np.random.default_rng(0)
+        begun, aside = self.q.copy(), np.random.default_rng(0)
         for k in range(_TRIES):
-            if settle(used):
+            if self._settle(used):
                 return True
-            q = begun + _ASIDE * (k + 1) * aside.uniform(-1, 1, q.size)
-        return settle(used)
+            self.q = begun + _ASIDE * (k + 1) * aside.uniform(-1, 1, self.q.size)
+        return self._settle(used)
 
-    def meet_guesses() -> None:
-        nonlocal q
+    def _meet_guesses(self, guesses: Numbers) -> None:
+        """Go to the places guessed, with the statements that give states their values."""
         for _ in range(_STEPS):
-            missed, slopes = guesses(*arguments())
-            value, own, *_ = function(*arguments())
-            short = np.concatenate([value.ravel()[direct], missed.ravel()])
-            down = np.vstack([own.reshape(-1, q.size)[direct], slopes.reshape(-1, q.size)])
+            missed, slopes = guesses(*self._state())
+            value, own, *_ = self._position(*self._state())
+            short = np.concatenate([value.ravel()[self._direct], missed.ravel()])
+            stated = own.reshape(-1, self.q.size)[self._direct]
+            down = np.vstack([stated, slopes.reshape(-1, self.q.size)])
             if not (np.all(np.isfinite(short)) and np.all(np.isfinite(down))):
                 return
             step = np.linalg.lstsq(down, -short, rcond=1e-10)[0]
-            longest = np.max(np.abs(step) / (1 + np.abs(q)))
-            q = q + step / max(1.0, longest / 0.7)
+            longest = np.max(np.abs(step) / (1 + np.abs(self.q)))
+            self.q = self.q + step / max(1.0, longest / 0.7)
             if longest <= _HOLDS:
                 return
 
-    def choose_sides() -> None:
-        three = look(*arguments())[0].reshape(-1, 3)
-        for k, one in enumerate(three[: len(links)]):
+    def _choose_sides(self) -> None:
+        """The sign of the first witness that is not zero, of each contact."""
+        three = self._look(*self._state())[0].reshape(-1, 3)
+        for k, one in enumerate(three[: len(self.sides)]):
             known = one[np.abs(one) > _TOUCHES]
-            sides[k] = np.sign(known[0]) if known.size else 1.0
-
-    if initial.guessed:
-        meet_guesses()
-    v, y = (x.ravel() for x in values_at(*arguments()))
-    used = np.zeros(len(links), dtype=bool)
-    settle(used)
-    choose_sides()
-    used = kept & ~parts
-    settle_from_elsewhere(used)
-    choose_sides()
-    lengths = 1 + np.max(np.abs(q), initial=0.0)
-    for _ in range(len(links) + 1):
-        found = settle_from_elsewhere(used)
-        gaps = function(*arguments())[3].ravel()
-        below = kept & ~used & (gaps < -_TOUCHES * lengths)
-        if not below.any():
-            break
-        used |= below
-    flags = (look(*arguments())[1].ravel() > 0).astype(float)
-    gaps = function(*arguments())[3].ravel()
-    own = Numbers("own", state, [system.resolve(symbols.q)])
-    posture = Posture(t, own(*arguments())[0].ravel(), u, p, sides)
-    closed = kept & (np.abs(gaps) <= _TOUCHES * lengths)
-    return Start(posture, q, flags, discrete, y, closed, found)
+            self.sides[k] = np.sign(known[0]) if known.size else 1.0
 
 
 def _numbers(values: Iterable[object]) -> Floats:

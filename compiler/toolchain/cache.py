@@ -10,14 +10,14 @@ import os
 import shutil
 import stat
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from frot.compiler.toolchain.chosen import KERNEL_FLAGS, MODEL_FLAGS, Toolchain
-from frot.compiler.toolchain.hold import Hold, hold
+from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, MODEL_FLAGS, Toolchain
+from frot.compiler.toolchain.folder_lock import Hold, hold
 from frot.dsl.files.folders import cache_folder, room
-from frot.runtime.program import Program, read_program
+from frot.runtime.program import Program, load_program, read_program
 
 if TYPE_CHECKING:
     import tempfile
@@ -108,7 +108,7 @@ def find_program(key: str) -> Program | None:
     try:
         program = read_program(kept.folder)
         if program.key == key:
-            return replace(program, hold=kept.hold)
+            return load_program(program, kept.hold)
     except (OSError, ValueError, KeyError, TypeError):
         pass
     shutil.rmtree(kept.folder, ignore_errors=True)

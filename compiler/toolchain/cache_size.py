@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from stat import S_ISDIR
 
-from frot.compiler.toolchain.hold import hold
+from frot.compiler.toolchain.folder_lock import hold
 from frot.dsl.messages.errors import fail
 
 # Folders of entries; files of the parser's tables lie beside them.

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from frot.compiler.toolchain.chosen import Toolchain
-from frot.compiler.toolchain.keeper import Keeper
+from frot.compiler.toolchain.child_processes import Keeper
+from frot.compiler.toolchain.compiler_choice import Toolchain
 from frot.dsl.messages.errors import fail
 from frot.dsl.messages.interrupts import raise_noted_interrupt
 

@@ -11,9 +11,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from frot.compiler.toolchain.cache import Kept, is_whole, seal, stored
-from frot.compiler.toolchain.chosen import KERNEL_FLAGS, Toolchain, find_toolchain
+from frot.compiler.toolchain.cache_store import store
+from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, Toolchain, find_toolchain
 from frot.compiler.toolchain.compilers import compile_objects, join_objects
-from frot.compiler.toolchain.storing import store
 from frot.dsl.files.folders import room
 from frot.dsl.messages.errors import FrotError
 

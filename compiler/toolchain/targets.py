@@ -10,7 +10,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from frot.compiler.toolchain.cache import Kept
-from frot.compiler.toolchain.chosen import KERNEL_FLAGS, MODEL_FLAGS, Toolchain, toolchain_of
+from frot.compiler.toolchain.child_processes import Keeper
+from frot.compiler.toolchain.compiler_choice import (
+    KERNEL_FLAGS,
+    MODEL_FLAGS,
+    Toolchain,
+    toolchain_of,
+)
 from frot.compiler.toolchain.compilers import (
     LIBRARIES,
     Job,
@@ -18,7 +24,6 @@ from frot.compiler.toolchain.compilers import (
     link_library,
     run_compilers,
 )
-from frot.compiler.toolchain.keeper import Keeper
 from frot.compiler.toolchain.objects import (
     kept_kernel,
     kept_objects,

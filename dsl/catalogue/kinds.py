@@ -30,7 +30,8 @@ class Argument:
     * `axis`: `x`, `y`, `z` or a vector (space only; absent from planar models).
 
     `default` is an SI value or a word, `default_of` the argument whose expression is repeated.
-    `sign` is `positive`, `nonnegative` or empty; `at_most` an upper bound of the value.
+    `sign` is `positive`, `nonnegative` or empty; `at_most` an upper bound of the value; `not_below`
+    names the argument that it must not be below.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Argument:
     default_of: str = ""
     sign: str = ""
     at_most: float | None = None
+    not_below: str = ""
     others: tuple[Type, ...] = ()
     words: tuple[str, ...] = ()
     places: tuple[str, ...] = ()
@@ -72,6 +74,14 @@ class Shape:
 
 
 @dataclass(frozen=True, slots=True)
+class Softer:
+    """A kind that locks less; `axes`: of its arguments, those of the other kind, and defaults."""
+
+    kind: str
+    axes: tuple[tuple[str, str, str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class LiaisonKind:
     """A type of liaison between the places `a` and `b`.
 
@@ -79,6 +89,11 @@ class LiaisonKind:
     `relations_planar` is None where the liaison has no meaning in the plane. `coordinates` maps the
     readable and drivable coordinates to their types in planar models. `of_points`: it holds points,
     and leaves every orientation of what they are on.
+
+    `title` is the name with its accents, `joins` says which places it takes. `in_plane`: in planar
+    models it is a `contact`, which may part or have friction, a pairing of `figures`, or neither.
+    `laws` are those of friction that it takes in the plane. `softer` are kinds that lock less, in
+    space and in the plane, those first that lock most.
     """
 
     name: str
@@ -90,6 +105,12 @@ class LiaisonKind:
     aliases: tuple[str, ...] = ()
     doc: str = ""
     of_points: bool = False
+    title: str = ""
+    joins: str = ""
+    in_plane: str = ""
+    laws: tuple[str, ...] = ()
+    softer: tuple[Softer, ...] = ()
+    softer_in_plane: tuple[Softer, ...] = ()
 
     @property
     def along_curve(self) -> bool:

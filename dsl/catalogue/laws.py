@@ -21,6 +21,7 @@ _MU_S = Argument(
     required=False,
     default_of="mu",
     sign="nonnegative",
+    not_below="mu",
     doc="coefficient of friction of rest",
 )
 _E = Argument("e", REAL, sign="nonnegative", at_most=1.0, doc="coefficient of restitution")
@@ -66,7 +67,7 @@ _ROWS = (
         "stribeck",
         (
             _MU,
-            Argument("mu_s", REAL, sign="nonnegative", doc="coefficient at rest"),
+            Argument("mu_s", REAL, sign="nonnegative", not_below="mu", doc="coefficient at rest"),
             Argument(
                 "v_s", VELOCITY, sign="positive", others=(ANGULAR_VELOCITY,), doc="Stribeck speed"
             ),
@@ -112,7 +113,9 @@ _ROWS = (
         "stops",
         (
             Argument("min", LENGTH, others=(REAL,), doc="lower bound of the coordinate"),
-            Argument("max", LENGTH, others=(REAL,), doc="upper bound of the coordinate"),
+            Argument(
+                "max", LENGTH, others=(REAL,), not_below="min", doc="upper bound of the coordinate"
+            ),
             Argument(
                 "e",
                 REAL,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from frot.dsl.catalogue.kinds import Argument, LiaisonKind, table
+from frot.dsl.catalogue.kinds import Argument, LiaisonKind, Softer, table
 from frot.dsl.catalogue.types import ANGULAR_VELOCITY, LENGTH, VELOCITY
 from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
 
@@ -13,6 +13,10 @@ CURVE = ("curve",)
 SURFACE = ("surface",)
 ANY_TURN = {"orientation": REAL.of_shape((4,)), "angular_velocity": ANGULAR_VELOCITY.of_shape((3,))}
 ANY = ("point", "curve", "surface")
+# Laws of a contact of the plane, and axes that a kind that locks less keeps.
+CONTACT_LAWS = ("coulomb", "rolling_resistance")
+KEEPS_AXIS = (("axis", "axis", "z"),)
+KEEPS_SLIDE = (("axis", "axis", "x"),)
 
 
 def _axis(name: str, default: str = "z", of: str = "a") -> Argument:
@@ -32,6 +36,12 @@ def _liaison(
     unilateral: bool = False,
     of_points: bool = False,
     doc: str,
+    title: str = "",
+    joins: str = "",
+    in_plane: str = "",
+    laws: tuple[str, ...] = (),
+    softer: tuple[Softer, ...] = (),
+    softer_in_plane: tuple[Softer, ...] = (),
 ) -> LiaisonKind:
     arguments = (
         Argument("a", kind="place", places=a, doc="the place that acts"),
@@ -55,11 +65,26 @@ def _liaison(
         aliases=aliases,
         doc=doc,
         of_points=of_points,
+        title=title or name,
+        joins=joins,
+        in_plane=in_plane,
+        laws=laws,
+        softer=softer,
+        softer_in_plane=softer_in_plane,
     )
 
 
 _ROWS = (
-    _liaison("encastrement", ("weld",), POINT, POINT, (6, 3), doc="No relative motion."),
+    _liaison(
+        "encastrement",
+        ("weld",),
+        POINT,
+        POINT,
+        (6, 3),
+        doc="No relative motion.",
+        softer=(Softer("spherique"),),
+        softer_in_plane=(Softer("rotoide"),),
+    ),
     _liaison(
         "rotoide",
         ("pivot", "revolute"),
@@ -69,6 +94,14 @@ _ROWS = (
         {"angle": REAL, "speed": ANGULAR_VELOCITY},
         (_axis("axis"),),
         doc="Rotation about a common axis.",
+        title="rotoïde",
+        laws=("coulomb",),
+        softer=(
+            Softer("spherique"),
+            Softer("verrou", KEEPS_AXIS),
+            Softer("lineaire_annulaire", KEEPS_AXIS),
+        ),
+        softer_in_plane=(Softer("point_courbe along x"), Softer("point_courbe along y")),
     ),
     _liaison(
         "prismatique",
@@ -79,6 +112,7 @@ _ROWS = (
         {"displacement": LENGTH, "speed": VELOCITY},
         (Argument("axis", REAL, "axis", required=False, default="x", doc="direction, axes of a"),),
         doc="Translation along a common axis.",
+        softer=(Softer("verrou", KEEPS_SLIDE), Softer("lineaire_annulaire", KEEPS_SLIDE)),
     ),
     _liaison(
         "verrou",
@@ -94,6 +128,7 @@ _ROWS = (
         },
         (_axis("axis"),),
         doc="Rotation about and translation along a common axis.",
+        softer=(Softer("lineaire_annulaire", KEEPS_AXIS),),
     ),
     _liaison(
         "helicoidale",
@@ -107,6 +142,7 @@ _ROWS = (
             _axis("axis"),
         ),
         doc="A screw.",
+        title="hélicoïdale",
     ),
     _liaison(
         "cardan",
@@ -117,6 +153,7 @@ _ROWS = (
         {"angle_a": REAL, "angle_b": REAL},
         (_axis("axis_a"), _axis("axis_b", "y", "b")),
         doc="Two crossed axes.",
+        softer=(Softer("spherique"),),
     ),
     _liaison(
         "spherique",
@@ -127,6 +164,7 @@ _ROWS = (
         ANY_TURN,
         of_points=True,
         doc="A common point.",
+        title="sphérique",
     ),
     _liaison(
         "appui_plan",
@@ -137,6 +175,7 @@ _ROWS = (
         {"x": LENGTH, "y": LENGTH, "angle": REAL},
         (_axis("normal"),),
         doc="Two planes that stay on one another.",
+        softer=(Softer("point_surface", (("axis", "normal", "z"),)),),
     ),
     _liaison(
         "lineaire_annulaire",
@@ -147,6 +186,7 @@ _ROWS = (
         options=(_axis("axis"),),
         of_points=True,
         doc="A point stays on a straight line.",
+        joins="it takes a point and a straight line, or two points with `axis`",
     ),
     _liaison(
         "lineaire_rectiligne",
@@ -155,6 +195,7 @@ _ROWS = (
         ("curve", "surface"),
         (2, None),
         doc="A line stays on a plane.",
+        joins="it takes a straight line and a plane",
     ),
     _liaison(
         "tige",
@@ -166,6 +207,7 @@ _ROWS = (
         (Argument("length", LENGTH, sign="positive", doc="distance of the points"),),
         of_points=True,
         doc="A massless rigid rod between two points.",
+        in_plane="figures",
     ),
     _liaison(
         "fil",
@@ -178,6 +220,7 @@ _ROWS = (
         unilateral=True,
         of_points=True,
         doc="A massless inextensible thread between two points.",
+        in_plane="figures",
     ),
     _liaison(
         "point_courbe",
@@ -188,6 +231,9 @@ _ROWS = (
         {"u": LENGTH, "abscissa": LENGTH},
         of_points=True,
         doc="A point of a body stays on a curve.",
+        joins="it takes a point, then a curve",
+        in_plane="contact",
+        laws=CONTACT_LAWS,
     ),
     _liaison(
         "point_surface",
@@ -197,6 +243,7 @@ _ROWS = (
         (1, None),
         of_points=True,
         doc="A point of a body stays on a surface.",
+        joins="it takes a point, then a surface",
     ),
     _liaison(
         "contact_ponctuel",
@@ -208,6 +255,11 @@ _ROWS = (
         unilateral=True,
         of_points=True,
         doc="Two of point, curve, surface touch at a point.",
+        joins="by one relation touch a point and a surface, and any two of curve, rim and "
+        "surface; two points are a `spherique`, a point and a curve in space a `point_courbe`, a "
+        "line on a plane a `lineaire_rectiligne`, two planes an `appui_plan`",
+        in_plane="contact",
+        laws=CONTACT_LAWS,
     ),
     _liaison(
         "courbe_courbe",
@@ -216,6 +268,9 @@ _ROWS = (
         CURVE,
         (3, 1),
         doc="Two curves stay tangent.",
+        joins="it takes two curves or rims, not both straight",
+        in_plane="contact",
+        laws=CONTACT_LAWS,
     ),
     _liaison(
         "roulement",
@@ -224,6 +279,8 @@ _ROWS = (
         ("curve", "surface"),
         (3, 2),
         doc="Contact is kept and does not slip: kinematic, non-holonomic in space.",
+        joins="it takes two of curve, rim and surface",
+        in_plane="figures",
     ),
     _liaison(
         "appui_faces",
@@ -234,6 +291,8 @@ _ROWS = (
         {"gap": LENGTH},
         unilateral=True,
         doc="The corners of a face rest on a plane.",
+        joins="it takes a face of a box, or a side of a polygon, and a plane or line",
+        laws=CONTACT_LAWS,
     ),
     _liaison(
         "libre",

@@ -8,8 +8,8 @@ from frot.dsl import checked
 from frot.dsl.catalogue import Argument
 from frot.dsl.checked.arrays import component_names, scalars
 from frot.dsl.checked.evaluation import constant
+from frot.dsl.names.declared_types import Kind
 from frot.dsl.names.scope import Scope
-from frot.dsl.names.types import Kind
 from frot.dsl.quantities.dimensions import BOOLEAN
 
 Bounds = tuple[tuple[str, checked.Expression], ...]

@@ -9,6 +9,7 @@ from frot.dsl.catalogue import (
     FORCES,
     LAWS,
     LIAISONS,
+    Argument,
     LiaisonKind,
     arguments_for,
     find,
@@ -23,10 +24,10 @@ from frot.dsl.expressions.expression import expression, fitting
 from frot.dsl.expressions.known import known
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.names.classes import Class
-from frot.dsl.names.members import coordinates
+from frot.dsl.names.declared_types import find_class
+from frot.dsl.names.find_member import coordinates
 from frot.dsl.names.near import did_you_mean, unknown_kind
 from frot.dsl.names.scope import Scope
-from frot.dsl.names.types import find_class
 from frot.dsl.quantities.dimensions import BOOLEAN
 from frot.dsl.quantities.turns import RATE, TURNING
 from frot.dsl.text import tree
@@ -218,19 +219,23 @@ def _law(written: tree.Expression, to: checked.Liaison | None, scope: Scope) -> 
     if not found.complete:
         return None
     values = cast("dict[str, checked.Expression]", found.values)
-    _check_pair(values, scope)
+    _check_pairs(wanted, values, scope)
     return checked.Law(kind, values, written.span)
 
 
-def _check_pair(values: dict[str, checked.Expression], scope: Scope) -> None:
-    for low, high in (("mu", "mu_s"), ("min", "max")):
+def _check_pairs(
+    kinds: tuple[Argument, ...], values: dict[str, checked.Expression], scope: Scope
+) -> None:
+    """Report a literal that is below the one it must not be below."""
+    for kind in kinds:
+        low, high = kind.not_below, kind.name
         if low in values and high in values:
             a, b = known(values[low], scope), known(values[high], scope)
             if isinstance(a, float) and isinstance(b, float) and b < a:
-                kind = values[low].type
+                of = values[high].type
                 scope.log.report(
                     "E0402",
-                    f"{high} must not be below {low}: {quantity(b, kind)} < {quantity(a, kind)}",
+                    f"{high} must not be below {low}: {quantity(b, of)} < {quantity(a, of)}",
                     values[high].span,
                 )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from frot.dsl.checked.order import in_order
-from frot.dsl.names.build import Build, settled
+from frot.dsl.names.check_state import Build, settled
 from frot.dsl.names.entities import REFUSED, Array, Entity, Instance, Pending
 
 

@@ -10,14 +10,14 @@ from frot.dsl.checked.describe import describe, pair, written_unit
 from frot.dsl.expressions.array_calls import array_call
 from frot.dsl.expressions.events import event_call
 from frot.dsl.expressions.expression import NUMERIC, expression, is_whole
-from frot.dsl.expressions.functions import expand
 from frot.dsl.expressions.rates import all_alike
 from frot.dsl.expressions.records import construct
+from frot.dsl.expressions.user_functions import expand
+from frot.dsl.names.declared_types import find_class
 from frot.dsl.names.entities import Record
 from frot.dsl.names.near import unknown_kind
 from frot.dsl.names.scope import Scope
 from frot.dsl.names.things import kind_of
-from frot.dsl.names.types import find_class
 from frot.dsl.quantities.dimensions import REAL, Type
 from frot.dsl.text import tree
 

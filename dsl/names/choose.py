@@ -5,7 +5,7 @@ from __future__ import annotations
 from frot.dsl.messages.diagnostics import Label, Log
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.text import tree
-from frot.dsl.text.walk import children
+from frot.dsl.text.tree_names import children
 
 FLANGES = {"RotationalFlange", "TranslationalFlange"}
 _NESTED = 50

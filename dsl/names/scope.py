@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from frot.dsl import checked
 from frot.dsl.messages.diagnostics import Log
-from frot.dsl.names.build import Build, settled
+from frot.dsl.names.check_state import Build, settled
 from frot.dsl.names.entities import Array, Entity, Instance, Pending, Refused
 
 if TYPE_CHECKING:

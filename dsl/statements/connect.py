@@ -7,7 +7,7 @@ from frot.dsl.checked.describe import describe
 from frot.dsl.expressions.expression import agrees
 from frot.dsl.expressions.names import resolve
 from frot.dsl.messages.source import Span
-from frot.dsl.names.build import Build
+from frot.dsl.names.check_state import Build
 from frot.dsl.names.classes import Class
 from frot.dsl.names.entities import Array, Instance, Pending, Refused
 from frot.dsl.names.scope import Scope

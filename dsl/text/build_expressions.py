@@ -12,8 +12,8 @@ from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text import tree
 from frot.dsl.text.syntax_messages import too_deep
+from frot.dsl.text.tree_names import children
 from frot.dsl.text.unit_messages import refuse_power
-from frot.dsl.text.walk import children
 
 # Parentheses, calls and `if`s in one another, which the passes follow by recursion, and levels of
 # the tree, where each term of a sum is one. Both keep well inside Python's own limit.

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import casadi as ca
 
-from frot.compiler.lowering.listing import Listed
-from frot.compiler.mechanics.link import point_body
+from frot.compiler.lowering.result_variables import Listed
+from frot.compiler.mechanics.points import point_body
 from frot.dsl.checked import (
     Body,
     BodyGeometry,
@@ -27,7 +27,7 @@ from frot.dsl.checked import (
 from frot.dsl.quantities.dimensions import dimension
 
 if TYPE_CHECKING:
-    from frot.compiler.lowering.assembled import Assembled
+    from frot.compiler.equations.assembled import Assembled
 
 PREFIX = "picture:"
 PARTS = 7  # of a pose: x, y, z, and the quaternion w, x, y, z

@@ -6,7 +6,7 @@ import math
 
 import casadi as ca
 import pytest
-from frot.compiler.lowering.expressions import Lowering
+from frot.compiler.translate.expressions import Lowering
 from frot.dsl import Log, checked, compile_text, render_log
 from frot.dsl.catalogue.functions import FUNCTIONS, Function
 from frot.dsl.checked.evaluation import _Evaluation

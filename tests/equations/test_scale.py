@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from frot.compiler.driver import lowered_of
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.product import roll, split
+from frot.compiler.product import reroll, split
 from frot.compiler.product.generate import generate
 from frot.compiler.product.split import LONGEST
 from frot.dsl import Log, compile_text
@@ -121,7 +121,7 @@ def test_a_function_in_pieces_gives_the_same_bits(monkeypatch: pytest.MonkeyPatc
     found = []
     for longest, many in ((10**9, 10**9), (40, 10**9), (40, 0)):
         monkeypatch.setattr(split, "LONGEST", longest)
-        monkeypatch.setattr(roll, "MANY", many)
+        monkeypatch.setattr(reroll, "MANY", many)
         program = frot.compile(f"// {longest} {many}\n{SPHERE.format(n=4)}")
         result = program.simulate(interval=0.01)
         found.append(np.array([result[name] for name in result]))

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from c_objects import c_objects
-from frot.compiler.toolchain.chosen import KERNEL_FLAGS
+from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS
 from frot.compiler.toolchain.objects import only_seen
 from frot.runtime import fmi
 from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo

@@ -99,7 +99,7 @@ def test_what_is_not_needed_is_not_imported(command: str, filled: Path, shell: S
             *("lark", "numpy", "scipy", "frot.dsl.catalogue", "frot.dsl.messages.codes"),
             *("subprocess", "tempfile", "frot.compiler.product.generate"),
         },
-        "check": {"frot.compiler.mechanics.reduce"},
+        "check": {"frot.compiler.equations.reduce"},
         "--help": {"lark", "numpy", "scipy", "frot.dsl", "frot.model"},
         "--version": {"lark", "numpy", "scipy", "frot.dsl", "frot.model"},
     }[command]

@@ -9,8 +9,8 @@ import pytest
 from front_door import HOOP, Door, Shell
 from frot.compiler.toolchain.cache import find_program
 from frot.compiler.toolchain.cache_size import bytes_of, entries, shown, shrink, sweep, write_limit
-from frot.compiler.toolchain.hold import hold
-from frot.compiler.toolchain.storing import store
+from frot.compiler.toolchain.cache_store import store
+from frot.compiler.toolchain.folder_lock import hold
 
 import frot
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 from front_door import HOOP, Shell, hasty_compiler, script
-from frot.compiler.toolchain.chosen import Toolchain
+from frot.compiler.toolchain.child_processes import Keeper
+from frot.compiler.toolchain.compiler_choice import Toolchain
 from frot.compiler.toolchain.compilers import compile_objects
-from frot.compiler.toolchain.keeper import Keeper
 from patience import PATIENCE
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")

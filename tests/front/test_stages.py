@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from front_door import HOOP, Door
 from frot.compiler.driver import assembled_of, lowered_of
-from frot.compiler.lowering.expressions import Lowering
 from frot.compiler.mechanics.mechanize import mechanize
+from frot.compiler.translate.expressions import Lowering
 from frot.dsl import Log
 
 import frot
@@ -26,7 +26,28 @@ SHOWN = {
     "cost": "operations of the generated functions",
     "c": "const frot_model frot_the_model",
 }
-PASSES = {"mechanize", "reduce", "assemble", "make_groups", "lower", "generate"}
+PASSES = {
+    "mechanize",
+    "place_mechanism",
+    "read_text",
+    "apply_loads",
+    "gather_text",
+    "large_trees",
+    "reduce_motion",
+    "make_reduced",
+    "plain_system",
+    "pose_equations",
+    "remove_definitions",
+    "order_equations",
+    "solve_in_order",
+    "hold_slips",
+    "pose_initial_problem",
+    "make_groups",
+    "sort_conditions",
+    "lower_switches",
+    "lower",
+    "generate",
+}
 
 
 @pytest.mark.parametrize("stage", STAGES)

@@ -10,7 +10,7 @@ import casadi as ca
 from c_objects import c_objects
 from frot.compiler.product.generate import write_c
 from frot.compiler.product.split import split_functions
-from frot.compiler.toolchain.chosen import KERNEL_FLAGS, MODEL_FLAGS, find_toolchain
+from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, MODEL_FLAGS, find_toolchain
 from frot.compiler.toolchain.compilers import link_library
 from frot.compiler.toolchain.objects import kernel_folder, kernel_sources
 from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo

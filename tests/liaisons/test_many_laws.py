@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from frot.compiler.mechanics import refuse
+from frot.compiler.mechanics.laws import law_models
 
 import frot
 
@@ -17,20 +17,20 @@ initial
   d.velocity = (1, 0) m/s;
 end Rolling;
 """
-KERNEL = Path(refuse.__file__).parents[2] / "runtime" / "kernel"
+KERNEL = Path(law_models.__file__).parents[3] / "runtime" / "kernel"
 
 
 def test_the_compiler_knows_how_many_the_kernel_takes() -> None:
     found = re.search(
         r"#define FROT_LAWS_OF_CONTACT (\d+)", (KERNEL / "modes" / "mode_options.h").read_text()
     )
-    assert found is not None and int(found[1]) == refuse.MOST_LAWS
+    assert found is not None and int(found[1]) == law_models.MOST_LAWS
 
 
 def test_one_law_more_is_refused_with_the_names_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two laws are taken; where the kernel takes one, the second is too many."""
     assert frot.compile(ROLLING).simulate().events
-    monkeypatch.setattr(refuse, "MOST_LAWS", 1)
+    monkeypatch.setattr(law_models, "MOST_LAWS", 1)
     with pytest.raises(frot.FrotError) as refused:
         frot.compile(ROLLING).report()
     (message,) = refused.value.diagnostics

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from frot.compiler import driver
 from frot.compiler.mechanics import dynamics
-from frot.compiler.product import roll
+from frot.compiler.product import reroll
 from frot.dsl import Log, compile_text
 
 import frot
@@ -80,7 +80,7 @@ def test_what_is_stated_of_bodies_is_solved_one_by_one(law: str) -> None:
     assert model is not None
     lowered = driver.lowered_of(model, log)
     assert lowered is not None
-    for part, _ in (*lowered.parts, *lowered.speed_parts):
+    for part, _ in (*lowered.shared.parts, *lowered.shared.speed_parts):
         assert not part.stated, "no system is left for the kernel"
     start = frot.compile(text).simulate(stop=1e-3, parameters={"lean": -0.1})
     for k in range(1, n + 1):
@@ -99,7 +99,7 @@ def test_rolled_code_gives_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> Non
     text = CHAIN.format(n=25, first=0.3, tolerance=1e-9)
     rolled, straight = [], []
     for least, results in ((400, rolled), (10**9, straight)):
-        monkeypatch.setattr(roll, "LEAST", least)
+        monkeypatch.setattr(reroll, "LEAST", least)
         program = frot.compile(f"// {least}\n{text}")
         results.append(program.simulate(stop=0.2))
         loops = (program.program().folder / "model.c").read_text().count("r<")
@@ -116,7 +116,7 @@ def test_code_grows_with_kinds_of_bodies_not_with_their_number() -> None:
         lowered = driver.lowered_of(model, log)
         assert lowered is not None
         lines.append(driver.text_of(lowered, "key").count("\n"))
-        statements.append(sum(f.n_instructions() for f in lowered.functions.values()))
+        statements.append(sum(f.n_instructions() for f in lowered.whole.functions.values()))
     assert lines[1] < 1.2 * lines[0]
     assert statements[1] < 2.1 * statements[0]
 

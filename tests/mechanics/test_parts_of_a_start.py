@@ -75,9 +75,9 @@ def test_parts_have_functions_of_their_own_that_equal_ones_share() -> None:
     assert model is not None
     lowered = driver.lowered_of(model, log)
     assert lowered is not None
-    assert sorted(part.q for part, _ in lowered.parts) == [(k,) for k in range(12)]
-    assert all(not part.p and len(part.guessed) == 2 for part, _ in lowered.parts)
-    assert len({member.kind for _, member in lowered.parts}) == 1
+    assert sorted(part.q for part, _ in lowered.shared.parts) == [(k,) for k in range(12)]
+    assert all(not part.p and len(part.guessed) == 2 for part, _ in lowered.shared.parts)
+    assert len({member.kind for _, member in lowered.shared.parts}) == 1
 
 
 def test_an_instance_grows_with_the_number_of_parts() -> None:

@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from frot.compiler.report.dynamics import State
+from frot.compiler.report.numeric_dynamics import State
 from frot.compiler.report.paradox import _Watched
 
 import frot

@@ -2,126 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Self
+from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.lowering.symbols import Rows
+from frot.compiler.mechanics.geometry.contact_parts import ContactParts
 from frot.compiler.mechanics.geometry.contacts import ContactGeometry, contact_geometry
-from frot.compiler.mechanics.geometry.figure import Figure, Placed
-from frot.compiler.mechanics.liaisons.curves import Follow
+from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.curves import PointOnCurve
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.liaisons.places import Slide
-from frot.compiler.mechanics.link import Friction, Link, Point
-from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
+from frot.compiler.mechanics.liaisons.translations import Slide
 from frot.compiler.mechanics.spatial import Pose, nowhere
-from frot.dsl.checked import Expression, Liaison, World
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.kinematics import Kinematics
+from frot.dsl.checked import World
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Contact(Link):
-    """A point, a rim or a curve on a curve of the plane, with the laws that bound its reaction.
-
-    `figure` is what touches: a point, or a rim with its centre at `point`; `track` the figure that
-    it touches with a point of it, or its centre. `floor`: that is the line of the ground.
-    `reduced`: the coordinates of the body already keep the liaison. `track_first`: the track is
-    `a`, the first place of the liaison. `frictions`: sliding, then rolling.
-    """
-
-    liaison: Liaison = field()
-    point: Point
-    figure: Figure
-    track: Placed
-    track_first: bool
-    floor: bool
-    unilateral: Expression = field()
-    reduced: bool = False
-    frictions: tuple[Friction, ...] = ()
-    opens = True
-
-    @property
-    def ends(self) -> tuple[Point, Point]:
-        """The track carries."""
-        return self.track.point, self.point
-
-    @property
-    def swapped(self) -> bool:
-        """Whether the track is the second place."""
-        return not self.track_first
-
-    @property
-    def readings(self) -> int:
-        """The normal one."""
-        return 1 if self.reduced else 0
-
-    @property
-    def slips(self) -> bool:
-        """A thread has no one way to slip."""
-        return not is_thread(self.liaison)
-
-    @property
-    def can_carry(self) -> bool:
-        """A point that cannot leave its line."""
-        return self._follows and not is_unilateral(self.liaison)
-
-    @property
-    def keeps_left(self) -> bool:
-        """Whether nothing chooses the side: of a thread it is the inside."""
-        return self.can_carry or is_thread(self.liaison)
-
-    @property
-    def by_coordinates(self) -> bool:
-        """On a curve given by its points, or an ellipse."""
-        figure = self.track.figure
-        return self._follows and figure.plane is None and not figure.is_round
-
-    @property
-    def pairs(self) -> tuple[tuple[Figure, Figure], ...]:
-        """The one."""
-        return ((self.track.figure, self.figure),)
-
-    @property
-    def _follows(self) -> bool:
-        return self.liaison.kind.along_curve
-
-    def counted(self, planar: bool) -> Iterator[tuple[Link, int]]:
-        """That of a point on a circle."""
-        if self._follows and not self.reduced and self.track.figure.is_round:
-            yield self, 0
-
-    def kept(self, reduced: bool) -> Self:
-        """By coordinates, or by its row."""
-        return replace(self, reduced=reduced)
-
-    def without_friction(self) -> Self:
-        """What is smooth."""
-        return replace(self, frictions=())
+class Contact(ContactParts):
+    """A contact with the motions by which it carries a body, and its geometry."""
 
     def carrying(self) -> tuple[Motion, ...]:
         """Along the curve."""
         curve = self.track.figure
         if curve.plane is None:
-            return (Follow(curve),)
+            return (PointOnCurve(curve),)
         return (Slide(curve.plane, coordinates=("u",)),)
 
     def columns(self, kinematics: Kinematics, a: Pose, b: Pose) -> list[Column]:
         """Along the normal."""
-        return [Column(nowhere(), kinematics.normal(self))]
+        return [Column(nowhere(), kinematics.normal(self.liaison, self.track))]
 
     def geometry(self, kinematics: Kinematics, side: ca.SX, world: World) -> ContactGeometry:
         """Where it touches."""
         return contact_geometry(self, kinematics, side, world)
-
-    def labels(self, rows: Rows) -> tuple[str, ...]:
-        """Along the normal, along the line, about it."""
-        name = self.liaison.name
-        return (
-            f"{name}.normal_force",
-            *([f"{name}.tangential_force"] if rows.tangent >= 0 else []),
-            *([f"{name}.rolling_couple"] if rows.rolling >= 0 else []),
-        )

@@ -4,30 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.mechanics.geometry.ended import (
+from frot.compiler.mechanics.constraint_geometry import Geometry, Reaction
+from frot.compiler.mechanics.geometry.closest_closed_form import is_closed, touch
+from frot.compiler.mechanics.geometry.closest_solved import Track, on_side, track
+from frot.compiler.mechanics.geometry.contact_parts import ContactParts
+from frot.compiler.mechanics.geometry.curves_with_ends import (
     AT_END,
     Ending,
     away,
     bounded,
     track_to_ends,
 )
-from frot.compiler.mechanics.geometry.paths import slope_at
+from frot.compiler.mechanics.geometry.parametric_figures import slope_at
 from frot.compiler.mechanics.geometry.sides import sides_of
-from frot.compiler.mechanics.geometry.touches import is_closed, touch
-from frot.compiler.mechanics.geometry.tracking import Track, on_side, track
 from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.liaisons.actions import Effort
-from frot.compiler.mechanics.link import Geometry, Reaction, point_body
 from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
+from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.spatial import Pose, Z, cross, nowhere
 from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import World
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.geometry.contact import Contact
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,7 +40,7 @@ class ContactGeometry(Geometry):
     line's direction, and the relative angular velocity. `lengths`: of a thread, by name.
     """
 
-    contact: Contact
+    contact: ContactParts
     line: Line
     side: ca.SX
     gap: ca.SX
@@ -117,9 +115,9 @@ class ContactGeometry(Geometry):
         normal = lam[rows.reaction[0]]
         tangent = ca.dot(reaction.drive[0], self.line.direction)
         friction = reaction.friction
-        friction += lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
+        friction += lam[rows.tangent[0]] if rows.tangent else ca.SX(0)
         tangent += friction
-        couple = lam[rows.rolling] if rows.rolling >= 0 else ca.SX(0)
+        couple = lam[rows.rolling[0]] if rows.rolling else ca.SX(0)
         on_second = 1 if self.contact.track_first else -1
         match name:
             case "normal_force":
@@ -137,7 +135,7 @@ class ContactGeometry(Geometry):
         raise KeyError(name)
 
 
-def _reach(contact: Contact, line: Line, kinematics: Kinematics) -> ca.SX:
+def _reach(contact: ContactParts, line: Line, kinematics: Kinematics) -> ca.SX:
     """Size of the vectors from the bodies' coordinates to the point and to the line."""
     base = point_body(contact.track.point)
     sizes = kinematics.lengths_between(
@@ -152,7 +150,7 @@ def _reach(contact: Contact, line: Line, kinematics: Kinematics) -> ca.SX:
 
 
 def contact_geometry(
-    contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
+    contact: ContactParts, kinematics: Kinematics, side: ca.SX, world: World
 ) -> ContactGeometry:
     """Geometry and relative velocities of a point or rim on a curve."""
     if contact.keeps_left:
@@ -166,7 +164,7 @@ def contact_geometry(
 
 
 def _apart(
-    contact: Contact, kinematics: Kinematics, place: ca.SX, at: ca.SX
+    contact: ContactParts, kinematics: Kinematics, place: ca.SX, at: ca.SX
 ) -> tuple[ca.SX, ca.SX, ca.SX]:
     """Velocities of the body from the curve at two places, and the angular one."""
     body, base = kinematics.moving(contact.point), kinematics.moving(contact.track.point)
@@ -175,7 +173,7 @@ def _apart(
 
 
 def _on_line(
-    contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
+    contact: ContactParts, kinematics: Kinematics, side: ca.SX, world: World
 ) -> ContactGeometry:
     """A round thing comes nearer as its centre does, for it has no slope.
 
@@ -208,7 +206,7 @@ def _on_line(
 
 
 def _on_segment(
-    contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
+    contact: ContactParts, kinematics: Kinematics, side: ca.SX, world: World
 ) -> ContactGeometry:
     """A point or a rim on a line with ends, or on one of these: its nearest point is known."""
     line, lower = kinematics.line(contact.track), kinematics.fixed.lower
@@ -241,9 +239,9 @@ def _on_segment(
     )
 
 
-def _carried(contact: Contact, kinematics: Kinematics) -> ContactGeometry:
+def _carried(contact: ContactParts, kinematics: Kinematics) -> ContactGeometry:
     """A point that its coordinate keeps on a curve; its slip is against the curve's elements."""
-    line, liaison = kinematics.curve_at(contact), contact.liaison
+    line, liaison = kinematics.curve_at(contact.liaison, contact.point), contact.liaison
     value, rate = kinematics.parameter(liaison)
     _, _, turning = _apart(contact, kinematics, line.through, line.through)
     return ContactGeometry(
@@ -261,7 +259,7 @@ def _carried(contact: Contact, kinematics: Kinematics) -> ContactGeometry:
 
 
 def _on_curve(
-    contact: Contact, kinematics: Kinematics, side: ca.SX, world: World
+    contact: ContactParts, kinematics: Kinematics, side: ca.SX, world: World
 ) -> ContactGeometry:
     """On a curve of any kind; the left of a circle is its inside.
 
@@ -276,7 +274,7 @@ def _on_curve(
     if is_closed(a, b):
         found = touch(a, b, (base, own), lower, left * side)
         angle = a.parameter(own.origin - base.origin, base, lower)
-        abscissa = kinematics.counted(contact, 0, angle)
+        abscissa = kinematics.counted(contact.liaison, 0, angle)
     else:
         followed = kinematics.track(
             contact.liaison, lambda: _follow(contact, kinematics, (base, own), left * side)
@@ -310,7 +308,9 @@ def _on_curve(
     )
 
 
-def _follow(contact: Contact, kinematics: Kinematics, at: tuple[Pose, Pose], side: ca.SX) -> Track:
+def _follow(
+    contact: ContactParts, kinematics: Kinematics, at: tuple[Pose, Pose], side: ca.SX
+) -> Track:
     """Where figures are nearest; what can part from a curve with ends may be nearest to an end."""
     a, b, lower = contact.track.figure, contact.figure, kinematics.fixed.lower
     if (a.has_ends or b.has_ends) and is_unilateral(contact.liaison):
@@ -318,7 +318,7 @@ def _follow(contact: Contact, kinematics: Kinematics, at: tuple[Pose, Pose], sid
     return track(a, b, at, lower, planar=True)
 
 
-def _lengths(contact: Contact, way: ca.SX, lower: Lower) -> Mapping[str, ca.SX]:
+def _lengths(contact: ContactParts, way: ca.SX, lower: Lower) -> Mapping[str, ca.SX]:
     """How long a thread is drawn out, and what is left of it."""
     if not is_thread(contact.liaison):
         return {}

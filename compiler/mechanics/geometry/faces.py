@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from frot.compiler.lowering.walk import follows_time
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.figures import figure_of
 from frot.compiler.mechanics.mechanism import is_unilateral
-from frot.compiler.mechanics.refuse import refuse_places
 from frot.compiler.mechanics.shapes import shape_of
+from frot.compiler.mechanics.unsupported import refuse_places
+from frot.compiler.translate.walk import follows_time
 from frot.dsl import Log
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import BodyGeometry, Liaison, Model, Place

@@ -1,8 +1,8 @@
 """What a figure knows of itself: its points, the function that is zero on it, how far it reaches.
 
 A figure is given in the axes of a point of its body, which is its centre, or a point of it where it
-has none. How two figures touch stands in `touches.py`, and where no formula says it in
-`tracking.py`; both ask the figures.
+has none. How two figures touch stands in `closest_closed_form.py`, and where no formula says it in
+`closest_solved.py`; both ask the figures.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.lowering.walk import is_fixed
 from frot.compiler.mechanics.spatial import GROUND, Pose, cross, nowhere, whole
 from frot.compiler.mechanics.values import Axis, Lower
+from frot.compiler.translate.walk import is_fixed
 from frot.dsl.checked import BodyPoint, Expression, Frame
 
 Point = BodyPoint | Frame

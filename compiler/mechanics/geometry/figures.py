@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from frot.compiler.lowering.walk import has_time, subexpressions
 from frot.compiler.mechanics.geometry.figure import Placed, Point
-from frot.compiler.mechanics.geometry.given import Implicit, Path, Sheet
-from frot.compiler.mechanics.geometry.plain import Dot, Flat, Straight
-from frot.compiler.mechanics.geometry.round import Ball, Egg, Oval, Ring
+from frot.compiler.mechanics.geometry.planes import LineOrCylinder, PlaneSurface, PointFigure
+from frot.compiler.mechanics.geometry.quadrics import (
+    EllipseCurve,
+    EllipsoidSurface,
+    Ring,
+    SphereSurface,
+)
+from frot.compiler.mechanics.geometry.user_figures import Implicit, Path, Sheet
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.values import Axis
+from frot.compiler.translate.walk import has_time, subexpressions
 from frot.dsl.checked import (
     BodyGeometry,
     Curve,
@@ -35,7 +40,7 @@ def figure_of(place: Place | SurfacePlace, planar: bool) -> Placed | None:
             return _surface(surface, place.span)
         case BodyGeometry():
             return shape_of(place.body).part(place, planar)
-    return Placed(place, Dot())
+    return Placed(place, PointFigure())
 
 
 def _at(of: Curve | Surface, name: str, span: Span) -> Point:
@@ -52,16 +57,16 @@ def _curve(curve: Curve, span: Span, planar: bool) -> Placed | None:
         axis = Axis(given["direction"])
         # one that turns as time tells has material elements, which move along it
         flat = planar and not has_time(given["direction"])
-        line = Flat(axis, True) if flat else Straight(axis, None)
+        line = PlaneSurface(axis, True) if flat else LineOrCylinder(axis, None)
         return Placed(_at(curve, "through", span), line)
     centre = _at(curve, "centre", span)
     if curve.kind == "circle":
         if planar:
-            return Placed(centre, Ball(given["radius"]))
+            return Placed(centre, SphereSurface(given["radius"]))
         return Placed(centre, Ring(Axis(given["normal"]), given["radius"]))
     if curve.kind == "ellipse":
         normal = Axis("z") if planar else Axis(given["normal"])
-        return Placed(centre, Oval(normal, given["a"], given["b"]))
+        return Placed(centre, EllipseCurve(normal, given["a"], given["b"]))
     if curve.kind == "parametric":
         (u,) = _unknowns(given["point"], "u")
         return Placed(centre, Path(given["point"], u, given["u"], _is_true(given["periodic"])))
@@ -86,13 +91,13 @@ def _surface(surface: Surface, span: Span) -> Placed | None:
     given = surface.arguments
     match surface.kind:
         case "plane":
-            return Placed(_at(surface, "through", span), Flat(Axis(given["normal"]), False))
+            return Placed(_at(surface, "through", span), PlaneSurface(Axis(given["normal"]), False))
         case "sphere":
-            return Placed(_at(surface, "centre", span), Ball(given["radius"]))
+            return Placed(_at(surface, "centre", span), SphereSurface(given["radius"]))
         case "ellipsoid":
-            return Placed(_at(surface, "centre", span), Egg(given["semi_axes"]))
+            return Placed(_at(surface, "centre", span), EllipsoidSurface(given["semi_axes"]))
         case "cylinder":
-            tube = Straight(Axis(given["axis"]), given["radius"])
+            tube = LineOrCylinder(Axis(given["axis"]), given["radius"])
             return Placed(_at(surface, "through", span), tube)
         case "implicit":
             return Placed(

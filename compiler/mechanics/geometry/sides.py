@@ -15,17 +15,13 @@ says, and a point that cannot leave its line has its normal to the left.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import casadi as ca
+from frot.compiler.mechanics.geometry.contact_parts import ContactParts
 from frot.compiler.mechanics.kinematics import Kinematics, Line
-from frot.compiler.mechanics.link import point_body
+from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.spatial import X, Y, Z
 from frot.dsl.checked import BodyGeometry, World
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.geometry.contact import Contact
 
 STANDARD_GRAVITY = 9.81
 DOWN = {"+x": X, "-x": -X, "+y": Y, "-y": -Y, "+z": Z, "-z": -Z}
@@ -43,7 +39,7 @@ def gravity(world: World, kinematics: Kinematics) -> ca.SX:
 
 
 def sides_of(
-    contact: Contact, line: Line, height: ca.SX, kinematics: Kinematics, world: World
+    contact: ContactParts, line: Line, height: ca.SX, kinematics: Kinematics, world: World
 ) -> ca.SX:
     """The three numbers, of a line or of the tangent of a curve; `height` is the first."""
     if contact.floor or contact.keeps_left:
@@ -55,7 +51,7 @@ def sides_of(
     )
 
 
-def _outside(contact: Contact, kinematics: Kinematics) -> ca.SX:
+def _outside(contact: ContactParts, kinematics: Kinematics) -> ca.SX:
     """The side of the curve that is outside of its body: +1 the left one, 0 for a thin body."""
     liaison = contact.liaison
     place = liaison.a if contact.track_first else liaison.b
@@ -64,7 +60,7 @@ def _outside(contact: Contact, kinematics: Kinematics) -> ca.SX:
     return shape_of(place.body).outside(place, kinematics.fixed.lower)
 
 
-def _natural(contact: Contact, kinematics: Kinematics, world: World) -> ca.SX:
+def _natural(contact: ContactParts, kinematics: Kinematics, world: World) -> ca.SX:
     """The unit vector against gravity, zero without gravity; along it for a point that is fixed."""
     fall = gravity(world, kinematics)
     size = ca.sqrt(ca.sumsqr(fall))
@@ -72,7 +68,7 @@ def _natural(contact: Contact, kinematics: Kinematics, world: World) -> ca.SX:
     return down if point_body(contact.point) in kinematics.still else -down
 
 
-def _of_centre(contact: Contact, line: Line, kinematics: Kinematics) -> ca.SX:
+def _of_centre(contact: ContactParts, line: Line, kinematics: Kinematics) -> ca.SX:
     """The height of a body's G over the curve: within or without a closed one, else its tangent."""
     own, other = point_body(contact.point), point_body(contact.track.point)
     fixed = own in kinematics.still

@@ -11,12 +11,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.lowering.walk import follows_time, is_fixed
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint_geometry import Geometry
 from frot.compiler.mechanics.geometry.figure import Figure
-from frot.compiler.mechanics.geometry.plain import Dot
+from frot.compiler.mechanics.geometry.planes import PointFigure
 from frot.compiler.mechanics.kinematics import Kinematics
-from frot.compiler.mechanics.link import Geometry, Link, frames_of
+from frot.compiler.mechanics.points import frames_of
 from frot.compiler.mechanics.spatial import Pose, whole
+from frot.compiler.translate.walk import follows_time, is_fixed
 from frot.dsl.checked import Curve, CurvePlace, Expression, Liaison, Surface, SurfacePlace
 
 COUNT = 3  # numbers that tell where (FROT_WHERE)
@@ -49,7 +51,7 @@ class Figured:
 
 
 def find_vanishing(
-    links: Mapping[Liaison, Link],
+    links: Mapping[Liaison, Constraint],
     geometry: Mapping[Liaison, Geometry],
     kinematics: Kinematics,
 ) -> Iterator[Vanishing]:
@@ -74,7 +76,7 @@ def find_vanishing(
             yield Vanishing(liaison, text, (), track.alone, ca.SX.zeros(COUNT))
 
 
-def _changing(liaison: Liaison, link: Link) -> Iterator[tuple[str, Expression]]:
+def _changing(liaison: Liaison, link: Constraint) -> Iterator[tuple[str, Expression]]:
     """Axes and sizes of a liaison, and of what it joins, which are not given by parameters."""
     for argument in liaison.kind.arguments:
         value = liaison.options.get(argument.name)
@@ -102,7 +104,7 @@ def _changing(liaison: Liaison, link: Link) -> Iterator[tuple[str, Expression]]:
                 yield f"the {name} of '{shaped.name}' vanishes", value
 
 
-def figures_in(link: Link, geometry: Geometry, kinematics: Kinematics) -> Iterator[Figured]:
+def figures_in(link: Constraint, geometry: Geometry, kinematics: Kinematics) -> Iterator[Figured]:
     """The figures of a liaison, each where it touches, that which coordinates follow alone."""
     track, liaison = kinematics.tracks.get(link.liaison), link.liaison
     unknowns = ca.SX.zeros(0) if track is None else track.unknowns
@@ -114,7 +116,7 @@ def figures_in(link: Link, geometry: Geometry, kinematics: Kinematics) -> Iterat
     name, other = reversed(texts) if link.swapped else texts
     if liaison in kinematics.tangents:
         unknowns = kinematics.parameter(liaison)[0]
-        pairs = tuple((curve, Dot()) for curve in link.curves) or pairs
+        pairs = tuple((curve, PointFigure()) for curve in link.curves) or pairs
     for a, b in pairs:
         own = ca.SX.zeros(0) if a.rank >= 0 and b.rank >= 0 else unknowns
         count = 0 if a.rank >= 0 or not own.numel() else a.parameters

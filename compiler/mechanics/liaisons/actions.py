@@ -11,19 +11,14 @@ that the lock keeps at zero.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import casadi as ca
+from frot.compiler.mechanics.geometry.closest_closed_form import Touch
+from frot.compiler.mechanics.geometry.closest_solved import Track
 from frot.compiler.mechanics.geometry.figure import Figure
-from frot.compiler.mechanics.geometry.touches import Touch
-from frot.compiler.mechanics.geometry.tracking import Track
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.link import Geometry
 from frot.compiler.mechanics.spatial import Moving, Pose, nowhere
 from frot.compiler.mechanics.values import Lower
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.kinematics import Kinematics
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -117,21 +112,6 @@ class Action:
         """Rate of the gap: f . (v_b - v_a where f acts) + c . (omega_b - omega_a) + its own."""
         apart = self.moves(a, b)
         return ca.dot(self.force, apart) + ca.dot(self.couple, b.angular - a.angular) + self.own
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class RelationGeometry(Geometry):
-    """One lock of a joint that closes a loop: its gap, the rate of that, and `reach`, see there."""
-
-    gap: ca.SX
-    rate: ca.SX
-    witness: ca.SX
-    reach: ca.SX
-    still: tuple[ca.SX, ca.SX] | None = None
-
-    def rates(self, kinematics: Kinematics) -> list[ca.SX]:
-        """That of the gap."""
-        return [self.rate]
 
 
 def push(way: ca.SX, gap: ca.SX) -> Action:

@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 import casadi as ca
+from frot.compiler.mechanics.geometry.closest_solved import Track, along, tangency
 from frot.compiler.mechanics.geometry.figure import Figure
-from frot.compiler.mechanics.geometry.paths import slope_at
-from frot.compiler.mechanics.geometry.plain import Dot
-from frot.compiler.mechanics.geometry.tracking import Track, along, tangency
+from frot.compiler.mechanics.geometry.parametric_figures import slope_at
+from frot.compiler.mechanics.geometry.planes import PointFigure
+from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Action, Between, push
 from frot.compiler.mechanics.liaisons.lock import Lock
-from frot.compiler.mechanics.liaisons.motion import Motion, Seen
+from frot.compiler.mechanics.liaisons.motion import Carrier, Motion, Seen
 from frot.compiler.mechanics.liaisons.moves import Column, Moved, slid
 from frot.compiler.mechanics.spatial import Moving, Pose, beside_moving, nowhere
 from frot.compiler.mechanics.values import Lower, rate_by_time
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.mechanism import Hanging
 
 # A tangent vanishes that is less than this part of the one beside it, by this part of the curve.
 CUSP = 1e-9
@@ -28,7 +24,7 @@ BESIDE = 0.1
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Follow(Motion):
+class PointOnCurve(Motion):
     """Along a curve fixed to the base, by its parameter."""
 
     curve: Figure = field()
@@ -41,7 +37,7 @@ class Follow(Motion):
         return replace(self, sign=-self.sign)
 
     def carry(
-        self, kinematics: Kinematics, hanging: Hanging, base: Moving, q: ca.SX, v: ca.SX
+        self, kinematics: Kinematics, carrier: Carrier, base: Moving, q: ca.SX, v: ca.SX
     ) -> Moved:
         """Without a guess it begins at 0, or at the end of the curve that is nearest to that.
 
@@ -50,13 +46,11 @@ class Follow(Motion):
         lower = kinematics.fixed.lower
         if self.curve.has_ends:
             least, largest = self.curve.ends(lower)
-            before = itertools.takewhile(lambda m: m.bare is not self, hanging.motions)
-            at = kinematics.places[hanging.body][0] + sum(len(m.coordinates) for m in before)
             start = ca.fmin(ca.fmax(0, least), largest)
             farther = ca.if_else(largest - start > start - least, largest, least)
             beside = start + BESIDE * (farther - start)
             here, there = (ca.sumsqr(slope_at(self.curve, u, lower)) for u in (start, beside))
-            kinematics.starts[at] = ca.if_else(here <= CUSP**2 * there, beside, start)
+            kinematics.starts[carrier.own] = ca.if_else(here <= CUSP**2 * there, beside, start)
         return self.move(base, q, v, lower)
 
     def move(self, base: Moving, q: ca.SX, v: ca.SX, lower: Lower) -> Moved:
@@ -116,7 +110,7 @@ class Across(Lock):
     @property
     def figures(self) -> tuple[Figure, Figure] | None:
         """The curve and a point."""
-        return (self.curve, Dot()) if self.side == 0 else None
+        return (self.curve, PointFigure()) if self.side == 0 else None
 
     def find(self, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:
         """The nearest point of the curve."""

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from frot.compiler.lowering.walk import follows_time, is_given
-from frot.compiler.mechanics.liaisons.freed import coordinate_of, is_row, reaction_of
+from frot.compiler.mechanics.liaisons.kinematic_relations import coordinate_of, is_row, reaction_of
+from frot.compiler.translate.walk import follows_time, is_given
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Equation, Expression, Flange, Liaison, Model, Quantity, Variable
 

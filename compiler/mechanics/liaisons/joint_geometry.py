@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.lowering.symbols import Rows
-from frot.compiler.mechanics.geometry.touches import Touch
+from frot.compiler.mechanics.constraint import JointParts
+from frot.compiler.mechanics.constraint_geometry import Geometry, Reaction, Rows
+from frot.compiler.mechanics.geometry.closest_closed_form import Touch
+from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Action, Effort
-from frot.compiler.mechanics.link import Geometry, Reaction
-from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.liaisons.joint import Joint
+from frot.compiler.mechanics.liaisons.joint_places import between_places, joint_coordinate
+from frot.compiler.mechanics.spatial import Pose, X, Y, Z, conjugate, cross, nowhere, product
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -26,10 +23,11 @@ class JointGeometry(Geometry):
     velocity `moves` there; `way` (3) along which a slide of the plane goes; `coordinates` and their
     rates by name; `relative` angular velocity (3) of b from a, its `attitude` a quaternion; `apart`
     the velocities along the locks where coordinates keep them, of auxiliary speeds alone (empty
-    where no reaction is computed); `radius` of the pin or None.
+    where no reaction is computed); `radius` of the pin or None, `rubs` the axes about which its
+    friction acts.
     """
 
-    joint: Joint
+    joint: JointParts
     actions: tuple[Action, ...]
     turned: int
     touch: Touch | None
@@ -42,6 +40,7 @@ class JointGeometry(Geometry):
     attitude: ca.SX
     apart: ca.SX
     radius: ca.SX | None
+    rubs: tuple[ca.SX, ...]
     gap: ca.SX
     witness: ca.SX
     reach: ca.SX
@@ -92,48 +91,55 @@ class JointGeometry(Geometry):
             case "gap":
                 return self.gap
             case "slip" if self.radius is not None:
-                return self.radius * self.speed
+                return self.radius * (self.relative if len(self.rubs) > 1 else self.speed)
             case "slip":
                 return self._beside(self.moves * (1 if planar else self.turned), planar)
         if rows is None:
             if self.actions:
                 raise KeyError(name)
-            rows = Rows((), -1, -1)  # nothing is locked
+            rows = Rows(())  # nothing is locked
         force, couple = (ca.densify(x) for x in reaction.drive)
         along = force
         for row, action, drives in zip(rows.reaction, self.actions, self.drives, strict=True):
             force += lam[row] * action.force
             couple += lam[row] * action.couple
             along += drives * lam[row] * action.force
-        friction = lam[rows.tangent] if rows.tangent >= 0 else ca.SX(0)
+        rubbing = [lam[row] for row in rows.tangent]
+        friction = rubbing[0] if rubbing else ca.SX(0)
+        pairs = zip(rubbing, self.rubs, strict=True)
+        rubbed = sum((one * axis for one, axis in pairs), ca.SX.zeros(3))
         force, couple = self.turned * force, self.turned * couple
         match name:
             case "force":
                 return force[:2] if planar else force
             case "torque":
-                couple[2] += friction
+                couple += rubbed
                 return couple[2] if planar else couple
             case "normal_force" if self.touch is not None:
                 return self.turned * ca.dot(force, self.touch.normal)
             case "normal_force":
                 return ca.sqrt(ca.sumsqr(force[:2] if planar else force))
             case "tangential_force" if self.radius is not None:
-                return friction / self.radius
+                return (rubbed if len(self.rubs) > 1 else friction) / self.radius
             case "tangential_force" if self.touch is not None:
                 return self._beside(self.turned * force if planar else force, planar)
             case "tangential_force":
                 return self._beside(self.turned * along, planar)
             case "power":
-                return friction * self.speed if rows.tangent >= 0 else ca.SX(0)
+                if len(self.rubs) > 1:
+                    return ca.dot(rubbed, self.relative)
+                return friction * self.speed if rows.tangent else ca.SX(0)
         raise KeyError(name)
 
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
         """Along the locks that are read, then about a dry pin."""
-        return [self.apart, *([self.speed] if self.joint.frictions else [])]
+        if len(self.rubs) == 1:
+            return [self.apart, self.speed]
+        return [self.apart, *(ca.dot(axis, self.relative) for axis in self.rubs)]
 
     def coordinate(self, index: int, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
         """As the bodies show it."""
-        return kinematics.coordinate(self.joint, index)
+        return joint_coordinate(self.joint, index, kinematics)
 
     def rate_of(self, coordinate: str, kinematics: Kinematics) -> ca.SX:
         """As the bodies move; of what is in touch the gap stays."""
@@ -165,9 +171,9 @@ class JointGeometry(Geometry):
             return Effort(self.rates_of["gap"], normal, couple)
         name = "u" if coordinate == "abscissa" else coordinate
         index = [motion.name for motion in joint.motions].index(name)
-        between = kinematics.between(joint, ca.SX(1))
+        between = between_places(joint, kinematics, ca.SX(1))
         force, couple = joint.motions[index].bare.wrench(between)
-        rate, auxiliary = kinematics.coordinate(joint, index)[1], kinematics.symbols.sw
+        rate, auxiliary = joint_coordinate(joint, index, kinematics)[1], kinematics.symbols.sw
         if auxiliary.numel():
             a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
             power = ca.dot(force, b.linear - a.velocity_of(b.pose.origin))
@@ -189,10 +195,10 @@ class JointGeometry(Geometry):
         return ca.SX(0) if self.way is None else ca.dot(vector, self.way)
 
 
-def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGeometry:
+def joint_geometry(joint: JointParts, kinematics: Kinematics, side: ca.SX) -> JointGeometry:
     """A joint, whether coordinates keep it or not."""
     a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
-    between = kinematics.between(joint, side)
+    between = between_places(joint, kinematics, side)
     coordinates: dict[str, ca.SX] = {}
     rates: dict[str, ca.SX] = {}
     touch: Touch | None = None
@@ -202,7 +208,7 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
             touch = near.touch
             coordinates[motion.name], rates[motion.name] = near.gap, near.rate(a, b)
         elif motion.name:
-            coordinates[motion.name], rates[motion.name] = kinematics.coordinate(joint, k)
+            coordinates[motion.name], rates[motion.name] = joint_coordinate(joint, k, kinematics)
     actions = tuple(lock.of_joint(joint, kinematics, side) for lock in joint.locks)
     measured = [x.measure for x in actions if x.measure is not None]
     if measured:
@@ -228,18 +234,30 @@ def joint_geometry(joint: Joint, kinematics: Kinematics, side: ca.SX) -> JointGe
         attitude=product(conjugate(a.pose.quaternion), b.pose.quaternion),
         apart=ca.SX.zeros(0) if at is None else sw[at : at + len(joint.held)],
         radius=_radius(joint, kinematics),
+        rubs=_rubs(joint, a.pose, kinematics),
         gap=ca.SX(0) if touch is None else touch.gap,
         witness=ca.SX.ones(3),
         reach=ca.SX(0),
     )
 
 
-def _radius(joint: Joint, kinematics: Kinematics) -> ca.SX | None:
+def _radius(joint: JointParts, kinematics: Kinematics) -> ca.SX | None:
     arms = (friction.arm for friction in joint.frictions)
     return next((kinematics.fixed.lower(arm) for arm in arms if arm is not None), None)
 
 
-def _way(joint: Joint, a: Pose, kinematics: Kinematics) -> ca.SX | None:
+def _rubs(joint: JointParts, a: Pose, kinematics: Kinematics) -> tuple[ca.SX, ...]:
+    """The axes about which a dry pin turns: its own, or those of the ground of a ball joint."""
+    if not joint.frictions:
+        return ()
+    if joint.slip_components == 3:
+        return (X, Y, Z)
+    axes = (lock.turns_about for lock in joint.locks)
+    axis = next((x for x in axes if x is not None), None)
+    return (Z if axis is None else a.direction(axis.unit(kinematics.fixed.lower)),)
+
+
+def _way(joint: JointParts, a: Pose, kinematics: Kinematics) -> ca.SX | None:
     ways = (motion.bare.way(kinematics.fixed.lower) for motion in joint.motions)
     found = [way for way in ways if way is not None]
     return a.direction(found[0]) if kinematics.planar and len(found) == 1 else None

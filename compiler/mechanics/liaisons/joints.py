@@ -10,16 +10,15 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
-from frot.compiler.mechanics.liaisons.directions import Aligned, Crossed, Parallel, SameAngle
+from frot.compiler.mechanics.liaisons.alignments import Aligned, Crossed, Parallel, SameAngle
 from frot.compiler.mechanics.liaisons.driven import Drive, Driven
-from frot.compiler.mechanics.liaisons.facing import Attitude
 from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.motion import Motion
-from frot.compiler.mechanics.liaisons.places import LEFT, Slide, Way, WayAlong
-from frot.compiler.mechanics.liaisons.turns import Screw, Thread, Turn
-from frot.compiler.mechanics.link import Point, point_body
-from frot.compiler.mechanics.mechanism import is_particle
+from frot.compiler.mechanics.liaisons.orientations import Attitude
+from frot.compiler.mechanics.liaisons.rotations import Screw, ScrewCoupling, Turn
+from frot.compiler.mechanics.liaisons.translations import LEFT, FixedAlong, FixedPoint, Slide
+from frot.compiler.mechanics.points import Point, is_particle, point_body
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import Expression, Liaison
 
@@ -36,7 +35,7 @@ class Pairing:
 
 
 def _ways(planar: bool) -> tuple[Lock, ...]:
-    return tuple(Way(k) for k in range(2 if planar else 3))
+    return tuple(FixedPoint(k) for k in range(2 if planar else 3))
 
 
 def _no_turn(planar: bool) -> tuple[Lock, ...]:
@@ -48,7 +47,7 @@ def _about(axis: Axis) -> tuple[Lock, ...]:
 
 
 def _along(axis: Axis, planar: bool) -> tuple[Lock, ...]:
-    return (WayAlong(axis, LEFT),) if planar else (WayAlong(axis, 0), WayAlong(axis, 1))
+    return (FixedAlong(axis, LEFT),) if planar else (FixedAlong(axis, 0), FixedAlong(axis, 1))
 
 
 def _axis(options: Options, name: str, default: str) -> Axis:
@@ -76,7 +75,7 @@ def _cylindrical(options: Options, planar: bool) -> Pairing:
 
 def _screw(options: Options, planar: bool) -> Pairing:
     axis, pitch = _axis(options, "axis", "z"), options["pitch"]
-    locks = (*_along(axis, False), *_about(axis), Thread(axis, pitch))
+    locks = (*_along(axis, False), *_about(axis), ScrewCoupling(axis, pitch))
     return Pairing((Screw(axis, pitch),), locks)
 
 
@@ -100,7 +99,7 @@ def _planar(options: Options, planar: bool) -> Pairing:
         Slide(normal, side=1, coordinates=("y",)),
         Turn(normal),
     )
-    return Pairing(motions, (WayAlong(normal), *_about(normal)))
+    return Pairing(motions, (FixedAlong(normal), *_about(normal)))
 
 
 def _free(options: Options, planar: bool) -> Pairing:

@@ -7,21 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.mechanics.liaisons.actions import Action, Between, Part, RelationGeometry
+from frot.compiler.mechanics.constraint_geometry import RelationGeometry
+from frot.compiler.mechanics.geometry.figure import Figure
+from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.actions import Action, Between, Part
+from frot.compiler.mechanics.liaisons.joint_places import JointPlaces, between_places
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.link import point_body
+from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.spatial import Moving
 from frot.compiler.mechanics.values import Axis, Moments
 from frot.dsl.checked import Expression
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.geometry.figure import Figure
-    from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.liaisons.joint import Joint
 
 
 class Lock(Part):
@@ -83,7 +81,7 @@ class Lock(Part):
         measured = None if action.measure is None else measure
         return Action(force, couple, Column(angular, linear), gap, own, measure=measured)
 
-    def turn(self, joint: Joint, kinematics: Kinematics) -> ca.SX | None:
+    def turn(self, joint: JointPlaces, kinematics: Kinematics) -> ca.SX | None:
         """The angle that its gap counts."""
         return None
 
@@ -100,15 +98,17 @@ class Lock(Part):
         """The axis that it keeps parallel."""
         return None
 
-    def of_joint(self, joint: Joint, kinematics: Kinematics, side: ca.SX) -> Action:
+    def of_joint(self, joint: JointPlaces, kinematics: Kinematics, side: ca.SX) -> Action:
         """What it does in a joint."""
-        return self.act(kinematics.between(joint, side))
+        return self.act(between_places(joint, kinematics, side))
 
-    def of_relation(self, joint: Joint, kinematics: Kinematics, side: ca.SX) -> RelationGeometry:
+    def of_relation(
+        self, joint: JointPlaces, kinematics: Kinematics, side: ca.SX
+    ) -> RelationGeometry:
         """The row of a joint that coordinates do not keep."""
         a, b = kinematics.moving(joint.a), kinematics.moving(joint.b)
         turn = self.turn(joint, kinematics)
-        action = self.act(replace(kinematics.between(joint, side), turn=turn))
+        action = self.act(replace(between_places(joint, kinematics, side), turn=turn))
         sizes = kinematics.lengths_between(
             (point_body(joint.a), kinematics.local_point(joint.a)),
             (point_body(joint.b), kinematics.local_point(joint.b)),

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 import casadi as ca
+from frot.compiler.mechanics.geometry.figure import Figure
+from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Action, Between, Part
 from frot.compiler.mechanics.liaisons.moves import Moved
+from frot.compiler.mechanics.points import Point
 from frot.compiler.mechanics.spatial import Moving, product
 from frot.compiler.mechanics.values import Lower, Moments
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.geometry.figure import Figure
-    from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.mechanism import Hanging
+from frot.dsl.checked import Liaison
 
 Seen = tuple[ca.SX, ca.SX]
 
@@ -27,6 +26,19 @@ class Quaternion:
     """
 
     own_axes: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Carrier:
+    """The liaison by which a motion carries a body, and the place that carries.
+
+    `first` is the index of the body's first coordinate, `own` that of the motion's.
+    """
+
+    liaison: Liaison | None
+    base: Point | None
+    first: int
+    own: int
 
 
 class Motion(Part):
@@ -96,7 +108,7 @@ class Motion(Part):
         raise NotImplementedError
 
     def carry(
-        self, kinematics: Kinematics, hanging: Hanging, base: Moving, q: ca.SX, v: ca.SX
+        self, kinematics: Kinematics, carrier: Carrier, base: Moving, q: ca.SX, v: ca.SX
     ) -> Moved:
         """The same where it carries a body."""
         return self.move(base, q, v, kinematics.fixed.lower)
@@ -134,9 +146,3 @@ def seen(motion: Motion, a: Moving, b: Moving, lower: Lower) -> Seen:
         rate = rate + ca.jacobian(value, moments.symbol)
     value, rate = moments.back(value, rate)
     return value, rate
-
-
-def counted(angle: ca.SX, about: ca.SX) -> ca.SX:
-    """An angle known but for whole turns: the one that is less than half a turn from `about`."""
-    apart = angle - about
-    return about + ca.atan2(ca.sin(apart), ca.cos(apart))

@@ -4,25 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import casadi as ca
-from frot.compiler.lowering.symbols import Rows
-from frot.compiler.mechanics.liaisons.actions import RelationGeometry
+from frot.compiler.mechanics.constraint import Constraint, JointParts
+from frot.compiler.mechanics.constraint_geometry import RelationGeometry, Rows
+from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.lock import Lock
-from frot.compiler.mechanics.link import Link, Point
+from frot.compiler.mechanics.points import Point
 from frot.dsl.checked import Liaison, World
-
-if TYPE_CHECKING:
-    from frot.compiler.mechanics.kinematics import Kinematics
-    from frot.compiler.mechanics.liaisons.joint import Joint
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Relation(Link):
+class Relation(Constraint):
     """A lock of a joint; `first`: it stands for the joint."""
 
-    joint: Joint = field()
+    joint: JointParts = field()
     lock: Lock
     first: bool = field()
     ruled = False
@@ -33,7 +29,7 @@ class Relation(Link):
         return self.joint.liaison
 
     @property
-    def whole(self) -> Link:
+    def whole(self) -> Constraint:
         """The joint."""
         return self.joint
 
@@ -72,7 +68,7 @@ class Relation(Link):
         """What the text says in its own words is its own affair."""
         return not self.lock.stated
 
-    def counted(self, planar: bool) -> Iterator[tuple[Link, int]]:
+    def counted(self, planar: bool) -> Iterator[tuple[Constraint, int]]:
         """In space; in the plane the angles of bodies count the turns."""
         if self.first and not planar:
             for k, motion in enumerate(self.joint.motions):

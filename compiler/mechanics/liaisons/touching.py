@@ -6,9 +6,9 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 import casadi as ca
+from frot.compiler.mechanics.geometry.closest_closed_form import Touch, touch
+from frot.compiler.mechanics.geometry.closest_solved import Track, on_side, track
 from frot.compiler.mechanics.geometry.figure import Figure
-from frot.compiler.mechanics.geometry.touches import Touch, touch
-from frot.compiler.mechanics.geometry.tracking import Track, on_side, track
 from frot.compiler.mechanics.liaisons.actions import Action, Between
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.motion import Motion
@@ -22,7 +22,7 @@ from frot.dsl.checked import Expression
 class Touching(Lock):
     """A figure at a and one at b touch, or stay `apart`, which time may change.
 
-    `followed`: where they do is solved for (tracking.py).
+    `followed`: where they do is solved for (closest_solved.py).
     """
 
     a: Figure

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Placed
-from frot.compiler.mechanics.geometry.plain import Flat, Segment, Straight
-from frot.compiler.mechanics.geometry.round import Ring
+from frot.compiler.mechanics.geometry.planes import LineOrCylinder, PlaneSurface, Segment
+from frot.compiler.mechanics.geometry.quadrics import Ring
 from frot.compiler.mechanics.shapes.shape import Shape, at_centre, item_of, principal
 from frot.compiler.mechanics.spatial import X, Y, Z, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
@@ -33,7 +33,7 @@ class Cylinder(Shape):
         """Its `side`, and the `rims` of its two ends."""
         radius = part.body.arguments["radius"]
         if part.name == "side":
-            return at_centre(part, Straight(Axis("z"), radius, part.body.arguments["length"]))
+            return at_centre(part, LineOrCylinder(Axis("z"), radius, part.body.arguments["length"]))
         rim = item_of(part.name, "rims")
         if not rim:
             return None
@@ -96,7 +96,7 @@ class Box(Shape):
             for k, axis in enumerate("xyz")
             if axis != normal[-1]
         )
-        return Placed(centre, Flat(Axis(normal), False, borders))
+        return Placed(centre, PlaneSurface(Axis(normal), False, borders))
 
     def outside(self, part: BodyGeometry, lower: Lower) -> ca.SX:
         """The left of each edge."""

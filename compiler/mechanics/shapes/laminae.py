@@ -6,9 +6,9 @@ For all of them the moment about z is the sum of those about x and y, for z is z
 from __future__ import annotations
 
 import casadi as ca
-from frot.compiler.mechanics.geometry import round as curves
+from frot.compiler.mechanics.geometry import quadrics as curves
 from frot.compiler.mechanics.geometry.figure import Placed
-from frot.compiler.mechanics.geometry.plain import Segment
+from frot.compiler.mechanics.geometry.planes import Segment
 from frot.compiler.mechanics.shapes.shape import Shape, at_centre, item_of, principal
 from frot.compiler.mechanics.spatial import nowhere
 from frot.compiler.mechanics.values import Axis, Lower
@@ -24,7 +24,7 @@ class _Round(Shape):
         if part.name != "rim":
             return None
         radius = part.body.arguments["radius"]
-        rim = curves.Ball(radius) if planar else curves.Ring(Axis("z"), radius)
+        rim = curves.SphereSurface(radius) if planar else curves.Ring(Axis("z"), radius)
         return at_centre(part, rim)
 
 
@@ -65,7 +65,7 @@ class Ellipse(Shape):
         if part.name != "rim":
             return None
         given = part.body.arguments
-        return at_centre(part, curves.Oval(Axis("z"), given["a"], given["b"]))
+        return at_centre(part, curves.EllipseCurve(Axis("z"), given["a"], given["b"]))
 
     def outside(self, part: BodyGeometry, lower: Lower) -> ca.SX:
         """The left of an ellipse is its inside."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Placed
-from frot.compiler.mechanics.geometry.plain import Segment, Straight
+from frot.compiler.mechanics.geometry.planes import LineOrCylinder, Segment
 from frot.compiler.mechanics.shapes.shape import Shape, at_centre, principal
 from frot.compiler.mechanics.spatial import X, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
@@ -31,5 +31,7 @@ class Rod(Shape):
         if part.name != "axis":
             return None
         long = part.body.arguments["length"]
-        axis = Segment(Axis("x"), True, long=long) if planar else Straight(Axis("x"), None, long)
+        axis = (
+            Segment(Axis("x"), True, long=long) if planar else LineOrCylinder(Axis("x"), None, long)
+        )
         return at_centre(part, axis)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Placed
-from frot.compiler.mechanics.geometry.round import Ball, Egg
+from frot.compiler.mechanics.geometry.quadrics import EllipsoidSurface, SphereSurface
 from frot.compiler.mechanics.shapes.shape import Shape, at_centre, principal
 from frot.compiler.mechanics.spatial import whole
 from frot.compiler.mechanics.values import Lower
@@ -23,7 +23,7 @@ class _Round(Shape):
         """Its `surface`."""
         if part.name != "surface":
             return None
-        return at_centre(part, Ball(part.body.arguments["radius"]))
+        return at_centre(part, SphereSurface(part.body.arguments["radius"]))
 
 
 class Sphere(_Round):
@@ -55,4 +55,4 @@ class Ellipsoid(Shape):
         """Its `surface`."""
         if part.name != "surface":
             return None
-        return at_centre(part, Egg(part.body.arguments["semi_axes"]))
+        return at_centre(part, EllipsoidSurface(part.body.arguments["semi_axes"]))

@@ -16,6 +16,7 @@
 #include "model/island_calls.h"
 #include "numerics/dense.h"
 #include "evaluation/row_order.h"
+#include "evaluation/slip_frames.h"
 #include "numerics/basis.h"
 #include "model/held_modes.h"
 #include "evaluation/row_rounding.h"
@@ -38,7 +39,7 @@ static void want_rows(const frot_model *m, frot_work *w, const frot_group *g,
     int friction = frot_element_mode(m, modes, g->elements[i])->friction;
     int acts = modes[element->contact].closed && (wanted == FROT_LAWS || friction != FROT_NONE);
     w->core.wanted[element->row] = (unsigned char)acts;
-    for (int k = 0; acts && k < 2; k++)
+    for (int k = 0; acts && k < FROT_BOUNDING; k++)
       if (element->bounded_by[k] >= 0) w->core.wanted[element->bounded_by[k]] = 1;
   }
 }
@@ -243,6 +244,7 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   if (status != FROT_OK) return status;
   if (!frot_call_dynamics(m, s, w, t, q, v, d, wanted)) return FROT_NAN;
   frot_size_drives(m, s, w, t, q, v, d);
+  if (w->core.frame) frot_turn_slip_rows(m, s, w, modes);
   frot_begin_wide(m, w);
   frot_note_unilateral_rows(s, w);
   const frot_awake_lists *now = w->awake.now;

@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 26
+#define FROT_LAYOUT_VERSION 27
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -24,16 +24,21 @@ typedef struct {
   signed char friction; /* element: frot_friction */
   signed char at_bound; /* element that sticks: others hold it, its own friction is at its bound, in
                            the direction of the sign */
-  signed char reserved[3];
+  signed char starts;   /* element of several components that slips: in the direction kept as
+                           `heading`, since its slip is zero at the start of the step */
+  signed char
+      shared; /* contact or element: closed or stuck, by reactions that are not determined */
+  signed char reserved[1];
 } frot_contact_mode;
 
 /* Offsets in doubles from the head of state->data, and sizes. Computed from the model. */
 typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
-  int set, given, p, kept, u, experiment, nominal, unilateral, carried, x, y, slope, scale_x,
-      scale_g, most_g, worth, lost, noise, along, friction, reach, asleep, fired, several, due,
-      left, vanished, spare, sign, posture, asked, fresh, near, modes, d, frozen, segment, size;
+  int set, given, p, kept, u, experiment, nominal, unilateral, carried, x, y, slope, slip, heading,
+      scale_x, scale_g, most_g, worth, lost, noise, along, friction, reach, asleep, fired, several,
+      due, left, vanished, spare, sign, posture, asked, fresh, near, modes, d, frozen, segment,
+      size;
 } frot_layout;
 
 struct frot_state {
@@ -112,6 +117,7 @@ typedef struct {
   double *d, *frozen;
   double *spare;    /* n_rows: left to others inside it, none at an instant: redundant_rows.h */
   double *along;    /* 2 n_elements: where to begin to look for the directions of pins' reactions */
+  double *heading;  /* n_elements: components of directions of slips at its start */
   double *friction; /* n_elements: at its start */
   double *y0, *y1;  /* unknowns of the blocks at its ends */
   double *sizes;    /* the largest that q and v have been, where there are invariants */

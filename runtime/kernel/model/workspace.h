@@ -5,6 +5,8 @@
 #ifndef FROT_WORKSPACE_H
 #define FROT_WORKSPACE_H
 
+#include "contact/cone_point.h"
+#include "contact/contact_newton.h"
 #include "model/state.h"
 
 /* Arguments and results of the generated function that is called, and its own scratch. `values`:
@@ -77,6 +79,7 @@ typedef struct {
   double *free, *delassus;
   double *load, *load_size, *row_load, *bias_size;
   double *lam, *a;
+  double *frame, *lam_of_text; /* slip_frames.h; NULL where no motion has several components */
   double *rest, *column, *abreast;
   double *inertia, *twist, *motion, *momenta;
 } frot_core_work;
@@ -103,8 +106,8 @@ enum { FROT_NO_ISLAND = -2 };
 typedef struct {
   double *friction;
   const double *entries;
-  int from, to, at[2];
-  double force[2], reaction[2], ratio, size, per_size, next;
+  int from, to, at[FROT_BOUNDING];
+  double force[FROT_BOUNDING], reaction[FROT_BOUNDING], ratio, size, per_size, next;
 } frot_follower;
 
 /* Instants of a step at which friction is noted: its stages, and where an event is looked for. */
@@ -123,7 +126,11 @@ typedef struct {
   frot_follower *followers;
   double
       *rate; /* n_groups: what a pass of friction_fixed_point.c leaves of a change, in the step */
+  double *cone_rows; /* cone_reactions.c: equations and scratch, cones and balls */
+  frot_cone *cones;
+  frot_ball *balls;
   double *noted, *instant; /* friction_predictor.c: n_elements and n_groups times FROT_INSTANTS */
+  double *heading;         /* n_elements: slip_frames.h */
   int *instants;           /* of each group, how many of them */
   int dependent, *sign;    /* sign (n_groups): of the determinant, 0 where there is none */
   int jammed;              /* the group that had no reactions in the last stages, or -1 */
@@ -203,6 +210,7 @@ typedef struct {
 typedef struct {
   int *list, count;
   double *size, *shown, *motion, *end_reaction, *end_friction, end_kinetic;
+  double *end_slip, *end_direction; /* vanishing_slips.c: 4 and 2 n_elements */
 } frot_guard_work;
 
 /* dormand_prince.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones
@@ -258,6 +266,10 @@ typedef struct {
   double *motions, *pivot_bound, *nothing_frozen, *margin, *rates, *set_out, *others, *beyond,
       *moved_from;
   double *along; /* directions of pins' reactions in `best`: there may be solutions in others */
+  /* contact_search.c: the equations of a component, their rows, the element of each block or -1 */
+  double *problem, *reactions_found;
+  frot_contact_block *blocks;
+  int *row_of, *block_of, *pivot;
   int *choice, *component, *chosen;
   double turn[2]; /* cosine and sine of where pins' reactions are looked for from: departures.h */
   int exact;      /* whether `best` needs no slack: frot_is_exact */

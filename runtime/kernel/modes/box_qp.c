@@ -78,8 +78,7 @@ static double follow(const box *b, const int *chosen, int count) {
     const frot_element *element = &m->elements[e];
     double bounding = 1;
     if (element->bound != FROT_BY_VALUE) bounding = fabs(w->core.lam[element->bounded_by[0]]);
-    if (element->bound == FROT_BY_PIN)
-      bounding = hypot(bounding, w->core.lam[element->bounded_by[1]]);
+    if (element->bound == FROT_BY_PIN) bounding = frot_bounding_length(element, w->core.lam);
     int rests = b->in->at_rest[e];
     double bound = w->core.coefficient[2 * e + rests] * bounding * (b->ends ? 1 - PAST : 1),
            before = b->most[r];
@@ -189,7 +188,7 @@ static void read_modes(const box *b, const int *chosen, int count, unsigned char
   for (int c = 0; c < count; c++) {
     int i = chosen[c], row = m->contacts[i].row_n;
     double size, a = 0;
-    frot_contact_mode mode = {1, 1, 0, 0, 0, {0}};
+    frot_contact_mode mode = {1, 1, 0, 0, 0, 0, 0, {0}};
     certain[i] = 1;
     if (row >= 0 && b->in->unilateral[i] != 0) {
       a = frot_acceleration(m, w, row, &size);

@@ -24,7 +24,7 @@ static int contact_has_guard(const frot_model *m, const frot_state *s, const fro
                              const frot_contact_mode *modes, int i) {
   if (m->contacts[i].row_n < 0) return 0;
   if (!modes[i].closed) return 1;
-  if (modes[i].unloaded) return 0;
+  if (modes[i].unloaded || modes[i].shared) return 0;
   return s->data[w->layout.unilateral + i] != 0 || frot_sign_matters(m, modes, i);
 }
 
@@ -32,7 +32,8 @@ static int count_element_guards(const frot_model *m, const frot_contact_mode *mo
   const frot_element *element = &m->elements[e];
   const frot_contact_mode *mode = frot_element_mode(m, modes, e);
   if (!modes[element->contact].closed || modes[element->contact].unloaded) return 0;
-  if (mode->friction == FROT_NONE || mode->at_bound != 0) return 0;
+  if (mode->friction == FROT_NONE || mode->at_bound != 0 || element->part > 0) return 0;
+  if (element->parts > 1) return mode->friction == FROT_STICK && !mode->shared;
   if (mode->friction == FROT_STICK) return element->prescribed ? 1 : 2;
   return element->bound == FROT_BY_PIN ? 2 : 1;
 }
@@ -70,7 +71,7 @@ static double terms_of_reaction(const frot_model *m, const frot_work *w, int row
 /* The same of the reaction that bounds an element. */
 static double bounding_size(const frot_model *m, const frot_work *w, const frot_element *e) {
   double sum = 0;
-  for (int k = 0; k < 2; k++)
+  for (int k = 0; k < FROT_BOUNDING; k++)
     if (e->bounded_by[k] >= 0) sum += terms_of_reaction(m, w, e->bounded_by[k]);
   return sum;
 }
@@ -86,12 +87,30 @@ static double contact_guard(const frot_model *m, const frot_work *w, const doubl
   return mode->side * w->core.lam[row];
 }
 
+/* The guard of an element of several components that sticks: bound^2 - |lam|^2, which is smooth. */
+static double vector_guard(const frot_model *m, const frot_work *w, const frot_contact_mode *modes,
+                           int e, double *scale) {
+  const frot_element *element = &m->elements[e];
+  double bound = frot_bound_of_rest(m, w, e, modes), square = 0, terms = 0;
+  for (int k = 0; k < element->parts; k++) {
+    double lam = w->core.lam[element->row + k];
+    square += lam * lam, terms += fabs(lam) + terms_of_reaction(m, w, element->row + k);
+  }
+  if (scale) {
+    double size = fabs(bound) + terms;
+    size += w->core.coefficient[2 * e + 1] * bounding_size(m, w, element);
+    *scale = size * size;
+  }
+  return bound * fabs(bound) - square;
+}
+
 /* The first (k = 0) or second guard of an element. */
 static double element_guard(const frot_model *m, const frot_state *s, const frot_work *w,
                             const double *v, const frot_contact_mode *modes, int e, int k,
                             double *scale) {
   const frot_element *element = &m->elements[e];
   int friction = frot_element_mode(m, modes, e)->friction, row = element->row;
+  if (element->parts > 1) return vector_guard(m, w, modes, e, scale);
   if (friction == FROT_STICK && element->prescribed) {
     /* rest lasts as long as the prescribed motion rests */
     if (scale) *scale = FROT_PRESCRIBED_REST;
@@ -108,10 +127,11 @@ static double element_guard(const frot_model *m, const frot_state *s, const frot
     if (scale) *scale = frot_row_size(m, w, row, v);
     return friction == FROT_SLIP_FORWARD ? w->core.rate[row] : -w->core.rate[row];
   }
-  const double *along = s->data + w->layout.along + 2 * e;
-  double first = w->core.lam[element->bounded_by[0]], second = w->core.lam[element->bounded_by[1]];
-  if (scale) *scale = fabs(first) + fabs(second) + bounding_size(m, w, element);
-  return along[0] * first + along[1] * second;
+  const double *along = s->data + w->layout.along + FROT_BOUNDING * e;
+  if (scale) *scale = bounding_size(m, w, element);
+  for (int j = 0; j < FROT_BOUNDING && scale; j++)
+    if (element->bounded_by[j] >= 0) *scale += fabs(w->core.lam[element->bounded_by[j]]);
+  return frot_bounding_along(element, w->core.lam, along);
 }
 
 void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, const double *q,
@@ -146,8 +166,7 @@ int frot_guards_read_loads(const frot_model *m, const frot_work *w,
 }
 
 int frot_has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e) {
-  const int *rows = m->elements[e].bounded_by;
-  double size = hypot(w->core.lam[rows[0]], w->core.lam[rows[1]]);
+  double size = frot_bounding_length(&m->elements[e], w->core.lam);
   return size > FROT_NO_DIRECTION * s->data[w->layout.scale_g + frot_element_guard(m, e) + 1];
 }
 
@@ -157,12 +176,11 @@ void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w
     int e = now->elements[i];
     const frot_element *element = &m->elements[e];
     if (element->bound != FROT_BY_PIN) continue;
-    double *along = s->data + w->layout.along + 2 * e;
-    double first = w->core.lam[element->bounded_by[0]],
-           second = w->core.lam[element->bounded_by[1]];
-    double size = hypot(first, second);
-    int agrees = along[0] * first + along[1] * second > AGREES * size;
-    if (agrees || frot_has_direction(m, s, w, e)) along[0] = first / size, along[1] = second / size;
+    double *along = s->data + w->layout.along + FROT_BOUNDING * e;
+    double size = frot_bounding_length(element, w->core.lam);
+    int agrees = frot_bounding_along(element, w->core.lam, along) > AGREES * size;
+    if (agrees || frot_has_direction(m, s, w, e))
+      frot_bounding_direction(element, w->core.lam, size, along);
   }
 }
 
@@ -174,8 +192,8 @@ void frot_flip_pin_references(const frot_model *m, frot_state *s, frot_work *w,
     if (element->bound != FROT_BY_PIN || fired[1] == 0) continue;
     if (frot_element_mode(m, modes, e)->friction <= FROT_STICK) continue;
     if (frot_group_reactions(m, w, frot_group_of(m, element->row), modes, NULL)) continue;
-    double *along = s->data + w->layout.along + 2 * e;
-    if (!frot_has_direction(m, s, w, e)) along[0] = -along[0], along[1] = -along[1];
+    double *along = s->data + w->layout.along + FROT_BOUNDING * e;
+    for (int k = 0; k < FROT_BOUNDING && !frot_has_direction(m, s, w, e); k++) along[k] = -along[k];
   }
 }
 

@@ -1,0 +1,1 @@
+"""The structure of the equations: incidence, index, order, elimination, tearing."""

@@ -1,0 +1,114 @@
+"""Constraints as functions of the coordinates: gaps, rates of their rows, variables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import casadi as ca
+from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.actions import Effort
+
+
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """Rows of a constraint in the order of the kernel's arrays.
+
+    `reaction` are the components of what it locks, of a contact the normal one; `tangent` and
+    `rolling` those along which dry friction acts by forces and by couples, `of_laws` the same law
+    after law.
+    """
+
+    reaction: tuple[int, ...]
+    tangent: tuple[int, ...] = ()
+    rolling: tuple[int, ...] = ()
+    of_laws: tuple[tuple[int, ...], ...] = ()
+
+    @property
+    def all(self) -> tuple[int, ...]:
+        """Every row."""
+        return (*self.reaction, *self.tangent, *self.rolling)
+
+
+class Geometry:
+    """A constraint as functions of the coordinates: CasADi expressions.
+
+    `gap` >= 0 while apart; `witness` (3), the first of which that is not zero has the sign of the
+    side; `reach`, the size of the lengths that the gap is made of beside the coordinates.
+
+    Of what does not slip `still` is the velocity (3) that is zero beside the normal, with the
+    direction (3) in which the row says so. Which direction that is means nothing: how it turns
+    adds nothing to the row's acceleration in the motion, and beside it, where the stages of a step
+    lie, it must add nothing.
+    """
+
+    __slots__ = ()
+
+    gap: ca.SX
+    witness: ca.SX
+    reach: ca.SX
+    still: tuple[ca.SX, ca.SX] | None = None
+
+    @property
+    def is_free(self) -> bool:
+        """Whether it locks nothing, so that what drives it is all that acts."""
+        return False
+
+    @property
+    def words(self) -> Mapping[str, str]:
+        """Those of `slip`, `normal_force` and `tangential_force` that it has, described."""
+        raise NotImplementedError
+
+    def rates(self, kinematics: Kinematics) -> list[ca.SX]:
+        """Relative velocities of the link's rows, in their order."""
+        raise NotImplementedError
+
+    def coordinate(self, index: int, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
+        """A coordinate by the place of its motion, and its rate."""
+        raise NotImplementedError
+
+    def rate_of(self, coordinate: str, kinematics: Kinematics) -> ca.SX:
+        """The rate of a coordinate, with what auxiliary speeds add to it."""
+        raise NotImplementedError
+
+    def effort(self, coordinate: str, kinematics: Kinematics) -> Effort:
+        """One unit along a coordinate, whether coordinates keep the liaison or not."""
+        raise NotImplementedError
+
+    def place(self, kinematics: Kinematics) -> ca.SX:
+        """Where it touches, or its place b (3)."""
+        raise NotImplementedError
+
+    def variable(self, name: str, reaction: Reaction) -> ca.SX:
+        """A variable of the liaison; KeyError if it has none of this name."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reaction:
+    """What acts in a liaison.
+
+    `rows` of the reactions `lam`, None where they are not computed; force and couple of what keeps
+    prescribed coordinates (`drive`), what a law of the user gives on the body (`friction`).
+    """
+
+    rows: Rows | None
+    lam: ca.SX
+    drive: tuple[ca.SX, ca.SX]
+    friction: ca.SX
+    planar: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RelationGeometry(Geometry):
+    """One lock of a joint that closes a loop: its gap, the rate of that, and `reach`, see there."""
+
+    gap: ca.SX
+    rate: ca.SX
+    witness: ca.SX
+    reach: ca.SX
+    still: tuple[ca.SX, ca.SX] | None = None
+
+    def rates(self, kinematics: Kinematics) -> list[ca.SX]:
+        """That of the gap."""
+        return [self.rate]

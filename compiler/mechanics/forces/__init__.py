@@ -1,0 +1,1 @@
+"""Applied forces: one file a kind, and their sum along the speeds."""

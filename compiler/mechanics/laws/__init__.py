@@ -1,0 +1,1 @@
+"""Laws of liaisons: one file a law, and their friction as elements of the kernel."""

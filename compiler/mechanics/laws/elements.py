@@ -1,0 +1,55 @@
+"""Elements of friction as rows of one table: sliding, rolling, pins, clutches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint_geometry import Rows
+from frot.compiler.translate.walk import is_fixed
+
+
+class Bound(Enum):
+    """What bounds the friction of an element; the names of the kernel's `frot_bound`."""
+
+    NORMAL = "FROT_BY_NORMAL"
+    PIN = "FROT_BY_PIN"
+    VALUE = "FROT_BY_VALUE"
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """A law on one component of a relative motion: the kernel's `frot_element`.
+
+    `contact` is the place of its liaison, or of the text's item, among the kernel's contacts. `row`
+    is that of the component, `bounded_by` the one to three of the reaction that bounds it. `fixed`:
+    its coefficients depend on parameters only. A law on a motion of several components is as many
+    elements, which follow each other: this one is the `part`th of `parts`.
+    """
+
+    contact: int
+    bound: Bound
+    row: int
+    bounded_by: tuple[int, ...]
+    rolling: bool
+    fixed: bool
+    part: int = 0
+    parts: int = 1
+
+
+def link_elements(contact: int, link: Constraint, rows: Rows) -> list[Element]:
+    """The elements of a liaison: sliding or turning, then rolling."""
+    bound = Bound.NORMAL if link.has_normal else Bound.PIN
+    found: list[Element] = []
+    for block, own in zip(link.frictions, rows.of_laws, strict=True):
+        fixed = all(is_fixed(x) for x in block.coefficients)
+        for part, row in enumerate(own):
+            bounding = link.bounding(rows)
+            found.append(Element(contact, bound, row, bounding, block.turns, fixed, part, len(own)))
+    return found
+
+
+def text_element(contact: int, row: int) -> Element:
+    """The element of a call of `friction` in the equations."""
+    return Element(contact, Bound.VALUE, row, (), False, False)

@@ -1,0 +1,36 @@
+"""A couple opposed to rolling, bounded by delta N: `rolling_resistance`."""
+
+from __future__ import annotations
+
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
+from frot.compiler.mechanics.laws.law import DryLaw
+from frot.compiler.mechanics.points import point_body
+from frot.dsl import Log
+from frot.dsl.checked import Law
+
+
+class RollingResistance(DryLaw):
+    """The couple of a figure on a curve; delta is a length."""
+
+    __slots__ = ()
+
+    coefficients = ("delta", "delta")
+
+    def fits(self, link: Constraint, law: Law, log: Log) -> bool:
+        """What touches turns."""
+        moving = point_body(link.ends[1])
+        if moving.shape is None or moving.shape.turns:
+            return True
+        log.report(
+            "E0511",
+            f"rolling resistance on '{moving.name}', which does not turn",
+            law.span,
+            help="a particle has no angle; use a disc or a ring",
+        )
+        return False
+
+    def element(self, link: Constraint, law: Law) -> FrictionBlock:
+        """The same length at rest and in motion."""
+        return FrictionBlock(
+            *self.coefficients_of(law), rolling=True, components=link.slip_components
+        )
