@@ -54,7 +54,7 @@ def mechanical_arrays(lowered: Lowered) -> list[str]:
 
 
 def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
-    """Those of the mechanism, then the items of the text in which something rubs."""
+    """Contacts of the mechanism, then the items of the text in which something rubs."""
     reduced = lowered.reduced
     sliding = {
         e.contact: k for k, e in enumerate(lowered.grouping.elements) if not (e.rolling or e.part)
